@@ -114,7 +114,7 @@ static void say_contact(const struct run *e)
 }
 
 /* Prints how the first six pre-cracks of run e are represented, as slits of the mesh (doubled nodes) or as cut bonds,
- * and the number of further pre-cracks. */
+ * and the number of further pre-cracks, if any. */
 static void say_notches(const struct run *e)
 {
     enum { SAID = 6 };
@@ -279,8 +279,9 @@ static void warnings_of_trial(struct warnings *found, const struct warnings *tri
     }
 }
 
-/* Prints a line if other programs keep the machine busy. load: load average of the machine before the trial steps,
- * since the steps themselves raise it [processes]; threads: number of threads of the run. */
+/* Prints a line if other programs and this run together need more cores than the machine has, so that the run takes
+ * longer. load: load average of the machine before the trial steps, since the steps themselves raise it [processes];
+ * threads: number of threads of the run. */
 static void say_busy(double load, int threads)
 {
     char text[256];
@@ -307,8 +308,8 @@ static status check_cost(struct run *e, const struct run_arguments *a, int threa
     return OK;
 }
 
-/* Prints the texts of the list `lines`, one per line: the first after `heading`, the others indented below it. Prints
- * nothing if the list is empty. */
+/* Prints the texts of the list `lines`, one per line: the first after `heading`, the others, indented, on the lines
+ * below. Prints nothing if the list is empty. */
 static void say_list(const struct warnings *lines, const char *heading)
 {
     for (int k = 0; k < lines->n; k++) printf("%-15s%s\n", k == 0 ? heading : "", lines->text[k]);

@@ -103,7 +103,7 @@ void print_stiffness_error(const struct scene *s, enum surface_rule surface, dou
 }
 
 /* Writes to `out`, as part of a remark, the largest error of the stiffness of a peridynamic part of scene s that is
- * `layers` particles thick. */
+ * `layers` particles thick; below 1.5 layers, that it has no bending stiffness. */
 static void advise_thin(const struct scene *s, double layers, FILE *out)
 {
     if (layers < 1.5) {
@@ -129,8 +129,8 @@ static real two_digits_down(real value)
 }
 
 /* Writes a remark to `out` for each body of run e with a part that is thinner than FEATURE horizons. Most particles of
- * such a part are near a surface and lack neighbours within the horizon. Writes nothing for scenes with the method mpm,
- * and in 1D. */
+ * such a part are near a surface and lack neighbours within the horizon. Writes nothing for scenes with the method mpm
+ * (no bonds), and in 1D. */
 static void advise_features(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
@@ -187,7 +187,8 @@ static bool at_stepped_face(const struct scene *s, const struct region *shape, c
     return stepped;
 }
 
-/* Writes a remark to `out` for each point probe of stress of scene s at a curved or slanted face. The error in the text
+/* Writes a remark to `out` for each point probe (time series at a position) of scene s at a curved or slanted face of a
+ * body, where material points misjudge the stress. Writes nothing in 1D and for the method pd. The error in the text
  * was measured with the elliptic membrane LE1 of NAFEMS, with 20 to 80 points across. */
 static void advise_faces(const struct scene *s, FILE *out)
 {
@@ -251,8 +252,8 @@ static void advise_waves(const struct scene *s, const struct material_tables *ta
                     length_text_with_unit(s->initial[k].pulse.width / WAVE, 2, s->spacing).text);
 }
 
-/* Writes a remark to `out` if bodies of scene s collide so fast that oscillations behind the wave front can break or
- * yield them. */
+/* Writes a remark to `out` if bodies of scene s collide so fast that oscillations of the stress behind the wave front
+ * can break their bonds or make them yield. */
 static void advise_shocks(const struct scene *s, FILE *out)
 {
     const struct shock shock = scene_most_severe_collision(s);
@@ -264,8 +265,9 @@ static void advise_shocks(const struct scene *s, FILE *out)
                 shock.remedy);
 }
 
-/* Writes a remark to `out` if the coarsest cells of run e are too large for the loads or for the thin parts of the
- * body. Only for scenes that prescribe the number of levels of coarse cells (the edge doubles with each level). */
+/* Writes a remark to `out` if the coarsest cells of run e are larger than the largest cells with which the loads and
+ * the thin parts of the body are resolved. Only for scenes that prescribe the number of levels of coarse cells (the
+ * edge doubles with each level). */
 static void advise_levels(const struct run *e, FILE *out)
 {
     const struct levels_choice c = mesh_levels_choose_level_count(e->frame, &e->part, e->scene, e->clock.dt_critical);
@@ -317,10 +319,10 @@ static real pulled_stretch(const struct loads *l, const struct particles *p, rea
  * Measured (inputs/choosing.md, Yielding). */
 #define PARTS_AT_GRIP 1.3
 
-/* Writes to `out` up to two remarks for metal bodies that supports pull to `stretch` times their initial length. The
- * first is written if the shape functions of scene s make forces too small at this stretch. The second is written if,
- * at this stretch, material points next to those with a prescribed velocity no longer share grid nodes with them, so
- * that the body separates there. */
+/* Writes to `out` up to two remarks for bodies of metal, which the supports of scene s pull to `stretch` times their
+ * initial length. The first is written if the shape functions of s make forces too small at this stretch. The second is
+ * written if, at this stretch, material points next to those with a prescribed velocity no longer share grid nodes with
+ * them, so that the body separates there. */
 static void advise_pulled_metal(const struct scene *s, real stretch, FILE *out)
 {
     const struct weak_shape *weak = shape_properties_if_weak_in_tension(s->shape);
@@ -337,10 +339,10 @@ static void advise_pulled_metal(const struct scene *s, real stretch, FILE *out)
                 stretch, PARTS_AT_GRIP, s->shape == SHAPE_CPGIMP ? "" : "; use mpm.shape: cpgimp");
 }
 
-/* Writes to `out` a remark if the supports in l stretch the body of scene s so far that it separates without fracture.
- * An elastic body separates where neighbouring material points share no grid nodes, a metal body earlier. Concerns only
- * material points whose shape functions follow their present positions, not their reference positions. p: particles on
- * which l acts. */
+/* Writes to `out` a remark if the supports among the loads l stretch the body of scene s so far that it separates
+ * without fracture. An elastic body separates where neighbouring material points share no grid nodes, a metal body
+ * earlier. Writes nothing unless the method is mpm and the scene has material points whose shape functions follow their
+ * present positions, not their reference positions. p: particles on which l acts. */
 static void advise_separation(const struct scene *s, const struct loads *l, const struct particles *p, FILE *out)
 {
     bool yields = false;
@@ -406,7 +408,8 @@ static real stress_reached(const struct run *e)
 }
 
 /* Adds a hint to *to for each body of run e whose shape functions are evaluated at the present positions of its
- * material points although the faster evaluation at reference positions would be possible. */
+ * material points although the faster evaluation at reference positions is possible, and would not be refused by
+ * mpm.frame: auto. */
 static void hint_frame(const struct run *e, struct warnings *to)
 {
     const real reached = stress_reached(e);

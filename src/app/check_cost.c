@@ -120,7 +120,7 @@ static status make_other(struct scene *s, struct run *e, const struct run_argume
 }
 
 /* Runs all steps of e and returns their processor time [s]. Returns NAN if a step fails, if the processor time exceeds
- * PATIENCE * SECONDS_WHOLE, or if the wall-clock time exceeds WALL_MOST. */
+ * PATIENCE * SECONDS_WHOLE (a few seconds), or if the wall-clock time exceeds WALL_MOST (a minute). */
 static double all_steps(struct run *e)
 {
     const double start = thread_cpu_clock_seconds(), began = wall_clock_seconds();
@@ -162,9 +162,10 @@ static double try_other(const struct run_arguments *a, const char *key, const ch
 }
 
 /* Returns the ratio r of the processor time of all steps of scene s to the time extrapolated from its first steps [1];
- * NAN if it cannot be measured. It is measured in the scene with larger particles. Stores the factor by which the
- * particles are larger in c->coarser, and r in c->growth. a: arguments from which s was read; first: extrapolated time
- * of s itself [s]. */
+ * NAN if it cannot be measured. It is measured in the scene with particles so much larger that a whole run takes about
+ * SECONDS_WHOLE. Also returns NAN if a body is read from a particle list, or if the particles would have to be more
+ * than COARSER_MOST times larger. Stores the factor by which the particles are larger in c->coarser, and r in
+ * c->growth. a: arguments from which s was read; first: extrapolated time of s itself [s]. */
 static double growth_of(struct cost *c, const struct scene *s, const struct run_arguments *a, double first)
 {
     char value[32];

@@ -113,8 +113,8 @@ static bool is_thin(const struct cover *c, int64_t cell)
     return thin || !beside;
 }
 
-/* Returns true if a solid of `shape`, or of a group or extrusion in it, is a surface from a file. It is expensive to
- * test whether a point is inside such a solid. */
+/* Returns true if it is expensive to test whether a point is inside `shape`: a solid of it, or of a group or extrusion
+ * in it, is a surface from a file. */
 static bool is_dear(const struct region *shape)
 {
     bool dear = false;

@@ -141,8 +141,8 @@ static real elsewhere_cut(const struct particles *part, const struct scene *scen
     return INFINITY;
 }
 
-/* Returns true if all bodies of scene s to which boundary b applies have a shape of their own, whose normals are
- * known. */
+/* Returns true if all bodies of scene s to which boundary b applies have a shape with known normals: one that is not
+ * infinite, not from a particle list or a voxel image, and not shared with joined bodies. */
 static bool has_normals(const struct scene *s, const struct boundary *b)
 {
     bool all = true;

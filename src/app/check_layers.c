@@ -60,7 +60,7 @@ static bool layer_map_make(struct layer_map *m, const struct run *e, int body)
 
 /* Counts consecutive lattice sites of m with particles along `axis` in the direction `way` (1 or -1), beginning with
  * the neighbour of the site from[dim] (indices along the axes). Returns their number, at most RUNS_MOST. *mirrored:
- * receives whether the sites end at a plane of symmetry. */
+ * receives whether the count ends at a face of the body's bounding box that is on a plane of symmetry. */
 static int layer_run(const struct layer_map *m, const int64_t *from, int axis, int way, bool *mirrored)
 {
     int64_t at = from[axis], site = 0;
@@ -92,9 +92,10 @@ static double site_layers(const struct layer_map *m, const int64_t *at)
     return least;
 }
 
-/* Returns the median number of particle layers across the thin parts of body number `body` of run e: over those of its
- * particles at which the body has fewer than `most` layers. Returns INFINITY if such particles are less than the share
- * SHARE_LEAST of all, or if the bounding box of the body has more than CELLS_MOST lattice sites. */
+/* Returns the median number of particle layers across the thin parts of body number `body` of run e. A particle is in a
+ * thin part if the body has fewer than `most` layers there, counted along the axis with the smallest count. Returns
+ * INFINITY if less than the share SHARE_LEAST of the particles are in thin parts, or if the bounding box of the body
+ * has more than CELLS_MOST lattice sites. */
 static double body_layers(const struct run *e, int body, double most)
 {
     const struct particles *p = &e->part;

@@ -10,7 +10,7 @@
 enum { LOOKED_AT = 1024, LAYERS_MOST = 16 };
 
 /* Returns true if a particle of body number `body` of run e is within PROBE spacings of the point X[dim] [m], so that X
- * counts as inside the body. Also returns true if more particles are near X than can be tested. */
+ * counts as inside the body. Also returns true if more than ROOM particles are that near to X. */
 static bool body_at(const struct run *e, int body, const real *X)
 {
     enum { ROOM = 64 };

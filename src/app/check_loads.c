@@ -99,7 +99,7 @@ struct resultant {
 }; /* [N], about the origin [N m] */
 
 /* Returns the total force and the moment about the origin of load l at time t [s], summed over its particles p. Sums
- * that are round-off are set to 0. */
+ * that are only round-off of the summed terms are set to 0. */
 static struct resultant resultant_at(const struct load *l, const struct particles *p, real t)
 {
     struct resultant r = {{0}, {0}};
@@ -134,8 +134,8 @@ struct faced {
     bool unknown;    /* the distance from the shape of at least one body is not known */
 };
 
-/* Returns true if distances from the surface of body number `body` of scene s can be computed: it has a shape of its
- * own, not shared with joined bodies. */
+/* Returns true if distances from the surface of body number `body` of scene s can be computed: its shape is not
+ * infinite, not from a particle list, a voxel image or a surface file, and not shared with joined bodies. */
 static bool has_distance(const struct scene *s, int body)
 {
     const struct region *shape = &s->body[body].shape;
@@ -337,8 +337,8 @@ struct drift {
     bool lasts;                             /* the net force acts at the end as well, and waves have crossed the body */
 };
 
-/* Returns true if scene s has a single body that moves in time and can touch no other body. p: particles; all must have
- * been created. */
+/* Returns true if scene s has a single body that moves in time and can touch no other body. Returns false if some
+ * particles of the body are not created (in coarse cells). p: particles. */
 static bool is_single_body(const struct scene *s, const struct particles *p)
 {
     bool is_single = scene_is_dynamic(s) && s->rigids == 0 && p->n > 0 && p->n == p->n_body;
@@ -377,7 +377,7 @@ static real net_force(const struct loads *loads, const struct particles *p, cons
 
 /* Computes in *a the motion of the body of run e by the net force of its loads, along the axes along which no support
  * holds it, by integration with the midpoint rule. Returns false if the loads balance along these axes, or if the scene
- * has several bodies. */
+ * is static or has several bodies (is_single_body). */
 static bool drift_by_loads(const struct run *e, struct drift *a)
 {
     real force[DIM_MAX], v[DIM_MAX] = {0}, u[DIM_MAX] = {0}, mass = 0, all = 0, low, high;

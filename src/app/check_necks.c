@@ -327,10 +327,10 @@ static struct uneven neck_at(struct chords *p, const struct necks *k, int narrow
     return u;
 }
 
-/* Measures a neck of k and adds it to the list if the number of its particle rows times the spacing differs too much
- * from its width. cell: a cell of the first line of cells across the neck; columns: number of consecutive lines of
- * cells with the same number of rows. p: memory for the chords across the neck, in which p->across and p->mirrored are
- * set. */
+/* Measures a neck of k and adds it to the list if the number of its particle rows times the spacing differs from its
+ * width by more than OFF_LEAST, or OFF_CURVED between curved sides (relative errors). cell: a cell of the first line of
+ * cells across the neck; columns: number of consecutive lines of cells with the same number of rows. p: memory for the
+ * chords across the neck, in which p->across and p->mirrored are set. */
 static void neck_judge(struct uneven_list *list, const struct necks *k, struct chords *p, int64_t cell, int columns)
 {
     const real h = k->cover->spacing, rows = k->rows[cell] - 1;
@@ -374,8 +374,9 @@ static void neck_mark(struct necks *k, int64_t cell)
 
 /* Finds out whether a neck begins at `cell`: consecutive lines of lattice cells along k->axis, the axis of the width,
  * that follow each other along the axis `across` and have equally many particle rows. On each side of a neck a line
- * with more rows must follow, or on one side a plane of symmetry. Adds the neck to `list` if its width differs too much
- * from its number of particle rows times the spacing. k: cells of the piece (a body, or its part of one material). */
+ * with more rows must follow, or on one side a plane of symmetry. Adds the neck to `list` if its width differs from its
+ * number of particle rows times the spacing by more than neck_judge tolerates. k: cells of the piece (a body, or its
+ * part of one material). */
 static void neck_follow(struct uneven_list *list, struct necks *k, int64_t cell, int across)
 {
     const int64_t before = run_beside(k, cell, across, -1);

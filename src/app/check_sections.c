@@ -213,9 +213,10 @@ static void part_mark(const struct sections *s, int32_t from, int axis)
 }
 
 /* Compares the area of the shape with the area of the particles, in the narrow part that begins with section `first` of
- * s (connected cells in a slice), and adds the part to the list if they differ too much. Both areas are summed over
- * SLICES consecutive sections. If the areas of these sections are not equal, as in parts with slanting faces, they are
- * summed over SLICES_SLANTING sections, because errors by steps of such faces average out. */
+ * s (connected cells in a slice), and adds the part to the list if they differ by more than a relative tolerance, which
+ * is larger for slanting faces. Both areas are summed over SLICES consecutive sections. If the areas of these sections
+ * are not equal, as in parts with slanting faces, they are summed over SLICES_SLANTING sections, because errors by
+ * steps of such faces average out. */
 static void part_judge(const struct sections *s, int32_t first, struct uneven_list *list)
 {
     const struct section *begin = &s->section[first];

@@ -16,7 +16,7 @@
 static bool is_number(const struct boundary *b) { return b->formula[0].n + b->formula[1].n + b->formula[2].n == 0; }
 
 /* Adds a hint to *to for each negative pressure of scene s, and for each pair of tractions on opposite faces that push
- * the body in one direction along the axis of the faces. */
+ * the body in one direction along the axis of the faces. Values given as formulas are skipped. */
 static void hint_pushed(const struct scene *s, struct warnings *to)
 {
     for (int k = 0; k < s->boundaries; k++) {
@@ -38,8 +38,8 @@ static void hint_pushed(const struct scene *s, struct warnings *to)
     }
 }
 
-/* Adds a hint to *to for each value of friction, gravity, damping and widths of cracks in the scene of run e that is
- * larger than any known one. */
+/* Adds a hint to *to for each value of friction, gravity, damping and widths of cracks in the scene of run e that
+ * exceeds a limit such as FRICTION_MOST, above which no real solid is known. */
 static void hint_sizes(const struct run *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
@@ -65,7 +65,8 @@ static void hint_sizes(const struct run *e, struct warnings *to)
                                 k + 1, s->crack[k].width, longest);
 }
 
-/* Adds a hint to *to if the frames of run e (outputs of all particles at one time) will take much space on the disk. */
+/* Adds a hint to *to if the frames of run e (outputs of all particles at one time) together take more than FRAMES_MANY
+ * (10 GB) on the disk. */
 static void hint_frames(const struct run *e, struct warnings *to)
 {
     const double steps = (double)e->clock.steps, frames = e->scene->frames < steps ? e->scene->frames : steps;

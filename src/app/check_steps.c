@@ -159,8 +159,8 @@ static void advise_growth(const struct run *e, FILE *out)
     if (missed > PEAK_MISSED * most) print_missed_peak(s, peak, out);
 }
 
-/* Writes a remark to `out` for each crack tip of run e with fewer than FEW spacings of crack behind it or of body ahead
- * of it. */
+/* Writes a remark to `out` for each crack tip of run e with less than FEW spacings of crack behind it, or less than FEW
+ * spacings of body ahead of it. */
 static void advise_lengths(const struct run *e, FILE *out)
 {
     const real h = e->scene->spacing;
@@ -193,8 +193,9 @@ static int support_width(const struct scene *scene, const struct particles *part
     return high - low > to - from - 0.5 * h ? 0 : (int)lround((high - low) / h) + 1;
 }
 
-/* Writes a remark to `out` for each support of run e that is meant as a pin or roller but constrains rotation: it fixes
- * more rows of particles side by side than a pin, but too few for a grip. */
+/* Writes a remark to `out` for each support of run e that holds more than PIN_MOST particles side by side along an
+ * axis, so that the body cannot turn as on a pin or roller, but at most GRIP_LEAST, too few for a grip. Supports on
+ * whole faces and rotating ones are skipped. */
 static void advise_supports(const struct run *e, FILE *out)
 {
     for (int b = 0; b < e->loads.n; b++) {

@@ -29,8 +29,8 @@ static real largest(const real *a, int64_t n)
     return most;
 }
 
-/* Returns true if the values a[n] of all particles are symmetric: a[i] equals a[twin[i]], or -a[twin[i]] if `odd` is
- * true, with the mirror image twin[i] of particle i. */
+/* Returns true if the values a[n] of all particles are symmetric to within a tolerance of NEAR_ENOUGH times the largest
+ * |a|: a[i] equals a[twin[i]], or -a[twin[i]] if `odd` is true, with the mirror image twin[i] of particle i. */
 static bool agree(const real *a, const int32_t *twin, int64_t n, bool odd)
 {
     const real most = NEAR_ENOUGH * largest(a, n);
@@ -50,9 +50,9 @@ static bool matter_agrees(const struct particles *p, const int32_t *twin)
     return agree(p->damage, twin, p->n, false) && agree(p->volume0, twin, p->n, false);
 }
 
-/* Returns true if narrow voids, which separate particles without removing any, are symmetric: a particle is beside a
- * void if and only if its mirror image is. v: voids of the scene, or NULL if there are none, which returns true;
- * twin[i]: index of the mirror image of particle i; n: number of particles. */
+/* Returns true if narrow voids, which separate particles without removing any, are symmetric: particle i is beside a
+ * void if and only if its mirror image twin[i] is. Also returns true if v is NULL. v: voids of the scene, or NULL
+ * without voids; n: number of particles. */
 static bool voids_agree(const struct voids *v, const int32_t *twin, int64_t n)
 {
     for (int64_t i = 0; i < n && v; i++)
@@ -60,8 +60,8 @@ static bool voids_agree(const struct voids *v, const int32_t *twin, int64_t n)
     return true;
 }
 
-/* Returns a number that identifies the boundary condition b. It is computed from kind and function of time, such that
- * different loads have different numbers and sums of these are rarely equal by chance. */
+/* Returns a number that identifies the boundary condition b. It is computed from kind and function of time. Different
+ * loads have different numbers, and sums of such numbers are rarely equal by chance. */
 static real load_mark(const struct boundary *b)
 {
     const struct time_function *t = &b->time;
@@ -98,8 +98,8 @@ static void loads_ask(const struct particles *part, const struct loads *loads, i
 }
 
 /* Returns true if loads, constraints and initial velocities of the particles p are symmetric about a plane normal to
- * `axis`. twin[p->n]: index of the mirror image of each particle. Returns false for formulas and rotating supports,
- * whose symmetry is unknown. */
+ * `axis`. twin[p->n]: index of the mirror image of each particle. Returns false if a load is a formula or a rotating
+ * support, whose symmetry is unknown. */
 static bool loads_agree(const struct particles *p, const struct loads *loads, int axis, const int32_t *twin)
 {
     real *ask = NEW("check.ask", p->n, real), *held = NEW("check.held", p->n, real);
@@ -137,7 +137,8 @@ static bool mirror_twins_find(const struct run *e, int axis, real at, int32_t *t
 }
 
 /* Returns true if rigid body b of `scene` is the mirror image of rigid body a in the plane normal to `axis` at `at`
- * [m]: equal motion, and equal distances from a sample of the particles p and from the images of these particles. */
+ * [m]: mirrored motion, and distances of a from a sample of the particles p that equal those of b from the mirror
+ * images of these positions. */
 static bool rigid_twins(const struct particles *p, const struct scene *scene, int axis, real at,
                         const struct scene_body *a, const struct scene_body *b)
 {
@@ -177,7 +178,8 @@ static bool rigid_bodies_agree(const struct scene *scene, const struct particles
 static bool same_number(real a, real b) { return a == b || (isnan(a) && isnan(b)); }
 
 /* Returns true if the settings for growing cracks in scene s, with the particles `part`, are symmetric about the plane
- * normal to `axis` at the coordinate `at` [m]: each crack has a mirror image with equal speed, toughness and start. */
+ * normal to `axis` at the coordinate `at` [m]: each crack has a mirror image with equal speed and toughness and
+ * mirrored start. */
 static bool growths_agree(const struct scene *s, const struct particles *part, int axis, real at)
 {
     for (int k = 0; k < s->growths; k++) {
@@ -199,8 +201,8 @@ static bool growths_agree(const struct scene *s, const struct particles *part, i
     return true;
 }
 
-/* Returns true if the plane normal to `axis` at the coordinate `at` [m] crosses no ring over which a probe of run e
- * integrates stress-intensity factors. */
+/* Returns true if the plane normal to `axis` at the coordinate `at` [m] crosses no ring (circle around a crack tip)
+ * over which a probe of run e integrates stress-intensity factors. */
 static bool rings_clear(const struct run *e, int axis, real at)
 {
     const struct observed_run seen = observed_run_view_of(e);

@@ -19,8 +19,8 @@ bool uneven_list_accepts_part_with_error(const struct uneven_list *list, real er
     return list->n < UNEVEN_MOST || fabs(error) > 0.9 * fabs(list->part[list->n - 1].off);
 }
 
-/* Returns true if the narrow parts a and b have nearly the same width, and both have too many rows of particles or both
- * have too few. */
+/* Returns true if the narrow parts a and b differ in width by less than the fraction SAME_WIDTH, and both have too many
+ * rows of particles or both have too few. */
 static bool same_width(const struct uneven *a, const struct uneven *b)
 {
     return fabs(a->width - b->width) < SAME_WIDTH * b->width && a->off * b->off > 0;

@@ -325,7 +325,8 @@ static bool tip_place(const char *folder, int k, double place[DIM_MAX])
     return found;
 }
 
-/* Prints every crack tip of the first run of p with the distance to the nearest tip of the second run. */
+/* Prints the position of every crack tip in the summary of the first run of p, with the distance to the nearest tip of
+ * the second run. */
 static void print_tips(const struct pair *p)
 {
     double a[DIM_MAX], b[DIM_MAX];

@@ -54,8 +54,8 @@ static const struct {
     {"scenes|yaml", "inputs/scenes.md; `cleave help scene` lists all keys"},
 };
 
-/* Returns the text that names where the manual or the program treats `word`, from the table `topics`; NULL if the word
- * is not in it. */
+/* Returns from the table `topics` the text that says where the manual treats `word` or which command does; NULL if no
+ * topic of the table has this word. */
 static const char *topic_answer(const char *word)
 {
     for (size_t k = 0; k < COUNT_OF(topics); k++)
@@ -74,8 +74,8 @@ static void print_answer(const char *word, const char *answer)
         printf("inputs/ is %s\n", folder);
 }
 
-/* Prints where the manual treats `word`, if it is in the table `topics`, and the description of the key of this name.
- * Returns REFUSED if the word is neither a topic nor a key. */
+/* Prints where the manual treats `word`, if it is in the table `topics`, and the description of the scene key of this
+ * name, if any. Returns REFUSED if the word is neither a topic nor a key. */
 static status help_topic(const char *word)
 {
     const char *answer = topic_answer(word);
@@ -96,8 +96,9 @@ static status help_scene(void)
     return scene_print_help_on_keys(stdout, NULL);
 }
 
-/* Returns REFUSED, with the most similar name in the message, if `word` is no key or topic but similar to the name of a
- * page or command. Returns OK otherwise. */
+/* Returns REFUSED, with the most similar name in the message, if `word` is a misspelt name of a help page (argument of
+ * `cleave help`) or command: similar to it by words_are_similar. Returns OK otherwise, and for a word that is a scene
+ * key or a topic of help. */
 static status help_misspelt(const char *word)
 {
     static const char *const pages[] = {"scene", "units", "expression", "run", "theory", "trust"};
@@ -124,7 +125,8 @@ static const char *help_word(int argc, char **argv, char *joined, size_t capacit
     return argc > 1 ? joined : NULL;
 }
 
-/* Converts `word` in place to small letters if only that form is a topic or key, as Johnson_Cook to johnson_cook. */
+/* Converts `word` in place to small letters if only that form is a topic of help or a scene key, as Johnson_Cook to
+ * johnson_cook. */
 static void help_word_to_small_letters(char *word)
 {
     char small[256];

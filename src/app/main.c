@@ -56,10 +56,11 @@ static status call(int argc, char **argv)
     return c->call(argc - 1, argv + 1);
 }
 
-/* Sets a short spin of OpenMP threads by GOMP_SPINCOUNT and restarts the program with its arguments argv, unless the
- * environment sets a wait policy. By default threads wait for each other by spinning for milliseconds, which slows a
- * run many times over on a busy machine. Measured for plate_hole with two threads on two cores next to two other
- * processes: 0.1 to 0.9 s with a short spin; without it 2 to 23 s in one of ten runs. */
+/* Sets a short spin of waiting OpenMP threads by the environment variable GOMP_SPINCOUNT and restarts the program with
+ * its arguments argv. Does nothing if the environment sets GOMP_SPINCOUNT or OMP_WAIT_POLICY. By default threads wait
+ * for each other by spinning for milliseconds, which slows a run many times over on a busy machine. Measured for
+ * plate_hole with two threads on two cores next to two other processes: 0.1 to 0.9 s with a short spin; without it 2 to
+ * 23 s in one of ten runs. */
 static void limit_spin(char **argv)
 {
     if (getenv("OMP_WAIT_POLICY") || getenv("GOMP_SPINCOUNT")) return;

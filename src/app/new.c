@@ -30,8 +30,8 @@ static status kinds_print(void)
     return OK;
 }
 
-/* Finds the kind of scene called `name` and stores a pointer to it, which is static, in *found. Returns REFUSED, with
- * the most similar name in the message, if there is none. */
+/* Finds the kind of scene called `name` and stores a pointer to it, which is static, in *found. Returns REFUSED if no
+ * kind has this name; the message contains the most similar name if it is similar enough to be a misspelling. */
 static status kind_find(const char *name, const struct kind **found)
 {
     const struct kind *nearest = kinds;
@@ -110,8 +110,8 @@ static struct part_name part_path(const char *path)
     return file;
 }
 
-/* Writes the surface NAME.stl that belongs to the scene at `path`, if its kind k reads one. Returns REFUSED if the file
- * exists, FAILED if it cannot be written, with a message. */
+/* Writes the surface NAME.stl that belongs to the scene at `path`. Does nothing and returns OK if scenes of the kind k
+ * read no surface. Returns REFUSED if the file exists, FAILED if it cannot be written, with a message. */
 static status part_write(const struct kind *k, const char *path)
 {
     FILE *out;

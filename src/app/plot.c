@@ -120,8 +120,8 @@ static status read_range(struct plot_words *w, const char *text)
     return OK;
 }
 
-/* Reads `text`, the value of --crop, to w: the rectangle X:X,Y:Y of lengths. Returns REFUSED, with a message, for other
- * texts, and unless the lower end of each axis comes first. */
+/* Reads `text`, the value of --crop, to w: the rectangle X:X,Y:Y of lengths, lower end first. Returns REFUSED, with a
+ * message, for other texts or another order. */
 static status read_crop(struct plot_words *w, const char *text)
 {
     char *copy = NEW("plot.crop", strlen(text) + 1, char), *rest = copy, what[256] = "give X:X,Y:Y as lengths";
@@ -237,8 +237,9 @@ static status read_option(struct plot_words *w, const char *word, const char *va
                       word_propose_similar(word, name, COUNT_OF(name)).text, usage);
 }
 
-/* Sets the format of the picture from the file name extension of -o in w, unless --format is given. Returns REFUSED,
- * with a message, if the extension is unknown, or differs from --format. */
+/* Sets the format of the picture from the file name extension of -o in w, unless --format is given. Changes nothing if
+ * -o has no extension or names a folder. Returns REFUSED, with a message, if the extension is unknown, or differs from
+ * --format. */
 static status settle_format(struct plot_words *w)
 {
     const char *out = w->request.out, *dot = out ? strrchr(out, '.') : NULL;

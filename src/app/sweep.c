@@ -135,7 +135,8 @@ static status sweep_collect(const struct study *s, const struct sweep_arguments 
 }
 
 /* Prints the commands of all runs of the study s, one per line, without duplicates. a: arguments of the sweep. Returns
- * REFUSED if the folder of the study contains something else. */
+ * REFUSED if the folder of the study contains files that belong to no study or, without --overwrite, the study of
+ * another scene. */
 static status sweep_list(const struct study *s, const struct sweep_arguments *a)
 {
     TRY(a->options.overwrite ? study_folder_check_is_usable(s->folder)

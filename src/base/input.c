@@ -37,9 +37,9 @@ static bool identity_is_known(const struct identity *one)
     return known;
 }
 
-/* Adds a file to the list of input files of this process, which must not be overwritten, unless it is in the list. s:
- * status of the file from stat. If memory is exhausted, the file is not added; the next allocation elsewhere ends the
- * program. */
+/* Adds a file to the list of input files of this process, which must not be overwritten. Does nothing if the file is in
+ * the list. s: status of the file from stat. If memory is exhausted, the file is not added; the next allocation
+ * elsewhere ends the program. */
 static void input_add(const struct stat *s)
 {
     const struct identity one = identity_of(s);

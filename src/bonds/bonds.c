@@ -14,9 +14,9 @@ static const real never[UINT8_MAX + 1] = {[0 ... UINT8_MAX] = INFINITY};
 const struct bond_limit bond_limit_never = {.critical_stretch = never};
 
 /* Returns true if particle i of p has a complete row (list of bonds) in the previous bonds `old`, with bonds to all
- * particles within the cutoff, as peridynamic particles have. Rows of material points have bonds to peridynamic
- * neighbours only. For a mirror image, the row of the particle that it mirrors is tested. s: list of the mirror images.
- */
+ * particles within the cutoff, as peridynamic particles have (rows of material points have bonds to peridynamic
+ * neighbours only). For a mirror image, the row of the particle that it mirrors is tested. s: list of the mirror
+ * images. */
 static bool was_whole_row(const struct bonds *old, const struct bond_source *s, const struct particles *p, int64_t i)
 {
     i = image_source_particle(p, s->image, i);
@@ -109,8 +109,8 @@ static int32_t *row_of_make(struct bonds *old, int64_t n)
 
 /* Makes rows (lists of bonds, empty so far) for the particles of p in all sets of eight consecutive ones that are
  * marked in wanted[sets]: sets b->particle (particle of each row) and b->row_of (row of each particle, -1 without one).
- * Rows are used in blocks of eight; unused rows of the last block repeat its last particle. old: previous bonds or
- * NULL. */
+ * Rows are used in blocks of eight; unused rows of the last block repeat its last particle. old: previous bonds, from
+ * which a spare array for b->row_of is taken if they have one; or NULL. */
 static void rows_list(struct bonds *b, struct bonds *old, const struct particles *p, const uint8_t *wanted)
 {
     const int64_t eights = (p->n + LANES - 1) / LANES;

@@ -71,9 +71,10 @@ static void bonds_note(struct clamped *c, struct bonds *b, const struct particle
         }
 }
 
-/* Copies n reactions to c->end, sorted by the particle on which they act, lists these particles in c->particle and the
- * range of reactions of each in c->first. Reactions on one particle remain in the order of their bonds. end[n]:
- * unsorted reactions; of[n]: particle of each reaction; particles: number of particles of the body. */
+/* Copies n reactions to c->end (forces of bonds across clamped planes, at which all motion is prevented), sorted by
+ * the particle on which they act. Lists these particles in c->particle and the range of reactions of each in c->first,
+ * and counts them in c->held. Reactions on one particle remain in the order of their bonds. end[n]: unsorted reactions;
+ * of[n]: particle of each reaction; particles: number of particles of the body. */
 static void ends_sort(struct clamped *c, const struct clamp_end *end, const int32_t *of, int64_t n, int64_t particles)
 {
     int64_t *next = NEW("clamped.next", particles + 1, int64_t);

@@ -3,9 +3,9 @@
 
 #include "bonds_parts.h"
 
-/* Checks the order of rows and particles of b: rows must ascend by particle, row_of must be the inverse of `particle`,
- * and the padding rows behind the last one must repeat its particle. Returns a constant text that names the first
- * fault, or NULL if there is none. */
+/* Checks the order of the rows of b, of which each has the bonds of one particle: b->particle[row] must ascend,
+ * b->row_of must be its inverse, and the rows that pad the last block of eight rows must repeat the last particle.
+ * Returns a constant text that names the first fault, or NULL if there is none. */
 static const char *rows_fault(const struct bonds *b)
 {
     for (int64_t row = 0; row < b->rows; row++) {
@@ -48,8 +48,8 @@ static const char *column_fault(const struct bonds *b, int64_t column)
     return NULL;
 }
 
-/* Checks that no intact bond of row `row` leads to a row more than b->reach blocks of eight rows (the bonds of eight
- * particles) away. Returns a constant text that names the fault; NULL if there is none. */
+/* Checks that no intact bond of row `row` (bonds of one particle) leads to a particle whose row is more than b->reach
+ * blocks of eight rows away. Returns a constant text that names the fault; NULL if there is none. */
 static const char *reach_fault(const struct bonds *b, int64_t row)
 {
     for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {

@@ -36,7 +36,8 @@ int64_t site_map_lattice_site_of_particle(const struct site_map *map, const stru
 
 /* Computes the smallest box of lattice sites that contains the particles and mirror images of p and a margin of
  * l->reach sites (length of the longest bond): its lower corner without the margin, l->low [m], and the index strides
- * l->stride. Returns the number of sites in the box, or 0 if there are too many for a map. */
+ * l->stride. Returns the number of sites in the box, or 0 if the box has more than about SPARSE_MOST sites per particle
+ * or image, too many for a map. */
 static int64_t box_sites(struct site_map *l, const struct particles *p)
 {
     real site_map = 1;

@@ -89,8 +89,8 @@ bool stencil_add_column(struct stencil *stencil, const struct bonds *b, const st
 
 /* ---- all stencils ------------------------------------------------------------------------------------------------ */
 
-/* Returns true if the stencils a and b are equal byte by byte. A stencil: bond vectors and weights of a particle, which
- * many particles of a lattice have in common. */
+/* Returns true if the stencils a and b are equal byte by byte. (A stencil has the bond vectors and weights that many
+ * particles of a lattice have in common.) */
 static bool stencils_equal(const struct stencil *a, const struct stencil *b)
 {
     return a->columns == b->columns && arrays_equal(a->column, b->column, a->columns, sizeof *a->column) &&
@@ -113,8 +113,9 @@ static int hash_of(const struct stencil *p)
     return (int)((hash ^ hash >> 32) % HASHES);
 }
 
-/* Returns the stencil in the table `all` that equals `stencil`; the table owns it. If there is none, stores a copy and
- * returns that, or NULL if the table is full. */
+/* Returns the stencil (bond vectors and weights that many particles share) in the table `all` that equals `stencil`. If
+ * there is none, stores a copy of `stencil` in the table and returns the copy, or NULL if the table already has
+ * STENCILS_MOST stencils. The table owns what is returned. */
 static const struct stencil *stencil_store(struct stencils *all, const struct stencil *stencil)
 {
     const int hash = hash_of(stencil);

@@ -45,8 +45,9 @@ struct evaluation {
 /* A matrix of dim rows, row major. */
 typedef real matrix[DIM_MAX * DIM_MAX];
 
-/* Computes the inverse of the matrix a of dim rows (2 or 3; known at compile time). Returns false if it is singular
- * relative to the mean of its diagonal; `inverse` is then undefined. */
+/* Computes the inverse of the matrix a of dim rows (2 or 3; known at compile time). Returns false, with `inverse`
+ * undefined, if a is singular: if |determinant| is at most SPANS times the mean of the absolute diagonal to the power
+ * dim. */
 static ALWAYS_INLINE bool square_matrix_invert(const matrix a, matrix inverse, const int dim)
 {
     real mean = 0, determinant;
@@ -320,9 +321,10 @@ static bool row_can_start(const struct evaluation *e, int64_t row)
 }
 
 /* Computes the strains of those particles of block g of eight rows (the bonds of eight particles) whose material has a
- * strength surface (failure criterion in stress) and that have a bond which can still begin to soften. If the stress of
- * a particle is at least the fraction `least` [1] of the stress on the surface, sets its e->distance to 1 and its
- * e->share to this ratio. Returns true if there is such a particle. */
+ * strength surface (failure criterion in stress) and that have bonds to all their neighbours, one of which can still
+ * begin to soften. If the stress of a particle is at least the fraction `least` [1] of the stress on the surface (times
+ * the relative strength of the particle), sets its e->distance to 1 and its e->share to this ratio. Returns true if
+ * there is such a particle. */
 static bool row_block_find(struct evaluation *e, int64_t g, real least)
 {
     const struct bonds *b = e->b;

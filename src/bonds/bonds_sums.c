@@ -40,9 +40,9 @@ static void volumes_near(real *volume, const struct particles *p, const struct r
     for (int l = 0; l < LANES; l++) volume[i + l] = sum[l];
 }
 
-/* Sets those of n neighbourhood volumes, volume[n] [m^3], that equal the volume `full` of a full neighbourhood up to
- * round-off exactly to `full`. Bonds inside a body then have weight 1, which need not be stored
- * (kernels/pd/bond_column.h). */
+/* Sets those of n neighbourhood volumes, volume[n] [m^3], that equal the volume `full` of a full neighbourhood up to a
+ * relative difference of WHOLE (round-off) exactly to `full`. Bonds inside a body then have weight 1, which need not be
+ * stored (kernels/pd/bond_column.h). */
 static void whole_volumes(real *volume, int64_t n, real full)
 {
 #pragma omp parallel for schedule(static)

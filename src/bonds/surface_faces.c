@@ -117,8 +117,9 @@ struct smooth {
 
 /* Computes how the lattice face of a particle is smoothed, in *to: the matrix that projects the area of the face onto
  * the mean normal N of the faces nearby, and its contribution to the mean of N (x) N. Without a face the matrix is the
- * identity and the contribution 0. On the lattice inclined faces are steps; where these scatter too much about a plane,
- * they are smoothed less. raw: faces on the lattice; t: index of the particle among those near faces. */
+ * identity and the contribution 0. On the lattice inclined faces are steps. They are smoothed fully if the variance of
+ * their positions about a plane is at most FLAT, not at all from ROUGH on, and in proportion between. raw: faces on the
+ * lattice; t: index of the particle among those near faces. */
 static void smooth_make(struct smooth *to, const struct raw_faces *raw, int64_t t)
 {
     const int dim = raw->body->p->dim;
@@ -174,8 +175,9 @@ static void smooth_faces_make(struct smooth_faces *s, const struct raw_faces *ra
 }
 
 /* Computes f->normal2[t], the mean of N (x) N over the faces near a particle with unit normals N, weighted by nearness.
- * If fewer faces are near than at a plane face, the mean is reduced, except in models with rotations (`rotates`). s:
- * smoothed faces; plane: sum of the weights at a plane face; t: index of the particle among b, those near faces. */
+ * If the faces nearby have less weight than those at a plane face, the mean is multiplied by the ratio of both to the
+ * power NEAR, except in models with rotations (`rotates`). It is 0 without faces. s: smoothed faces; plane: sum of the
+ * weights at a plane face; t: index of the particle among b, those near faces. */
 static void normals_gather(struct surface_fit_targets *f, const struct near_faces *b, const struct smooth_faces *s,
                            real plane, bool rotates, int64_t t)
 {

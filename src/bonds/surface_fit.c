@@ -322,9 +322,9 @@ static void group_entries(struct surface_fit_problem *q, real *bonds)
     memory_free(next);
 }
 
-/* Computes q->prior[sets], the weight in the least-squares fit with which the factor f of each set of bonds is held
- * near 1, as prior (f - 1)^2. Then inverts the quadratic forms of all classes (particles with equal surroundings). m:
- * moments of the bonds. */
+/* Computes q->prior[sets] for the sets of bonds near faces that share one factor f on their weights: in the
+ * least-squares fit the term prior (f - 1)^2 holds f near 1. Then inverts the quadratic forms of all classes (particles
+ * with equal surroundings), which weigh deviations of the moments. m: moments of the bonds. */
 static void prior_make(struct surface_fit_problem *q, const struct moments *m)
 {
     const struct bond_classes *a = q->alike;
@@ -344,7 +344,8 @@ static void prior_make(struct surface_fit_problem *q, const struct moments *m)
 }
 
 /* Returns true if a particle is at the end of a crack or of a narrow void: a neighbour of one of its neighbours is
- * within its cutoff, but separated from it. t: index of the particle among b, those near faces. */
+ * within its own cutoff, but separated from it by the crack or void. t: index of the particle among b, those near
+ * faces. */
 static bool at_crack_end(const struct near_faces *b, int64_t t)
 {
     const struct offsets *o = &b->offset;

@@ -65,10 +65,11 @@ static real inner(int64_t n, const real *a, const real *b)
 
 /* ---- products ---------------------------------------------------------------------------------------------------- */
 
-/* Computes value[offsets]: for each bond of a class of q (particles with equal surroundings) the scalar product of the
- * moments of the bond and the vector by[thirds + fourths]. The moments of a bond are tensors of rank 3 and 4 formed of
- * its direction; thirds, fourths: numbers of their components, known at compile time. q: moments of all offsets;
- * changes[offsets/2]: pairs of opposite bonds with the mark 0 are skipped; NULL if none is. */
+/* Computes value[offsets]: for the bond at each lattice offset of a class (particles with equal surroundings) the
+ * scalar product of the moments of the bond and the vector by[thirds + fourths] of this class. The moments of a bond
+ * are tensors of rank 3 and 4 formed of its direction; thirds, fourths: numbers of their components, known at compile
+ * time. q: moments of all offsets; changes[offsets/2]: pairs of opposite bonds with the mark 0 are skipped; NULL if
+ * none is. */
 static ALWAYS_INLINE void class_back(const struct surface_fit_problem *q, const uint8_t *changes, const real *by,
                                      real *value, const int thirds, const int fourths)
 {
@@ -85,11 +86,12 @@ static ALWAYS_INLINE void class_back(const struct surface_fit_problem *q, const 
     }
 }
 
-/* Subtracts from to[thirds + fourths] the sum of x times the moments over the bonds of a class (particles with equal
- * surroundings). The moments of a bond are tensors of rank 3 and 4 formed of its direction; thirds, fourths: numbers of
- * their components, known at compile time. q: moments of all offsets; x[sets]: a number for each set of bonds that
- * share a factor; group[offsets]: set of each bond, -1: none; changes[offsets/2]: pairs of opposite bonds with the mark
- * 0 are skipped, since their x is 0; NULL if none is. */
+/* Subtracts from to[thirds + fourths] the sum of x times the moments of the bond over all bonds of one class (particles
+ * with equal surroundings), the class of `to` and `group`. The moments of a bond are tensors of rank 3 and 4 formed of
+ * its direction; thirds, fourths: numbers of their components, known at compile time. q: moments of the bonds at all
+ * lattice offsets; x[sets]: a number for each set of bonds that share a factor on their weight; group[offsets]: set of
+ * the bond at each offset, -1 for a bond in no set (counts as x = 0). changes[offsets/2]: marks of the pairs of
+ * opposite bonds, of which those with the mark 0 are skipped, since their x is 0; or NULL to skip no pair. */
 static ALWAYS_INLINE void class_sum(const struct surface_fit_problem *q, const uint8_t *changes, const int64_t *group,
                                     const real *x, real *to, const int thirds, const int fourths)
 {
@@ -386,9 +388,9 @@ static void step_solve(struct descent *d, real share)
 }
 
 /* Moves the multipliers of the dual problem along d->step, and updates the factors of bonds and the residual. The
- * residual is the gradient of a convex function. The step is too long if the slope of this function at its end is
- * positive and more than STEEP times the absolute slope at its start. It is then shortened and tried again, at most
- * SHORTENINGS times. */
+ * residual is the gradient of a convex function of the multipliers. The step is too long if the slope of this function
+ * at its end is positive and more than STEEP times the absolute slope at its start. It is then shortened and tried
+ * again, at most SHORTENINGS times. */
 static void step_take(struct descent *d)
 {
     const real slope = inner(d->n, d->residual, d->step);

@@ -11,11 +11,11 @@
 
 /* ---- the law ----------------------------------------------------------------------------------------------------- */
 
-/* Initialises the contact c of a run; pairs in contact are searched later. between: what may come into contact; law:
- * form, contact distance and friction; its other members are ignored. The stiffness of a contact follows from the
- * materials in `source` (data from which bonds are made) times stiffness_factor [1]. body_shapes[bodies]: shape of each
- * body, from which the height of its surface above its particles follows; rigid[rigid_body_count]: rigid bodies.
- * `body_shapes` and `rigid` are kept by reference and must outlive c. Release c with contact_free. */
+/* Initialises the contact c of a run; pairs in contact are searched later. between: which particles may come into
+ * contact; law: form, contact distance and friction; its other members are ignored. The stiffness of a contact follows
+ * from the materials in `source` (data from which bonds are made) times stiffness_factor [1]. body_shapes[bodies]:
+ * shape of each body, from which the height of its surface above its particles follows; rigid[rigid_body_count]: rigid
+ * bodies. `body_shapes` and `rigid` are kept by reference and must outlive c. Release c with contact_free. */
 void contact_make(struct contact *c, enum contact_between between, struct contact_law law, real stiffness_factor,
                   const struct bond_source *source, const struct region *const *body_shapes, struct rigid_body *rigid,
                   int rigid_body_count)

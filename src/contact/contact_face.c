@@ -80,8 +80,8 @@ static real table_depth(const struct contact_profile *profile, real density, rea
 
 /* Returns the weight m_l [1] of a particle l in the density of its face at a nearby particle k. This density is the sum
  * of m_l W(r/reach) over particles l, with the kernel W and the distance r. The weight is the spacing of l divided by
- * the mean of both spacings, to the power dim - 1. k, l: entries of both particles in the contact list c. *reach:
- * receives the distance at which W becomes 0 [m]. */
+ * the mean of both spacings, to the power dim - 1. k, l: entries of both particles in the contact list c (particles
+ * near faces). *reach: receives the distance at which W becomes 0 [m]. */
 static real field_share(const struct contact *c, int dim, int64_t k, int64_t l, real *reach)
 {
     const real mean = 0.5 * (c->size[k] + c->size[l]), ratio = c->size[l] / mean;
@@ -95,10 +95,10 @@ struct face_field {
     real density, mean;
 };
 
-/* Computes two sums over the particles of the pairs of row `row` of the contact list c, weighted by a kernel of the
- * distance: the density of the faces around the particle of the row, and the mean of the rises. (The rise of a particle
- * is the height of the body's surface above the particle minus 1/2 spacing.) place[dim][particles]: present or
- * reference positions of the particles p [m]. */
+/* Computes two sums over the particles that form a pair with the particle of row `row` of the contact list c (particles
+ * that may come into contact), weighted by a kernel of the distance: the density of the faces around the particle of
+ * the row, and the mean of the rises. (The rise of a particle is the height of the body's surface above the particle
+ * minus 1/2 spacing.) place[dim][particles]: present or reference positions of the particles p [m]. */
 static struct face_field face_field_at(const struct contact *c, const struct particles *p, real *const *place,
                                        int64_t row)
 {
@@ -125,10 +125,11 @@ struct face_gap {
     bool leans;
 };
 
-/* Computes the height of a particle above a face, the gap between both surfaces [spacings], and the derivative of both
- * by the density of the face. c: contact, for the table of heights by density; field: density of the face at the
- * particle, and mean rise of the face (height of its surface above its particles, minus 1/2); zero: height at which
- * contact begins [spacings]. */
+/* Returns the height of a particle above a face, the gap between both surfaces [spacings], and the derivative of both
+ * by the density of the face (number of its particles nearby, weighted by distance). The gap is at least the tabulated
+ * height minus DEPTH_MOST. c: contact, for the table of heights by density; field: density of the face at the particle,
+ * and mean rise of the face (height of its surface above its particles, minus 1/2); zero: height at which contact
+ * begins [spacings]. */
 static struct face_gap face_gap(const struct contact *c, const struct face_field *field, real zero)
 {
     struct face_gap at;
@@ -197,9 +198,9 @@ struct contact_weight contact_face_density_contribution(const struct contact *c,
 }
 
 /* Adds the contact force on the particle of row `row` of the contact list c to p->f. The contact energy of a particle
- * near a face depends on the density of the opposite face, a weighted sum over the particles of this face. So the force
- * has two parts: the derivative of the particle's own energy, and those of the energies of all particles in whose
- * densities the particle counts. */
+ * near a face depends on the density of that face at the particle: the number of particles of the face nearby, weighted
+ * by their distance. So the force has two parts: the derivative of the particle's own energy, and the derivatives of
+ * the energies of those particles in whose densities it counts. Pairs in which no particle is pushed are skipped. */
 void contact_face_add_force_on_particle(const struct contact *c, struct particles *p, int64_t row)
 {
     const int32_t i = c->particle[row];
@@ -244,8 +245,8 @@ void contact_face_linearise_as_spring(const struct contact *c, const struct part
 /* ---- begin of contact -------------------------------------------------------------------------------------------- */
 
 /* Returns the contact stiffness of the particle of p in row `row` of the contact list c [J], for gaps in spacings: the
- * smallest stiffness of its pairs with other particles, or, without pairs, that of a pair of two particles like this
- * one. */
+ * smallest stiffness of a pair that it forms with another particle of the list (particles that may come into contact),
+ * or, without pairs, that of a pair of two particles like this one. */
 static real face_stiffness(const struct contact *c, const struct particles *p, int64_t row)
 {
     real least = INFINITY;
@@ -285,8 +286,8 @@ static real least_gap(const struct contact *c, const struct face_field *field, i
 }
 
 /* Returns true if row `row` of the contact list c and row `was` of the list of the previous search, `before`, have
- * pairs with the same particles in the same order. The densities of the face, from which gaps follow, are then equal.
- */
+ * pairs with the same particles in the same order. (A row has the pairs of one particle.) The densities of the face,
+ * from which gaps follow, are then equal. */
 static bool same_pairs(const struct contact *c, const struct contact *before, int64_t was, int64_t row)
 {
     const int64_t n = c->first[row + 1] - c->first[row];

@@ -12,9 +12,9 @@
 
 static void contact_free_all(struct run *e) { contact_free(e->contact); }
 
-/* Writes the JSON object "contact" to j if particles (c) or material points on the grid (mpm) can be in contact: times
- * of first and last contact [s], largest numbers of contacts, work of friction [J] and largest overlap [spacings]. Else
- * writes nothing. */
+/* Writes the JSON object "contact" to j if peridynamic particles (c) or bodies of material points on the grid (mpm) can
+ * be in contact: times of first and last contact [s], largest numbers of contacts, work of friction [J] and largest
+ * overlap [spacings]. Else writes nothing. */
 static void put_contact(const struct contact *c, const struct grid_method *mpm, struct json *j)
 {
     const struct grid_contact *g = &mpm->contact;

@@ -20,9 +20,9 @@ static real first_layer_share(const struct family *f)
     return f->horizon < 1.5 * f->spacing ? 0.95 : space_dim(f->space) == 1 ? 0.6 : 0.78;
 }
 
-/* Returns true if a particle has few bonded neighbours: if their volume minus `lost` [m^3] is less than `least` [m^3].
- * row: row of the particle in the bonds b (its list of bonds), or -1 for a particle without bonds, for which the result
- * is true. */
+/* Returns true if the volume of the bonded neighbours of a particle minus `lost` [m^3] is less than `least` [m^3]. row:
+ * row of the particle in the bonds b (its list of bonds), or -1 for a particle without bonds, for which the result is
+ * true. */
 static bool lacks_family(const struct bonds *b, int64_t row, real lost, real least)
 {
     return row < 0 || b->family_volume[row] - lost < least;
@@ -107,8 +107,9 @@ void contact_list_compute_entry_data(struct contact *c, const struct particles *
 }
 
 /* Lists in c->particle the peridynamic particles of p near a face, in ascending order, and then their mirror images.
- * Stores the present positions of all of them in c->at. A particle is near a face if the volume of its bonded
- * neighbours in b is less than a share of that of the complete neighbourhood f. */
+ * Stores the present positions of all of them in c->at. A particle is near a face if it has damage, or if the volume of
+ * its bonded neighbours in b is less than a share (first_layer_share) of that of the complete neighbourhood f. With the
+ * contact distance of LAMMPS, all peridynamic particles are listed. */
 static void list_exposed(struct contact *c, const struct particles *p, const struct bonds *b, const struct family *f)
 {
     const real least_volume = first_layer_share(f) * f->full;

@@ -49,8 +49,8 @@ static real close_of(const struct contact *c, const struct particles *p, int64_t
 }
 
 /* Updates the marks of the contacts of the particle of p in row `row` of the contact list c, which state whether a
- * contact acts in the equilibrium, from the gaps. close: gap below which contacts of different bodies become active
- * [spacings]. Returns the number of marks that have changed. */
+ * contact acts in the equilibrium that is being computed, from the gaps. close: gap below which contacts of different
+ * bodies become active [spacings]. Returns the number of marks that have changed. */
 static int64_t mark_row(struct contact *c, const struct particles *p, int64_t row, real close)
 {
     int64_t changed = 0;

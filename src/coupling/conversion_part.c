@@ -18,7 +18,8 @@ void bonded_points_update_strain(const struct partial_stress *partial, const str
 /* Returns true if the conversion flags of all material points of p must be tested in this step. This is so if there are
  * points on the background grid, which keeps no record of flagged points, or if another process may have flagged points
  * or broken bonds (growth laws of cracks, load steps, reversion). Returns false if all points belong to the mesh of the
- * reference frame r (a mesh of the undeformed body) and no cell of it has recorded a high stress. s: scene. */
+ * reference frame r (a mesh of the undeformed body) and no cell of it has recorded a stress above that of conversion.
+ * s: scene. */
 static bool may_convert(const struct scene *s, const struct particles *p, const struct reference_frame *r)
 {
     return p->n_free > 0 || p->n_grid_coupled > 0 || s->growths > 0 || scene_has_load_steps(s) || p->low_since ||
@@ -91,8 +92,8 @@ int64_t conversion_convert_points_and_update_run(struct run *e, int64_t broken_b
 }
 
 /* Stores in c->bonded[p->n] which particles of p are material points with intact bonds to peridynamic particles: 1 for
- * these, 0 for others. Frees c->bonded and sets it to NULL if b has no rows of bonds. Does nothing if velocities are
- * not transferred by FLIP, which alone needs these marks, or if no points are on the grid. */
+ * these, 0 for others. Frees c->bonded and sets it to NULL if b has no rows of bonds. Else does nothing if the transfer
+ * of velocities between grid and points is not FLIP, which alone needs these marks, or if no points are on the grid. */
 static void bonded_make(struct coupling_state *c, const struct particles *p, const struct bonds *b)
 {
     if (b->rows == 0) { /* all particles have reverted: no material point has bonds */

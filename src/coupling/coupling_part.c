@@ -19,7 +19,7 @@ static int reversions_most(const struct particles *p)
 }
 
 /* Writes the JSON list "notches" to j: for each of the first SAID pre-cracks of n a text that says whether it is a
- * slit, along which nodes of the mesh are doubled, or a row of cut bonds. Writes nothing without pre-cracks. spacing:
+ * slit, along which nodes of the mesh are doubled, or a line of cut bonds. Writes nothing without pre-cracks. spacing:
  * lattice spacing [m]. */
 static void put_notches(struct json *j, const struct notches *n, real spacing)
 {

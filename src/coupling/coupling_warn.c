@@ -71,8 +71,8 @@ static void warn_of_contact(const struct scene *s, const struct reference_frame 
                                                                : "the key coupling has another value");
 }
 
-/* Returns true if particles i and j of p start with nearly the same velocity, up to 0.1 %. Parts of bodies that are
- * meant to be joined do; colliding bodies do not. */
+/* Returns true if particles i and j of p start with the same velocity: their difference is at most 0.1 % of the root of
+ * the sum of both squares. Parts of bodies that are meant to be joined do; colliding bodies do not. */
 static bool start_as_one(const struct particles *p, int64_t i, int64_t j)
 {
     real apart2 = 0, most2 = 0;
@@ -104,8 +104,9 @@ static int touching(const struct particles *p, const struct cells *cells, int bo
     return pairs;
 }
 
-/* Adds a warning to `to` that names the bodies of run e that touch at the start with the same velocity and are not
- * joined. Adds none if there are no such bodies. */
+/* Adds a warning to `to` that names the bodies of run e that touch at the start (particles within 1.5 spacings or the
+ * cutoff of bonds, whichever is smaller), have the same velocity and are not joined. Adds none if there are no such
+ * bodies. */
 static void warn_of_touch(const struct run *e, struct warnings *to)
 {
     const struct scene *s = e->scene;

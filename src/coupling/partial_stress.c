@@ -116,8 +116,8 @@ struct box {
     real low[DIM_MAX], high[DIM_MAX];
 };
 
-/* Returns the bounding box of the particle of p in row `row` (its bonds in b) and of the other ends of its intact
- * bonds, in the reference configuration [m]. */
+/* Returns the bounding box of the reference positions of the particle of p whose bonds are row `row` of b, and of the
+ * particles to which its intact bonds lead [m]. */
 static struct box box_of(const struct particles *p, const struct bonds *b, int64_t row)
 {
     struct box box = {{0}, {0}};

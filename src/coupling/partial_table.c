@@ -277,8 +277,8 @@ void partial_table_free(struct partial_table *t)
 
 /* ---- bond responses ---------------------------------------------------------------------------------------------- */
 
-/* Returns true if table t can be used: the particles are on a lattice and the number of bond vectors is at most
- * VECTORS_MOST. */
+/* Returns true if table t (effect of a bond of each lattice vector on a cell) is filled and can be used: the particles
+ * are on a lattice, and the number of possible bond vectors is at most VECTORS_MOST. */
 bool partial_table_is_filled(const struct partial_table *t) { return t->vectors > 0; }
 bool partial_table_covers_all_particles(const struct partial_table *t) { return t->uniform; }
 

@@ -60,9 +60,9 @@ static bool low_stress(const struct reversion_rule *rule, const struct particles
 
 /* Finds the peridynamic particles that may not revert to material points because of their own state. Sets held[i] to 1
  * for particles with a broken or softened bond, for those in the region rule->kept, and for those whose stress has not
- * been low for the hold time; to 0 for others. Sets cut[i] to 1 for particles with a broken or softened bond, else to
- * 0. Updates p->low_since, the time since when the stress of a particle is low [s]. t: present time [s]. Returns the
- * number of peridynamic particles with held[i] = 0. */
+ * been low (low_stress) for the whole hold time of `rule`; to 0 for other peridynamic particles. Sets cut[i] to 1 for
+ * particles with a broken or softened bond, else to 0. Updates p->low_since, the time since when the stress of a
+ * particle is low [s]. t: present time [s]. Returns the number of peridynamic particles with held[i] = 0. */
 static int64_t mark_constrained(const struct reversion_rule *rule, struct particles *p, const struct bonds *b, real t,
                                 uint8_t *held, uint8_t *cut)
 {
@@ -86,9 +86,9 @@ static int64_t mark_constrained(const struct reversion_rule *rule, struct partic
 
 /* Sets bound[i] to 1 for peridynamic particles i that must not become material points: a particle marked in `held` is
  * within the cutoff, or one marked in `cut` within BROKEN_HORIZONS horizons. Sets near[i] to 1 for particles i within
- * the cutoff of a peridynamic particle that is not bound. (A set of particles reverts only as a ball, as large as the
- * cutoff, without bound particles; its centre must have near[i] = 1.) rule: cutoff and horizon. All arrays: [p->n];
- * held, cut: from mark_constrained. */
+ * the cutoff of a peridynamic particle that is not bound. (Particles revert only as a ball with the radius of the
+ * cutoff that contains no bound particle; its centre must have near[i] = 1.) rule: cutoff and horizon. All arrays:
+ * [p->n]; held, cut: from mark_constrained. */
 static void mark_bound(const struct reversion_rule *rule, const struct particles *p, const uint8_t *held,
                        const uint8_t *cut, uint8_t *bound, uint8_t *near)
 {
@@ -214,10 +214,11 @@ struct crossing {
     real stress[SYM_MAX], T[SYM_MAX * SYM_MAX], X[DIM_MAX], half;
 };
 
-/* Adds half of the contribution of one bond of b to the stress in the cell *to of a particle of p, and to the
- * derivative of this stress by a uniform strain, both times the volume of the cell. The other half is added when the
- * bond is found in the row of its other particle. bond: the bond, as stored for the particle r->root; j: that particle
- * or a mirror image of it; r: reflection that maps r->root to j. */
+/* Adds half of the contribution of one bond of b to the stress in *to, the cubic cell of a material point, and to the
+ * derivative of this stress by a uniform strain, both times the volume of the cell. A bond contributes in proportion to
+ * the fraction of its length inside the cell; a bond outside the cell adds nothing. The other half is added when the
+ * bond is found in the list of bonds of its other particle. bond: the bond, as stored for the particle r->root of p; j:
+ * that particle or a mirror image of it; r: reflection that maps r->root to j. */
 static void crossing_add(struct crossing *to, const struct bonds *b, const struct particles *p,
                          const struct reflection *r, int64_t j, const struct bond *bond)
 {

@@ -26,7 +26,7 @@ struct closed {
     int64_t n, first;
 };
 
-/* Counts particle i in *to, the particles beside voids (gaps in a body) that are too narrow for the grid to separate
+/* Counts particle i in *to: the particles beside those voids (gaps in a body) that are so narrow that grid nodes couple
  * their two sides. Stores i in to->first if it is the first one counted. */
 static void closed_add(struct closed *to, int64_t i)
 {
@@ -70,8 +70,9 @@ static void closed_on_grid(const struct particles *p, const struct voids *v, con
     memory_free(near.at);
 }
 
-/* Computes next[2 dim], the distances from particle i of p to the nearest neighbours of its body along each axis, first
- * in negative, then in positive direction [m]; INFINITY if there is none. near: neighbours of particle i. */
+/* Computes next[2 dim], the distances from particle i of p to the nearest neighbours of its body in the negative and
+ * then the positive direction of each axis [m]; INFINITY if there is none. A neighbour counts if the line to it is
+ * nearly parallel to the axis (cosine above ALONG). near: neighbours of particle i. */
 static void next_along(const struct particles *p, int64_t i, const struct neighbour_list *near, real *next)
 {
     for (int a = 0; a < 2 * p->dim; a++) next[a] = INFINITY;
@@ -88,7 +89,8 @@ static void next_along(const struct particles *p, int64_t i, const struct neighb
 
 /* Counts the particles (of p) of body b that are beside gaps, rows of empty lattice sites narrower than `reach` [m],
  * for bodies whose surface is not known. s: scene, with the spacing; cells: cells of the neighbour search. Returns
- * their number with the index of the first one. The number is 0 if the particles are not on a lattice. */
+ * their number with the index of the first one. The number is 0 if most particles lack a neighbour one spacing away
+ * along some axis: they are not on a lattice. */
 static struct closed closed_in_lattice(const struct scene *s, const struct particles *p, const struct cells *cells,
                                        int b, real reach)
 {

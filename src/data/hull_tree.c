@@ -350,7 +350,8 @@ static bool hull_outside(const struct hull *s, const real *X)
 }
 
 /* Returns true if the signed distance of X[dim] from the surface s, negative inside, is at most max_distance [m]. Faces
- * that are farther than |max_distance| are not searched, since then only the side of X matters. */
+ * that are farther than |max_distance| are not searched, since then only the side of X matters. A surface without faces
+ * is at the distance INFINITY. */
 bool hull_point_is_within_distance(const struct hull *s, const real *X, real max_distance)
 {
     real size = 0, point[DIM_MAX];

@@ -48,8 +48,8 @@ static int if_return(int dim, int optional) { return (void)dim, optional & WITH_
 #define FIELD(member, type, count, unit, meaning) ROW(#member, member, type, count, unit, meaning, false)
 #define TRIAL(member, type, count, unit, meaning) ROW(#member, member, type, count, unit, meaning, true)
 
-/* Table of all arrays of struct particles: member, type of an entry, number of components, unit and meaning. TRIAL:
- * arrays of plastic state. */
+/* Table of all arrays of struct particles: member, type of an entry, number of components, unit and meaning. TRIAL
+ * instead of FIELD: plastic state, which a repeated load step must restore. */
 const struct particle_field particle_fields[] = {
     FIELD(X, real, vector, "m", "reference position"),
     FIELD(x, real, vector, "m", "position"),
@@ -217,8 +217,8 @@ real particles_bounding_box_longest_edge(const struct particles *p)
 }
 
 /* Computes place[p->n], the sort keys of all particles of p, from their reference positions. Rows and layers have the
- * width `spacing` [m]. The borders between rows are a quarter of the spacing below the particles of the first row: no
- * row of a lattice is near a border, so that round-off cannot split it. */
+ * width `spacing` [m]. Each border between two rows is a quarter of the spacing below the particles of a row of the
+ * lattice, so that round-off cannot split a row. */
 static void find_places(const struct particles *p, real spacing, struct place *place)
 {
     real low[DIM_MAX] = {0}, high;

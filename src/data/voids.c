@@ -203,11 +203,11 @@ static bool mirrors_keep_convex(const struct voids *v, const struct solid *s, co
     return true;
 }
 
-/* Returns a set of solids of the body of particle i of p, as one bit each: those that contain the particle, not nearer
- * than a small margin to their surface, and are convex near the particle. Two particles at most `reach` [m] apart have
- * no void between them if they have a bit in common. Returns ALONE instead if there is such a solid and no other solid
- * of the body is within `reach`. Returns 0 if a subtracted or intersected solid is that near, or if the body has more
- * than SOLIDS_MOST solids. v: shapes of the bodies. */
+/* Returns a set of solids of the body of particle i of p, as one bit each: those that contain the particle, or miss it
+ * by at most SEAM spacings, and are convex within `reach` of it. Two particles at most `reach` [m] apart have no void
+ * between them if they have a bit in common. Returns ALONE instead if there is such a solid and no other solid of the
+ * body is within `reach`. Returns 0 if a subtracted or intersected solid is that near, or if the body has more than
+ * SOLIDS_MOST solids. v: shapes of the bodies. */
 static uint32_t solids_around(const struct voids *v, const struct particles *p, int64_t i, real reach)
 {
     real X[DIM_MAX] = {0};

@@ -304,7 +304,8 @@ static status make_particles(struct run *e)
 }
 
 /* Creates the parts of run e that observe it or act on cracks: crack tips, crack growth, static solver, diagnostics and
- * probes. Returns REFUSED, with a message, if growth or a probe does not fit the scene. */
+ * probes. Returns REFUSED, with a message, if the scene does not allow the growth of a crack by stress-intensity
+ * factors, the static solver or a probe as it is specified. */
 static status make_probes(struct run *e)
 {
     const struct scene *s = e->scene;
@@ -326,8 +327,8 @@ static status make_probes(struct run *e)
 }
 
 /* Creates loads, bonds, rigid bodies, contact, coupling and mesh of run e, and computes the time step. Call it after
- * make_particles. before: run that e replaces, or NULL. Returns REFUSED or FAILED, with a message, if one of them does
- * not suit the scene. */
+ * make_particles. before: run that e replaces, or NULL. Returns REFUSED or FAILED, with a message, if one of them is
+ * impossible in the scene. */
 static status make_forces(struct run *e, struct predecessor *before)
 {
     const struct scene *s = e->scene;

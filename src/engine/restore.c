@@ -26,7 +26,8 @@ static status remake(struct run *e, uint8_t *absent)
 }
 
 /* Reads from the archive a of a checkpoint which cells are hollow (inside a body, without particles), and creates run e
- * again if there are any. Returns FAILED, with a message, if they do not suit the bodies of the scene. */
+ * again if there are any. Returns FAILED, with a message, if their number is not that of the cells around the first
+ * body of the scene. */
 static status hollow_restore(struct run *e, struct archive *a)
 {
     struct cells_without_particles *h = &e->frame->hollow;

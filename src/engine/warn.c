@@ -57,8 +57,9 @@ static void warn_of_coupling(const struct scene *s, enum coupling kind, struct w
 }
 
 /* Adds warnings to *to about quadratic and cubic shape functions of scene s if a boundary prescribes the motion of
- * points on a grid, and about cells with a single point. on_grid: true if the shape functions of material points are
- * those of a regular grid at their present positions, false if those of a mesh at their reference positions. */
+ * points on a grid, and about cells with fewer than 1.5 points along an edge. on_grid: true if the shape functions of
+ * material points are those of a regular grid at their present positions, false if those of a mesh at their reference
+ * positions. */
 static void warn_of_cells(const struct scene *s, bool on_grid, struct warnings *to)
 {
     bool driven = false;
@@ -147,8 +148,8 @@ static void warn_of_probes(const struct scene *s, struct warnings *to)
                 s->probe[k].name);
 }
 
-/* Adds warnings to *to about columns of particle lists that the bodies of scene s do not read, or for which a default
- * is used. */
+/* Adds a warning to *to for each body of scene s that is read from a particle list, if columns of the list are not
+ * read, or if a default replaces a missing column of volumes or missing names of columns. */
 static void warn_of_lists(const struct scene *s, struct warnings *to)
 {
     for (int b = 0; b < s->bodies; b++)
@@ -214,8 +215,9 @@ static void warn_of_step(const struct scene *s, const struct run_clock *clock, s
 
 #define HORIZON_LEAST 1.45 /* [spacings] below it a particle of a lattice has no diagonal neighbours, at sqrt(2) */
 
-/* Adds a warning to *to if the horizon of scene s is so small that a particle has bonds only to its neighbours along
- * the axes of the lattice. */
+/* Adds a warning to *to if the horizon of scene s is below HORIZON_LEAST, so that a particle has bonds only to its
+ * neighbours along the axes of the lattice; in 1D if it is one spacing, so that round-off decides whether a particle
+ * has bonds. Adds none for method mpm. */
 static void warn_of_horizon(const struct scene *s, struct warnings *to)
 {
     if (s->method == METHOD_MPM || s->horizon >= (s->dim > 1 ? HORIZON_LEAST : 1.005)) return;
@@ -234,7 +236,8 @@ static void warn_of_horizon(const struct scene *s, struct warnings *to)
 #define STIFFNESS_APART 0.05 /* relative error of a bulk modulus that is worth a warning; vmpd has 0.02 */
 
 /* Adds a warning to *to if bonds of the neighbourhood f, by their calibration, make the first material of scene s
- * stiffer or softer than specified by more than the relative error STIFFNESS_APART. */
+ * stiffer or softer than specified by more than the relative error STIFFNESS_APART of the bulk modulus. Adds none for
+ * state-based models and the calibration on the lattice, which are exact. */
 static void warn_of_stiffness(const struct scene *s, const struct family *f, struct warnings *to)
 {
     real c11, c12;

@@ -64,8 +64,9 @@ static real crack_distance(const struct crack *c, const struct particles *p)
 }
 
 /* Adds warnings to *to about the first pre-cracks of scene s that are farther from all particles p than `reach` [m],
- * the length of the longest bonds. For many cracks only bounding boxes are compared. Returns true if there are such
- * cracks. */
+ * the length of the longest bonds. At most NAMED cracks are reported. If the scene has more than SEARCHED cracks, only
+ * their bounding boxes are compared with that of the particles. Returns true if a crack is that far away; false in
+ * 1D. */
 static bool warn_of_far_cracks(const struct scene *s, const struct particles *p, real reach, struct warnings *to)
 {
     enum { SEARCHED = 16, NAMED = 3 };
@@ -112,9 +113,9 @@ static int64_t particles_near(const struct particles *p, const real *X, real rea
 }
 
 /* Adds a warning to *to about pre-crack number k, from 0, of scene s, which cannot grow, for one of two reasons:
- * supports prescribe the motion of all particles within `reach` [m] of its ends, or an end is far outside of all
- * bodies. longest: longest edge of the box around all particles [m]; prescribed[p->n]: bit d is set if component d of a
- * particle is prescribed. */
+ * supports prescribe the motion of all particles within `reach` [m] of its ends, or an end is outside of all bodies by
+ * more than `reach` and FAR_OUTSIDE * longest. longest: longest edge of the box around all particles [m];
+ * prescribed[p->n]: bit d is set if component d of a particle is prescribed. */
 static void warn_of_fixed_crack(const struct scene *s, const struct particles *p, int k, real reach, real longest,
                                 const uint8_t *prescribed, struct warnings *to)
 {
@@ -141,8 +142,9 @@ static void warn_of_fixed_crack(const struct scene *s, const struct particles *p
 }
 
 /* Adds warnings to *to about the first pre-cracks of scene s that cannot grow because supports prescribe the motion of
- * the particles p around them, or that cut a body and end far outside of it. loads: with the supports; tips: crack tips
- * at the start; reach: length of the longest bonds [m]. */
+ * the particles p around them, or that end far outside of all bodies. Does nothing if some particles of the bodies are
+ * not created (p->n < p->n_body), or in 1D. loads: with the supports; tips: crack tips at the start; reach: length of
+ * the longest bonds [m]. */
 static void warn_of_fixed_cracks(const struct scene *s, const struct particles *p, const struct loads *loads,
                                  const struct crack_tips *tips, real reach, struct warnings *to)
 {
@@ -169,8 +171,9 @@ static void warn_of_unbreakable(const struct scene *s, struct warnings *to)
                     : "no material has an energy_release_rate, toughness or critical_stretch; give one of them");
 }
 
-/* Adds warnings to *to about cracks with prescribed growth in scene s that begin outside of all bodies (particles p) or
- * after the end of the run, grow by less than a spacing, or grow faster than Rayleigh waves. */
+/* Adds warnings to *to about cracks with prescribed growth in scene s that begin farther than a horizon from all
+ * particles p or after the end of the run, grow by less than a spacing, or grow faster than the fastest Rayleigh waves
+ * of all materials. The position is not checked if some particles of the bodies are not created (p->n < p->n_body). */
 static void warn_of_growths(const struct scene *s, const struct particles *p, struct warnings *to)
 {
     real rayleigh = 0;

@@ -9,8 +9,8 @@
 #define ROWS_ENOUGH 5 /* rows of the spacing that is named as a remedy */
 #define UNSOLVED 1e-8 /* residual of the bond weights from which on a warning is given; of converged weights: 1e-13 */
 
-/* Adds a warning to *to about body number b of scene s if it is at most ROWS_FEW particles thick along an axis. p:
- * particles. */
+/* Adds a warning to *to about body number b of scene s if it is fewer than ROWS_FEW (3 to 4) particles thick along an
+ * axis. p: particles. */
 static void warn_of_thin(const struct scene *s, const struct particles *p, int b, struct warnings *to)
 {
     real low[DIM_MAX], high[DIM_MAX], rows = INFINITY;

@@ -90,9 +90,10 @@ static void surroundings(const struct particles *p, const struct neighbour_list 
     *apart = sqrt(least2);
 }
 
-/* Adds a warning to *to if the particles p of a list without volumes are farther apart or closer than the spacing from
- * which their volumes are computed. b: body made from the list; spacing: lattice spacing [m]; cells: cells of the
- * neighbour search. */
+/* Adds a warning to *to if the particles p of a list without volumes are farther apart or more crowded than the spacing
+ * from which their volumes are computed implies, in the median of a sample and beyond the tolerances of this file
+ * (APART_MOST, CROWDED_MOST, LATTICE_OFF). b: body made from the list; spacing: lattice spacing [m]; cells: cells of
+ * the neighbour search. */
 static void warn_of_list_spacing(const struct scene_body *b, real spacing, const struct cells *cells,
                                  const struct particles *p, struct warnings *to)
 {

@@ -69,8 +69,8 @@ static bool presses(const struct boundary *b, int dim)
     return normal && b->value[b->face] * b->side < 0;
 }
 
-/* Returns true if crack c lies across axis number `axis`: its extent along this axis is at most ACROSS times its
- * largest extent. */
+/* Returns true if crack c lies across axis number `axis`: its extent along this axis is at most ACROSS (0.15) times its
+ * largest extent along any axis. */
 static bool lies_across(const struct crack *c, int dim, int axis)
 {
     real extent[DIM_MAX] = {0}, largest = 0;

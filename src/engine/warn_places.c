@@ -18,8 +18,9 @@ struct overlap {
     real depth;
 };
 
-/* Returns true if particle i belongs to body number a of scene s and not to body number b. Bodies that interfaces join
- * have one number in p->body; they are told apart by their materials, and bodies of equal materials not at all. */
+/* Returns true if particle i belongs to body number a of scene s and not to body number b. Bodies joined by interfaces
+ * have the same number in p->body, that of the first of them. They are distinguished by their materials; if these are
+ * equal, false is returned. */
 static bool belongs_to_first_only(const struct scene *s, const struct particles *p, int64_t i, int a, int b)
 {
     const struct scene_body *one = &s->body[a], *other = &s->body[b];
@@ -112,7 +113,9 @@ static bool region_beyond_mirror(const struct scene *s, const struct region *reg
 }
 
 /* Adds a warning to *to for each part of a body of scene s that holds no particle of p, since the part is outside the
- * body, too small or covered by a later part. Parts beyond planes of symmetry are meant to be empty. */
+ * body, too small or covered by a later part. (A part is a region of the body with a material of its own.) Parts beyond
+ * planes of symmetry are meant to be empty and cause no warning. Does nothing if some particles are not created (p->n <
+ * p->n_body), as in coarse cells. */
 static void warn_of_empty_parts(const struct scene *s, const struct particles *p, struct warnings *to)
 {
     for (int b = 0; b < s->bodies && p->n == p->n_body; b++) {

@@ -77,8 +77,8 @@ static real body_crossing_time(const struct particles *p, const struct scene *s,
 }
 
 /* Adds a warning to *to if the velocity of the load d->load, which acts on bodies that move freely, changes by more
- * than d->limit within the time in which a wave crosses these bodies. Slower changes hardly strain them. s, p: scene
- * and particles. */
+ * than d->limit within the time in which a wave crosses these bodies. Slower changes strain the bodies little. s, p:
+ * scene and particles. */
 static void warn_of_change(const struct driver *d, const struct scene *s, const struct particles *p,
                            struct warnings *to)
 {

@@ -103,9 +103,9 @@ static void units_of_waves(const struct scene *s, const char *subject, const str
                             subject, m->poisson, m->wave_speed, m->wave_speed / usual);
 }
 
-/* Adds a warning to *to if a hardening constant of material a is so small, relative to Young's modulus, that the
- * material does not harden. The usual reason is a value without unit, which is read in Pa, where MPa was meant.
- * subject: name of the material in messages. */
+/* Adds a warning to *to if a hardening constant of material a is positive, but below HARDENING_LEAST (a millionth)
+ * times Young's modulus, so that the material hardly hardens. The usual reason is a value without unit, which is read
+ * in Pa, where MPa was meant. subject: name of the material in messages. */
 static void units_of_hardening(const struct scene *s, const char *subject, const struct material *a,
                                struct warnings *to)
 {
@@ -169,9 +169,10 @@ static void units_of_materials(const struct scene *s, struct warnings *to)
     }
 }
 
-/* Adds warnings to *to about rigid bodies of scene s whose mass does not fit their volume. Their density should be
- * within that of matter, rule[ACCEPT_MASS]. If the densities of the materials are outside, too (other units), it should
- * be within a factor UNLIKE of these. */
+/* Adds warnings to *to about rigid bodies of scene s with an implausible density, which is mass divided by volume. The
+ * plausible range is that of matter, rule[ACCEPT_MASS]. If the density of a material is outside that range, because the
+ * scene uses other units, the range extends instead from the smallest density of a material divided by UNLIKE (30) to
+ * the largest one times UNLIKE. Bodies without mass or with an infinite shape are skipped. */
 static void units_of_rigids(const struct scene *s, struct warnings *to)
 {
     char subject[NAME_MAX_LENGTH + 16], note[80];
@@ -190,8 +191,9 @@ static void units_of_rigids(const struct scene *s, struct warnings *to)
     }
 }
 
-/* Adds warnings to *to about materials of scene s whose energy release rate does not fit their tensile strength: a
- * crack in them would need a body many times as large. longest: longest edge of the box around all particles [m]. */
+/* Adds warnings to *to about materials of scene s whose energy release rate does not fit their tensile strength: the
+ * length E G_c/strength^2, which a body needs for a crack in it, is many times `longest`. Only for materials with
+ * softening bonds of which both are given. longest: longest edge of the box around all particles [m]. */
 static void units_of_brittleness(const struct scene *s, real longest, struct warnings *to)
 {
     char subject[NAME_MAX_LENGTH + 16], note[80];
@@ -220,7 +222,8 @@ static real factor_largest_until(const struct time_function *f, real t_end)
 }
 
 /* Adds warnings to *to about loads and supports that reach only a small part of their largest value by the end of the
- * run, and about those whose function of time ends long before the first time step of dt [s]. */
+ * run, and, in dynamic runs, about those whose function of time ends before EARLY (a hundredth) of the time step dt
+ * [s]. Ramps of rigid bodies are judged in the same way. The limits are in the table `rule`. */
 static void units_of_times(const struct scene *s, real dt, struct warnings *to)
 {
     static const char *const early[] = {[TIME_STEP] = "it never acts",
@@ -406,8 +409,8 @@ static void units_of_loads(const struct scene *s, const struct particles *p, con
     if (stress >= enough) units_of_growth(s, p, largest, to);
 }
 
-/* Adds a warning to *to if the largest traction or pressure of the boundaries is implausible relative to the smallest
- * Young's modulus of the materials. The warning counts the other boundaries of which this is true. */
+/* Adds a warning to *to if the largest traction or pressure of the boundaries exceeds rule[ACCEPT_STRAIN].most times
+ * the smallest Young's modulus of the materials. The warning counts the other boundaries of which this is true. */
 static void units_of_tractions(const struct scene *s, struct warnings *to)
 {
     char subject[NAME_MAX_LENGTH + 16], note[120];
@@ -432,9 +435,10 @@ static void units_of_tractions(const struct scene *s, struct warnings *to)
 
 /* ---- steps and particles ----------------------------------------------------------------------------------------- */
 
-/* Adds warnings to *to about implausibly few or many time steps of `clock`, about waves that travel less than a spacing
- * during the run, and about waves that cross the bodies very often. wave_speed: speed of the fastest wave [m/s];
- * longest: longest edge of the box around all particles [m]. */
+/* Adds warnings to *to if the time of the dynamic scene s is implausible by the ranges of the table `rule`: if waves
+ * cross the bodies too seldom or too often, if they travel too few spacings or, unless that is so, if `clock` has too
+ * few or too many time steps. Checks nothing in static scenes. wave_speed: speed of the fastest wave [m/s]; longest:
+ * longest edge of the box around all particles [m]. */
 static void units_of_time(const struct scene *s, const struct run_clock *clock, real wave_speed, real longest,
                           struct warnings *to)
 {
@@ -450,8 +454,8 @@ static void units_of_time(const struct scene *s, const struct run_clock *clock, 
         units_judge(s, ACCEPT_STEPS, "time", (real)clock->steps, note, to);
 }
 
-/* Adds a warning to *to if the body in the box low[dim] .. high[dim] [m] has few particles along an axis. s: scene;
- * name: name of the body. */
+/* Adds a warning to *to if the body in the box low[dim] .. high[dim] [m] has fewer particles along an axis than
+ * rule[ACCEPT_PARTICLES] allows. s: scene; name: name of the body. */
 static void units_of_body(const struct scene *s, const char *name, const real *low, const real *high,
                           struct warnings *to)
 {
@@ -466,7 +470,7 @@ static void units_of_body(const struct scene *s, const char *name, const real *l
 }
 
 /* Adds warnings to *to about bodies of scene s (particles p) with a pre-crack if they have few particles along an axis.
- * Joined bodies count as one. */
+ * Joined bodies count as one. Does nothing if some particles are not created (p->n < p->n_body). */
 static void units_of_particles(const struct scene *s, const struct particles *p, struct warnings *to)
 {
     for (int b = 0; b < s->bodies && s->cracks > 0 && p->n == p->n_body; b++) {

@@ -202,8 +202,9 @@ static bool is_script_of_export(const char *path, const char *scene_text)
     return is;
 }
 
-/* Checks that the folder of the request r may be written to. Returns OK, or REFUSED, with a message, if it contains
- * files that belong to no export, an older export and --overwrite is not given, or an input of this export. */
+/* Checks that the folder of the request r may be written to. Returns OK, or REFUSED, with a message, in three cases:
+ * the folder contains files that belong to no export; it contains an older export, and --overwrite is not given; or a
+ * file to be replaced is an input of this export. */
 static status export_guard(const struct export_request *r)
 {
     static const struct folder_kind kind = {.what = "export", .sign = "in.lammps", .is_sign = is_script_of_export};

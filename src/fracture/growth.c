@@ -89,8 +89,8 @@ static void growth_turn(struct growing_crack *g, const struct growth_control *co
 }
 
 /* Moves the tip of crack g by `increment` [m] along g->heading. The direction g->along, to which stress-intensity
- * factors refer, turns to the heading over the smoothing length g->rule->smoothing, by default a quarter of `horizon`
- * [m]. */
+ * factors refer, turns towards the heading by the share increment/smoothing of the difference, at most fully, where
+ * `smoothing` is the length g->rule->smoothing or, if that is not given, a quarter of `horizon` [m]. */
 static void growth_advance(struct growing_crack *g, real increment, real horizon)
 {
     const real smoothing = isnan(g->rule->smoothing) ? 0.25 * horizon : g->rule->smoothing;

@@ -32,8 +32,8 @@ struct flood {
     bool grown_by[TIPS_MAX]; /* another crack has become a part of the crack in this sample */
 };
 
-/* Returns true if particle i of p can be assigned to a crack: its damage exceeds TIP_DAMAGE, it is not yet assigned to
- * a crack of t, and its motion is not prescribed. */
+/* Returns true if particle i of p can be assigned to a crack of t: its damage exceeds TIP_DAMAGE, it is not yet
+ * assigned to a crack of t, and its motion is not prescribed. */
 static bool can_belong(const struct crack_tips *t, const struct particles *p, int64_t i)
 {
     return t->label[i] == 0 && p->damage[i] > TIP_DAMAGE && !(p->flag[i] & FLAG_DRIVEN);
@@ -74,8 +74,8 @@ static int64_t next_damaged(const struct particles *p, int64_t first)
     return p->n_of[KIND_PD];
 }
 
-/* Assigns, in f, particle i to crack number `tip`, from 0, and appends it to the queue of particles whose neighbours
- * must be visited. */
+/* Assigns particle i to crack number `tip`, from 0, and appends it to f->queue, the particles whose neighbours must be
+ * visited. f: assignment of newly damaged particles to cracks, which spreads from neighbour to neighbour. */
 static void flood_label(struct flood *f, int32_t i, int tip)
 {
     f->t->label[i] = (uint8_t)(tip + 1);
@@ -100,9 +100,11 @@ static bool is_behind(const struct flood *f, const struct crack_tip *crack, int3
            crack->growth - TIP_TOUCH * f->t->spacing;
 }
 
-/* Returns true if the cracks a and b of f run side by side, as two that leave a hole in the same direction. They touch
- * at the particles i of a and j of b. They run side by side if up to the previous sample (set of tip positions) both
- * have grown by more than GROWN spacings, and they touch behind both tips. */
+/* Returns true if the cracks a and b run side by side, as two cracks that leave a hole in the same direction. They
+ * touch at the particles i of a and j of b. They run side by side if three conditions were true at the previous sample
+ * (set of tip positions): both had grown by more than GROWN spacings, the directions from their starts to their tips
+ * were less than 90 degrees apart, and i and j were behind the tips. f: assignment of damaged particles to cracks, with
+ * all tips. */
 static bool are_side_by_side(const struct flood *f, const struct crack_tip *a, const struct crack_tip *b, int32_t i,
                              int32_t j)
 {
@@ -112,9 +114,10 @@ static bool are_side_by_side(const struct flood *f, const struct crack_tip *a, c
            is_behind(f, b, j);
 }
 
-/* Merges two cracks that touch: those of the particles i and j of f. Two cracks that both start at ends of pre-cracks,
- * or that run side by side, stay separate. Otherwise a crack that starts at no pre-crack is merged into one that does,
- * or, if neither starts at a pre-crack, the later crack into the earlier one. */
+/* Merges the cracks to which the touching particles i and j belong, in f, the assignment of damaged particles to
+ * cracks. Two cracks that both start at ends of pre-cracks, or that run side by side, stay separate. Otherwise a crack
+ * that starts at no pre-crack is merged into one that does, or, if neither starts at a pre-crack, the later crack into
+ * the earlier one. */
 static void flood_join(struct flood *f, int32_t i, int32_t j)
 {
     const struct crack_tip *tip = f->t->tip;
@@ -276,8 +279,8 @@ static void flood_free(struct flood *f)
 }
 
 /* Assigns every newly damaged particle in f->fresh to a crack, by the first of these rules that applies: (1) the start
- * of the crack, or a particle of the crack, is near the particle; (2) a damaged particle connected with the particle
- * belongs to the crack; (3) a new crack begins at the particle. */
+ * of the crack, or a particle of the crack, is near the particle (within TIP_START_REACH or TIP_TOUCH spacings); (2) a
+ * damaged particle connected with the particle belongs to the crack; (3) a new crack begins at the particle. */
 static void flood_all(struct flood *f)
 {
     const struct particles *p = f->search.p;
@@ -348,8 +351,10 @@ real tips_average_speed(const struct crack_tips *t, int k)
     return regression(t, k, first < last ? first : last - 1, last);
 }
 
-/* Updates the largest speed of tip number k and its mean speed since its start, after a sample has been added to t. The
- * speed is the slope of growth over the time window that ends at the last sample. */
+/* Updates the largest speed of tip number k, and its mean speed since its start, after a sample has been added to t.
+ * The largest speed is that of the slopes of growth over the time window t->window that ends at a sample; it is not
+ * updated before the samples cover one whole window. The mean speed is updated if the tip has grown in this sample.
+ * Does nothing for a tip that has not started. */
 static void tip_speeds(struct crack_tips *t, int k)
 {
     struct crack_tip *tip = &t->tip[k];

@@ -65,8 +65,8 @@ static bool on_another(const struct crack_tips *t, const struct crack *crack, in
 }
 
 /* Returns the number of the body in which a crack that ends at X[dim] [m] could grow in the direction along[dim] (unit
- * vector); -1 if fewer than two particles of free motion are ahead of X. t: has the spacing; s: search, whose list of
- * found particles is overwritten. */
+ * vector); -1 if fewer than two particles of free motion are within AHEAD_REACH spacings of the point one spacing ahead
+ * of X. t: has the spacing; s: search, whose list of found particles is overwritten. */
 static int body_ahead(const struct crack_tips *t, struct tip_search *s, const real *X, const real *along)
 {
     real ahead[DIM_MAX];

@@ -24,8 +24,8 @@ static bool point_before(const real *X, const real *Y, real size)
  * between edges. */
 static int64_t edge_label(int32_t i, int32_t j) { return ((int64_t)(i < j ? i : j) << 32) + (i < j ? j : i); }
 
-/* Lists in b->edges the edges of the volume elements with triangular sides, if other elements have quadrilateral
- * sides. */
+/* Lists in b->edges the edges of all volume elements but hexahedra. Does nothing if all volume elements are tetrahedra
+ * or all are hexahedra, because sides with different diagonals then cannot meet. */
 static void builder_list_edges(struct surface_builder *b)
 {
     const struct element_mesh *m = b->m;
@@ -93,8 +93,8 @@ static void builder_add_element(struct surface_builder *b, const struct element 
     }
 }
 
-/* Returns six times the volume enclosed by the faces of b from number `first` on; in 2D twice the area [unit of the
- * file^dim]. The sign shows the orientation of the faces. */
+/* Returns six times the volume enclosed by the faces of b from number `first` on; in 2D twice the area, in the unit of
+ * the file to the power dim. Positive if the faces are oriented outwards. */
 static real builder_volume(const struct surface_builder *b, int64_t first)
 {
     const real *O = b->m->node[b->face[first][0]];
@@ -215,8 +215,9 @@ static void set_of_elements(struct surface_builder *b, const struct element_set 
 }
 
 /* Makes the surface *hull of a set of nodes of the mesh of b. It is open and consists of the nodes of the set and of
- * those faces of the body whose nodes are all in the set. whole: surface of the body; node_of: mesh node at each corner
- * of `whole`. */
+ * those faces of the body whose nodes are all in the set. A node that was added between nodes of the file, to divide a
+ * curved face, counts as in the set if all of those nodes are. whole: surface of the body; node_of: mesh node at each
+ * corner of `whole`. */
 static void set_of_nodes(struct surface_builder *b, const struct element_set *set, const struct hull *whole,
                          const int32_t *node_of, struct hull *hull)
 {
@@ -298,8 +299,8 @@ static status body_dim_of(const struct element_mesh *m, const char *path, int di
                                : "tetrahedra, hexahedra, prisms, pyramids or a closed surface of triangles");
 }
 
-/* Returns REFUSED, with a message, unless all 2D elements of the mesh m have equal z to 1e-6 of their extent. path:
- * file of the mesh, for the message. */
+/* Returns REFUSED, with a message, unless all corners of the 2D elements of the mesh m have the same z, to 1e-6 of the
+ * largest extent of these elements. path: file of the mesh, for the message. */
 static status check_plane(const struct element_mesh *m, const char *path)
 {
     real low[DIM_MAX] = {INFINITY, INFINITY, INFINITY}, high[DIM_MAX] = {-INFINITY, -INFINITY, -INFINITY};

@@ -43,8 +43,9 @@ static status check_not_plane(const struct hull *s, const char *path)
     return OK;
 }
 
-/* Returns REFUSED, with a message, if the surface s encloses nothing, is too large, or has holes so large that inside
- * and outside cannot be distinguished; else OK. path: file of the surface, for messages. */
+/* Returns REFUSED, with a message, if the surface s has no faces or encloses no volume, has coordinates of FARTHEST or
+ * more, lies in a plane, or has holes such that more than the share DOUBT_MOST of sampled positions is neither inside
+ * nor outside; else OK. path: file of the surface, for messages. */
 static status check_closed(const struct hull *s, const char *path)
 {
     const real *at = s->open_at;

@@ -27,9 +27,9 @@ status gmsh22_read_nodes(struct gmsh *g)
     return gmsh_map_node_labels(g);
 }
 
-/* Removes the last element of the mesh of g if it equals the element before it: format 2.2 lists an element of several
- * physical groups once for each of them. group: physical group of the last element; the caller then adds the remaining
- * element to it. */
+/* Removes the last element of the mesh of g if its kind and corners equal those of the element before it, which has
+ * another group: format 2.2 lists an element of several physical groups once for each of them. group: physical group of
+ * the last element; the caller then adds the remaining element to it. */
 static void merge_repeated_element(struct gmsh *g, int64_t group)
 {
     const struct element *last = &g->m->element[g->m->elements - 1];

@@ -76,9 +76,10 @@ static status node_next(struct gmsh *g, int32_t *index)
     return OK;
 }
 
-/* Checks a node on an edge of an element of g of order 3 or more: returns REFUSED unless it is on the straight line
- * between the ends of the edge. type: type of the element; node: corners of the element; edge: number of the edge in
- * Gmsh's order; between: index of the node on the edge. */
+/* Checks a node on an edge of an element of g of order 3 or more: returns REFUSED, with a message, unless its distance
+ * from the straight line between the ends of the edge is at most STRAIGHT times the length of the edge. type: type of
+ * the element; node: corners of the element; edge: number of the edge in Gmsh's order; between: index of the node on
+ * the edge. */
 static status check_straight(const struct gmsh *g, const struct gmsh_type *type, const int32_t *node, int edge,
                              int32_t between)
 {

@@ -181,7 +181,8 @@ static real sheet_area(const struct sheet *s)
     return 0.5 * sqrt(dot(twice, twice, 3));
 }
 
-/* Returns true if the face `other` is coplanar with s and has two corners in common with it. */
+/* Returns true if the face `other` is coplanar with s and has two corners in common with it, both to within a tolerance
+ * relative to the size of the faces. */
 static bool sheets_adjoin(const struct sheet *s, const struct sheet *other)
 {
     struct flat f;

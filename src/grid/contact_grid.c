@@ -81,9 +81,10 @@ static struct grid_contact_node *node_add(struct grid_contact *c)
     return node;
 }
 
-/* Appends to the list of contact nodes of c those nodes at which both bodies have more than the smallest mass. s: box
- * of the nodes that points of both bodies may reach; a, b: indices of the bodies in side[]; slot[s->n]: receives the
- * position in the list of each node of the box, -1: not listed. */
+/* Appends to the list of contact nodes of c those nodes at which both bodies have more mass than c->smallest_mass and
+ * more than the mass below which a node follows a neighbour. s: box of the nodes that points of both bodies may reach;
+ * a, b: indices of the bodies in side[]; slot[s->n]: receives the position in the list of each node of the box, -1: not
+ * listed. */
 static void shared_nodes_find(struct grid_contact *c, const struct shared *s, const struct grid_contact_side *side,
                               int a, int b, int32_t *slot)
 {

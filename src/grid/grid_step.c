@@ -58,10 +58,11 @@ static status field_sort(struct grid_field *f, const struct particles *p, enum c
 /* Largest share of the points of a grid, as its reciprocal, that is sorted apart from the others. */
 enum { LEFT_MOST = 4 };
 
-/* Sorts the material points (of p) of the grid f by cells. If few points have left their cells, as marks in f->order
- * show, and the box of the grid contains these, moves only them in the order; else sorts all points by field_sort.
- * Arguments and returned status are those of field_sort: coupling of peridynamic particles and points; *lost: set to
- * true if positions are not finite; FAILED or REFUSED if the grid would need too many nodes. */
+/* Sorts the material points of p on the grid f by cells. Moves only those points in the order that have left their
+ * cells, according to the marks in f->order, if they are at most 1/LEFT_MOST of all points and the box of the grid
+ * contains their positions. Else sorts all points by field_sort. coupling: coupling of peridynamic particles and
+ * points; *lost: set to true if positions are not finite. Returns FAILED or REFUSED as field_sort does, if the grid
+ * would need too many nodes. */
 static status field_sort_left(struct grid_field *f, const struct particles *p, enum coupling coupling, bool *lost)
 {
     real from[DIM_MAX] = {INFINITY, INFINITY, INFINITY}, to[DIM_MAX] = {-INFINITY, -INFINITY, -INFINITY};
@@ -90,7 +91,8 @@ static status points_sort(struct grid_method *mpm, const struct particles *p, en
 }
 
 /* Updates the list of active points of run e (active_points.h), so that transfers skip cells that are still at rest.
- * Does nothing if the scene or the method does not allow this. */
+ * Does nothing if the scene switches this off, if no point is at rest any more, or with several grids, points that
+ * rotate in groups, particles coupled to the grid, or a static solver. */
 static void update_active_points(struct run *e)
 {
     const struct grid_method *mpm = e->grid;

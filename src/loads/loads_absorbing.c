@@ -40,7 +40,7 @@ static bool absorbs_in_mirror(const struct load *a, const struct load *mirror, c
 }
 
 /* Returns REFUSED, with a message that names both boundaries, if an absorbing face of l is in the plane of a mirror:
- * the body p continues there, so that it has no face. Returns OK otherwise. */
+ * the body of the particles p continues there, so that it has no face. Returns OK otherwise. */
 static status absorbing_mirrors_check(const struct loads *l, const struct particles *p)
 {
     for (int b = 0; b < l->n; b++)
@@ -211,7 +211,9 @@ static void rates_clip(real *rate, int64_t n)
 }
 
 /* Adds a dashpot to grid g for each node with a positive coefficient in any direction. rate[dim][g->n]: coefficients
- * [kg/s], overwritten: the coefficient of a node beyond a mirror plane is first added to that of its mirror image. */
+ * [kg/s], overwritten. The coefficient of a node beyond a mirror plane is first added to that of its mirror image. Then
+ * negative coefficients, which arise from extrapolation, are replaced by 0 and the others scaled to the same sum
+ * (rates_clip). */
 static void dashpots_list(struct grid *g, real *rate)
 {
     for (int64_t k = 0; k < g->mirror_nodes; k++)

@@ -77,7 +77,7 @@ static void find_width(struct columns *c, const struct boundary *b, const struct
 /* Finds the coordinate of a lattice site of body c->body along axis d, at or near coordinate `low` [m], and stores it
  * in *site [m]. Coordinates of particles p are mapped to angles on a circle whose circumference is one particle width,
  * and the site follows from the mean direction. Uses at most about SITES_SAMPLED particles. Returns false if the
- * particles have no order along d. */
+ * coordinates are not concentrated enough around lattice sites, so that the particles have no order along d. */
 static bool find_site(const struct columns *c, const struct particles *p, int d, real low, real *site)
 {
     const int64_t stride = p->n / SITES_SAMPLED + 1;
@@ -93,10 +93,10 @@ static bool find_site(const struct columns *c, const struct particles *p, int d,
            along > (1 - EVEN) * (real)n;
 }
 
-/* Sets where the columns (lines of particles parallel to the normal of the face of b) are: the axes c->axis across the
- * columns, the distance c->step of neighbouring columns [m], and c->middle, the position of column 0 along each of
- * these axes [m]. If the particles p are on a lattice and have equal volumes, there is a column at each lattice site;
- * else there are FINE columns for each particle width. */
+/* Sets where the columns (lines of particles parallel to the normal of the face of b) are. Stores in c->axis the axes
+ * across the columns, in c->step the distance of neighbouring columns [m], and in c->middle the position of column 0
+ * along each of these axes [m]. If the particles p are on a lattice and have equal volumes, there is a column at each
+ * lattice site; else there are FINE columns for each particle width. */
 static void find_middles(struct columns *c, const struct boundary *b, const struct particles *p)
 {
     real low[DIM_MAX - 1];

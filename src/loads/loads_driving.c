@@ -153,8 +153,9 @@ real load_largest_displacement_speed(const struct load *l, const struct particle
 }
 
 /* Returns the magnitude of the difference between the velocity that load l prescribes for its particle number k and the
- * present velocity of that particle in p [m/s]. For a rotation, whose velocity changes direction, returns the
- * difference of the two speeds instead. by: motion that l prescribes in this step. */
+ * present velocity of that particle in p [m/s]. Only the components that l prescribes count. For a rotation, whose
+ * velocity changes direction, returns the difference of the two speeds instead. by: motion that l prescribes in this
+ * step. */
 static real velocity_jump_at(const struct load *l, const struct particles *p, int64_t k,
                              const struct prescribed_motion *by)
 {

@@ -26,7 +26,8 @@ struct ends {
 };
 
 /* Returns true if the face of particle i in the direction e->boundary->side (-1 or 1) along the axis e->boundary->face
- * is in a plane of symmetry. The body continues behind the plane, so that this is no free face. */
+ * is in a plane of symmetry: if the particle is within 0.51 spacings of the plane. The body continues behind the plane,
+ * so that this is no free face. */
 static bool is_mirrored(const struct ends *e, int32_t i)
 {
     const int axis = e->boundary->face;

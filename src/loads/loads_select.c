@@ -5,8 +5,9 @@
 #include "base/memory.h"
 #include "data/extent.h"
 
-/* Returns true if the reference position of particle i of p is in the region of boundary b and the particle in its
- * body. spacing: lattice spacing [m], the unit of the tolerance of the region. */
+/* Returns true if the reference position of particle i of p is in the region of boundary b, up to LOADS_TOLERANCE
+ * spacings outside it, and the particle belongs to the body of b, if b is restricted to a body (b->body >= 0). spacing:
+ * lattice spacing [m]. */
 static bool selects(const struct boundary *b, const struct particles *p, int64_t i, real spacing)
 {
     real X[DIM_MAX];
@@ -130,8 +131,9 @@ bool load_mark_particles_in_region(const struct boundary *b, const struct partic
     return any;
 }
 
-/* Returns true if particle i of p is in the plane of the clamped mirror b and in its body. Such a particle is its own
- * image and stays at rest. spacing: lattice spacing [m]. */
+/* Returns true if particle i of p is in the plane of the clamped mirror b, to within LOADS_TOLERANCE spacings, and in
+ * the body of b (any body if b->body < 0). Such a particle is its own image and stays at rest. spacing: lattice spacing
+ * [m]. */
 static bool is_in_plane(const struct boundary *b, const struct particles *p, int64_t i, real spacing)
 {
     return (b->body < 0 || p->body[i] == b->body) && fabs(p->X[b->axis][i] - b->at) <= LOADS_TOLERANCE * spacing;

@@ -26,10 +26,10 @@ enum { FACE_CORNERS = 4, STENCIL_MOST = 32, SITE_BITS = 18 }; /* in 3D; particle
 /* The surface of one load: its faces, their corners, and the particles that move the corners. All arrays are owned. */
 struct surface {
     int dim;
-    real section, longest; /* thickness in 2D [m], 1 in 3D; length beyond which an edge counts as torn [m] */
-    int64_t faces, corners, particles; /* numbers; particles: of the load */
-    int32_t *corner; /* [faces][4] indices of its corners, in order around the outward normal of an upper face */
-    int8_t *sign;    /* [faces] sign of the area with this order: -1 on a lower face */
+    real section, longest; /* thickness in 2D [m], 1 in 3D; a face with a longer edge is torn: it has no area [m] */
+    int64_t faces, corners, particles; /* numbers of faces, of their corners, and of particles of the load */
+    int32_t *corner; /* [faces][4] corners of each face, in order around the positive direction of its axis */
+    int8_t *sign;    /* [faces] 1 or -1: factor by which area vectors in this order point outwards */
     uint8_t *turned; /* [first[corners]] bit d: component d of the displacement is reversed (image at a mirror) */
     int64_t *first, *face_first,
         *share_first;           /* ranges: [corners + 1] in particle, in `part`; [particles + 1] in share_corner */
@@ -479,7 +479,7 @@ static void surface_face_area(struct surface *s, int64_t q)
         quadrilateral_area(x, s->sign[q], to);
 }
 
-/* Computes in s->x the present position of corner c: reference position plus weighted displacements of p. */
+/* Computes s->x of corner c: reference position plus displacements of p, times s->weight, reversed where s->turned. */
 static void surface_corner_place(struct surface *s, const struct particles *p, int64_t c)
 {
     for (int d = 0; d < s->dim; d++) {
@@ -503,7 +503,7 @@ static void surface_corner_area(struct surface *s, int64_t c)
     }
 }
 
-/* Returns the inward area along axis d of particle number k of the load s [m^2], summed over corners that it moves. */
+/* Returns the inward area along axis d of particle number k of the load of s [m^2], summed over corners it moves. */
 static real particle_surface_area(const struct surface *s, int64_t k, int d)
 {
     real area = 0;

@@ -242,7 +242,8 @@ static struct wall wall_at(const struct driven_by *by, int64_t I, const real *x,
 }
 
 /* Returns true if the nodes of g that load number `which` of l drives must be found from its material points: most of
- * its particles (of p) are material points, and no node with mass is in its region. s: nodes that regions constrain. */
+ * its particles (of p) are material points, and none of the nodes in its region (those in s) has mass. s: nodes that
+ * regions constrain. */
 static bool points_choose_driven_nodes(const struct loads *l, int which, const struct constrained_set *s,
                                        const struct grid *g, const struct particles *p)
 {
@@ -260,9 +261,9 @@ static bool points_choose_driven_nodes(const struct loads *l, int which, const s
 #define HEAVY 0.01 /* mass from points of a load, divided by the largest one, below which a node is ignored [1] */
 
 /* Returns the share (0 to 1) of its mass that a node must have from the points of a load to be driven by this load: one
- * half, or, where no node has that much, nearly the largest share, so that a support between nodes drives those nearest
- * to it. share[nodes]: mass from points of the load [kg]; mask[nodes]: 0 for nodes without such mass, or NULL;
- * mass[nodes]: mass of the nodes [kg]. */
+ * half, or, where no node has that much, NEARLY_LARGEST times the largest share, so that a support between nodes drives
+ * those nearest to it. share[nodes]: mass from points of the load [kg]; mask[nodes]: 0 for nodes without such mass, or
+ * NULL (nodes with less than HEAVY times the largest such mass are ignored); mass[nodes]: mass of the nodes [kg]. */
 static real least_driven_share(const real *share, const uint8_t *mask, const real *mass, int64_t nodes)
 {
     real heaviest = 0, largest = 0;

@@ -31,10 +31,10 @@ static bool nodes_empty(const struct mesh *mesh, int64_t block)
 
 static void mesh_activate(struct mesh *mesh, int64_t block);
 
-/* Activates the blocks of nodes (eight along x) of `mesh` to which motion spreads from block `near` across slits, gaps
- * between cells at which a node has a second node at the same position. These are the blocks with second nodes of nodes
- * of `near`. If `moves` is true (nodes of `near` move) and `near` itself has second nodes, the blocks of the nodes at
- * their positions are activated, too. */
+/* Activates (raises to activity level 1) the blocks of nodes (eight along x) of `mesh` to which motion spreads from
+ * block `near` across slits, gaps between cells at which a node has a second node at the same position. These are the
+ * blocks with second nodes of nodes of `near`. If `moves` is true (nodes of `near` move) and `near` itself has second
+ * nodes, the blocks of the nodes at their positions are activated, too. */
 static void slits_activate(struct mesh *mesh, int64_t near, bool moves)
 {
     const struct mesh_slits *s = &mesh->slits;

@@ -20,9 +20,10 @@
 enum plane_fit { PLANE_FITS, PLANE_MISFIT, PLANE_APART };
 
 /* Returns whether the nodes of the mesh of body `body` of p fit the plane of symmetry of boundary b: PLANE_MISFIT if
- * the layers of particles are not at half spacings from the plane; PLANE_APART if the nearest layer is farther than
- * half a spacing, so that the body does not reach the plane; else PLANE_FITS. spacing: lattice spacing [m]; any_absent:
- * true if not all particles of the bodies exist, so that the nearest layer is not known. */
+ * the distance of a layer of particles from the plane is not a whole number of spacings plus a half; PLANE_APART if the
+ * nearest layer is farther than half a spacing, so that the body does not reach the plane; else PLANE_FITS. spacing:
+ * lattice spacing [m]; any_absent: true if not all particles of the bodies exist, so that the nearest layer is not
+ * known. */
 static enum plane_fit plane_fit_of(const struct particles *p, int body, const struct boundary *b, real spacing,
                                    bool any_absent)
 {
@@ -48,11 +49,11 @@ static const struct boundary *plane_with_fit(const struct particles *p, const st
     return NULL;
 }
 
-/* Returns the reason, as a part of a message, why the body of p cannot be in the reference frame (points whose nodes
- * belong to a mesh of the undeformed body); NULL if it can. Only for bodies for which scene s does not choose the
- * frame. The body must be a single piece on one lattice, with two particles per grid cell along each axis. mpm: has the
- * grid with whose nodes those of the mesh must coincide; hollow: cells whose particles were not created. The text is
- * not to be freed. */
+/* Returns the reason, as a part of a message, why body number 0 of p cannot be in the reference frame (points whose
+ * nodes belong to a mesh of the undeformed body); NULL if it can. Only for scenes s that do not choose the frame
+ * themselves. The body must be a single piece on one lattice, with two particles per grid cell along each axis. mpm:
+ * has the grid with whose nodes those of the mesh must coincide; hollow: cells whose particles were not created. The
+ * text is not to be freed. */
 static const char *frame_obstacle(const struct particles *p, const struct scene *s, const struct grid_method *mpm,
                                   const struct cells_without_particles *hollow)
 {

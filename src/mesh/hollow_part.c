@@ -52,8 +52,9 @@ const char *scene_why_all_particles_needed(const struct scene *s)
     return NULL;
 }
 
-/* Stores in *box the grid of the cells around the first body of scene s, whose nodes coincide with those of the mesh of
- * the body. Returns REFUSED, with a message, if it has too many cells. */
+/* Stores in *box the grid of cells that covers the bounding box of the first body of scene s, which must be finite. The
+ * nodes coincide with those that the mesh of the undeformed body will have. Returns REFUSED, with a message, if the
+ * grid has too many nodes for 32-bit indices; REFUSED or FAILED if the lattice of the body cannot be determined. */
 static status box_find(struct grid *box, const struct scene *s)
 {
     real from[DIM_MAX], to[DIM_MAX], site[DIM_MAX];

@@ -19,8 +19,8 @@ struct cell_around {
 };
 
 /* Returns the coarse cell of l around node I of level 0 (the finest), and the position of the node in it. k[dim]:
- * indices of the node along the axes. The member `level` of the result is 0 if a cell of level 0 contains the node, or
- * if no cell does. */
+ * indices of the node along the axes. The member `level` of the result is 0 if the node is a corner of a cell of level
+ * 0, or of no cell at all. */
 static struct cell_around coarse_around(const struct mesh_levels *l, int64_t I, const int64_t *k)
 {
     const struct mesh *fine = l->fine;

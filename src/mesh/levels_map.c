@@ -55,10 +55,10 @@ static void gather_parts(struct level_map *map, const struct mesh_levels *l, int
     to->ok[I] &= to->limit[I] >= level;
 }
 
-/* Returns true if the cells of level 0 (the finest) that touch a block of 2^dim cells in one direction all contain
- * points, or if none does. Otherwise a node at the end of an edge of the coarse cell would have no finer node. map:
- * which cells have points; first: indices of the lower corner of the block in g, the grid of level 0; beside: the
- * direction, -1, 0 or 1 along each axis. */
+/* Returns true if the cells of level 0 (the finest) that touch a block of 2^dim cells from outside, on one side, edge
+ * or corner of it, all contain points, or if none does. Otherwise a node at the end of an edge of the coarse cell would
+ * have no finer node. map: which cells have points; first: indices of the lower corner of the block in g, the grid of
+ * level 0; beside: direction of this side, edge or corner, -1, 0 or 1 along each axis. */
 static bool touching_alike(const struct level_map *map, const struct grid *g, const int64_t *first, const int *beside)
 {
     int some = 0, all = 0;

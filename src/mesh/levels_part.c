@@ -214,8 +214,9 @@ static void limit_by_room(const struct reference_frame *r, uint8_t *limit)
 }
 
 /* Computes level[I], the coarsening levels (0: finest) of all finest cells I of r for the next steps. demand[I]: not 0
- * for cells that must be of level 0; limit[I]: largest level allowed, reduced here for cells that would lose too much
- * energy of motion by becoming coarser; p: particles; mass: mass of the body [kg]. */
+ * for cells that must be of level 0; limit[I]: largest level allowed, reduced here for cells that would lose more
+ * energy per mass by becoming coarser than the share ROUGH (1 %) of the present energy per mass of the body; p:
+ * particles; mass: mass of the body [kg]. */
 static void next_levels(struct reference_frame *r, const struct particles *p, real mass, const uint8_t *demand,
                         uint8_t *limit, uint8_t *level)
 {
@@ -375,8 +376,8 @@ void mesh_levels_change_cell_levels(struct run *e, const uint8_t *new_cell_level
 }
 
 /* Requests finer cells around particle i of p (in l->wanted) if it is marked for conversion to a peridynamic particle
- * and a coarse cell is near. If the coarse cell is too near for the bonds of the particle, also removes its marks, so
- * that it is converted later. */
+ * and coarse cells are too near for this (l->safe). If the coarse cell is too near for the bonds of the particle, also
+ * removes its marks, so that it is converted later. */
 static void point_guard(struct mesh_levels *l, struct particles *p, int64_t i)
 {
     const unsigned marks = FLAG_STRESSED | FLAG_NEAR | FLAG_LOST_BOND;

@@ -108,10 +108,11 @@ static void point_constants(const struct cell_maker *c, int32_t i, real *D)
     }
 }
 
-/* Computes sum[S] [Pa] for each set S of axes, one bit per axis: the mean over the points of cell I of D times s_S. D
- * is the matrix of stress by strain of a point, 0 for a missing point; s_S is the product of the signs of the
- * coordinates of the point, relative to the middle of the cell, along the axes in S. All sums are formed together,
- * along one axis after the other (butterflies). c: mesh and particles. */
+/* Computes sum[S] [Pa] for each set S of axes (bit d: axis d): the mean of s_S D over the 2^dim integration points of
+ * cell I. D is the matrix of stress by strain of a point, 0 for a missing point, stored row by row over the c->columns
+ * symmetric components. s_S is the product, over the axes in S, of the signs of the coordinates of the point relative
+ * to the middle of the cell. All means are formed together, along one axis after the other (butterflies). c: mesh and
+ * particles. */
 static void cell_sums(const struct cell_maker *c, int64_t I, real sum[CORNERS_MAX][SYM_MAX * SYM_MAX])
 {
     const int corners = 1 << c->dim, size = c->columns * c->columns;
@@ -131,8 +132,8 @@ static void cell_sums(const struct cell_maker *c, int64_t I, real sum[CORNERS_MA
 }
 
 /* Returns one entry of the stiffness matrix of a cell in terms of its deformation modes [Pa]: the force on the mode
- * `to` for a unit amplitude of the mode `by`. c: dimensions; sum[S]: means over the points of the cell of their
- * stiffness times signs of their coordinates, from cell_sums. */
+ * `to` for a unit amplitude of the mode `by`. c: dimensions; sum[S]: means of the stiffness matrices of its points
+ * times signs of their coordinates, from cell_sums. */
 static real mesh_partial_entry_of(const struct cell_maker *c, real sum[CORNERS_MAX][SYM_MAX * SYM_MAX],
                                   const struct mode_terms *to, const struct mode_terms *by)
 {

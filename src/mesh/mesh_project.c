@@ -74,7 +74,7 @@ static ALWAYS_INLINE real row_product(const real *row, const real *from, int64_t
 
 /* Returns the product of a row of the mass matrix in 1D with nodal values, if all points around the node exist and have
  * mass 1. With two points in a cell, the sum over points of N_I N_I is 5/8 in each of the two cells, and that of N_I
- * N_J is 3/8 for either neighbour J. from: address of the value at node I. */
+ * N_J is 3/8 for either neighbour J. from: address of the value at node I, between those of its neighbours. */
 static ALWAYS_INLINE real line_product(const real *from) { return 0.375 * (from[-1] + from[1]) + 1.25 * from[0]; }
 
 static ALWAYS_INLINE real plane_product(const real *from, int64_t row)
