@@ -149,8 +149,8 @@ static void advise_features(const struct run *e, FILE *out)
 }
 
 /* Writes a remark to `out` for each solid that is subtracted from a body of run e and is thinner than one spacing. Such
- * a hole cuts bonds but removes no row of particles. Solids from voxel images are skipped because their thickness is
- * not known. */
+ * a hole cuts bonds but removes no row of particles. Solids from voxel images and bodies from particle lists are
+ * skipped, as their thickness is not known; also 1D scenes. */
 static void advise_narrow_holes(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
@@ -238,8 +238,9 @@ static void advise_rise(const struct scene *s, const struct material_tables *tab
             more ? "" : "s", length, WAVE, length_text_with_unit(s->spacing * length / WAVE, 2, s->spacing).text);
 }
 
-/* Writes a remark to `out` for each load of scene s that rises too fast, because waves travel less than WAVE spacings
- * in its rise time, and for each initial pulse that is narrower than WAVE spacings. tables: wave speed. */
+/* Writes a remark to `out` for each load of scene s, if it is dynamic, that rises too fast, because waves travel less
+ * than WAVE spacings in its rise time, and for each initial pulse that is narrower than WAVE spacings. tables: wave
+ * speed. */
 static void advise_waves(const struct scene *s, const struct material_tables *tables, FILE *out)
 {
     for (int b = 0; b < s->boundaries && scene_is_dynamic(s); b++) advise_rise(s, tables, b, out);
@@ -362,8 +363,9 @@ static void advise_separation(const struct scene *s, const struct loads *l, cons
 
 /* ---- parts that are not needed ----------------------------------------------------------------------------------- */
 
-/* Adds a hint to *to if scene s uses a state-based model with a Poisson's ratio for which the cheaper bond-based model
- * gives the right elasticity as well. */
+/* Adds a hint to *to if scene s uses a state-based model with a Poisson's ratio that the cheaper bond-based model also
+ * has (1/3 in plane stress, 1/4 in plane strain and 3D), to within 1e-3 in all materials. Adds none in 1D and for
+ * method mpm. */
 static void hint_model(const struct scene *s, struct warnings *to)
 {
     const real wanted = bond_based_poisson_ratio(s->space);

@@ -40,7 +40,8 @@ static int64_t place_of(const struct ends *c, const real *X, real spacing)
 /* Creates in c a table of the heights of a face: the particles p are sorted into columns (lines of particles) along the
  * axis b->face, and the height of a column is the coordinate of its particle that is exposed on the face [spacings,
  * positive outwards]. f->normal[i] > 0 for exposed particles; scene: spacing. Returns false, with nothing to release,
- * if the exposed particles occupy too small a part of the table. Release c->height otherwise. */
+ * if the box around the exposed particles has more than about COLUMNS_MOST columns for each of them. Release c->height
+ * otherwise. */
 static bool ends_make(struct ends *c, const struct particles *p, const struct scene *scene, const struct boundary *b,
                       const struct exposed_face *f)
 {
@@ -127,9 +128,9 @@ static struct elsewhere elsewhere_from(const struct particles *part, const struc
 }
 
 /* Returns a coordinate along the axis of the face f of boundary b [m, positive outwards] for a message that advises the
- * user to restrict the load: a region that begins at this coordinate contains nearly no inclined part of the face.
- * Returns INFINITY if no such coordinate is found. c: heights of the columns of particles of the face; all: area of the
- * whole face and of its inclined part; part, scene: particles and scene. */
+ * user to restrict the load: a region that begins at this coordinate contains an inclined part of at most the share
+ * SHARE_LEAST of its area. Returns INFINITY if no such coordinate is found. c: heights of the columns of particles of
+ * the face; all: area of the whole face and of its inclined part; part, scene: particles and scene. */
 static real elsewhere_cut(const struct particles *part, const struct scene *scene, const struct boundary *b,
                           const struct exposed_face *f, const struct ends *c, const struct elsewhere *all)
 {

@@ -76,7 +76,7 @@ static real largest_at(const struct load *l, const struct particles *p, vector_f
 }
 
 /* Returns the time at which the force of load l on its particles p is reported, with a text that gives the reason: the
- * time at which the force is largest, or `duration`, the end of the run [s]. */
+ * time at which the force is largest, or `duration`, the end of the run [s], as in static problems. */
 static struct instant instant_of(const struct load *l, const struct particles *p, real duration)
 {
     const struct boundary *b = l->boundary;

@@ -178,9 +178,10 @@ struct stretch {
     bool even; /* all sections have equal numbers of particles: their faces are along the axis */
 };
 
-/* Adds up, over at most `most` consecutive sections of s (connected cells in a slice) of nearly equal area, the areas
- * of shape and particles. The first one is section number `first`; the others follow in ascending order of slices.
- * Returns the sums, the number of sections, the one in the middle, and whether all have equal numbers of particles. */
+/* Adds up, over at most `most` consecutive sections of s (connected cells in a slice) whose areas equal that of the
+ * first one to within the relative difference ALIKE, the areas of shape and particles. The first one is section number
+ * `first`; the others follow in ascending order of slices. Returns the sums, the number of sections, the one in the
+ * middle, and whether all have equal numbers of particles and equal areas (to within EVEN). */
 static struct stretch stretch_from(const struct sections *s, int32_t first, int most)
 {
     const struct section *begin = &s->section[first];
@@ -195,8 +196,8 @@ static struct stretch stretch_from(const struct sections *s, int32_t first, int 
 }
 
 /* Marks the cells of a narrow part in s->named, so that it is reported only once. The part consists of section `from`
- * and of the sections before and after it that have nearly the same area. axis: axis along which the width of the part
- * is wrong. */
+ * and of the sections before and after it that have the same area to within the relative difference ALIKE. axis: axis
+ * along which the width of the part is wrong. */
 static void part_mark(const struct sections *s, int32_t from, int axis)
 {
     const real area = s->section[from].area;
@@ -248,7 +249,8 @@ static void piece_sections(struct uneven_list *list, const struct cover *c, uint
 }
 
 /* Appends to `list` the narrow parts of list->piece that have a wrong number of particle rows. The piece is a body of
- * run e, or all its parts of one material. */
+ * run e, or all its parts of one material. Appends nothing if the bounding box of the body has too many cells
+ * (piece_cell_coverage_make). */
 static void piece_judge(struct uneven_list *list, const struct run *e)
 {
     struct cover c;

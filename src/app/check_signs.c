@@ -38,8 +38,8 @@ static void hint_pushed(const struct scene *s, struct warnings *to)
     }
 }
 
-/* Adds a hint to *to for each value of friction, gravity, damping and widths of cracks in the scene of run e that
- * exceeds a limit such as FRICTION_MOST, above which no real solid is known. */
+/* Adds a hint to *to for each value of friction, gravity, damping (in dynamic scenes) and widths of cracks in the scene
+ * of run e that exceeds a limit such as FRICTION_MOST, above which no real solid is known. */
 static void hint_sizes(const struct run *e, struct warnings *to)
 {
     const struct scene *s = e->scene;

@@ -47,8 +47,8 @@ static void say_excess(const struct scene *s, real kappa)
 }
 
 /* Prints that strength depends on the direction of the lattice if the horizon of scene s is below FEW spacings: bonds
- * then have few directions. Measured: 43.9 MPa of 40 at 2 spacings in the strip of inputs/strength_strip.yaml, 39.1 at
- * 2.5, 38.5 at 3. */
+ * then have few directions. Prints nothing in 1D. Measured: 43.9 MPa of 40 at 2 spacings in the strip of
+ * inputs/strength_strip.yaml, 39.1 at 2.5, 38.5 at 3. */
 static void say_few_directions(const struct scene *s)
 {
     if (s->dim > 1 && s->horizon < FEW)

@@ -183,7 +183,8 @@ static status read_colours(struct plot_words *w, const char *text)
     return OK;
 }
 
-/* Reads `text`, the value of --title, into w. Returns REFUSED for a title that is too long for a picture. */
+/* Reads `text`, the value of --title, into w. Returns REFUSED for a title of more than TITLE_MOST bytes, for which a
+ * picture has no space. */
 static status read_title(struct plot_words *w, const char *text)
 {
     w->request.title = text;

@@ -65,8 +65,8 @@ static hwloc_obj_t core_at(const struct place *place, int k)
 }
 
 /* Moves the calling thread to the first core that this process may use (place->mask), then allows it all of them again.
- * Reading the topology visits every core and leaves the thread on the last one, where it would share the core with
- * another thread for about 20 ms, until the scheduler moves it. */
+ * Does nothing if the cores are not known. Reading the topology visits every core and leaves the thread on the last
+ * one, where it would share the core with another thread for about 20 ms, until the scheduler moves it. */
 static void rebind_main(const struct place *place)
 {
     const hwloc_obj_t core = core_at(place, 0);

@@ -7,9 +7,10 @@
 #include "bonds_parts.h"
 
 /* Allocates b->soft.near if a material has a strength surface (failure criterion in stress): a mark for each block of
- * eight rows (the bonds of eight particles) in which a particle of p may have nearly reached its strength surface. Sets
- * b->soft.gate, the stretch beyond which a block is marked [1]. A new block is marked if one of its rows had no
- * previous row, or one in a marked block. previous: previous bonds or NULL; source: materials. */
+ * eight rows (the bonds of eight particles) in which a particle of p may be near its strength surface. Sets
+ * b->soft.gate, the stretch of a bond beyond which its block is marked later [1]: SURFACE_NEAR times the least strain
+ * on a surface, for the weakest particle. A new block is marked if one of its rows had no previous row, or one in a
+ * marked block. previous: previous bonds or NULL; source: materials. */
 static void rows_watch(struct bonds *b, const struct bonds *previous, const struct bond_source *source,
                        const struct particles *p)
 {

@@ -217,9 +217,10 @@ static int64_t row_of_strain(const struct evaluation *e, int32_t j, real *sign)
     return row >= 0 && e->b->whole[row] ? row : -1;
 }
 
-/* Marks the rows of the neighbours to which the intact bonds of row `row` lead, because their strains are needed for
- * means: sets their e->distance to `distance` if it is still 0. distance: 1 for a row whose strength surface (failure
- * criterion in stress) is evaluated, one more for each bond further away. Several threads may mark one row. */
+/* Marks the rows of the neighbours to which the intact bonds of row `row` lead, because the mean over a neighbourhood
+ * includes their strains: sets their e->distance to `distance` if it is still 0. distance: 1 for a row whose strength
+ * surface (failure criterion in stress) is evaluated, one more for each bond further away. Several threads may mark one
+ * row. */
 static void mark_family_rows(struct evaluation *e, int64_t row, uint16_t distance)
 {
     for (struct bond_iterator it = bond_iterator_of_row(e->b, row); bond_next(&it);) {
@@ -304,8 +305,9 @@ static void evaluation_free(struct evaluation *e)
     memory_free(e->strain[0]), memory_free(e->strain[1]);
 }
 
-/* Returns true if a particle of block g of eight rows of b (the bonds of eight particles) may have nearly reached its
- * strength surface (failure criterion in stress), or a bond of it has begun to soften. */
+/* Returns true if a particle of block g of eight rows of b (the bonds of eight particles) may be near its strength
+ * surface (failure criterion in stress), as sweeps of forces have marked in b->soft.near, or if a bond of the block has
+ * begun to soften. */
 static bool is_near_surface(const struct bonds *b, int64_t g) { return b->soft.near[g] || b->soft.begun[g]; }
 
 /* Returns true if row `row` of e (bonds of one particle) has an intact bond that can break and has not begun to

@@ -70,7 +70,8 @@ static void offsets_free(struct offsets *o)
 }
 
 /* Returns the index in the list o of the lattice offset from particle i to particle j of p; -1 if they are not a whole
- * number of spacings apart along each axis, or too far apart. spacing: lattice spacing [m]. */
+ * number of spacings apart along each axis, or more than o->reach spacings apart along an axis. spacing: lattice
+ * spacing [m]. */
 static int offset_between(const struct offsets *o, const struct particles *p, real spacing, int64_t i, int64_t j)
 {
     int place = 0;

@@ -406,11 +406,12 @@ static void class_fix(struct surface_fit_problem *q, const struct near_faces *b,
     }
 }
 
-/* Fixes in q the factors on the weights of bonds at ends of cracks and in thin parts, which have too few layers of
- * particles (f->thin): to those of the volume method (Le & Bobaru 2018), or to 1 if `rotates`, in models with particle
- * rotations. Bonds at ends of cracks also get the factor 1 if bonds may break: they break next, and the critical
- * stretch is calibrated for factor 1 (otherwise Kalthoff's crack turns to 61 degrees at 1 mm). Thin parts are treated
- * last, so that a bond between both does not depend on the order of its particles. b: particles near faces. */
+/* Fixes in q the factors on the weights of bonds at ends of cracks and in parts of the body with too few layers of
+ * particles for the fit (marked in f->thin): to those of the volume method (Le & Bobaru 2018), or to 1 if `rotates`, in
+ * models with particle rotations. Bonds at ends of cracks also get the factor 1 if bonds may break: they break next,
+ * and the critical stretch is calibrated for factor 1 (otherwise Kalthoff's crack turns to 61 degrees at 1 mm). Thin
+ * parts are treated last, so that a bond between both does not depend on the order of its particles. b: particles near
+ * faces. */
 static void plain_parts(struct surface_fit_problem *q, const struct near_faces *b, const struct surface_fit_targets *f,
                         bool rotates)
 {

@@ -4,9 +4,10 @@
 #include "base/memory.h"
 #include "contact_internal.h"
 
-/* Returns true if the particle of row `row` of the contact list c may come into contact before the next search; false
- * if the faces near it are too far away. Until the next search the particle and the faces move by at most half of
- * CONTACT_SKIN spacings each. */
+/* Returns true if the particle of row `row` of the contact list c may come into contact before the next search; always
+ * with a law of the form `pair`. With the form `surface`, false if the gap to the faces near it, face[row].far, exceeds
+ * CONTACT_FLATNESS times half of CONTACT_SKIN [spacings], since the particle and the faces move by at most half of
+ * CONTACT_SKIN spacings until the next search. */
 static bool may_meet(const struct contact *c, int64_t row)
 {
     return c->law.form == CONTACT_PAIR || c->face[row].far <= CONTACT_FLATNESS * 0.5 * CONTACT_SKIN;

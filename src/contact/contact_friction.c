@@ -108,9 +108,10 @@ static real quadratic_form(const real *tensor, const real *e)
 }
 
 /* Computes to->inverse, the pseudo-inverse of the inertia tensor I of the face near a particle [1/m^2]. Principal axes
- * are left out if their inertia is too small, or if a moment about them would cause too large forces on the particles
- * of the face. to->arm must be set. inertia[6]: I, in the order xx, yy, zz, xy, yz, zx [m^2]; squares[6]: the same sum
- * with squared weights, from which these forces are estimated. */
+ * are left out if their inertia is at most INERTIA_LEAST times the largest one, or if a moment about them would cause
+ * forces on the particles of the face beyond a limit (COUPLE_MOST). to->arm must be set. inertia[6]: I, in the order
+ * xx, yy, zz, xy, yz, zx [m^2]; squares[6]: the same sum with squared weights, from which these forces are
+ * estimated. */
 static void partner_invert(struct contact_partner *to, const real *inertia, const real *squares)
 {
     real value[3], axis[9];
@@ -150,7 +151,8 @@ static void partner_turn(struct contact_partner *to, const struct contact *c, co
 
 /* Returns the motion of the face near the particle of p in row `row` of the contact list c, seen as a rigid body, and
  * the slip: the velocity of the particle relative to this motion at the position of the particle [m/s]. Positions are
- * those a time `lag` before now [s], x - lag v. */
+ * those a time `lag` before now [s], x - lag v. In 1D, and for a particle without a face nearby, the motion has no
+ * rotation. */
 static struct contact_partner partner_at(const struct contact *c, const struct particles *p, int64_t row, real lag)
 {
     struct contact_partner partner = partner_mean(c, p, row, lag);
@@ -164,7 +166,7 @@ static struct contact_partner partner_at(const struct contact *c, const struct p
 /* Advances the friction spring of row `row` of the contact list c (particles that may come into contact) by a step dt
  * [s], and stores its reaction on the face in c->reaction[row]. p: particles at their present positions. The slip
  * velocity in the step is the mean of those at its start and end, because leap-frog applies the forces of both times to
- * the slip. */
+ * the slip. Does nothing if the particle is not in contact and the spring is not elongated. */
 void contact_face_advance_friction_spring(struct contact *c, const struct particles *p, int64_t row, real dt)
 {
     struct contact_spring *s = &c->spring[row];

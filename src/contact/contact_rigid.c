@@ -188,7 +188,8 @@ static real push_of(const struct contact *c, const struct particles *p, int body
 }
 
 /* Advances the friction spring between rigid body number `body` and particle q of the list of particles near it
- * (c->near) by a time step dt [s]. p: particles at their present positions and velocities. */
+ * (c->near) by a time step dt [s]. p: particles at their present positions and velocities. Does nothing if both are not
+ * in contact and the spring is not elongated. */
 static void spring_step(struct contact *c, const struct particles *p, int body, int64_t q, real dt)
 {
     const struct contact_near *near = &c->near[body];

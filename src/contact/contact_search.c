@@ -75,8 +75,8 @@ static real contact_spacing(const struct contact_law *law, const struct particle
 
 /* Returns the rise at particle i of p: the height of the surface of the body's shape (law->shape) above the particle,
  * minus 1/2 [spacings], at least -RISE_MOST. It is 0 on a lattice that fits the shape. It is set to 0 for bodies
- * without a shape, and for particles deep inside the shape, which are at faces of cracks. size: spacing of the particle
- * [m]. */
+ * without a shape, and if it exceeds RISE_MOST, since such particles are deep inside the shape, at faces of cracks.
+ * size: spacing of the particle [m]. */
 static real contact_rise(const struct contact_law *law, const struct particles *p, int64_t i, real size)
 {
     const struct region *shape = law->shape[p->body[i]];

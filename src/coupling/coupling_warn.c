@@ -46,7 +46,8 @@ static void warn_of_reference(const struct scene *s, const struct reference_fram
 /* Adds a warning to `to` if several bodies of scene s have no contact with each other, with the consequence for the
  * method of the scene. reference: states for each body whether it is in the reference frame (on a mesh of the
  * undeformed body); approaches: true if particles convert when bodies approach each other, so that they have contact
- * and no warning is needed. */
+ * and no warning is needed. Adds none if the bodies of the scene cannot meet, or if it accepts this (accept:
+ * [contact]). */
 static void warn_of_contact(const struct scene *s, const struct reference_frame *reference, bool approaches,
                             struct warnings *to)
 {

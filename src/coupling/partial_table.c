@@ -288,7 +288,8 @@ static real *response_at(const struct partial_table *t, int64_t k)
 }
 
 /* Reserves memory in t->responses for `open` rows (a row has the bonds of one particle). A row has an entry of
- * t->vectors responses to strain (struct response), one for each possible bond vector on the lattice. */
+ * t->vectors responses to strain (struct response), one for each possible bond vector on the lattice. Does nothing if
+ * the memory suffices. */
 static void responses_room(struct partial_table *t, int64_t open)
 {
     struct responses *a = &t->responses;

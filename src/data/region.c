@@ -221,7 +221,7 @@ static bool polygon_plane(const struct crack *c, struct crack_plane *plane)
 
 /* Computes *plane for a crack c, a point (1D), line (2D) or plane (3D): its unit normal, and the length to which
  * tolerances refer [m]. a[dim], b[dim]: end points of a bond [m], whose length is used in 1D. Returns false if the
- * crack has no extent or too few corners. */
+ * crack has no extent, or fewer corners than `dim`. */
 static bool crack_plane(const struct crack *c, const real *a, const real *b, int dim, struct crack_plane *plane)
 {
     real along[DIM_MAX];
@@ -275,8 +275,8 @@ static real region_height(const struct crack *c, const struct crack_plane *plane
     return sum;
 }
 
-/* Returns true if the bounding boxes of the crack c and of the bond from a[dim] to b[dim] [m] are so far apart that the
- * bond certainly does not touch the crack. Always false in 1D. */
+/* Returns true if the bounding boxes of the crack c and of the bond from a[dim] to b[dim] [m] are apart along an axis
+ * by more than 1e-3 of the sum of their edges, so that the bond cannot touch the crack. Always false in 1D. */
 static bool far_apart(const struct crack *c, const real *a, const real *b, int dim)
 {
     real low[DIM_MAX], high[DIM_MAX], size = 0;

@@ -336,7 +336,7 @@ static ALWAYS_INLINE bool precedes(uint16_t cell, int32_t i, uint16_t other, int
 }
 
 /* Sorts the n points particle[n] of a block, with the numbers inside[n] of their cells, by cell, then by index, by
- * insertion: they are few, or nearly in order where a body flies through the grid. */
+ * insertion: fast, because n is small, or the points are nearly in order in a body that flies through the grid. */
 static void sort_few(int32_t *particle, uint16_t *inside, int32_t n)
 {
     for (int32_t k = 1; k < n; k++) {

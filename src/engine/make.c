@@ -153,7 +153,7 @@ static void make_materials(const struct scene *s, struct material_tables *tables
 
 /* Lists the planes of symmetry of scene s for the bonds, and creates the mirror images of pre-cracks, which cut bonds
  * across these planes. Both are owned by *tables; *source refers to them. loads: state on which side of each plane the
- * body is. */
+ * body is. Without peridynamic particles only the planes are listed. */
 static void make_mirrors(const struct scene *s, const struct loads *loads, struct material_tables *tables,
                          struct bond_source *source)
 {
@@ -229,8 +229,8 @@ static void tables_free(struct material_tables *t)
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
-/* Returns the set of optional arrays of particles that a material with the flow law `law` requires, as a sum of
- * WITH_*. */
+/* Returns the set of optional arrays of particles that a material with the flow law `law` requires, as a sum of WITH_*;
+ * 0 for an elastic material. */
 static int law_arrays(const struct law *law)
 {
     if (!law->given) return 0;
@@ -274,8 +274,9 @@ static status make_time(struct run *e, const struct predecessor *before)
     return OK;
 }
 
-/* Initialises contact c with the contact law of scene s. source, rigid: data of bonds and rigid bodies, kept by
- * reference; they must outlive c. Release c with contact_free. */
+/* Initialises contact c with the contact law of scene s. Bodies have no contact in a single equilibrium or without
+ * peridynamic particles. source, rigid: data of bonds and rigid bodies, kept by reference; they must outlive c. Release
+ * c with contact_free. */
 static void make_contact(struct contact *c, const struct scene *s, const struct bond_source *source,
                          struct rigid_set *rigid)
 {

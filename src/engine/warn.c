@@ -26,10 +26,10 @@ static bool spins(const struct scene *s)
     return any;
 }
 
-/* Adds a warning to *to if bodies of scene s rotate on the grid and velocities are transferred by FLIP, which does not
- * conserve their angular momentum. grid: no warning is added if its points rotate in groups, which conserves angular
- * momentum. The results in the warning were measured with a plate that rotates freely, with edges at 30 m/s and cells
- * of two spacings. */
+/* Adds a warning to *to if bodies of the dynamic scene s rotate on the grid and velocities are transferred by FLIP,
+ * which does not conserve their angular momentum. grid: no warning is added if its points rotate in groups, which
+ * conserves angular momentum. The results in the warning were measured with a plate that rotates freely, with edges at
+ * 30 m/s and cells of two spacings. */
 static void warn_of_spin(const struct scene *s, const struct grid_method *grid, struct warnings *to)
 {
     if (scene_is_dynamic(s) && s->transfer == TRANSFER_FLIP && spins(s) && grid->turning.groups == 0)

@@ -157,8 +157,8 @@ static void warn_of_fixed_cracks(const struct scene *s, const struct particles *
     memory_free(prescribed);
 }
 
-/* Adds warnings to *to about probes of crack tips and first breaks in scene s if no bond can break and no crack is
- * grown by a rule. */
+/* Adds warnings to *to about probes of crack tips and first breaks in scene s if no bond can break, as with method mpm,
+ * and no crack is grown by a rule. */
 static void warn_of_unbreakable(const struct scene *s, struct warnings *to)
 {
     const bool breaks = s->method != METHOD_MPM && (scene_bonds_break(s) || s->growths > 0);

@@ -11,7 +11,7 @@
 enum { MOMENTS_OF_SUPPORTS = 8 }; /* times at which motions of supports and forces of loads are evaluated */
 
 /* Adds a warning to *to if load l of scene s prescribes zero displacement in all components for all particles p, so
- * that nothing can move. */
+ * that nothing can move. Adds none if some particles are not created (p->n < p->n_body). */
 static void warn_of_held(const struct scene *s, const struct load *l, const struct particles *p, struct warnings *to)
 {
     const struct boundary *b = l->boundary;

@@ -128,10 +128,10 @@ static void units_of_hardening(const struct scene *s, const char *subject, const
                 subject, constant[k].key, constant[k].value);
 }
 
-/* Adds a warning to *to if material m of scene s is stiff and has a toughness (E G_c)^(1/2) below that of any solid but
- * foams: below TOUGHNESS_LEAST, or with G_c/E below ATOMS_LEAST, as G_c is at least twice the surface energy, which is
- * about E times a hundredth of the distance between atoms. The usual reason is an energy release rate in kJ/m^2. name:
- * of the material in messages. */
+/* Adds a warning to *to if material m of scene s is stiff (E of at least STIFF) and has a toughness (E G_c)^(1/2) below
+ * that of any solid but foams: below TOUGHNESS_LEAST, or with G_c/E below ATOMS_LEAST, as G_c is at least twice the
+ * surface energy, which is about E times a hundredth of the distance between atoms. The usual reason is an energy
+ * release rate in kJ/m^2. name: of the material in messages. */
 static void units_of_toughness(const struct scene *s, const char *name, const struct material *m, struct warnings *to)
 {
     const real toughness = sqrt(m->young * m->energy_release_rate);
@@ -276,8 +276,9 @@ static real load_stress_at(const struct scene *s, const struct particles *p, con
            particles_bounding_box_longest_edge(p);
 }
 
-/* Updates the largest values in *f by the stress or displacement that the load l prescribes at time t [s] at particle
- * number k of its list (indices in p). s: scene. */
+/* Updates the largest values in *f by the stress or displacement that the load l applies or prescribes at time t [s] at
+ * particle number k of its list (indices in p). Rotations and displacements that are not known are left out. s:
+ * scene. */
 static void load_figures_at(const struct scene *s, const struct particles *p, const struct load *l, int64_t k, real t,
                             struct load_figures *f)
 {
@@ -293,8 +294,8 @@ static void load_figures_at(const struct scene *s, const struct particles *p, co
 }
 
 /* Raises the largest stress and displacement in *f to those that load l of scene s applies or prescribes, evaluated at
- * sampled times between 0 and the duration and at some of the particles of l (indices in p). Counts supports in
- * f->supports. */
+ * sampled times between 0 and the duration and at some of the particles of l (indices in p). Counts supports and planes
+ * of symmetry in f->supports. In dynamic scenes also raises the largest prescribed speed. */
 static void load_figures_add(const struct scene *s, const struct particles *p, const struct load *l,
                              struct load_figures *f)
 {
@@ -347,10 +348,11 @@ static real least_strength(const struct scene *s)
     return least;
 }
 
-/* Adds a warning to *to if the largest stress of the run is too small to make a crack grow. This is estimated from
- * Griffith's plate (1921): a crack as long as the longest edge a of the body would have the energy release rate pi
- * sigma^2 a/E, which is compared with the smallest one of a material. As bending is not computed, sigma is the stress
- * times the slenderness of the body. p: particles; stress: stress of the loads [Pa]. */
+/* Adds a warning to *to if the largest stress of the run is too small to make a crack grow: if the following ratio is
+ * below rule[ACCEPT_GROWTH].least. In Griffith's plate (1921) a crack as long as the longest edge a of the body would
+ * have the energy release rate pi sigma^2 a/E, which is divided by the smallest one of a material. As bending is not
+ * computed, sigma is the stress times the slenderness of the body. Checks nothing if no material has an energy release
+ * rate, or with interfaces. p: particles; stress: stress of the loads [Pa]. */
 static void units_of_growth(const struct scene *s, const struct particles *p, real stress, struct warnings *to)
 {
     real rate = INFINITY, young = INFINITY, longest = 0, least = INFINITY, low, high;
@@ -369,10 +371,12 @@ static void units_of_growth(const struct scene *s, const struct particles *p, re
     units_judge(s, ACCEPT_GROWTH, "loads", most / rate, note, to);
 }
 
-/* Adds a warning to *to if the largest stress of the run cannot break any material, or is far above the strength. The
- * stress of `loads` on p is estimated from tractions, as rho c v from speeds v, and as E u/L from displacements u of
- * bodies of length L (rho: density, c: wave speed, E: Young's modulus). Displacements in dynamic runs are not reported
- * as too large, since they may grow after the first bonds have broken. */
+/* Adds a warning to *to if nothing loads the bodies, or if the largest stress of the run divided by the strength is
+ * outside the range rule[ACCEPT_STRESS]. Then judges whether a crack can grow (units_of_growth). The stress of `loads`
+ * on p is estimated from tractions, as rho c v from speeds v, and as E u/L from displacements u of bodies of length L
+ * (rho: density, c: wave speed, E: Young's modulus). Displacements in dynamic runs are not reported as too large, since
+ * they may grow after the first bonds have broken. Checks nothing for method mpm, if no bond can break, and with cracks
+ * of prescribed growth. */
 static void units_of_loads(const struct scene *s, const struct particles *p, const struct loads *loads,
                            struct warnings *to)
 {
@@ -469,8 +473,9 @@ static void units_of_body(const struct scene *s, const char *name, const real *l
     units_judge(s, ACCEPT_PARTICLES, subject, least, note, to);
 }
 
-/* Adds warnings to *to about bodies of scene s (particles p) with a pre-crack if they have few particles along an axis.
- * Joined bodies count as one. Does nothing if some particles are not created (p->n < p->n_body). */
+/* Adds warnings to *to about bodies of scene s (particles p) with a pre-crack if they have fewer particles along an
+ * axis than rule[ACCEPT_PARTICLES] allows. Joined bodies count as one. Does nothing if some particles are not created
+ * (p->n < p->n_body). */
 static void units_of_particles(const struct scene *s, const struct particles *p, struct warnings *to)
 {
     for (int b = 0; b < s->bodies && s->cracks > 0 && p->n == p->n_body; b++) {
@@ -483,8 +488,8 @@ static void units_of_particles(const struct scene *s, const struct particles *p,
     }
 }
 
-/* Adds a warning to *to if scene s is a plate in plane stress much thicker than its longest edge. longest: longest edge
- * of the box around all particles [m]. */
+/* Adds a warning to *to if scene s is a plate in plane stress whose thickness divided by its longest edge exceeds
+ * rule[ACCEPT_THICKNESS].most. longest: longest edge of the box around all particles [m]. */
 static void units_of_thickness(const struct scene *s, real longest, struct warnings *to)
 {
     char note[80];

@@ -52,7 +52,7 @@ struct exodus_export {
 
 /* Appends the components of field number `field` (index in `fields`) to the variables of the Exodus file x. Their names
  * end in _x or _xx, by which readers of Exodus files join them to vectors and tensors. Components that a 2D run lacks
- * are added, too, with component -1. */
+ * are added as well, with component -1; their values are written as 0. */
 static void variables_add(struct exodus_export *x, int field)
 {
     static const char *const vector[] = {"_x", "_y", "_z"}, *const tensor[] = {"_xx", "_yy", "_zz",
@@ -379,8 +379,8 @@ static status exodus_check_name(const char *path)
 }
 
 /* Creates the particles of the scene of the request `scene`, lists the frames if a run is exported (x->folder), and
- * writes the Exodus file. Returns REFUSED, with a message, if there are too many particles for the format; REFUSED or
- * FAILED if the scene or a frame cannot be read, or the file cannot be written. */
+ * writes the Exodus file. Returns REFUSED, with a message, if there are more than NETCDF_NUMBERS_MOST particles;
+ * REFUSED or FAILED if the scene or a frame cannot be read, or the file cannot be written. */
 static status exodus_make(struct exodus_export *x, const struct export_request *scene)
 {
     TRY(export_mesh_make(&x->mesh, scene));

@@ -86,7 +86,7 @@ static status classes_find(struct classes *c, struct lammps_types *t, const stru
  * material, loads and, for bond styles, mass) or, if the particle is in the list `touched` of particles with cut bonds,
  * from its colour. Lists the excluded pairs of types. colour[touched->n]: colours of the listed particles, 0 .. colours
  * - 1; pair[a * colours + b]: kind of the pair of colours a and b, bonded or cut, or NULL if no bond is cut. Returns
- * REFUSED, with a message, if the particles have too many classes. */
+ * REFUSED, with a message, if the particles have more than CLASSES_MOST classes. */
 static status types_give(struct lammps_types *t, struct exported *x, const struct touched *touched,
                          const int32_t *colour, int colours, const uint8_t *pair)
 {

@@ -149,8 +149,8 @@ static void sif_point_stress(const struct sif_tip *tip, const struct sif_motion 
 }
 
 /* Computes s->point[k]: position, area and fields of particle s->particle[k] of p in the axes of the crack. The fields
- * are displacement gradient, stress and, with inertia, velocity and acceleration minus that caused by loads. m: motion
- * of the particles; stencil: weights by which gradients at this particle are computed. */
+ * are displacement gradient, stress and, if m has velocities, velocity and acceleration minus that caused by loads. m:
+ * motion of the particles; stencil: weights by which gradients at this particle are computed. */
 static void point_make(struct sif_points *s, int64_t k, const struct sif_motion *m,
                        const struct gradient_stencil *stencil, const struct particles *p)
 {

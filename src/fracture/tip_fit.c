@@ -45,8 +45,9 @@ static void fit_add(struct surface_fit_problem *f, const real *row, real value)
     }
 }
 
-/* Returns true if the position X [m], relative to the tip, is on the line of the crack behind the tip seen in v. Such
- * particles are left out of the fit, since round-off would decide on which side of the crack they are. */
+/* Returns true if the position X [m], relative to the tip, is behind the tip seen in v and less than ON_FACE times the
+ * inner radius of the fit away from the line of the crack. Such particles are left out of the fit, since round-off
+ * would decide on which side of the crack they are. */
 static bool on_face(const struct tip_view *v, const real X[2])
 {
     return dot(v->last, X, 2) < 0 && fabs(v->last[0] * X[1] - v->last[1] * X[0]) < ON_FACE * v->inner;
@@ -93,8 +94,8 @@ static bool fit_solve(struct surface_fit_problem *f)
     return true;
 }
 
-/* Returns true if no crack of v is between the position X [m] and a point slightly ahead of the tip, so that a particle
- * at X is visible from the tip. */
+/* Returns true if no crack of v is between the position X [m] and a point ahead of the tip by AHEAD (a thousandth) of
+ * the inner radius of the fit, so that a particle at X is visible from the tip. */
 static bool seen(const struct tip_view *v, const real *X)
 {
     real eye[DIM_MAX] = {0};

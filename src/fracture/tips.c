@@ -230,7 +230,8 @@ static bool flood_nucleate(struct flood *f)
 }
 
 /* Removes the cracks that have been merged into others in this sample from the list of tips of f and from the record of
- * their growth. Renumbers the remaining cracks and the labels of particles. */
+ * their growth. Renumbers the remaining cracks and the labels of particles. Does nothing if no crack has been
+ * merged. */
 static void flood_close_ranks(struct flood *f)
 {
     struct crack_tips *t = f->t;

@@ -155,8 +155,8 @@ static void scope_begin(struct deck *d, const char *name)
 }
 
 /* Ends the current part of deck d (an Abaqus input file), or the section outside parts, and begins the next one. name:
- * name of the part that begins; NULL for the section outside parts. Returns REFUSED if there are too many parts, or if
- * labels in the ended one are invalid. */
+ * name of the part that begins; NULL for the section outside parts. Returns REFUSED if the file has more than PARTS_MAX
+ * parts, or if labels in the ended one are invalid. */
 static status scope_change(struct deck *d, const char *name)
 {
     if (d->scopes >= PARTS_MAX)

@@ -37,8 +37,8 @@ int abaqus_find_part(const struct deck *d, const char *name, bool instance)
     return -1;
 }
 
-/* Counts n members that deck d adds to a set without listing them. Returns REFUSED, with a message, if more are added
- * in this way than is plausible for a file of this length. */
+/* Counts n members that deck d adds to a set without listing them. Returns REFUSED, with a message, if more than
+ * GENERATED_MOST for each byte of the file have been added in this way, because the file is then damaged. */
 static status generated_add(struct deck *d, int64_t n)
 {
     d->generated += n;

@@ -121,7 +121,8 @@ static status element_add(struct exodus *x, enum element_kind kind, const int64_
 /* Creates a set for one of n items of the file x, such as a block, and stores the index of the set in *set. row:
  * position of the item in the file, from 0. The name of the set is that in the file's array `names`. If it is missing
  * or another set has it, the name is `word` followed by the item's number in the file's array `numbers`, such as
- * block_1. of_nodes: true for a set of nodes, false for one of elements. Returns REFUSED if there are too many sets. */
+ * block_1. of_nodes: true for a set of nodes, false for one of elements. Returns REFUSED if the mesh already has
+ * ELEMENT_SETS_MAX sets. */
 static status set_begin(struct exodus *x, const char *names, const char *numbers, const char *word, int64_t row,
                         int64_t n, bool of_nodes, int *set)
 {

@@ -24,8 +24,8 @@ static status quoted_next(struct source *s, char *text, size_t capacity)
     return OK;
 }
 
-/* Reads the section of the names of physical groups into g->name. Returns REFUSED if it is malformed, or there are too
- * many. */
+/* Reads the section of the names of physical groups into g->name. Returns REFUSED if it is malformed, or there are more
+ * than ELEMENT_SETS_MAX names. */
 static status names_read(struct gmsh *g)
 {
     int64_t n;

@@ -41,7 +41,8 @@ int joined_bodies_first_body_of_group(const struct scene *s, int k)
 }
 
 /* Allocates the grids of `grid` for scene s: one for each body (joined bodies count as one) if material points of
- * several bodies may be in contact, else a single grid. */
+ * several bodies may be in contact (the scene has contact, is no single equilibrium, and no coupling moves particles by
+ * the grid), else a single grid. */
 static void make_fields(const struct scene *s, struct grid_method *grid)
 {
     const bool meet = !scene_is_single_equilibrium(s) && s->method != METHOD_PD && s->contact_between != CONTACT_NONE &&

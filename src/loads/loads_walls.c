@@ -18,8 +18,8 @@ static void constrained_add(struct constrained_set *s, int64_t node, int compone
 }
 
 /* Returns true if `load` constrains component `component` of every node of grid g at position x[dim] [m]: in the region
- * of a prescribed motion, on a mirror plane or beyond it. Returns false for loads on layers behind a face, whose
- * particles determine the driven nodes. tolerance: of region and plane [m]. */
+ * of a prescribed motion that is not restricted to a body, on a mirror plane or beyond it. Returns false for loads on
+ * layers behind a face, whose particles determine the driven nodes. tolerance: of region and plane [m]. */
 static bool node_constrained(const struct load *load, const struct grid *g, const real *x, real tolerance,
                              int component)
 {
@@ -373,9 +373,9 @@ static void driven_masses(const struct load *load, const struct mesh *mesh, cons
 }
 
 /* Lists in l->constrained_mesh the mesh nodes that load number `which` drives, for each component of the velocity that
- * it prescribes: those with at least half of their mass from its points (indices in p), or, where none is in its region
- * or has that much, those with the largest share. Skips components that the load constrains already because of the
- * position of the node. */
+ * it prescribes: those with at least half of their mass from its points (indices in p), or, if no node in its region
+ * has mass and none reaches a half, those with at least NEARLY_LARGEST times the largest share. Skips components that
+ * the load constrains already because of the position of the node. */
 static void mesh_driven(struct loads *l, int which, const struct mesh *mesh, const struct particles *p)
 {
     const struct load *load = &l->load[which];

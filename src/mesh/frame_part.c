@@ -101,9 +101,10 @@ static void warn_of_plane_apart(const struct reference_frame *r, const struct pa
 }
 
 /* Adds warnings to warning_list of planes of symmetry of run e that do not fit the nodes. On a background grid these
- * planes are neither on a node nor midway between two. Measured with inputs/bar_converge.yaml: displacements are 11 to
- * 24 % off if mirrors are 0.15 and 0.25 of a cell from a node, with 50 to 200 points per metre; half the spacing
- * reduces the error by at most a third. */
+ * planes are neither on a node nor midway between two; with a mesh of the undeformed body, the body does not reach them
+ * at the start of a dynamic run. Measured with inputs/bar_converge.yaml: displacements are 11 to 24 % off if mirrors
+ * are 0.15 and 0.25 of a cell from a node, with 50 to 200 points per metre; half the spacing reduces the error by at
+ * most a third. */
 void frame_warn_of_unfitting_mirror_planes(const struct run *e, struct warnings *warning_list)
 {
     const struct scene *s = e->scene;

@@ -70,7 +70,8 @@ static status box_find(struct grid *box, const struct scene *s)
 }
 
 /* Returns true if a pre-crack of scene s is so near the position X[dim] [m] that particles are needed there: nearer
- * than the cutoff of the bonds plus two cells. source: has the cutoff; h: edge of a cell [m]. */
+ * than the cutoff of the bonds plus two cells or, to an end of the crack, by as much as the zone around ends that is
+ * peridynamic from the start is larger. source: has the cutoff; h: edge of a cell [m]. */
 static bool near_cracks(const struct scene *s, const struct bond_source *source, const real *X, real h)
 {
     const real flank = source->family.cutoff + 2 * h;

@@ -121,8 +121,9 @@ static real spacings_across(const struct scene *s, const struct particles *p,
 /* ---- choice ------------------------------------------------------------------------------------------------------ */
 
 /* Computes r->room[cell], the highest coarsening level (0: finest) that the thickness of the body allows in each cell,
- * if scene s may have coarse cells; otherwise r->room remains NULL. particle_count: number of particles of the body,
- * including those not created. */
+ * if scene s may have coarse cells: it is dynamic, has a mesh and allows coarse levels, and with automatic levels has
+ * at least PAYS particles. Otherwise r->room remains NULL. particle_count: number of particles of the body, including
+ * those not created. */
 void mesh_levels_find_highest_allowed_by_thickness(struct reference_frame *r, const struct scene *s,
                                                    int64_t particle_count)
 {
@@ -263,8 +264,8 @@ void mesh_levels_describe_level_count(const struct levels_choice *c, const struc
                  2 << c->levels, why);
 }
 
-/* Writes to text[capacity] where the body of r is too thin for the coarse cells that the scene prescribes. Returns
- * false, without text, if it is thick enough everywhere. */
+/* Writes to text[capacity] where the body of r is too thin for the coarse cells that the scene prescribes: fewer than
+ * CELLS_ACROSS of them fit across it. Returns false, without text, if there is no such cell. */
 static bool thin_text(const struct reference_frame *r, char *text, size_t capacity)
 {
     const struct grid *g = &r->mesh.grid;

@@ -83,9 +83,9 @@ static void demand_slits(const struct mesh *mesh, uint8_t *demand)
         for (int c = 0; c < 1 << mesh->grid.dim && mesh->slits.split[I]; c++) demand[I - mesh->corner[c]] = 1;
 }
 
-/* Finds the cells I of level 0 (the finest) of the mesh of `frame` inside and around the circle `ring`, a contour of a
- * probe of stress-intensity factors. Returns true if one of them is part of a coarse cell at present. demand[I]: set to
- * 1 for these cells, which requires level 0; NULL if it is not needed. */
+/* Finds the cells I of level 0 (the finest) of the mesh of `frame` inside the circle `ring`, a contour of a probe of
+ * stress-intensity factors, and up to AROUND_RING spacings outside it. Returns true if one of them is part of a coarse
+ * cell at present. demand[I]: set to 1 for these cells, which requires level 0; NULL if it is not needed. */
 static bool ring_cells(const struct reference_frame *frame, const struct frame_ring *ring, uint8_t *demand)
 {
     const struct mesh_levels *l = &frame->levels;
@@ -331,7 +331,7 @@ static void limits_find(struct reference_frame *r, const struct particles *p, co
 
 /* Marks material points of p again that have lost a bond and could not be converted at that time, because coarse cells
  * were too near. These cells have been split by now. All material points of the cells recorded in l->wanted get the
- * mark. */
+ * mark; l->wanted is cleared. */
 static void lost_bonds_return(struct mesh_levels *l, struct particles *p)
 {
     if (!l->any_wanted) return;

@@ -19,7 +19,8 @@ static real volume_ratio(const struct mesh *mesh, int32_t place, int dim)
            F[0][2] * (F[1][0] * F[2][1] - F[1][1] * F[2][0]);
 }
 
-/* Returns false if cell `cell` of the mesh is certainly not inverted, by a cheap test; true if it may be. The test: no
+/* Returns false if cell `cell` of the mesh cannot be inverted, by a cheap test: dim times the largest difference of a
+ * displacement component between two corners is less than the cell edge. Returns true if it may be inverted. Reason: no
  * entry of the displacement gradient exceeds the largest difference of a component between corners divided by the cell
  * edge, and a gradient with row sums below 1 inverts no cell. dim: number of dimensions, known at compile time. */
 static inline bool may_invert(const struct mesh *mesh, int64_t cell, const int dim)

@@ -12,7 +12,7 @@ static void frame_free_all(struct run *e)
 }
 
 /* Writes to the summary j the number of cells of each coarsening level (0: finest) of run e, and how often the levels
- * have changed. */
+ * have changed. Writes nothing if no coarse cells are possible. */
 static void put_levels(const struct run *e, struct json *j)
 {
     const struct mesh_levels *l = &e->frame->levels;

@@ -86,8 +86,8 @@ static void void_mark(const struct grid *g, int64_t I, uint8_t *mark)
             }
 }
 
-/* Returns true if a slit (a pre-crack as a gap of the mesh), or a particle near a void, is within about two cells of
- * node I of the mesh of m. */
+/* Returns true if a slit (a pre-crack as a gap of the mesh), or a particle near a void, is within two cell diagonals,
+ * or for the particle two cells, of node I of the mesh of m. */
 static bool slit_near(const struct slit_maker *m, int64_t I)
 {
     const struct grid *g = &m->mesh->grid;
