@@ -200,11 +200,12 @@ static void normals_gather(struct surface_fit_targets *f, const struct near_face
         for (int c = 0; c < dim; c++) f->normal2[t][a][c] = trace > 1e-12 ? near * sum[a][c] / trace : 0;
 }
 
-/* Distributes the face of a particle at one end of an axis over the layers of particles behind it, as targets for the
+/* Distributes the face of a particle at one end of `axis` over the layers of particles behind it, as targets for the
  * moments of their bonds. f->area receives the area, extrapolated from the middles of the layers to the face. f->dipole
  * receives weights of sum 0 that describe the change from layer to layer: 1, -1 on the first two layers, or with
- * rotations (`rotates`) 2, -3, 1 on three, a one-sided first derivative of second order at the face. smooth: smoothing
- * of the face; t: index of the particle among b, those near faces; up: 1 for the end in positive direction, else 0. */
+ * rotations (`rotates`) 2, -3, 1 on three, a one-sided first derivative of second order at the face; nothing with a
+ * single layer. smooth: smoothing of the face; t: index of the particle among b, those near faces; up: 1 for the end in
+ * positive direction, else 0. */
 static void face_spread(struct surface_fit_targets *f, const struct near_faces *b, const struct smooth *smooth,
                         int64_t t, int axis, int up, bool rotates)
 {

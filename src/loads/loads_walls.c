@@ -40,8 +40,9 @@ bool mirror_plane_fits_grid_nodes(const struct boundary *b, const struct grid *g
 
 /* Reflects a node of g at the mirror plane of `load` if the node is beyond the plane: replaces k[dim], its indices, by
  * those of its mirror image, and reverses the signs in *f of components that the mirror reverses. Returns false if the
- * image is not in the box of nodes, or at no node because the plane is neither on a node nor midway between two; else
- * true. spacing: lattice spacing, to which tolerances refer [m]. */
+ * image is more than 4 nodes away or not in the box of nodes, or at no node because the plane is neither on a node nor
+ * midway between two; else true, also if `load` is no mirror. spacing: lattice spacing, to which tolerances refer
+ * [m]. */
 static bool node_reflect(const struct load *load, const struct grid *g, real spacing, int64_t *k, struct mirror_node *f)
 {
     const struct boundary *b = load->boundary;
