@@ -15,9 +15,9 @@ enum archive_scope {
     ARCHIVE_ACCOUNTS, /* sums since the start, saved before forces are computed that no step follows */
 };
 
-/* A store of named entries, in a checkpoint file or in memory. scope: part of the state that it holds. `saving`
- * determines whether a call of `exchange` saves an entry (true) or restores it (false), so that one function describes
- * both. */
+/* A store of named entries, in a checkpoint file or in memory. scope: part of the state of a run that it holds (all of
+ * it, what a trial solution changes, ...). `saving` determines whether a call of `exchange` saves an entry (true) or
+ * restores it (false), so that one function describes both. */
 struct archive {
     bool saving;
     /* Saves or restores `size` bytes under a name that is unique in the archive ('/' and letters). Restoring fails if
@@ -36,10 +36,10 @@ struct archive {
  * makes the calling function return the status. */
 #define ARCHIVE_VALUE(a, name, variable) TRY((a)->exchange((a), (name), &(variable), sizeof(variable)))
 
-/* Saves `element_count` elements of `element_size` bytes of `array`, one per particle (mirror images included), under
- * the name `name` if a->saving, else restores them. If a->now is not NULL while restoring, the run has other particles
- * than the stored one: each element is stored at the new index of its particle, and elements of particles that were not
- * stored keep their value. Returns the status of a->exchange. */
+/* Saves `element_count` elements of `element_size` bytes of `array`, one per particle (mirror images, i.e. copies
+ * beyond planes of symmetry, included), under the name `name` if a->saving, else restores them. If a->now is not NULL
+ * while restoring, the run has other particles than the stored one: each element is stored at the new index of its
+ * particle, and elements of particles that were not stored keep their value. Returns the status of a->exchange. */
 status archive_save_or_load_particle_array(struct archive *a, const char *name, void *array, int64_t element_count,
                                            size_t element_size);
 

@@ -122,11 +122,11 @@ struct clamped {
     struct clamp_end *end;
 };
 
-/* State of the neighbourhood of each particle (all its neighbours) in state-based models, from which bond forces
- * follow (kernels/pd/state_laws.h): weighted volume Q, pressure P (force by dilatation), spring g (force by extension)
- * and, in models with particle rotations, rotation R. V is the volume of the particle. Material points with bonds have
- * the members end_* of struct particles instead of P, g and R. Blocks of eight rows hold the bonds of eight particles.
- */
+/* State of the neighbourhood of each particle (all its neighbours) in state-based models, from which bond forces follow
+ * (kernels/pd/state_laws.h): weighted volume Q, pressure P (part of the force that follows from the dilatation), spring
+ * stiffness g (force per extension) and, in models with particle rotations, rotation R. V is the volume of the
+ * particle. Material points with bonds have the members end_* of struct particles instead of P, g and R. Blocks of
+ * eight rows hold the bonds of eight particles. */
 enum { STATE_NUMBERS = 2 + ROTATION }; /* P, g and the entries of R */
 struct state {
     const struct state_modulus *modulus; /* [materials] elastic moduli, borrowed; NULL: bond-based model */
@@ -207,12 +207,13 @@ struct bond_holes {
     struct bond_hole *hole;
 };
 
-/* The bonds of all particles. All arrays are owned. rows: particles with bonds; row_blocks: groups of eight rows stored
- * together, columns: groups of eight bonds, one of each row of a block of eight rows. [columns 8]: one entry per bond,
- * [row_blocks 8]: per row. */
+/* The bonds of all particles, in arrays that this structure owns. A row has the bonds of one particle. A block is a
+ * group of eight rows stored together, a column a group of eight bonds, one of each row of a block. Lengths of arrays:
+ * [columns 8] one entry per bond, [row_blocks 8] one per row, [n_all] one per particle or mirror image (copy beyond a
+ * plane of symmetry). */
 struct bonds {
-    int64_t rows, row_blocks, columns; /* numbers of rows, of blocks of eight rows and of stored columns */
-    int64_t used, room;                /* number of columns that are or were in use; capacity of the arrays [columns] */
+    int64_t rows, row_blocks, columns; /* numbers of rows, of blocks and of columns that all blocks need */
+    int64_t used, room;                /* number of columns that are or were in use in the arrays; their capacity */
     int64_t n;         /* number of bonds, broken ones included (a bond between two particles with rows counts twice) */
     int32_t reach;     /* largest difference between the blocks of eight rows of both particles of a bond */
     int32_t *particle; /* [row_blocks 8] index of the particle of a row; padding rows repeat the last particle */
@@ -270,8 +271,9 @@ struct bond_softness {
 };
 
 /* Returns the softening state (struct bond_softness) to be stored for a bond that is brittle or has not begun to
- * soften. range: stretches at which softening begins and the bond breaks [1]. The member `end` of the result is just
- * below range.onset; when the stretch of the bond exceeds `end`, the bond is examined. */
+ * soften. range: stretches at which softening begins (onset) and the bond breaks (end) [1], both the critical stretch
+ * if the bond is brittle. The member `end` of the result is just below range.onset: once the stretch of the bond
+ * exceeds it, the next sweep over the bonds checks whether the bond begins to soften. */
 static inline struct bond_softness bond_softness_before_onset(struct softening_range range)
 {
     return (struct bond_softness){SOFTENING_NEVER, SOFTENING_NEVER, (float)(range.onset * (1 - SOFTENING_LEAST)), 0};
@@ -284,9 +286,9 @@ static inline struct bond_softness bond_softness_load(const struct softened *sof
                                   softened->whole ? softened->whole[bond] : 0};
 }
 
-/* Stores `state` as the softening state of the bond with index `bond` in the arrays of b. Also sets or clears the mark
- * that this bond has begun to soften in the properties of its column (eight bonds, one of each of eight particles,
- * stored together). */
+/* Stores `state` as the softening state of the bond with index `bond` in the arrays of b. Also sets or clears the bit
+ * of this bond that tells that it has begun to soften, in the properties of its column (eight bonds, one of each of
+ * eight particles, stored together). */
 static inline void bond_softness_store(struct bonds *b, int64_t bond, struct bond_softness state)
 {
     struct bond_column *column = &b->common[bond / LANES];
@@ -315,9 +317,9 @@ static inline bool bond_is_softening(const struct bonds *b, int64_t row_block, i
     return bond_row_block_has_begun_softening(b, row_block) && b->soft.onset[bond] < SOFTENING_NEVER;
 }
 
-/* Returns the weight [1] that the bond with index `bond` in the arrays of b had before it softened. row_block: block of
- * eight rows (the bonds of eight particles) that contains the bond; present_weight: present weight of the bond [1].
- * Only for state-based models. */
+/* Returns the weight (factor on its stiffness, [1]) that the bond with index `bond` in the arrays of b had before it
+ * softened. row_block: block of eight rows (the bonds of eight particles) that contains the bond; present_weight:
+ * present weight of the bond [1]. Only for state-based models. */
 static inline real bond_weight_before_softening(const struct bonds *b, int64_t row_block, int64_t bond,
                                                 real present_weight)
 {
@@ -368,14 +370,15 @@ static inline void softening_mark_point_for_conversion(struct bonds *b, struct p
 }
 
 /* Recomputes b->common[column_number], the properties that the eight bonds of a column (one bond of each particle of a
- * block of eight rows) have in common, from their stored weights and lengths. Required after a change of the weight of
- * a bond or of the sign of its inverse length; usually called through bond_column_update_after_bond_change. */
+ * block of eight rows) have in common, from their stored weights (factors on the stiffness) and lengths. Required after
+ * a change of the weight of a bond or of the sign of its inverse length; usually called through
+ * bond_column_update_after_bond_change. */
 void bond_column_update_common_properties(const struct bonds *b, int64_t column_number);
 
-/* Recomputes the common properties of the column of b that contains bond number `bond` after its weight or the sign of
- * its inverse length has changed. A column has one bond of each of eight particles, which form a block of eight rows.
- * row_number: row of the bond, i.e. the bonds of one particle; its block no longer follows a stencil, the pattern that
- * blocks share. */
+/* Recomputes the common properties of the column of b that contains bond number `bond` after its weight (factor on its
+ * stiffness) or the sign of its inverse length has changed. A column has one bond of each of eight particles, which
+ * form a block of eight rows. row_number: row of the bond, i.e. the bonds of one particle; its block no longer follows
+ * a stencil, the pattern that blocks share. */
 void bond_column_update_after_bond_change(struct bonds *b, int64_t row_number, int64_t bond);
 
 /* Initialises the stored softening state of all bonds of block `row_block` of eight rows of b (the bonds of eight

@@ -57,12 +57,12 @@ void bonds_compute_family_volumes(real *volume, const struct particles *p, const
 /* Creates b, the bonds of all peridynamic particles and bonded material points of p, from `source` (horizon, materials,
  * cracks, mirrors). previous: NULL, or the previous bonds, whose broken bonds stay broken and whose counts and energies
  * are copied; parts of its storage move to b, so that afterwards only bonds_free may be called with `previous`. Bonds
- * cut by a pre-crack get weight w = 0 and count as damage. Sets the damage of all peridynamic particles. Release with
- * bonds_free. */
+ * cut by a pre-crack get the weight w = 0 (factor on the stiffness) and count as damage. Sets the damage of all
+ * peridynamic particles. Release with bonds_free. */
 void bonds_make(struct bonds *b, struct bonds *previous, struct particles *p, const struct bond_source *source);
 
-/* Sets the kind (material point or peridynamic) of every mirror image in p to the kind of its source particle. source:
- * inputs of the bonds, of which only the list of mirror images is used. */
+/* Sets the kind (material point or peridynamic) of every mirror image (copy beyond a plane of symmetry) in p to the
+ * kind of its source particle. source: inputs of the bonds, of which only the list of mirror images is used. */
 void mirror_images_copy_particle_kinds(struct particles *p, const struct bond_source *source);
 
 /* Rebuilds the particle lists of p and the bonds b after particles have changed their kind (material point or
@@ -88,27 +88,27 @@ real bonds_critical_time_step_of_existing_bonds(const struct bonds *b, const str
 
 /* Copies what load has done to bonds from the bonds `old_bonds` of the particles `old_particles` to the bonds b of p,
  * another set of particles: which bonds are broken or have softened, counts and energies of rows, and damage.
- * new_index: index in p of each particle of `old_particles`, mirror images included; -1: the particle is not in p.
- * limit: critical stretches and softening by pair of materials. In both sets peridynamic particles must have all their
- * neighbours. */
+ * new_index: index in p of each particle of `old_particles`, mirror images (copies beyond planes of symmetry) included;
+ * -1: the particle is not in p. limit: critical stretches and softening by pair of materials. In both sets peridynamic
+ * particles must have all their neighbours. */
 void bonds_copy_damage_to_new_particles(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                                         const struct bonds *old_bonds, const struct particles *old_particles,
                                         const int32_t *new_index);
 
 /* Saves which of the bonds b are broken or have softened, their plastic state and the damage p->damage to the archive
- * `a` if a->saving, else restores them from it. Neighbours and weights are not stored, since bonds_make rebuilds them.
- * If a->scope is not ARCHIVE_ALL, only the plastic stretches of bonds are saved or restored. Returns FAILED if an entry
- * is missing or its size differs. */
+ * `a` if a->saving, else restores them from it. Neighbours and weights (factors on the stiffness) are not stored, since
+ * bonds_make rebuilds them. If a->scope is not ARCHIVE_ALL (the state for a restart), only the plastic stretches of
+ * bonds are saved or restored. Returns FAILED if an entry is missing or its size differs. */
 status bonds_save_or_load(struct bonds *b, struct particles *p, struct archive *a);
 
 /* Returns the weighted volume Q = sum w r^2 [m^2] over the intact bonds of row `row` of b, i.e. of one particle, with
- * the weights w and reference lengths r of the bonds. The sum is computed anew, because subtracting broken bonds from a
- * stored sum would leave round-off when few bonds remain. */
+ * the weights w (factors on the stiffness) and reference lengths r of the bonds. The sum is computed anew, because
+ * subtracting broken bonds from a stored sum would leave round-off when few bonds remain. */
 real state_based_weighted_volume_of_intact_bonds(const struct bonds *b, int64_t row);
 
 /* Recomputes the weighted volume Q = sum w r^2 [m^2] that b stores for every particle of p with bonds, with the weights
- * w and reference lengths r of its intact bonds. Only for state-based models. source: inputs of the bonds (horizon,
- * materials, cracks, mirrors). */
+ * w (factors on the stiffness) and reference lengths r of its intact bonds. Only for state-based models. source: inputs
+ * of the bonds (horizon, materials, cracks, mirrors). */
 void state_based_update_weighted_volumes(struct bonds *b, const struct particles *p, const struct bond_source *source);
 
 /* Checks the stored bonds b against the invariants listed in bond_storage.h. Returns a text that describes the first
@@ -173,9 +173,9 @@ static inline bool particle_has_intact_bond(const struct bonds *b, int64_t i)
     return row >= 0 && bond_row_block_lanes_with_intact_bonds(b, row / LANES) >> row % LANES & 1;
 }
 
-/* Clears the marks of all particles and mirror images to which the particle of row `row` of b has intact bonds.
- * particle_bits: the marks, for particle or image i bit i % 64 of particle_bits[i / 64]. Does nothing if row is -1 (a
- * particle without bonds). */
+/* Clears the bits of all particles and mirror images (copies beyond planes of symmetry) to which the particle of row
+ * `row` of b has intact bonds. particle_bits: the bits, for particle or image i bit i % 64 of particle_bits[i / 64].
+ * Does nothing if row is -1 (a particle without bonds). */
 void bonds_clear_marks_of_intact_neighbours(const struct bonds *b, int64_t row, uint64_t *particle_bits);
 
 /* Returns the number of bonds of the eight particles of block `row_block` of eight rows of b together, broken bonds

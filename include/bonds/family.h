@@ -207,9 +207,9 @@ static inline bool family_has_equal_weights(const struct family *f)
     return f->volume == VOLUME_WHOLE && f->influence == INFLUENCE_ONE && f->shell_weight[0] == f->shell_weight[1];
 }
 
-/* Returns the weight [1] of a bond in the reference state: the product of volume fraction beta, influence function
- * omega and weight by direction. f: rules of the weights; bond_vector: reference vector of the bond, dim components
- * [m]; bond_length: its length [m]. */
+/* Returns the weight (factor on the stiffness, [1]) of a bond in the reference state: the product of volume fraction
+ * beta, influence function omega and weight by direction. f: rules of the weights; bond_vector: reference vector of the
+ * bond, dim components [m]; bond_length: its length [m]. */
 real family_bond_weight(const struct family *f, const real *bond_vector, real bond_length);
 
 #endif

@@ -28,28 +28,28 @@ struct site_map {
  * state; -1 if its position is not a site of the lattice. */
 int64_t site_map_lattice_site_of_particle(const struct site_map *map, const struct particles *p, int64_t particle);
 
-/* Creates the map `map` from lattice sites to the particles and mirror images of p. source: inputs of the bonds
- * (spacing, cutoff). Returns false, with nothing to release, if the particles are not on a lattice. Release with
- * site_map_free. */
+/* Creates the map `map` from lattice sites to the particles and mirror images (copies beyond planes of symmetry) of p.
+ * source: inputs of the bonds (spacing, cutoff). Returns false, with nothing to release, if the particles are not on a
+ * lattice. Release with site_map_free. */
 bool site_map_make_if_on_lattice(struct site_map *map, const struct bond_source *source, const struct particles *p);
 
 /* Releases the arrays of `map`, a map from lattice sites to particles. */
 void site_map_free(struct site_map *map);
 
-/* Returns a map from lattice sites to particles for bonds that are rebuilt: `existing` with one more user or, if
- * `existing` is NULL, a new map of p. source: inputs of the bonds (horizon, materials, cracks, mirrors). Release with
- * site_map_release. */
+/* Returns a map from lattice sites to particles for bonds that are rebuilt: `existing`, its reference count increased,
+ * or, if `existing` is NULL, a new map of p. source: inputs of the bonds (horizon, materials, cracks, mirrors). Release
+ * with site_map_release. */
 struct site_map *site_map_share_or_make(struct site_map *existing, const struct bond_source *source,
                                         const struct particles *p);
 
-/* Removes one user of a map from lattice sites to particles that several sets of bonds share; the last user releases
- * the map. Does nothing if `map` is NULL. */
+/* Decreases the reference count of a map from lattice sites to particles that several sets of bonds use, and releases
+ * the map when the count is 0. Does nothing if `map` is NULL. */
 void site_map_release(struct site_map *map);
 
-/* Lists in neighbour[], ascending, the particles and mirror images of p within the cutoff of the particle with index
- * `particle`, by means of the map `map` from lattice sites to particles. `neighbour` must have room for map->most
- * entries. Returns their number, or -1 if images are among them: these cannot be listed in ascending order, and the
- * caller must search. */
+/* Lists in neighbour[], ascending, the particles and mirror images (copies beyond planes of symmetry) of p within the
+ * cutoff of the particle with index `particle`, by means of the map `map` from lattice sites to particles. `neighbour`
+ * must have room for map->most entries. Returns their number, or -1 if images are among them: these cannot be listed in
+ * ascending order, and the caller must search. */
 int site_map_list_neighbours_of_particle(const struct site_map *map, const struct particles *p, int32_t particle,
                                          int32_t *neighbour);
 
@@ -58,7 +58,8 @@ int site_map_list_neighbours_of_particle(const struct site_map *map, const struc
 bool particle_is_near_precrack(const struct bond_source *source, const struct particles *p, int64_t particle);
 
 /* Returns true if a bond of block `row_block` of eight rows of b (the bonds of eight particles of p) may lead to a
- * mirror image; false if certainly none does. In most blocks only the last bonds are read. */
+ * mirror image (copy of a particle beyond a plane of symmetry); false if certainly none does. In most blocks only the
+ * last bonds are read. */
 bool bond_row_block_may_have_bonds_to_images(const struct bonds *b, const struct particles *p, int64_t row_block);
 
 #endif

@@ -19,8 +19,9 @@
 
 #include "bonds/family.h"
 
-/* Factors of the weights of bonds near faces. They are tabulated by class of the particle (particles with equal
- * surroundings) and by offset (lattice vector from the particle to its neighbour). */
+/* Factors by which the weights (factors on the stiffness) of bonds near faces are corrected. They are tabulated by
+ * class of the particle (particles with equal surroundings) and by offset (lattice vector from the particle to its
+ * neighbour). */
 struct surface_weights {
     real spacing;   /* lattice spacing [m] */
     real residual;  /* residual of the least-squares problem divided by that with all factors 1; large if the solver did
@@ -36,11 +37,12 @@ struct surface_weights {
                          spacings away */
 };
 
-/* Computes the factors on the weights of bonds near faces, for particles p on a lattice, by least squares with bounds.
- * source: inputs of the bonds (horizon, materials, cracks, mirrors); with_rotations: true for the modified state-based
- * model, in which particles rotate; its factors differ because relative rotations of neighbours store energy there.
- * Returns REFUSED, with a message, if the particles are not on a lattice; weights->apart then holds two particles whose
- * distance is not a whole number of spacings (-1 if none was found). Release with surface_weights_free. */
+/* Computes the factors on the weights (stiffnesses relative to a full bond) of bonds near faces, for particles p on a
+ * lattice, by least squares with bounds. source: inputs of the bonds (horizon, materials, cracks, mirrors);
+ * with_rotations: true for the modified state-based model, in which particles rotate; its factors differ because
+ * relative rotations of neighbours store energy there. Returns REFUSED, with a message, if the particles are not on a
+ * lattice; weights->apart then holds two particles whose distance is not a whole number of spacings (-1 if none was
+ * found). Release with surface_weights_free. */
 status surface_weights_fit_bond_weight_factors(struct surface_weights *weights, const struct particles *p,
                                                const struct bond_source *source, bool with_rotations);
 
@@ -52,8 +54,8 @@ static inline int nearest_integer(real spacings) { return (int)(spacings + (spac
 
 /* Returns the factor, stored in `weights`, that corrects the weight of a bond of particle i near the surface of the
  * body; 1 if the particle is far from it or `bond_vector` is longer than any bond. bond_vector: reference vector from
- * particle i to its neighbour, dim components [m]; i must not be a mirror image. Both particles of a bond obtain
- * bitwise equal factors. */
+ * particle i to its neighbour, dim components [m]; i must not be a mirror image (copy beyond a plane of symmetry). Both
+ * particles of a bond obtain bitwise equal factors. */
 static inline real surface_weight_factor(const struct surface_weights *weights, int64_t i, const real *bond_vector)
 {
     int at = 0;

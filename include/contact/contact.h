@@ -196,8 +196,7 @@ void contact_request_search_if_at_surface(struct contact *c, const struct bonds 
                                           const int32_t *particle_list, int64_t particle_count);
 
 /* Marks in `loads` the particles of p on which forces of the contact c may act, and in b the bonds of these particles
- * as active, i.e. to be computed. Needed after a restart only; contact_update_pair_list_if_outdated includes these
- * marks. */
+ * as active, i.e. to be computed. Needed after a restart only; contact_update_pair_list_if_outdated does this, too. */
 void contact_activate_particles_after_restart(struct contact *c, const struct particles *p, struct bonds *b,
                                               struct loads *loads);
 
@@ -215,7 +214,8 @@ void contact_allocate_force_record(struct contact *c, const struct particles *p)
 void contact_record_first_and_last_contact_time(struct contact *c, real t);
 
 /* Returns the elastic energy [J] of all contacts c at the present positions of the particles p, including contacts with
- * rigid bodies and friction springs. A pair with a mirror image of a particle counts half. */
+ * rigid bodies and friction springs. A pair with a mirror image of a particle (copy beyond a plane of symmetry) counts
+ * half. */
 real contact_elastic_energy(const struct contact *c, const struct particles *p);
 
 /* Returns the diagonal [m] of the bounding box of all particles of p that touch rigid body number `rigid_body` (from 0)

@@ -25,19 +25,21 @@ struct coupling_state {
 };
 
 /* Sets how peridynamic particles and material points of run e are coupled: by the method that the input file names
- * (partial stress, hand-shake, ...) if particles can convert, else by hand-shake. Then computes, for the present bonds,
- * the partial stresses of material points (the parts of their stress that bonds carry) and the interface zone (material
- * points beside peridynamic particles, whose motion is damped). */
+ * (partial stress: material points leave a part of their stress to bonds; hand-shake, Zeng et al. 2022; ...) if
+ * particles can convert from material points to peridynamic ones, else by hand-shake. Then computes, for the present
+ * bonds, the partial stresses of material points (the parts of their stress that bonds carry) and the interface zone
+ * (material points beside peridynamic particles, whose motion is damped). */
 void coupling_choose_and_compute_partial_stress(struct run *e);
 
-/* Makes the mesh of run e for the bodies in the reference frame, with the present partial stresses (parts of the stress
- * that bonds carry) and with pre-cracks as slits (free surfaces of the mesh). caller_sets_motion: true if the caller
- * sets displacement and velocity of the nodes afterwards, false to fit them to those of the particles. Returns REFUSED
- * or FAILED, with a message, if no mesh is possible (mesh_make). */
+/* Makes the mesh of run e for the bodies in the reference frame (shape functions are evaluated in the undeformed
+ * state), with the present partial stresses (parts of the stress that bonds carry) and with pre-cracks as slits (free
+ * surfaces of the mesh). caller_sets_motion: true if the caller sets displacement and velocity of the nodes afterwards,
+ * false to fit them to those of the particles. Returns REFUSED (unsuitable input) or FAILED (too many nodes), with a
+ * message, if no mesh is possible (mesh_make). */
 status coupling_make_reference_frame_mesh(struct run *e, bool caller_sets_motion);
 
-/* Rebuilds the data of coupling state c that depend on the bonds, after the bonds b have changed. c->bonded: marks of
- * material points with bonds to peridynamic particles, for the FLIP transfer only. c->zone: the interface zone,
+/* Rebuilds the data of coupling state c that depend on the bonds, after the bonds b have changed. c->bonded[p->n]: 1
+ * for material points with bonds to peridynamic particles, for the FLIP transfer only. c->zone: the interface zone,
  * material points beside peridynamic particles whose motion is damped, only for FLIP with partial stress (material
  * points leave a part of their stress to bonds). p: particles; source: inputs of the bonds (horizon, materials, cracks,
  * mirrors). */
@@ -74,7 +76,7 @@ bool flag_points_at_closing_slits(const struct notches *n, struct reference_fram
 
 /* Makes the particles on both sides of narrow voids peridynamic, so that common nodes of a grid do not join the two
  * sides. p: the particles; v: voids (narrow gaps of a body); NULL: nothing is done. include_meshed: true to include
- * particles of the mesh of the reference frame, needed if this mesh has no free surfaces at voids
+ * particles of the mesh of the reference frame (undeformed state), needed if this mesh has no free surfaces at voids
  * (mesh_cannot_double_nodes_at_voids). */
 void convert_to_peridynamic_beside_voids(struct particles *p, const struct voids *v, bool include_meshed);
 
@@ -86,7 +88,8 @@ bool mesh_cannot_double_nodes_at_voids(const struct grid *g, const struct scene 
 /* Adds warnings to `warning_list` for voids of bodies of run e that are too narrow, so that the run treats them as
  * closed: voids whose two sides share nodes of the background grid, such gaps between a body and a plane of symmetry,
  * and gaps of one or two particles in bodies made from particle lists or images, whose surfaces are not known.
- * reference_possible: true if the body can be in the reference frame, which is then named as a remedy. */
+ * reference_possible: true if the body can be in the reference frame (shape functions in the undeformed state), which
+ * is then named as a remedy. */
 void warn_of_voids_treated_as_closed(const struct run *e, bool reference_possible, struct warnings *warning_list);
 
 /* Adds warnings to `warning_list` for bodies of run e that will pass through each other or stick together, and for
@@ -94,17 +97,18 @@ void warn_of_voids_treated_as_closed(const struct run *e, bool reference_possibl
 void warn_of_bodies_that_pass_or_stick(const struct run *e, struct warnings *warning_list);
 
 /* Marks the material points of run e that are to become peridynamic particles because contact is near (FLAG_NEAR):
- * those near other bodies, and those beside crack faces that approach each other. Looks for such points in each load
- * step, or once in APPROACH_STEPS time steps. In every step first updates the list of the blocks of eight rows (the
- * bonds of eight particles each) whose particles may move. Returns true if crack faces were examined in this step, so
- * that points beside them may be marked. */
+ * those near other bodies, and those beside crack faces that approach each other. Searches for such points in each load
+ * step (static equilibrium), or once in APPROACH_STEPS time steps. In every step first updates the list of the blocks
+ * of eight rows (the bonds of eight particles each) whose particles may move. Returns true if crack faces were examined
+ * in this step, so that points beside them may be marked. */
 bool conversion_flag_points_near_bodies_or_faces(struct run *e);
 
-/* Converts the marked material points of run e to peridynamic particles, and updates all that depends on it: bonds,
- * contact, partial stresses (the parts of stresses that bonds carry), interface zone (damped material points beside
- * peridynamic particles) and mesh. broken_bond_count: number of bonds broken in this step, each counted once for each
- * of its particles; faces_examined: value that conversion_flag_points_near_bodies_or_faces returned in this step;
- * bonds_fade: true if bonds of growing cracks lose strength gradually. Returns the number of particles converted. */
+/* Converts those material points of run e whose flags require it (FLAG_LOST_BOND, FLAG_NEAR, FLAG_STRESSED) to
+ * peridynamic particles, and updates all that depends on it: bonds, contact, partial stresses (the parts of stresses
+ * that bonds carry), interface zone (damped material points beside peridynamic particles) and mesh. broken_bond_count:
+ * number of bonds broken in this step, each counted once for each of its particles; faces_examined: value that
+ * conversion_flag_points_near_bodies_or_faces returned in this step; bonds_fade: true if bonds of growing cracks lose
+ * strength gradually. Returns the number of particles converted. */
 int64_t conversion_convert_points_and_update_run(struct run *e, int64_t broken_bond_count, bool faces_examined,
                                                  bool bonds_fade);
 

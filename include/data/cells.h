@@ -16,22 +16,23 @@ struct cells {
     int32_t *order;            /* ascending inside a cell */
 };
 
-/* Sorts the particles and mirror images of p into the search cells c by their reference positions, so that neighbours
- * within a radius of up to `cell_edge` [m] can be found. Release with cells_free. */
+/* Sorts the particles and mirror images (copies beyond planes of symmetry) of p into the search cells c by their
+ * reference positions, so that neighbours within a radius of up to `cell_edge` [m] can be found. Release with
+ * cells_free. */
 void cells_make_for_neighbour_search(struct cells *c, const struct particles *p, real cell_edge);
 
 /* Releases all arrays of the search cells c. */
 void cells_free(struct cells *c);
 
-/* Lists the particles and mirror images of p within `radius` [m] (at most c->edge) of the point X (dim components [m])
- * in `found`, ascending, except particle `excluded_particle` (-1: no exception). Writes at most `capacity` indices.
- * Returns the number of particles found, which may exceed `capacity`. */
+/* Lists the particles and mirror images (copies beyond planes of symmetry) of p within `radius` [m] (at most c->edge)
+ * of the point X (dim components [m]) in `found`, ascending, except particle `excluded_particle` (-1: no exception).
+ * Writes at most `capacity` indices. Returns the number of particles found, which may exceed `capacity`. */
 int cells_list_particles_near_point(const struct cells *c, const struct particles *p, const real *X, real radius,
                                     int32_t excluded_particle, int32_t *found, int capacity);
 
-/* Returns an upper bound of the number of particles and mirror images within `radius` [m] (at most c->edge) of any
- * particle, including the particle itself. The bound is the largest number of particles in a cell and the cells around
- * it; no distances are computed. */
+/* Returns an upper bound of the number of particles and mirror images (copies beyond planes of symmetry) within
+ * `radius` [m] (at most c->edge) of any particle, including the particle itself. The bound is the largest number of
+ * particles in a cell and the cells around it; no distances are computed. */
 int cells_neighbour_count_bound(const struct cells *c, real radius);
 
 /* List of particle indices at[0 .. n - 1] that grows as needed; room: allocated length of `at`. Initialise it with {0}
@@ -42,8 +43,9 @@ struct neighbour_list {
 };
 
 /* Lists the particles and mirror images of p within `radius` [m] of the particle with index `particle` in near->at, in
- * ascending order, and stores their number in near->n. near->at is enlarged if necessary. c: search cells, whose edge
- * must be at least the radius; include_itself: true to include this particle itself. */
+ * ascending order, and stores their number in near->n. Mirror images are copies beyond planes of symmetry. near->at is
+ * enlarged if necessary. c: search cells, whose edge must be at least the radius; include_itself: true to include this
+ * particle itself. */
 void particles_list_neighbours_within_radius(struct neighbour_list *near, const struct cells *c,
                                              const struct particles *p, int64_t particle, real radius,
                                              bool include_itself);

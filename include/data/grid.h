@@ -96,15 +96,16 @@ status grid_extend_box(struct grid *g, const real *lower, const real *upper, int
 /* Releases all arrays of the grid g. */
 void grid_free(struct grid *g);
 
-/* Appends a copy of `prescribed_velocity`, a prescribed velocity component of a node, to the list g->wall of this
- * step. */
+/* Appends a copy of `prescribed_velocity`, a prescribed velocity component of a node, to the list g->wall of this step,
+ * which grows as needed. */
 void grid_add_prescribed_velocity(struct grid *g, const struct wall *prescribed_velocity);
 
 /* Appends a copy of `mirror_node`, a node beyond a plane of symmetry that moves as the image of another node, to the
- * list g->mirror_node. */
+ * list g->mirror_node, which grows as needed. */
 void grid_add_mirror_node(struct grid *g, const struct mirror_node *mirror_node);
 
-/* Appends a copy of `dashpot`, the dashpots of one node on an absorbing face, to the list g->dashpot of this step. */
+/* Appends a copy of `dashpot`, the dashpots of one node on an absorbing face, to the list g->dashpot of this step,
+ * which grows as needed. */
 void grid_add_dashpot(struct grid *g, const struct dashpot *dashpot);
 
 /* Sets the numbers of walls (prescribed nodal velocities) and dashpots of g in this step to 0, and the reactions of

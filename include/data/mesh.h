@@ -151,8 +151,8 @@ static inline int64_t mesh_cell_corner_node(const struct mesh *mesh, int64_t cel
 }
 
 /* Returns the array [2^dim][LANES] of the nodes at the corners of the eight cells of group number `group` of partial
- * cells (cells with missing or bonded points), if one of the corners is an extra node (second node where a pre-crack
- * divides the mesh); NULL otherwise: all corners are then nodes of the grid. */
+ * cells (cells with missing points, or points with bonds to peridynamic particles), if one of the corners is an extra
+ * node (second node where a pre-crack divides the mesh); NULL otherwise: all corners are then nodes of the grid. */
 static inline const int32_t *mesh_group_corner_nodes_at_slit(const struct mesh *mesh, int64_t group, const int dim)
 {
     const struct mesh_slits *s = &mesh->slits;
@@ -198,7 +198,8 @@ static inline int cell_deformation_mode_count(int dim)
 }
 
 /* Returns the number of groups of eight (LANES) partial cells of the mesh that are processed side by side; the last
- * group may be incomplete. Partial cells are cells with missing or bonded points or several materials. */
+ * group may be incomplete. Partial cells are cells with missing points, points with bonds to peridynamic particles, or
+ * several materials. */
 static inline int64_t mesh_partial_cell_group_count(const struct mesh *mesh)
 {
     return (mesh->partial_cells + LANES - 1) / LANES;

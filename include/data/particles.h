@@ -22,12 +22,14 @@ enum { ROTATION = 4 };    /* numbers that store a rotation in 3D (a quaternion) 
 /* Kinds of particles: material point, peridynamic particle; KINDS is their number. */
 enum kind { KIND_MPM, KIND_PD, KINDS };
 
-/* Bits of the member `flag` of struct particles, one sum of them for each particle. */
+/* Bits of the member `flag` of struct particles, one sum of them for each particle. FLAG_LOST_BOND, FLAG_CRACKED,
+ * FLAG_STRESSED and FLAG_NEAR are cleared by convert_flagged_points, which turns material points into peridynamic
+ * particles at the end of the step. */
 enum particle_flag {
     FLAG_LOST_BOND = 1,     /* lost a bond in this step */
-    FLAG_STRESSED = 2,      /* largest principal stress exceeds that at which material points convert */
+    FLAG_STRESSED = 2,      /* largest principal stress exceeds that at which material points become peridynamic */
     FLAG_DRIVEN = 4,        /* a boundary condition prescribes a component of the motion */
-    FLAG_CRACKED = 8,       /* lost a bond of which neither particle has FLAG_DRIVEN */
+    FLAG_CRACKED = 8,       /* in this step, lost a bond of which neither particle has FLAG_DRIVEN */
     FLAG_GRID_COUPLED = 16, /* peridynamic, but moved by the grid (grid_coupled.h) */
     FLAG_MESHED = 32,       /* material point of the mesh of the reference frame (mesh.h) */
     FLAG_LISTED = 64,       /* is in the list of particles to convert, under construction in conversion.c */
@@ -144,8 +146,8 @@ static inline int count_of_eight_indices_below(int64_t first, int64_t limit)
     return limit - first < LANES ? (int)(limit - first) : LANES;
 }
 
-/* Returns the index of the particle of which entry i of the arrays of p is a mirror image, possibly through images of
- * images; i itself if it is no image. image[k]: origin of entry p->n + k. */
+/* Returns the index of the particle of which entry i of the arrays of p is a mirror image (copy beyond a plane of
+ * symmetry), possibly through images of images; i itself if it is no image. image[k]: origin of entry p->n + k. */
 static inline int64_t image_source_particle(const struct particles *p, const struct image *image, int64_t i)
 {
     while (i >= p->n) i = image[i - p->n].source;
@@ -185,9 +187,10 @@ extern const int particle_fields_count;
  * velocity for velocities along y; NULL if an optional field is not allocated. */
 void *particle_field_array(const struct particles *p, const struct particle_field *f, int component);
 
-/* Saves the arrays of p, mirror images included, to the archive `a` if a->saving, else restores them. If a->scope is
- * not ARCHIVE_ALL, only the plastic state of particles is saved or restored. optional_arrays: optional arrays of p, sum
- * of WITH_*. Returns FAILED if the archive cannot be read or written or a stored size differs. */
+/* Saves the arrays of p, mirror images (copies beyond planes of symmetry) included, to the archive `a` if a->saving,
+ * else restores them. If a->scope is not ARCHIVE_ALL (the state for a restart), only the plastic state of particles is
+ * saved or restored. optional_arrays: optional arrays of p, sum of WITH_*. Returns FAILED if the archive cannot be read
+ * or written or a stored size differs. */
 status particles_save_or_load(struct particles *p, int optional_arrays, struct archive *a);
 
 /* Copies the reference position of particle i of p to X (p->dim components [m]). */

@@ -72,9 +72,9 @@ void print_brittle_strength(const struct scene *s, const struct material *m);
  * plane and its bonds soften. */
 void print_smallest_precrack_length(const struct run *e);
 
-/* Writes a remark to `out` for each 2D crack of scene s (the input file) whose two tips are less than FEATURE horizons
- * apart, so that they affect each other. A crack that begins at a face or a plane of symmetry has one tip. It counts as
- * half of a crack of twice its length. fracture: holds the crack tips. */
+/* Writes a remark to `out` for each 2D crack of scene s (the input file) whose two tips are less than FEATURE (4)
+ * horizons apart, so that they affect each other. A crack that begins at a face or a plane of symmetry has one tip. It
+ * counts as half of a crack of twice its length. fracture: holds the crack tips. */
 void advise_on_close_crack_tips(const struct scene *s, const struct fracture_state *fracture, FILE *out);
 
 /* Adds a hint to *warning_list for each 2D pre-crack of run e that ends exactly on bonds, so that rounding decides
@@ -83,19 +83,20 @@ void hint_precrack_ends_exactly_on_bonds(const struct run *e, struct warnings *w
 
 /* ---- check_steps.c ----------------------------------------------------------------------------------------------- */
 
-/* Prints to standard output the solver of the load steps of run e and the rule by which cracks grow. */
+/* Prints to standard output the number, control and tolerance of the load steps (successive static equilibria) of run
+ * e, and the rule by which cracks grow if bonds can break. */
 void print_load_step_solver(const struct run *e);
 
 /* Writes a line to `out` for each setting of loads, supports or lengths of cracks of run e that reduces the accuracy of
- * load steps. */
+ * load steps (successive static equilibria). */
 void print_load_step_accuracy_advice(const struct run *e, FILE *out);
 
-/* Estimates the cost of a run with load steps from the time of its first equilibrium, into *c. The run cannot be
- * continued afterwards. Returns FAILED if no equilibrium is found. */
+/* Estimates the cost of a run with load steps (successive static equilibria) from the time of its first equilibrium,
+ * into *c. The run cannot be continued afterwards. Returns FAILED if no equilibrium is found. */
 status cost_estimate_load_steps(struct cost *c, struct run *run);
 
-/* Prints the estimated run time of load steps with `threads` threads, and a line if no bond will break. cost: the
- * estimate for run e. */
+/* Prints the estimated run time of load steps (successive static equilibria) with `threads` threads, and a line if no
+ * bond will break. cost: the estimate for run e. */
 void print_load_steps_cost(const struct run *e, const struct cost *cost, int threads);
 
 /* ---- check_shapes.c ---------------------------------------------------------------------------------------------- */
@@ -204,8 +205,10 @@ void cost_hints_add_to_warnings(const struct run *e, struct warnings *warning_li
  * included. The values are from a table. surface: correction of bonds near faces. */
 void print_stiffness_error(const struct scene *s, enum surface_rule surface, double layer_count, FILE *out);
 
-/* Writes a line to `out` for each body of run e that has thin parts and whose particles are read from a list and form
- * no lattice. */
+/* Writes lines about inexact stiffness to `out` for those bodies of the peridynamic run e whose particles are read from
+ * a list: bodies whose list is no lattice along the axes although `pd.weights: isotropic` assumes one, and, without
+ * `pd.surface: moments`, bodies with parts of less than 16 layers of particles. Writes nothing for other methods and in
+ * 1D. */
 void print_particle_list_advice(const struct run *e, FILE *out);
 
 /* Returns true if the set-up of run e (bodies, loads, cracks) equals its mirror image in the plane normal to axis

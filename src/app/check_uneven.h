@@ -25,15 +25,16 @@ struct uneven_list {
     struct uneven part[UNEVEN_MOST];
 };
 
-/* Returns true if a part whose cross-section has the relative error `error` [1] qualifies for `list`, the list of the
- * parts with the largest errors: if the list has fewer than UNEVEN_MOST parts, or |error| is more than 0.9 times the
- * smallest |error| in it (errors of equal parts differ a little by sampling). */
+/* Returns true if a part of a body whose cross-section, as its particles fill it, has the relative error `error` [1]
+ * qualifies for `list`, the parts with the largest errors: if the list has fewer than UNEVEN_MOST parts, or |error| is
+ * more than 0.9 times the smallest |error| in it (errors of equal parts differ a little by sampling). */
 bool uneven_list_accepts_part_with_error(const struct uneven_list *list, real error);
 
-/* Adds the narrow part `part` of a body to `list`, which is sorted by the error of the width and has at most
- * UNEVEN_MOST entries. If the list has a part of equal width, only the one with the larger error is kept, and its count
- * `more` of equal parts is increased. already_listed: true if another cross-section of the same part was added before;
- * `more` is then unchanged. */
+/* Adds `part`, a narrow part of a body whose rows of particles do not add up to its width, to `list`, which has at most
+ * UNEVEN_MOST parts, the largest |off| first (off: relative error of the cross-section of the particles). If the list
+ * is full, `part` replaces the last one, unless |off| of that one is as large. If the list has a part of nearly equal
+ * width, only the one with the larger |off| is kept, and its count `more` of equal parts increases, unless
+ * already_listed is true, i.e. another cross-section of the same part was added before. */
 void uneven_list_add_narrow_part(struct uneven_list *list, const struct uneven *part, bool already_listed);
 
 /* Computes the distance from the point X[dim] [m], which is inside the piece p (a body, or its part of one material),

@@ -8,8 +8,9 @@
 
 #include "base/base.h"
 
-/* A command of the program: name, form of its arguments (`words`), meaning in words, and function. Usage line, manual
- * and completion are made from `words`, in which names in capitals stand for values. */
+/* A command of the program: name, form of its arguments (`words`), meaning in words, and function `call`, whose
+ * arguments are the words after `cleave` (argv[0]: the name of the command). Usage line, manual and completion are made
+ * from `words`, in which names in capitals stand for values. */
 struct command {
     const char *name, *words, *meaning;
     status (*call)(int argc, char **argv);
@@ -56,8 +57,9 @@ status command_info_main(int argc, char **argv);
  * most similar name in the message, if there is none. */
 status command_find_by_name(const char *name, const struct command **found);
 
-/* Installs handlers for signals that request the end of the program. Returns a pointer to the flag that the handlers
- * set. A second interrupt ends the program at once. */
+/* Installs handlers for SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1 and SIGUSR2, except those that the parent process
+ * ignores. Returns a pointer to the flag that the handlers set to 1: the command is to end in order. A second signal
+ * ends the program at once if it is one of the first three. */
 const volatile sig_atomic_t *stop_signals_install_handlers(void);
 
 /* Prints one line with the version of the program and the commit of its source to `out`. */

@@ -34,10 +34,11 @@ void bond_row_buffer_make(struct row *row, int capacity);
 /* Releases the arrays of `row`, the bonds of one particle under construction. */
 void bond_row_buffer_free(struct row *row);
 
-/* Lists in neighbour[capacity] the neighbours within the cutoff of the particle or mirror image number `particle` of p,
- * in ascending order. Particles behind a void (a narrow gap of the body) are left out. source: inputs of the bonds
- * (horizon, materials, cracks, mirrors); map: from lattice sites to particles, used where possible instead of a search;
- * NULL: always search. Returns the number of neighbours; if this number exceeds `capacity`, the list is incomplete. */
+/* Lists in neighbour[capacity] the neighbours within the cutoff of the particle or mirror image (copy beyond a plane of
+ * symmetry) number `particle` of p, in ascending order. Particles behind a void (a narrow gap of the body) are left
+ * out. source: inputs of the bonds (horizon, materials, cracks, mirrors); map: from lattice sites to particles, used
+ * where possible instead of a search; NULL: always search. Returns the number of neighbours; if this number exceeds
+ * `capacity`, the list is incomplete. */
 int particle_find_neighbours_within_cutoff(const struct site_map *map, const struct bond_source *source,
                                            const struct particles *p, int32_t particle, int32_t *neighbour,
                                            int capacity);
@@ -78,9 +79,9 @@ void bonds_copy_softening_of_row(struct bonds *b, const struct particles *p, con
 
 /* Saves the softening state of all bonds b to the archive `a` if a->saving, else restores it from there. Marks of each
  * block of eight rows (bonds of eight particles) are included: whether a bond of the block has begun to soften, and
- * whether one may begin before the next computation of forces. When restoring, first restore the stored bond weights,
- * which determine the number of bonds per block. Returns FAILED if an entry is missing or its size differs. Does
- * nothing if all bonds are brittle. */
+ * whether one may begin before the next computation of forces. When restoring, first restore the stored bond weights
+ * (factors on the stiffness), which determine the number of bonds per block. Returns FAILED if an entry is missing or
+ * its size differs. Does nothing if all bonds are brittle. */
 status softening_save_or_load_bond_states(struct bonds *b, struct archive *a);
 
 /* Returns true if the row of particle i in the previous bonds maker->old lists the present neighbours of this particle,
@@ -93,13 +94,14 @@ static inline bool bond_row_previous_is_still_valid(const struct row_maker *make
     return before >= 0 && ((maker->old->whole[before] && maker->p->kind[i] == KIND_PD) || !maker->fresh[i]);
 }
 
-/* Finds the neighbours of the particle with index `particle` and stores their indices in row->nbr, their number in
- * row->n. maker: inputs of the bonds and the previous bonds. */
+/* Finds the neighbours of the particle with index `particle` and stores their indices in row->nbr (which must have
+ * space for maker->room), their number in row->n. maker: inputs of the bonds and the previous bonds, from which the
+ * neighbours are copied if they are still valid (bond_row_previous_is_still_valid). */
 void bond_row_find_neighbours(struct row *row, const struct row_maker *maker, int32_t particle);
 
-/* Computes lengths and weights of the bonds from the particle with index `particle` to the neighbours in row->nbr and
- * stores them in `row`. maker: inputs of the bonds and the previous bonds. Bonds that are broken in the previous bonds
- * maker->old are broken in `row`, too; the plastic state of bonds is copied from there. */
+/* Computes lengths and weights (factors on the stiffness) of the bonds from the particle with index `particle` to the
+ * neighbours in row->nbr and stores them in `row`. maker: inputs of the bonds and the previous bonds. Bonds that are
+ * broken in the previous bonds maker->old are broken in `row`, too; the plastic state of bonds is copied from there. */
 void bond_row_compute_lengths_and_weights(struct row *row, const struct row_maker *maker, int32_t particle);
 
 /* Returns the number of the previous block of eight rows (bonds of eight particles) in maker->old that equals block
@@ -108,8 +110,9 @@ void bond_row_compute_lengths_and_weights(struct row *row, const struct row_make
 int64_t bond_row_block_find_equal_previous(const struct bonds *b, const struct row_maker *maker, int64_t row_block);
 
 /* Copies block `previous_row_block` of eight rows (the bonds of eight particles) of the bonds `previous_bonds` to block
- * `row_block` of b: the stencil (bond pattern of a lattice that blocks share), flags, limits of breaking and volumes.
- * Copies the stored bonds, too, unless b has taken over the bond arrays of `previous_bonds`. */
+ * `row_block` of b: the stencil (bond pattern of a lattice that blocks share), flags, breaking stretches and volumes.
+ * Copies the stored bonds, too, unless b uses the bond arrays of `previous_bonds` itself (b->w == previous_bonds->w).
+ */
 void bond_row_block_copy_from_previous_bonds(struct bonds *b, const struct bonds *previous_bonds, int64_t row_block,
                                              int64_t previous_row_block);
 
@@ -137,8 +140,8 @@ void bond_rows_restore_found_neighbours(const struct row_block_found *saved, str
 void bonds_assign_columns_to_row_blocks(struct bonds *b, const struct row_maker *maker,
                                         const int64_t *previous_row_block);
 
-/* Sets the pointers in `previous` to NULL for those arrays that b has taken over, so that releasing `previous` does not
- * release them. */
+/* Sets the pointers in `previous` to NULL for those arrays that b uses as well, so that they belong to b alone and
+ * releasing `previous` does not release them. */
 void bonds_clear_pointers_to_moved_arrays(struct bonds *previous, const struct bonds *b);
 
 /* Returns true if a pre-crack or a void (a narrow gap of the body) may cut a bond of the particle with index `particle`
@@ -186,8 +189,8 @@ bool regular_bonds_find_for_eight_particles(const struct site_map *map, const st
 
 /* Lists the neighbours of the eight particles of p from `first_particle` on in `found_bonds` as
  * regular_bonds_find_for_eight_particles does, without regard to pre-cracks. source: inputs of the bonds (horizon,
- * materials, cracks, mirrors). Returns false also if one of the eight is a mirror image or near a void, or if `map` has
- * no sites. */
+ * materials, cracks, mirrors). Returns false also if one of the eight is a mirror image (copy beyond a plane of
+ * symmetry) or near a void, or if `map` has no sites. */
 bool regular_bonds_find_ignoring_cracks(const struct site_map *map, const struct bond_source *source,
                                         const struct particles *p, int64_t first_particle,
                                         struct regular_bonds *found_bonds);
@@ -202,16 +205,18 @@ struct stencil_cache *stencil_cache_make_for_thread(const struct site_map *map);
 void stencil_cache_free(struct stencil_cache *t);
 
 /* Searches the cache bonds->stencil_cache for eight consecutive particles whose bonds have the same bits (lengths,
- * weights and sums of weights) as `bonds`, the bonds of the eight particles from `first_particle` on. None of these
- * bonds may be cut by a pre-crack. Returns the index of the first of the eight particles found; -1 if the cache has no
- * such particles, or if the lattice is not uniform. If the lattice is uniform and the search fails, adds `bonds` to the
- * cache. weight_inputs: inputs besides lattice sites on which weights depend; NULL if there are none. */
+ * weights, i.e. factors on the stiffness, and sums of weights) as `bonds`, the bonds of the eight particles from
+ * `first_particle` on. None of these bonds may be cut by a pre-crack. Returns the index of the first of the eight
+ * particles found; -1 if the cache has no such particles, or if the lattice is not uniform. If the lattice is uniform
+ * and the search fails, adds `bonds` to the cache. weight_inputs: inputs besides lattice sites on which weights depend;
+ * NULL if there are none. */
 int64_t stencil_cache_particle_with_equal_bonds(const struct regular_bonds *bonds,
                                                 const struct bond_source *weight_inputs, int64_t first_particle);
 
-/* Computes the inverse lengths inverse_length[8] [1/m] and weights weight[8] [1] of the bonds between the particles
- * first_particle + l and first_neighbour + l of p, l = 0 to 7, without regard to cracks and voids. source: inputs of
- * the bonds (horizon, materials, cracks, mirrors); pairs: micro-moduli by pair of materials. */
+/* Computes the inverse lengths inverse_length[8] [1/m] and weights weight[8] (factors on the stiffness, [1]) of the
+ * bonds between the particles first_particle + l and first_neighbour + l of p, l = 0 to 7, without regard to cracks and
+ * voids. source: inputs of the bonds (horizon, materials, cracks, mirrors); pairs: micro-moduli by pair of materials.
+ */
 void regular_bonds_compute_weights(const struct bond_source *source, const struct particles *p,
                                    const struct pair_table *pairs, int64_t first_particle, int64_t first_neighbour,
                                    real *inverse_length, real *weight);
@@ -292,7 +297,7 @@ void bond_row_block_store_columns_or_stencil(struct bonds *b, struct row_block_b
                                              const struct particles *p);
 
 /* Allocates b->shell_length and stores there the possible bond lengths of a lattice, spacing sqrt(k) for 0 < k <
- * BOND_SHELLS. spacing: lattice spacing [m]. */
+ * BOND_SHELLS. spacing: lattice spacing [m]. bonds_free releases the table. */
 void lattice_shell_lengths_make(struct bonds *b, real spacing);
 
 /* Finds the lattice shell of eight bonds with the inverse lengths inverse_length[8] [1/m], i.e. the whole number k > 0
@@ -301,12 +306,12 @@ void lattice_shell_lengths_make(struct bonds *b, real spacing);
  * positions. Returns k, or 0 if the bonds have no common shell. */
 int bonds_find_lattice_shell(const struct bonds *b, const real *inverse_length, int16_t *round_off_units);
 
-/* Returns a table of stencils (lists of columns shared by many blocks of eight rows): `existing` with one more user, or
- * a new table if `existing` is NULL (bonds_stencils.c). Release with stencils_release_table. */
+/* Returns a table of stencils (lists of columns shared by many blocks of eight rows): `existing`, its reference count
+ * increased, or a new table if `existing` is NULL (bonds_stencils.c). Release with stencils_release_table. */
 struct stencils *stencils_share_or_make_table(struct stencils *existing);
 
-/* Removes one user of the table `stencils` of bond patterns that many blocks of eight rows (bonds of eight particles)
- * of a lattice share. The last user releases the table. */
+/* Decreases the reference count of `stencils`, a table of bond patterns that many blocks of eight rows (bonds of eight
+ * particles) of a lattice share, and releases the table when the count is 0. */
 void stencils_release_table(struct stencils *stencils);
 
 /* Allocates `stencil`, a bond pattern that blocks of eight rows of a lattice share, for up to `max_columns` columns.
@@ -316,10 +321,11 @@ void stencil_allocate_columns(struct stencil *stencil, int max_columns);
 /* Releases the arrays of `stencil`, a bond pattern for blocks of eight rows of a lattice. */
 void stencil_free(struct stencil *stencil);
 
-/* Appends a column, one bond of each of the eight consecutive particles from `first_particle` on, to `stencil`, a bond
- * pattern that blocks of eight rows (bonds of eight particles) of a lattice share. added_column: these bonds; weight 0
- * and inverse length 0 where a particle has none. b, p: bonds and particles. Returns false, and leaves an unusable
- * stencil, if the eight neighbours are not consecutive, or if bonds differ in length or are cut. */
+/* Appends a column, one bond of each of the eight consecutive particles from `first_particle` on, to `stencil`, which
+ * must have space for it: a bond pattern that blocks of eight rows (bonds of eight particles) of a lattice share.
+ * added_column: these bonds; weight (factor on the stiffness) and inverse length are 0 where a particle has none. b, p:
+ * bonds and particles. Returns false, and leaves an unusable stencil, if the eight neighbours are not consecutive, or
+ * if bonds differ in length or are cut. */
 bool stencil_add_column(struct stencil *stencil, const struct bonds *b, const struct particles *p,
                         int64_t first_particle, const struct column_copy *added_column);
 
@@ -346,8 +352,8 @@ void bond_column_write_eight_bonds(const struct bonds *b, int64_t column_number,
 void bonds_prepare_state_based_model(struct bonds *b, const struct bond_source *source);
 
 /* Allocates the arrays of b->state, the data of state-based models for each row (the bonds of one particle of p),
- * stores which particle each mirror image is the image of, and computes the weighted volumes. source: geometry and
- * material of the bonds. Call after all rows were made. Does nothing for bond-based models. */
+ * stores of which particle each mirror image is a copy beyond a plane of symmetry, and computes the weighted volumes.
+ * source: geometry and material of the bonds. Call after all rows were made. Does nothing for bond-based models. */
 void bonds_make_state_based_arrays(struct bonds *b, const struct particles *p, const struct bond_source *source);
 
 /* Releases the arrays of b->state, the data of neighbourhoods in state-based models. */

@@ -41,13 +41,14 @@ struct seen {
     int mirrors;
 };
 
-/* Returns the source of the mirror image `entry` (an index of the particle arrays): a particle of the body, possibly
- * through several mirrors, with the axes that these mirrors reverse (bit d: axis d). b: particles near faces. */
+/* Returns the source of the mirror image `entry` (a copy beyond a plane of symmetry; index of the particle arrays): a
+ * particle of the body, possibly through several mirrors, with the axes that these mirrors reverse (bit d: axis d). b:
+ * particles near faces. */
 struct seen near_faces_source_particle_of_image(const struct near_faces *b, int64_t entry);
 
 /* Returns the particle of the body that belongs to entry `entry` of the particle arrays: `entry` itself or, for a
- * mirror image, the particle that it mirrors, with the axes that the mirrors in between reverse (bit d: axis d). b:
- * particles near faces. */
+ * mirror image (copy beyond a plane of symmetry), the particle that it mirrors, with the axes that the mirrors in
+ * between reverse (bit d: axis d). b: particles near faces. */
 static inline struct seen near_faces_source_of_entry(const struct near_faces *b, int64_t entry)
 {
     return entry < b->p->n ? (struct seen){entry, 0} : near_faces_source_particle_of_image(b, entry);
@@ -80,7 +81,7 @@ static inline struct seen near_faces_mirrored_neighbour(const struct near_faces 
 }
 
 /* Returns true if no neighbour of entry j of the particle arrays is missing, so that no face is near. If j is a mirror
- * image, its source particle is examined. b: particles near faces. */
+ * image (copy beyond a plane of symmetry), its source particle is examined. b: particles near faces. */
 static inline bool particle_family_is_complete(const struct near_faces *b, int64_t j)
 {
     return b->whole[j < b->p->n ? j : image_source_particle(b->p, b->source->image, j)];
@@ -102,8 +103,8 @@ status near_faces_list_particles_and_neighbours(struct near_faces *b, const stru
 /* Releases all arrays of b, the particles near faces. */
 void near_faces_free(struct near_faces *b);
 
-/* Properties of the faces near each particle [n], from which the targets for the weights of its bonds follow
- * (surface_fit.c). */
+/* Properties of the faces near each particle [n], from which the targets for the weights (factors on the stiffness) of
+ * its bonds follow (surface_fit.c). */
 struct surface_fit_targets {
     real (*area)[DIM_MAX]; /* [n] area of the faces in the particle's cell times outward normal, extrapolated from
                               layers to the face [spacing^(dim-1)] */
@@ -117,10 +118,10 @@ struct surface_fit_targets {
 /* Number of layers from which on a part is not thin: of models without and with particle rotations. */
 enum { THIN = 4, THIN_ROTATING = 5 };
 
-/* Computes into f, for each of the particles `near` near faces, the quantities to which the weights of its bonds are
- * fitted: face area with outward normal, increase of the fourth moment of the bonds, and mean product of normals
- * (members area, dipole, normal2). with_rotations: true for the modified state-based model, in which particles rotate.
- * Release with surface_fit_targets_free. */
+/* Computes into f, for each of the particles `near` near faces, the quantities to which the weights (factors on the
+ * stiffness) of its bonds are fitted: face area with outward normal, increase of the fourth moment of the bonds, and
+ * mean product of normals (members area, dipole, normal2). with_rotations: true for the modified state-based model, in
+ * which particles rotate. Release with surface_fit_targets_free. */
 void surface_fit_targets_compute_moments(struct surface_fit_targets *f, const struct near_faces *near,
                                          bool with_rotations);
 
@@ -170,10 +171,11 @@ struct class_fit {
     real third[THIRDS][THIRDS], fourth[FOURTHS][FOURTHS], goal[MOMENTS];
 };
 
-/* Least-squares problem for the factors f on the weights of bonds near the surface of a body. Bonds of a group share a
- * factor; particles of a class have equal surroundings (alike). Minimise the sum over classes of (M - goal) Q (M -
- * goal) plus the sum over groups of prior (f - 1)^2 with low <= f <= high. M: third and fourth moments of the bonds of
- * a class, times f; goal: these moments of a complete neighbourhood; Q: quadratic form of the class. */
+/* Least-squares problem for the factors f on the weights (stiffnesses relative to a full bond) of bonds near the
+ * surface of a body. Bonds of a group share a factor; particles of a class have equal surroundings (alike). Minimise
+ * the sum over classes of (M - goal) Q (M - goal) plus the sum over groups of prior (f - 1)^2 with low <= f <= high. M:
+ * third and fourth moments of the bonds of a class, times f; goal: these moments of a complete neighbourhood; Q:
+ * quadratic form of the class. */
 struct surface_fit_problem {
     const struct bond_classes *alike;
     int offsets, thirds, fourths; /* neighbours of a full neighbourhood; third and fourth moments of a bond */
@@ -188,8 +190,9 @@ struct surface_fit_problem {
 enum { SURFACE_PRODUCTS = 1000 };
 
 /* Solves the least-squares problem q for the factors by Newton's method on its dual (surface_solve.c). factor: receives
- * the factors [groups]. max_matrix_products: largest number of products with the matrix of the dual problem, fewer in
- * large bodies. Returns the remaining residual divided by the residual with all factors 1: 0 for an exact fit. */
+ * the factors [groups]. max_matrix_products: largest number of products with the matrix of the dual problem; for large
+ * bodies the function makes fewer, so that it takes about 10 s. Returns the remaining residual divided by the residual
+ * with all factors 1: 0 for an exact fit. */
 real surface_fit_solve_least_squares(const struct surface_fit_problem *q, real *factor, int max_matrix_products);
 
 /* Computes the factors on the weights of all groups of bonds near faces by bounded least squares (surface_fit.c).

@@ -159,9 +159,10 @@ int64_t contact_list_entry_of_particle(const struct contact *c, int64_t i);
 real contact_notch_width_between_entries(const struct contact *c, const struct particles *p, int64_t entry,
                                          int64_t other);
 
-/* Computes three arrays for all entries of the contact list (particles of p that may come into contact): c->root, the
- * entry of the particle that a mirror image mirrors (for other entries the entry itself); c->size, the spacing of the
- * particle [m]; c->rise, the height of the surface of the body above the particle, minus 1/2 [spacings]. */
+/* Computes three arrays for all entries of the contact list (particles of p that may come into contact): c->root, for a
+ * mirror image (copy beyond a plane of symmetry) the entry of its source particle, for other entries the entry itself;
+ * c->size, the spacing of the particle [m]; c->rise, the height of the surface of the body above the particle, minus
+ * 1/2 [spacings]. */
 void contact_list_compute_entry_data(struct contact *c, const struct particles *p);
 
 /* Adds the contact forces of all pairs of particle number `row` of the contact list of c (particles that may come into

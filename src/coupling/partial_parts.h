@@ -7,9 +7,10 @@
 #include "bonds/sites.h"
 #include "data/cells.h"
 
-/* Lists the particles and mirror images of p within the cutoff of bonds around `particle`, without `particle` itself,
- * in near->at, and stores their number in near->n. source: inputs of the bonds (horizon, materials, cracks, mirrors);
- * map: map of the lattice sites of the bonds, which makes this faster; NULL: a search is done. */
+/* Lists the particles and mirror images (copies beyond planes of symmetry) of p within the cutoff of bonds around
+ * `particle`, without `particle` itself, in near->at, and stores their number in near->n. source: inputs of the bonds
+ * (horizon, materials, cracks, mirrors); map: map of the lattice sites of the bonds, which makes this faster; NULL: a
+ * search is done. */
 void particle_find_family_members(struct neighbour_list *near, const struct bond_source *source,
                                   const struct site_map *map, const struct particles *p, int64_t particle);
 

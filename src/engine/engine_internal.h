@@ -22,9 +22,10 @@ struct predecessor {
 };
 
 /* Creates the run e of scene s (the input file) without the particles of the cells listed in `omitted_cells`: cells
- * inside a body that coarse cells replace. output: output of the run. predecessor: NULL, or a run from which particles,
- * bonds and time are transferred. In the latter case the caller sets all other state that time steps have changed, and
- * the levels of the mesh cells. Returns REFUSED or FAILED, with a message, if the scene cannot be set up. */
+ * inside a body that coarse (larger) cells replace. output: output of the run. predecessor: NULL, or a run from which
+ * particles, bonds and time are transferred. In the latter case the caller sets all other state that time steps have
+ * changed, and the coarsening levels of the mesh cells. Returns REFUSED (invalid input) or FAILED (for example too many
+ * nodes), with a message, if the scene cannot be set up. */
 status engine_create_run_from_predecessor(struct run *e, const struct scene *s, struct output *output,
                                           struct cells_without_particles omitted_cells,
                                           struct predecessor *predecessor);
@@ -35,16 +36,18 @@ status engine_create_run_from_predecessor(struct run *e, const struct scene *s, 
  * progress fails. */
 status engine_replace_particles(struct run *e, const uint8_t *cell_level);
 
-/* Transfers the particles of predecessor->run to the run e, which is being created, and stores the new indices of these
- * particles in predecessor->now. The mirror images of the new particles must exist. */
+/* Transfers the particles of predecessor->run, a run of the same scene with other particles, to the run e, which is
+ * being created, and stores the new indices of these particles in predecessor->now. The mirror images (copies beyond
+ * planes of symmetry) of the new particles must exist. */
 void engine_transfer_particles(struct run *e, struct predecessor *predecessor);
 
 /* Transfers the broken bonds of predecessor->run to the run e, which is being created. Releases the bonds and particles
  * of predecessor->run. engine_transfer_particles must have been called before. */
 void engine_transfer_bonds(struct run *e, const struct predecessor *predecessor);
 
-/* Saves the state of loads and of all parts of run e to the archive a if a->saving is true, else restores it from a.
- * Each part saves only the state that a->scope selects. Returns FAILED if an entry is missing or has another size. */
+/* Saves the state of loads and of all parts of run e (contact, cracks, mesh, probes and others) to the archive a if
+ * a->saving is true, else restores it from a. Each part saves only the state that a->scope selects: all, or what a
+ * trial equilibrium changes, for example. Returns FAILED if an entry is missing or has another size. */
 status parts_save_or_load_state(struct run *e, struct archive *a);
 
 /* Adds warnings to *warnings about bodies of scene s (the input file) in which particles of p have no neighbours within
@@ -107,8 +110,9 @@ void engine_warn_of_supports_within_cells(const struct scene *s, const struct lo
                                           const struct grid *grid, struct warnings *warnings);
 
 /* Adds warnings to *warnings about bodies of scene s (the input file) only a few particles (of p) thick, whose
- * stiffness the correction of bonds near faces (key `pd.surface: moments`) cannot correct. weights: weights of bonds
- * near faces; the function also warns if the solver that computes these weights has not converged. */
+ * stiffness the correction of bonds near faces (key `pd.surface: moments`) cannot correct. weights: factors on the
+ * stiffness of bonds near faces; the function also warns if the solver that computes these weights has not converged.
+ */
 void engine_warn_of_uncorrected_faces(const struct scene *s, const struct particles *p,
                                       const struct surface_weights *weights, struct warnings *warnings);
 

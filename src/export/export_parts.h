@@ -99,7 +99,7 @@ struct exported {
 /* Compares the bonds that LAMMPS would create with those of Cleave. Stores the numbers of bonds in exported->bonds
  * (bonds of Cleave) and exported->cut (further bonds of LAMMPS, which must be cut). Lists in *touched the particles at
  * bonds that must be cut. Returns REFUSED, with a message, if LAMMPS would lack a bond of Cleave or give a bond another
- * weight. Release *touched with touched_particles_free. */
+ * weight (factor on its stiffness). Release *touched with touched_particles_free. */
 status lammps_find_bonds_to_cut(struct touched *touched, struct exported *exported);
 
 /* The n types of particles in LAMMPS: one for each combination of material and loads, and further ones to exclude pairs

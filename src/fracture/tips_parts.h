@@ -53,9 +53,9 @@ struct tip_search {
     int room;
 };
 
-/* Finds the particles, mirror images included, whose reference positions are within `radius` [m] of the position
- * `position` [m]. The indices are written to s->found, which grows as needed and which the caller frees after the last
- * search. Returns the number of particles found. */
+/* Finds the particles, mirror images (copies beyond planes of symmetry) included, whose reference positions are within
+ * `radius` [m] of the position `position` [m]. The indices are written to s->found, which grows as needed and which the
+ * caller frees after the last search. Returns the number of particles found. */
 int tip_search_find_particles_near(struct tip_search *s, const real *position, real radius);
 
 /* Computes the vector `offset` from the nearest point of a segment to the point `point`. centre: middle of the segment;

@@ -165,10 +165,10 @@ status exodus_read(struct element_mesh *m, struct source *file);
 status stl_read(struct element_mesh *m, struct source *file);
 
 /* Creates g: the surface of the body that the elements of m fill, in metres, and the surfaces of the named sets of m.
- * path: file, for messages; dim: dimensions of the space; unit_length: length of the unit of the file [m];
- * max_chord_error: largest distance between a curved edge and the chords that approximate it [m], NAN for 1/256 of the
- * largest sagitta. Middle nodes may be added to m. Returns REFUSED, with a message, if no element has the dimension of
- * the body, a 2D mesh is not plane, or curved edges need too many chords. */
+ * Release g with geometry_free. path: file, for messages; dim: dimensions of the space; unit_length: length of the unit
+ * of the file [m]; max_chord_error: largest distance between a curved edge and the chords that approximate it [m], NAN
+ * for 1/256 of the largest sagitta. Middle nodes may be added to m. Returns REFUSED, with a message, if no element has
+ * the dimension of the body, a 2D mesh is not plane, or curved edges need too many chords. */
 status geometry_from_elements(struct geometry *g, struct element_mesh *m, const char *path, int dim, real unit_length,
                               real max_chord_error);
 

@@ -19,10 +19,10 @@ struct surface_faces {
 };
 
 /* Creates the surface l->surface of the body from `free_faces`, makes the particles at the corners of these faces the
- * particles of load l, and stores their areas in the reference state as shares. all_boundaries: the boundary conditions
- * of the input file, `boundary_count` in number, including mirrors; spacing: lattice spacing [m]. Returns REFUSED, with
- * a message, if a body is not a lattice, or a mirror plane is not midway between two lattice sites. Release with
- * load_surface_free. */
+ * particles of load l, and stores their area vectors in the reference state in l->share [m^2], by which the pressure is
+ * multiplied to obtain forces. all_boundaries: the boundary conditions of the input file, `boundary_count` in number,
+ * including mirrors; spacing: lattice spacing [m]. Returns REFUSED, with a message, if a body is not a lattice, or a
+ * mirror plane is not midway between two lattice sites. Release with load_surface_free. */
 status load_surface_make(struct load *l, const struct surface_faces *free_faces, const struct boundary *all_boundaries,
                          int boundary_count, struct particles *p, real spacing);
 

@@ -150,8 +150,8 @@ void levels_compute_momenta_from_velocities(struct mesh_levels *l);
 bool levels_are_consistent(const struct mesh_levels *l);
 
 /* Stores in l->safe for each cell of level 0 (the finest) how far it is from coarse cells: less than l->safe_cells,
- * less than l->roomy_cells, or more (enum levels_distance). Particles convert to peridynamics only at a safe distance,
- * and finer cells are requested below the roomy one. */
+ * less than l->roomy_cells, or more (enum levels_distance). Material points become peridynamic particles only at a
+ * distance of at least safe_cells; points that may soon do so request finer cells at less than roomy_cells. */
 void levels_classify_distances_to_coarse_cells(struct mesh_levels *l);
 
 #endif

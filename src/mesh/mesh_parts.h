@@ -88,7 +88,8 @@ void mesh_fit_values_of_listed_nodes(const struct mesh *mesh, const struct parti
 int64_t mesh_packed_cell_and_point_of_particle(const struct mesh *mesh, const struct particles *p, int64_t particle);
 
 /* Recomputes mass [kg] and inverse mass of the mesh node with the index `node` from the points p in the cells around
- * it; points in coarse cells are left out, since the nodes of the coarse cells carry their mass. */
+ * it; points in coarse cells (larger cells of a coarser level) are left out, since the nodes of the coarse cells carry
+ * their mass. */
 void mesh_node_update_mass(struct mesh *mesh, const struct particles *p, int64_t node);
 
 /* Recomputes kinds of cells, runs (rows of consecutive whole cells), partial cells and nodal masses of the mesh after
@@ -129,7 +130,7 @@ static inline bool mesh_cell_is_part_of_coarse_cell(const struct mesh *mesh, int
 }
 
 /* Allocates an array with a byte for each cell of the mesh, all 0, and some padding at its end. label: name of the
- * array for messages about memory. The caller frees it. */
+ * array for messages about memory. The caller releases the array with memory_free. */
 static inline uint8_t *mesh_allocate_byte_for_each_cell(const char *label, const struct mesh *mesh)
 {
     return NEW(label, mesh->grid.n + LANES, uint8_t);

@@ -16,16 +16,16 @@ struct frame_source {
  * the fill value of the dataset. */
 enum row_kind { ROW_WHOLE, ROW_VECTOR, ROW_TENSOR };
 
-/* Describes a dataset of an output frame (state of the run at one time), with one row per particle (or material point
- * of a coarse cell). */
+/* Describes a dataset of an output frame (state of the run at one time). A row has the numbers of one particle, or of
+ * one point inside a coarse cell (larger mesh cell inside a body, without particles of its own). */
 struct frame_field {
     const char *path, *unit; /* path in the file; unit as people write it, "" for a pure number */
     enum hdf_type type;
     int columns; /* numbers per row; 0: dim */
     enum row_kind row;
     bool fixed; /* does not change while the particles stay the same: stored in the particles file (particles_file.h) */
-    /* Copies the stored components of particles row[first .. end - 1] to rows first .. end - 1 of `rows`, which starts
-     * at row 0. NULL: the field is derived from another one (data/derived_fields.h). */
+    /* Copies the stored components of the particle with index row[k] to row k of the array `rows`, for k = first .. end
+     * - 1. NULL: the field is computed from another field (data/derived_fields.h). */
     void (*copy)(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows);
 };
 
@@ -48,8 +48,8 @@ unsigned frame_field_bits_of_source(const struct frame_source *source);
 
 /* Copies the numbers that an output frame (state of the run at one time) stores of the field `field` from the particles
  * in *source to `rows`, an array of row_order->n rows with frame_field_bytes_per_row bytes each. row_order: which
- * particle each row belongs to. Rows of material points of coarse cells (source->extra.more) are 0 in fields that such
- * points lack. */
+ * particle each row belongs to. Rows of points inside coarse cells (larger mesh cells without particles;
+ * source->extra.more) are 0 in fields that such points lack. */
 void frame_field_copy_rows(const struct frame_field *field, const struct frame_source *source,
                            const struct frame_rows *row_order, char *rows);
 

@@ -120,7 +120,7 @@ status sif_curves_draw(const char *title, const struct series *series);
  * gnuplot fails. */
 status crack_paths_draw(const char *folder, const char *title, const struct series *series);
 
-/* Returns true if the run in `folder` consists of load steps, not of steps in time. */
+/* Returns true if the run in `folder` consists of load steps (successive static equilibria), not of steps in time. */
 bool run_has_load_steps(const char *folder);
 
 /* Draws the force over the displacement of each support and rigid body that carries a force to the picture file
@@ -130,10 +130,10 @@ bool run_has_load_steps(const char *folder);
  * would record it. Returns FAILED if gnuplot fails. */
 status load_displacement_draw(struct sheet sheet, const char *title, const struct history *history, double spacing);
 
-/* Draws, for a run with load steps, the energy release rate against the new crack area (R-curve) to the picture file
- * `sheet`, with lines at the fracture energies G_c of the materials. folder: folder of the run; title: heading of the
- * picture; history: history of the run. If no crack has grown, prints this instead of drawing. Returns FAILED if
- * gnuplot fails. */
+/* Draws, for a run with load steps (successive static equilibria), the energy release rate against the new crack area
+ * (R-curve) to the picture file `sheet`, with lines at the fracture energies G_c of the materials. folder: folder of
+ * the run; title: heading of the picture; history: history of the run. If no crack has grown, prints this instead of
+ * drawing. Returns FAILED if gnuplot fails. */
 status r_curve_draw(struct sheet sheet, const char *folder, const char *title, const struct history *history);
 
 /* Draws all pictures of the history of the run in request->folder into the folder request->pictures: crack, energy,
@@ -143,7 +143,7 @@ status history_curves_draw(const struct plot_request *request, const char *title
 
 /* Draws velocity, stress and damage over the position along a one-dimensional bar, one curve for each of
  * frame[frame_count], output frames of a run, to the picture file `sheet`. title: heading of the picture; projection:
- * tells whether the frames are load steps or times. Returns FAILED if gnuplot fails. */
+ * tells whether the frames belong to load steps (static equilibria) or to times. Returns FAILED if gnuplot fails. */
 status bar_profiles_draw(struct sheet sheet, const char *title, const struct projection *projection,
                          const struct output_frame *frame, int frame_count);
 

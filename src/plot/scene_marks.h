@@ -22,12 +22,12 @@ struct marks {
     double widest;                /* width of its widest line [pixel] divided by the size of the letters [point] */
 };
 
-/* Begins a gnuplot data block, which contains the points or arrows of one kind of symbol. Add its lines with
- * marks_add_point and end the block with marks_end_data_block. */
+/* Begins a gnuplot data block in m, the symbols over the picture of an input file. The block contains the points or
+ * arrows of one kind of symbol. Add its lines with marks_add_point and end the block with marks_end_data_block. */
 void marks_begin_data_block(struct marks *m);
 
-/* Adds a line to the current data block: the point with the coordinates `position` [m], projected onto the picture, and
- * the projection of the arrow `arrow` [m]. arrow: NULL for a point without an arrow. */
+/* Adds a line to the current data block of m (symbols over a picture): the point with the coordinates `position` [m],
+ * projected onto the picture, and the projection of the arrow `arrow` [m]. arrow: NULL for a point without an arrow. */
 void marks_add_point(struct marks *m, const real *position, const double *arrow);
 
 /* Ends the current data block of m and adds the element that draws it to the plot command. plot_style: text of this
@@ -35,7 +35,7 @@ void marks_add_point(struct marks *m, const real *position, const double *arrow)
  * (legend), "" for no entry. */
 void marks_end_data_block(struct marks *m, const char *plot_style, const char *key_entry);
 
-/* Adds symbols for loads, supports, mirrors and absorbing faces of the input file to the marks *m of its picture. */
+/* Adds symbols for loads, supports, mirrors and absorbing faces of the input file to its picture m. */
 void marks_draw_symbols_of_loads(struct marks *m);
 
 /* Draws arrows in the picture m for the initial velocities of bodies and rigid bodies. Draws nothing if all are 0. */
@@ -45,15 +45,14 @@ void marks_draw_arrows_of_velocities(struct marks *m);
  * growth starts. */
 void marks_draw_lines_of_precracks(struct marks *m);
 
-/* Adds symbols at the positions of the probes (measurements during the run) of the input file to the marks *m of its
- * picture. */
+/* Adds symbols at the positions of the probes (measurements during the run) of the input file to its picture m. */
 void marks_draw_symbols_of_probes(struct marks *m);
 
 /* Draws in the picture m the outlines of the coarse mesh cells of a plane body, in one shade of grey for each size of
  * cells. */
 void marks_draw_outlines_of_coarse_cells(struct marks *m);
 
-/* Adds boxes around the named regions of the input file to the marks *m of its picture. */
+/* Adds boxes around the named regions of the input file to its picture m. */
 void marks_draw_boxes_of_named_regions(struct marks *m);
 
 /* Adds an entry to the key (legend) of the picture m: a square in the colour `colour` and the text `text`. */

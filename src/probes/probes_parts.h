@@ -95,23 +95,24 @@ void particle_compute_probe_values(const struct observed_run *o, int64_t particl
  * run o to q->motion. Must be called before the time step. */
 void probe_motion_store_before_step(struct probe *q, const struct observed_run *o);
 
-/* Computes the velocities of the particles of probe q in run o at the time of the sample. Call it after the time step.
- * Interpolates between the velocities that probe_motion_store_before_step has copied and the present ones; after the
- * last step, extrapolates them and uses the present positions. present_velocity_time: time of the present velocities,
- * and a factor on the result that removes half a step of damping. Does nothing if probe_motion_store_before_step was
- * not called, as for equilibria: probe_particle_velocity_component then returns the present velocities. */
+/* Computes the velocities of the particles of probe q in run o at the time of the sample (line of history.csv). Call it
+ * after the time step. Interpolates between the velocities that probe_motion_store_before_step has copied and the
+ * present ones; after the last step, extrapolates them and uses the present positions. present_velocity_time: time of
+ * the present velocities, and a factor on the result that removes half a step of damping. Does nothing if
+ * probe_motion_store_before_step was not called, as for equilibria: probe_particle_velocity_component then returns the
+ * present velocities. */
 void probe_motion_interpolate_to_sample_time(struct probe *q, const struct observed_run *o,
                                              const struct velocity_time *present_velocity_time);
 
-/* Discards the positions and velocities of probe q that are interpolated to the time of a sample, so that
- * probe_particle_position_component and probe_particle_velocity_component return the present values again. */
+/* Discards the positions and velocities of probe q that are interpolated to the time of a sample (line of history.csv),
+ * so that probe_particle_position_component and probe_particle_velocity_component return the present values again. */
 void probe_motion_discard_interpolation(struct probe *q);
 
 /* Frees the copies of positions and velocities that probe_motion_store_before_step has made in the probe q. */
 void probe_motion_free(struct probe *q);
 
 /* Returns component `axis` of the position of particle q->list[list_index] of a probe [m]. After
- * probe_motion_interpolate_to_sample_time it is the position at the time of the sample, until
+ * probe_motion_interpolate_to_sample_time it is the position at the time of the sample (line of history.csv), until
  * probe_motion_discard_interpolation; otherwise it is the present position. */
 static inline real probe_particle_position_component(const struct probe *q, const struct particles *p, int axis,
                                                      int64_t list_index)
@@ -120,7 +121,7 @@ static inline real probe_particle_position_component(const struct probe *q, cons
 }
 
 /* Returns component `axis` of the velocity of particle q->list[list_index] of a probe [m/s]. After
- * probe_motion_interpolate_to_sample_time it is the velocity at the time of the sample, until
+ * probe_motion_interpolate_to_sample_time it is the velocity at the time of the sample (line of history.csv), until
  * probe_motion_discard_interpolation; otherwise it is the present velocity. */
 static inline real probe_particle_velocity_component(const struct probe *q, const struct particles *p, int axis,
                                                      int64_t list_index)
@@ -142,13 +143,14 @@ int32_t probe_find_nearest_particle(const struct observed_run *o, const real *po
  * of a LINE probe. These points are equidistant from one end of the line to the other. */
 void line_probe_compute_station_position(const struct probe *q, int dim, int station, real *position);
 
-/* Returns the crack tip that the TIP probe q follows at present, or NULL if there is none. The tip belongs to *tips. */
+/* Returns the crack tip that the TIP probe q (position and growth of a crack tip) follows at present, or NULL if there
+ * is none. The tip belongs to *tips. */
 const struct crack_tip *probe_find_followed_crack_tip(const struct probe *q, const struct crack_tips *tips);
 
 /* Computes the reaction at the boundary that probe q (a measurement during the run) observes, force[dim] [N]: the sum
  * of the members `reaction` of all entries of `loads` with the name of this boundary, i.e. of its supports, in load
- * steps also of its forces. mean_displacement[dim]: receives the mean displacement of the particles that they act on,
- * each counted alike [m]. */
+ * steps (static equilibria) also of its forces. mean_displacement[dim]: receives the mean displacement of the particles
+ * that they act on, each counted alike [m]. */
 void probe_compute_reaction_of_supports(const struct probe *q, const struct loads *loads, int dim, real *force,
                                         real *mean_displacement);
 
@@ -182,12 +184,12 @@ status pulse_probe_store_incident_amplitude(struct probe *q, const struct observ
 
 /* Returns the results of the PULSE probe q (amplitudes of a wave packet): the amplitudes of the reflected and the
  * transmitted wave divided by the incident amplitude, and the relative energy change of run o minus that of the
- * baseline, a run with material points alone (0 without a baseline). */
+ * baseline, the same run with material points alone (subtracted only if o->baseline is not NULL). */
 struct pulse_shares pulse_compute_amplitudes(const struct probe *q, const struct observed_run *o);
 
-/* Tests whether broken bonds separate the bar of a SPALL probe into two parts along x. If so, stores the position of
- * the plane of separation and the time in q->memory; else changes nothing. o: the run as probes see it (particles,
- * bonds, time). */
+/* Tests whether broken bonds separate the bar of the SPALL probe q (place and time at which a bar spalls) into two
+ * parts along x. If so, stores the position of the plane of separation and the time in q->memory; else changes nothing.
+ * o: the run as probes see it (particles, bonds, time). */
 void spall_probe_detect_separation(struct probe *q, const struct observed_run *o);
 
 /* Computes the mean velocities along x of the two parts of the bar of the SPALL probe q (place and time at which a bar
@@ -204,7 +206,8 @@ enum { GROWTH_FIGURES = 5 };
 extern const struct column growth_figure[GROWTH_FIGURES];
 
 /* Computes the reported quantities of the growing crack g (position of its tip, length, speed, equivalent
- * stress-intensity factor) and stores them in value[GROWTH_FIGURES], in the order of growth_figure[]. */
+ * stress-intensity factor) and stores them in value[GROWTH_FIGURES], in the order of the names in growth_figure[]: x, y
+ * [m], length, speed, K_eq. */
 void growing_crack_compute_probe_values(const struct growing_crack *g, real *value);
 
 /* ---- stress-intensity factors: SIF ------------------------------------------------------------------------------- */
@@ -229,16 +232,19 @@ void sif_probe_free(struct sif_tracked *w);
  * (stress-intensity factors), before the time step. */
 void sif_probe_store_motion_before_step(struct probe *q, const struct observed_run *o);
 
-/* Computes K_I, K_II, J and their spread between the integration contours of the SIF probe q in run o at the time of
- * the sample, and stores them in q->memory.factors. velocity_time: time of the present velocities [s]. */
+/* Computes K_I, K_II, J and their spread between the integration contours of the SIF probe q (stress-intensity factors)
+ * in run o at the time of the sample (line of history.csv), and stores them in q->memory.factors. velocity_time: time
+ * of the present velocities [s]. */
 void sif_probe_compute_intensity_factors(struct probe *q, const struct observed_run *o, real velocity_time);
 
-/* Returns true if the stress-intensity factors of SIF probe q at its last sample are reliable: they were computed, and
- * contour_spread, their relative difference between the integration contours, is at most 0.2. */
+/* Returns true if the stress-intensity factors of SIF probe q at its last sample (line of history.csv) are reliable:
+ * they were computed, and contour_spread, their relative difference between the integration contours, is at most 0.2.
+ */
 bool sif_probe_factors_are_meaningful(const struct probe *q);
 
-/* Returns quantity `figure` (0 to 3: K_I, K_II, J, contour_spread) of SIF probe q at its last sample. Returns NAN for
- * K_I, K_II and J if they are not reliable (sif_probe_factors_are_meaningful). */
+/* Returns quantity number `figure` (0 to 3: K_I, K_II, J, contour_spread) of SIF probe q (stress-intensity factors) at
+ * its last sample (line of history.csv). Returns NAN for K_I, K_II and J if they are not reliable
+ * (sif_probe_factors_are_meaningful). */
 static inline real sif_probe_result(const struct probe *q, int figure)
 {
     const bool valid = figure == SIF_FIGURES - 1 || sif_probe_factors_are_meaningful(q);
@@ -263,7 +269,7 @@ void rigid_probe_compute_angle_and_stresses(struct probe *q, const struct observ
 /* Computes the change of the angular momentum, value[3], and of the kinetic energy, value[4], of the body of the RIGID
  * probe q (conservation in a body that moves rigidly), from the particles p, relative to the values at the start [1];
  * both should be conserved. NAN if the value at the start is 0. Call this function when the velocities at the time of
- * the sample are known. */
+ * the sample (line of history.csv) are known. */
 void rigid_probe_compute_conservation_errors(struct probe *q, const struct particles *p, real *value);
 
 /* ---- a bar against a closed form: EXACT -------------------------------------------------------------------------- */
@@ -277,33 +283,36 @@ struct bar {
     real *flux, *strain;           /* [n] by rank: stress by bond flux [Pa]; strain du/dx [1] */
 };
 
-/* Finds the particles, ends, material and load of the bar of an EXACT probe and allocates q->bar. Returns REFUSED if
- * the bar or its loads differ from what the closed-form solution describes. o: the run as probes see it (particles,
- * bonds, time). */
+/* Finds the particles, ends, material and load of the bar of an EXACT probe (comparison of a bar with a closed-form
+ * solution) and allocates q->bar. Returns REFUSED if the bar or its loads differ from what the closed-form solution
+ * describes. o: the run as probes see it (particles, bonds, time). */
 status bar_probe_find_bar_and_load(struct probe *q, const struct observed_run *o);
 
 /* Frees the bar of an EXACT probe (comparison of a bar with a closed-form solution), which bar_probe_find_bar_and_load
  * has made, with its arrays; `bar` may be NULL. */
 void bar_probe_free_bar(struct bar *bar);
 
-/* Computes displacement, velocity, stress by bond flux and strain of all particles of a bar and stores them in the
- * arrays of *bar. o: the run as probes see it (particles, bonds, time). */
+/* Computes displacement [m], velocity [m/s], stress by bond flux (force of all bonds across a section, divided by its
+ * area) [Pa] and strain of all particles of the body `bar` of run o along x. Stores them in the arrays `displacement`,
+ * `velocity`, `flux` and `strain` of *bar, in the order of the particles from left to right. */
 void bar_probe_measure_fields(struct bar *bar, const struct observed_run *o);
 
 /* Computes the stress by bond flux of each particle of `bar` in run o, flux[n] by rank from left to right [Pa]: the sum
  * of the forces of all bonds that cross the centre of the particle, divided by the cross section of the bar. A bond
  * counts fully for particles strictly between its two ends and by half for the particles at its ends. Bonds to mirror
- * images of particles are included. Material points have their Cauchy stress instead. */
+ * images (copies of particles beyond planes of symmetry) are included. Material points have their Cauchy stress
+ * instead. */
 void bar_probe_compute_bond_flux_stress(const struct bar *bar, const struct observed_run *o, real *flux);
 
 /* Largest number of quantities that an EXACT probe reports of a bar; they are also columns of history.csv. */
 enum { BAR_FIGURES_MAX = 16 };
 
-/* Returns the number of quantities that an EXACT probe reports for the closed-form solution `closed_form`. */
+/* Returns the number of quantities that an EXACT probe (comparison of a bar with a closed-form solution) reports for
+ * the closed-form solution `closed_form`. */
 int bar_probe_value_count(enum exact_form closed_form);
 
-/* Returns the name and unit of reported quantity `value_number` of the closed-form solution `closed_form`, 0 <=
- * value_number < bar_probe_value_count(closed_form). */
+/* Returns the name and unit of quantity `value_number` that an EXACT probe (comparison of a bar with a closed-form
+ * solution) reports for the solution `closed_form`, 0 <= value_number < bar_probe_value_count(closed_form). */
 struct column bar_probe_value_column(enum exact_form closed_form, int value_number);
 
 /* Updates the measured fields of a bar (bar_probe_measure_fields), compares them with the closed-form solution, and
@@ -317,8 +326,9 @@ enum { BAR_READINGS = 12 };
 /* Names and units of the columns of the profile of a bar. */
 extern const struct column bar_reading[BAR_READINGS];
 
-/* Computes the line of the profile of `bar` in run o for one particle and stores it in value[BAR_READINGS], in the
- * order of bar_reading[]. rank_from_left: position of the particle in the order from left to right, from 0. */
+/* Computes one line of the profile (table of values along the bar, beside the closed-form solution) of `bar` in run o,
+ * for one particle, and stores it in value[BAR_READINGS], in the order of bar_reading[]. rank_from_left: position of
+ * the particle in the order from left to right, from 0. */
 void bar_probe_compute_profile_line(const struct bar *bar, const struct observed_run *o, int64_t rank_from_left,
                                     real *value);
 

@@ -12,21 +12,22 @@ struct account {
     real *x[DIM_MAX];       /* [particles of the body] positions [m] */
 };
 
-/* Allocates the dim arrays applied[0 .. dim - 1] and copies the present applied forces of the load steps s to them, a
- * value for each of `particles` [N]; 0 before the first solution. The caller frees the arrays. */
+/* Allocates the dim arrays applied[0 .. dim - 1] and copies the present applied forces of s, the state of the load
+ * steps (successive static equilibria), to them, a value for each of `particles` [N]; 0 before the first solution. The
+ * caller releases each array with memory_free. */
 void applied_forces_copy(real **applied, const struct statics *s, const struct particles *particles);
 
-/* Copies the present positions of `particles` and the displacements and forces of s, the state of the load steps, into
- * *account, for work_account_end_and_estimate_error. The storage is freed by work_account_end_and_estimate_error or
- * work_account_free. */
+/* Copies the present positions of `particles` and the displacements and forces of s, the state of the load steps
+ * (successive static equilibria), into *account, for work_account_end_and_estimate_error. The storage is freed by
+ * work_account_end_and_estimate_error or work_account_free. */
 void work_account_start(struct account *account, const struct statics *s, const struct particles *particles);
 
 /* Adds the work of supports and of applied forces since work_account_start to the work that `loads` stores: the mean of
  * the initial and final force times the displacement (trapezoidal rule), and `curved_path_work`, the work of loads
- * beyond that mean along the curved path of the solver [J]. s, p: state of the load steps, and particles. Frees the
- * storage of *account. Returns an estimate of the error of the work [J]: its difference from the work with the initial
- * or the final force alone, plus the largest work of the round-off of forces, which is the only work on an unloaded
- * body that moves along with a rigid body. */
+ * beyond that mean along the curved path of the solver [J]. s, p: state of the load steps (static equilibria), and
+ * particles. Frees the storage of *account. Returns an estimate of the error of the work [J]: its difference from the
+ * work with the initial or the final force alone, plus the largest work of the round-off of forces, which is the only
+ * work on an unloaded body that moves along with a rigid body. */
 real work_account_end_and_estimate_error(struct account *account, const struct statics *s, const struct particles *p,
                                          struct loads *loads, real curved_path_work);
 

@@ -13,7 +13,7 @@ struct rigid_set;
 bool crack_faces_are_in_contact(const struct contact *c);
 
 /* Returns true if any particles or rigid bodies were in contact before the present solution of s (state of the load
- * steps) or are in contact now. */
+ * steps, i.e. successive equilibria) or are in contact now. */
 bool statics_is_or_was_in_contact(const struct statics *s, const struct contact *contact);
 
 /* Searches for pairs in contact of run e before its first solution. Does nothing in runs without contact and rigid
@@ -22,7 +22,7 @@ void statics_contact_search_before_first_solution(struct run *e);
 
 /* Returns the number of substeps into which the load increment from the present positions of rigid bodies to those at
  * the pseudo-time `pseudo_time` [s] is divided, so that no rigid body moves by more than 0.2 particle spacings in a
- * substep; at least 1, and limited (SUBSTEPS_MOST). */
+ * substep; from 1 to 10000. */
 int statics_substep_count(const struct scene *s, const struct rigid_set *rigid, real pseudo_time);
 
 /* Prepares the solution of run e at the pseudo-time `pseudo_time` [s]: computes the energy stored before the solution,

@@ -16,10 +16,10 @@ real crack_energy_share_by_symmetry(const struct crack_tips *tips, const struct 
  * bar in one dimension (`space: line`) counts as 25 spacings wide. */
 real crack_area_of_growth_by_one_spacing(const struct run *e);
 
-/* Determines the next crack increment of run e (the next piece of crack growth) from trial equilibria, unless it is
- * already known. Stores in e->statics its bonds (`next`), its energies (`ahead`), and the load size (`due`, a measure
- * proportional to the loads) at which it releases as much energy as it costs. Returns FAILED if a trial equilibrium is
- * not found. */
+/* Determines the next crack increment of run e (the next piece of crack growth) from trial equilibria (solutions that
+ * may be discarded), unless it is already known. Stores in e->statics its bonds (`next`), its energies (`ahead`), and
+ * the load size (`due`, a measure proportional to the loads) at which it releases as much energy as it costs. Returns
+ * FAILED if a trial equilibrium is not found. */
 status crack_increment_find(struct run *e);
 
 /* Breaks the bonds of the next crack increment of run e and moves the tips of SIF-driven cracks (growth direction from
@@ -27,18 +27,19 @@ status crack_increment_find(struct run *e);
  * of directed bonds broken (a bond between two particles counts twice). */
 int64_t crack_increment_break_bonds_and_move_tips(struct run *e);
 
-/* Finds the equilibrium after crack_increment_break_bonds_and_move_tips has broken bonds, and converts material points
- * near the crack to peridynamic particles. broken_bonds: number of directed bonds that were broken (a bond between two
- * particles counts twice). Returns FAILED if no equilibrium is found, INTERRUPTED if the run is to stop. */
+/* Finds the equilibrium of run e after crack_increment_break_bonds_and_move_tips has broken bonds, and converts
+ * material points near the crack to peridynamic particles. broken_bonds: number of directed bonds that were broken (a
+ * bond between two particles counts twice). Returns FAILED if no equilibrium is found, INTERRUPTED if the run is to
+ * stop. */
 status crack_increment_equilibrate(struct run *e, int64_t broken_bonds);
 
-/* Scales the loads to the size at which the next crack increment releases as much energy as it costs, finds the
- * equilibrium there, and makes the increment: breaks its bonds and finds the new equilibrium. Returns FAILED if no
+/* Scales the loads of run e to the size at which the next crack increment releases as much energy as it costs, finds
+ * the equilibrium there, and makes the increment: breaks its bonds and finds the new equilibrium. Returns FAILED if no
  * equilibrium is found, INTERRUPTED if the run is to stop. */
 status crack_increment_apply_at_energy_balance(struct run *e);
 
-/* Makes the next crack increment as a dynamic release (release.c): breaks its bonds, integrates the motion of the body
- * in time under fixed loads until the body is at rest, and finds the equilibrium. Returns FAILED if the motion
+/* Makes the next crack increment of run e as a dynamic release (release.c): breaks its bonds, integrates the motion of
+ * the body in time under fixed loads until the body is at rest, and finds the equilibrium. Returns FAILED if the motion
  * diverges or no equilibrium is found, INTERRUPTED if the run is to stop. */
 status crack_increment_apply_by_dynamic_release(struct run *e);
 

@@ -12,8 +12,8 @@
  * of the load step reached the yield surface to the end of the step, and by how much its yield stress has fallen.
  * Updates the largest values so far in s->turn (not in 1D, where the direction of flow only changes its sign) and
  * s->softening, and stores the present state as the start of the next load step. The first call stores the state only.
- * elastic_constants: elastic constants of all materials; load_step: number of the load step. Does nothing if no point
- * of p yields. */
+ * elastic_constants: elastic constants of all materials; load_step: number of the load step (static equilibrium). Does
+ * nothing if no point of p yields. */
 void flow_turn_measure_over_load_step(struct statics *s, const struct particles *p,
                                       const struct elastic *elastic_constants, int64_t load_step);
 

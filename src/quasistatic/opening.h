@@ -6,9 +6,9 @@
 #include "quasistatic/statics.h"
 #include "run/run.h"
 
-/* Checks the two gauge positions of the input file, points on both sides of a crack whose distance the load steps
- * control. Returns REFUSED, with a message, if one of them is far from the body, or if the same particle is nearest to
- * both. part: particles of the body. */
+/* Checks the two gauge positions of the input file, points on both sides of a crack whose distance controls the load
+ * steps (successive static equilibria). Returns REFUSED, with a message, if one of them is far from the body, or if the
+ * same particle is nearest to both. part: particles of the body. */
 status gauge_check_positions(const struct scene *scene, const struct particles *part);
 
 /* Returns the opening: the increase of the distance between the two gauge particles (statics->gauge, on both sides of a

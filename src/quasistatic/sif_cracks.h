@@ -123,10 +123,10 @@ void sif_cracks_free(struct sif_cracks *cracks);
 void sif_tip_break_bonds_behind(struct run *e, const struct sif_crack_tip *tip);
 
 /* Determines the next crack increment of the SIF-driven cracks (growth direction from stress-intensity factors) of run
- * e under the present loads. For each tip that can grow, a trial equilibrium with the bonds of its increment broken
- * gives the energy that is released. Stores in e->statics the bonds to break (`next`), the energies (`ahead`), and the
- * load size (`due`, a measure proportional to the loads) at which the increment releases as much energy as it costs.
- * Returns FAILED if an equilibrium is not found. */
+ * e under the present loads. For each tip that can grow, a trial equilibrium (discarded afterwards) with the bonds of
+ * its increment broken gives the energy that is released. Stores in e->statics the bonds to break (`next`), the
+ * energies (`ahead`), and the load size (`due`, a measure proportional to the loads) at which the increment releases as
+ * much energy as it costs. Returns FAILED if an equilibrium is not found. */
 status sif_increment_find(struct run *e);
 
 /* Moves all tips of `cracks` that take part in the present crack increment (member `selected` of struct sif_crack_tip)

@@ -4,10 +4,10 @@
 
 #include "run/run.h"
 
-/* Makes one load step of a body whose bonds soften. With the control `energy`, bonds dissipate the energy
- * `steps.energy` in the step, and the size of the loads follows from it; with the control `load`, the pseudo-time
- * becomes `pseudo_time` [s]. Breaks the bonds that have no stiffness left. Returns FAILED if no equilibrium is found,
- * INTERRUPTED if the run is to stop. */
+/* Makes one load step (static equilibrium under increased loads) of run e, whose bonds soften. With the control
+ * `energy`, bonds dissipate the energy `steps.energy` in the step, and the size of the loads follows from it; with the
+ * control `load`, the pseudo-time becomes `pseudo_time` [s]. Breaks the bonds that have no stiffness left. Returns
+ * FAILED if no equilibrium is found, INTERRUPTED if the run is to stop. */
 status softening_make_load_step(struct run *e, real pseudo_time);
 
 /* Returns the smallest crack energy per area [J/m^2] of the materials of scene s (the input file) whose bonds soften;

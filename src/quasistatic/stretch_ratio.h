@@ -25,7 +25,8 @@ int64_t bonds_break_overstretched(struct run *e, real ratio_tolerance, int64_t m
 void bonds_break_listed(struct run *e, const struct break_list *l);
 
 /* Restores the bonds of the list l, which must be the bonds that were broken last, and the energies, damage and flags
- * of their rows (all bonds of one particle) and particles from the records of the list. s: load steps. */
+ * of their rows (all bonds of one particle) and particles from the records of the list. s: state of the load steps
+ * (static equilibria), which holds the energies. */
 void bonds_restore_broken(struct statics *s, struct bonds *b, struct particles *p, const struct break_list *l);
 
 /* Appends a copy of *record to the list l, whose array grows as needed; free l->bond with memory_free. */

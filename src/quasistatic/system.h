@@ -10,8 +10,8 @@
  * e->statics are kept. Release with statics_unknowns_free. */
 void statics_unknowns_make(struct run *e);
 
-/* Frees the system of equations of load steps in *s. Counters, energy losses and the largest force norm remain in *s,
- * for the next system. */
+/* Frees the system of equations of the load steps (static equilibria) in *s. Counters, energy losses and the largest
+ * force norm remain in *s, for the next system. */
 void statics_unknowns_free(struct statics *s);
 
 /* Moves particles and mesh nodes of run e to the displacements of the last solution. If the body can yield, also
@@ -23,10 +23,9 @@ void plastic_state_update_at_last_solution(struct run *e);
  * missing or has another size. */
 status plastic_state_save_or_load(struct bonds *b, struct particles *p, int optional_arrays, struct archive *a);
 
-/* Copies the plastic state of bonds b and points p to *m, and frees the former contents of *m. Later solutions start
+/* Copies the plastic state of bonds b and particles p to *m, and frees the former contents of *m. Later solutions start
  * from this state (plastic_state_restore). optional_arrays: which optional arrays the particles have, a set of bits
- * WITH_...
- */
+ * WITH_... */
 void plastic_state_save(struct memory_archive *m, struct bonds *b, struct particles *p, int optional_arrays);
 
 /* Restores the plastic state of bonds and points that plastic_state_save has copied to *m. Does nothing if there is no

@@ -7,7 +7,8 @@
 
 /* Returns the crack energy per area of the material m [J/m^2]. For a bond-based `model` it is the energy per area of
  * all bonds that cross a plane of the lattice, each at its critical stretch; for state-based models the fracture energy
- * G_c of the material. family: rules that select the neighbours of a particle and the weights of its bonds. */
+ * G_c of the material. family: rules that select the neighbours of a particle and the weights of its bonds (factors on
+ * their stiffness). */
 real toughness_of_material(const struct family *family, enum model model, const struct material *m);
 
 /* Returns the crack energy per area [J/m^2] between the particles `particle` and `other_particle`: that of their common

@@ -24,8 +24,8 @@ void unknowns_free(struct statics *s);
 void unknown_compute_reference_position(const struct statics *s, const struct particles *p, const struct mesh *mesh,
                                         int64_t unknown_number, real *position);
 
-/* Sets the positions of the particles p, the nodes of `mesh` and the mirror images of nodes to their reference
- * positions plus the displacements `displacement` [m]. s: list of these particles and nodes. */
+/* Sets the positions of the particles p, the nodes of `mesh` and the mirror images of nodes (beyond planes of symmetry)
+ * to their reference positions plus the displacements `displacement` [m]. s: list of these particles and nodes. */
 void unknowns_apply_displacements(const struct statics *s, struct particles *p, struct mesh *mesh,
                                   const struct field *displacement);
 
@@ -39,13 +39,14 @@ void image_compute_displacement_signs(const struct particles *p, const struct lo
  * components for each particle of the body [N]. Allocates these arrays on the first call. */
 void applied_forces_compute(struct statics *s, const struct particles *p, const struct loads *loads, real pseudo_time);
 
-/* Returns the Euclidean norm [N] of all applied forces in s (state of the load steps) on components of displacement
- * that no boundary prescribes, and of the contact forces of rigid bodies. loads: the supports of the body. */
+/* Returns the Euclidean norm [N] of all applied forces in s (state of the load steps, i.e. static equilibria) on
+ * components of displacement that no boundary prescribes, and of the contact forces of rigid bodies. loads: the
+ * supports of the body. */
 real applied_forces_norm(const struct statics *s, const struct particles *p, const struct loads *loads,
                          const struct contact *contact);
 
 /* Computes the reactions and mean displacements of the supports and the sums of applied forces in the present
- * equilibrium of the load steps s, and stores them in *loads. */
+ * equilibrium of s, the state of the load steps, and stores them in *loads. */
 void reactions_compute_and_store(const struct statics *s, const struct particles *p, struct loads *loads);
 
 #endif

@@ -84,13 +84,14 @@ void arena_free(struct reader *r);
  * yaml_node). Returns REFUSED, with a message, for invalid YAML. */
 status tree_parse_yaml(struct reader *r, const char *text, size_t length, int origin_index, struct yaml_node **root);
 
-/* Appends the node `child` to the entries of the list or mapping `parent`. */
+/* Appends the node `child` to the entries of the list or mapping `parent`, without a copy. */
 void yaml_node_append(struct yaml_node *parent, struct yaml_node *child);
 
 /* Returns the entry of the mapping `map` with the key `key`; NULL if it has none. */
 struct yaml_node *yaml_node_find(const struct yaml_node *map, const char *key);
 
-/* Removes the node `child` from the entries of the list or mapping `parent`. */
+/* Removes `child`, which must be one of the entries of the list or mapping `parent`, from these entries. The node is
+ * not released: its memory belongs to the reader (arena_free). */
 void yaml_node_remove(struct yaml_node *parent, struct yaml_node *child);
 
 /* Reads the input files that the tree `root` includes and adds their keys to the tree; keys that the tree has itself
@@ -140,8 +141,7 @@ status tree_apply_override(struct reader *r, struct yaml_node *root, const char 
 const struct yaml_node *tree_find(const struct yaml_node *root, const char *path);
 
 /* Parses the input file text[length], merges the files that it includes, applies overrides, and stores the tree in
- * *root. r: reader of the input file. Returns REFUSED, with a message, if the text is malformed or a file is missing.
- */
+ * *root, in memory of the reader r. Returns REFUSED, with a message, if the text is malformed or a file is missing. */
 status scene_parse_tree(struct reader *r, const char *text, size_t length, struct yaml_node **root);
 
 /* Reads all keys of the tree `root` of an input file into r->scene and checks them. Returns REFUSED, with a message, if
@@ -168,8 +168,8 @@ struct quantity {
     bool bare;    /* the value has no unit in the text: it is taken as SI in every key */
 };
 
-/* Reads `text` of the form `number [/ number] [unit]`, with any unit, into *q. Returns false if the text has another
- * form. */
+/* Reads `text` of the form `number [/ number] [unit]`, with any unit, into *q (value in SI units, and exponents of m,
+ * kg and s). Returns false if the text has another form. */
 bool quantity_parse(struct quantity *q, const char *text);
 
 /* Reads the number at the beginning of `text` into *q and, if read_unit is true, the unit that follows. Returns the
@@ -452,8 +452,8 @@ status read_number(struct reader *r, const struct key *k, const struct yaml_node
  * message, for an invalid value. */
 status read_point(struct reader *r, const struct key *k, const struct yaml_node *n, real *point);
 
-/* Returns the space in which points are read at present, in words for messages: that of the input file, or the plane of
- * an extrusion. r: reader of the input file. */
+/* Returns, as words for messages, the space whose dimensions points must have where the reader r is at present: that of
+ * the input file, such as `space plane stress`, or `the plane of extrude` inside the section of an extruded solid. */
 const char *space_name_for_message(const struct reader *r);
 
 /* Returns REFUSED, with an example of a value of key k, if node n is no list; else OK. r: reader of the input file. */

@@ -1,5 +1,7 @@
 /* Rows of the table of keys (scene_keys.c): keys of bodies in input files. KEY(path, type, unit, place, range, default,
- * meaning, ..); place: AT(structure, member) that stores the value, NOWHERE if nothing is stored. */
+ * meaning, ..) is one row; type: KEY_LIST is a list of mappings, KEY_PART a mapping, both read by functions of their
+ * own; place: AT(structure, member) that stores the value, NOWHERE if nothing is stored; range: of a number, or of the
+ * number of entries of a list. */
 KEY("bodies", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(1, 255), "(required, or body)",
     "several bodies; each has the keys below"),
     KEY("bodies.name", KEY_NAME, UNIT_NONE, AT(scene_body, name), ANY, "(body0, body1, ..)",

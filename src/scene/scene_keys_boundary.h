@@ -1,5 +1,7 @@
 /* Rows of the table of keys (scene_keys.c): keys of boundary conditions in input files. KEY(path, type, unit, place,
- * range, default, meaning, ..); place: AT(structure, member) that stores the value, NOWHERE if nothing is stored. */
+ * range, default, meaning, ..) is one row; type: KEY_LIST is a list of mappings, KEY_PART a mapping, both read by
+ * functions of their own; place: AT(structure, member) that stores the value, NOWHERE if nothing is stored; range: of a
+ * number, or of the number of entries of a list. */
 KEY("boundary", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(0, 255), NONE,
     "boundary conditions; each has one kind: fixed, velocity, displacement, rotation, traction, pressure, "
     "body_force, mirror or absorbing"),

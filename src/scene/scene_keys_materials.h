@@ -1,5 +1,7 @@
 /* Rows of the table of keys (scene_keys.c): keys of materials in input files. KEY(path, type, unit, place, range,
- * default, meaning, ..); place: AT(structure, member) that stores the value, NOWHERE if nothing is stored. */
+ * default, meaning, ..) is one row; type: KEY_LIST is a list of mappings, KEY_PART a mapping, both read by functions of
+ * their own; place: AT(structure, member) that stores the value, NOWHERE if nothing is stored; range: of a number, or
+ * of the number of entries of a list. The keys of bodies name their material by its material.name. */
 KEY("material", KEY_PART, UNIT_NONE, NOWHERE, ANY, "(required, or materials)", "the one material; its keys follow"),
     KEY("materials", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(1, 255), "(required, or material)",
         "several materials, each with the keys of material and a name"),

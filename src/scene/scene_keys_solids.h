@@ -1,6 +1,7 @@
 /* Rows of the table of keys (scene_keys.c): keys of solids, their motions and patterns in input files. KEY(path, type,
- * unit, place, range, default, meaning, ..); place: AT(structure, member) that stores the value, NOWHERE if nothing is
- * stored. */
+ * unit, place, range, default, meaning, ..) is one row; type: KEY_GROUP is the heading of the keys of solids, KEY_PART
+ * a mapping that a function of its own reads; place: AT(structure, member) that stores the value, NOWHERE if nothing is
+ * stored; range: of a number, or of the number of entries of a list. */
 KEY("solid", KEY_GROUP, UNIT_NONE, NOWHERE, ANY, NONE,
     "what bodies and regions are made of: one of the following, or a list of them, built in order"),
     KEY("solid.box", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "axis-parallel box"),

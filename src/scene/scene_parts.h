@@ -206,15 +206,16 @@ void resolve_lattices_of_particle_lists(struct reader *r, const struct yaml_node
  */
 status check_keys_for_static_solver(struct reader *r, const struct yaml_node *root);
 
-/* Checks the keys of an input file that requests load steps. Returns REFUSED, with a message, for keys that this solver
- * does not support. r, root: reader and tree of the input file. */
+/* Checks the keys of an input file that requests load steps (successive static equilibria). Returns REFUSED, with a
+ * message, for keys that this solver does not support. r, root: reader and tree of the input file. */
 status check_keys_for_load_steps(struct reader *r, const struct yaml_node *root);
 
-/* Returns true if scene s (the input file) is solved in load steps and has a material whose bonds soften. */
+/* Returns true if scene s (the input file) is solved in load steps (successive static equilibria) and has a material
+ * whose bonds soften. */
 bool scene_has_load_steps_with_softening_bonds(const struct scene *s);
 
-/* Returns REFUSED if the input file gives settings of load steps but has another solver, unless all of them have their
- * default values. r, root: reader and tree of the input file. */
+/* Returns REFUSED if the input file gives settings of load steps (successive static equilibria) but has another solver,
+ * unless all of them have their default values. r, root: reader and tree of the input file. */
 status check_load_step_keys_unused(struct reader *r, const struct yaml_node *root);
 
 /* Returns the contents s of an input file as they are run, every key with its value or default, as YAML text. Returns

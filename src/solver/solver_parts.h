@@ -4,8 +4,8 @@
 
 #include "solver/solver.h"
 
-/* Computes the bond forces at the present positions of the particles of `body` into body->part->f [N]. Updates the
- * mirror images of particles first. No bond breaks. */
+/* Computes the bond forces at the present positions of the particles of `body` into body->part->f [N]. Moves the mirror
+ * images (copies of particles beyond planes of symmetry) first. No bond breaks. */
 void static_body_compute_bond_forces(const struct static_body *body);
 
 /* Computes the product K u of the tangent stiffness K of the bonds of `body` at the reference positions with the

@@ -98,7 +98,8 @@ void values_find_indices_in_runs(int **value_at, const struct study *study, cons
 void roles_assign_to_keys(struct study_picture *picture, int max_lines);
 
 /* Computes the unit of the result of each panel and the points of its lines, p->unit_of_figure and p->point, from the
- * roles of the keys. Replaces points computed before. Release them with study_points_free. */
+ * roles of the keys (along the axis, as lines, held at one value). Replaces points computed before. Release them with
+ * study_points_free. */
 void study_points_compute(struct study_picture *p);
 
 /* Frees the points p->point that study_points_compute has allocated. */
