@@ -31,14 +31,14 @@ struct growth_samples {
  * because there are too few records. */
 enum growth_rate { RISE_FAST, RISE_SLOW, RISE_UNSURE };
 
-/* Records `value` at time step number `step` in `samples`, unless the last record is less than RISE_CLOSEST steps old.
- * The last RISE_VALUES records are kept. */
+/* Records `value` at time step number `step` in `samples`, unless the last record is less than RISE_CLOSEST (16) steps
+ * old. The last RISE_VALUES (64) records are kept. */
 void growth_samples_add(struct growth_samples *samples, int64_t step, real value);
 
 /* Returns how fast the quantity recorded in `samples` has grown to `value` > 0 at time step number `step`: RISE_FAST if
- * it increased tenfold within RISE_STEPS steps (growth between two records is taken as exponential), RISE_SLOW if that
- * took longer, RISE_UNSURE if the records do not decide. *tenfold_steps receives the approximate duration of the last
- * tenfold increase [steps], INFINITY if that increase began before the first record. */
+ * it increased tenfold within RISE_STEPS (100) steps (growth between two records is taken as exponential), RISE_SLOW if
+ * that took longer, RISE_UNSURE if the records do not decide. *tenfold_steps receives the approximate duration of the
+ * last tenfold increase [steps], INFINITY if that increase began before the first record. */
 enum growth_rate growth_samples_classify(const struct growth_samples *samples, int64_t step, real value,
                                          real *tenfold_steps);
 

@@ -68,8 +68,9 @@ struct softened {
     /* [columns 8] weight that a bond which softens had before [1]; only in state-based models, where the weight in
      * bonds.w is this times 1 - d (kernels/pd/state_soften.c). NULL: bond-based model */
     float *whole;
-    /* [columns 8] load steps: k of the last equilibrium, 0 for a bond that did not soften then [1]; forces follow from
-     * this k at any stretch, so that bonds are springs of their secant stiffness. NULL: explicit time steps */
+    /* [columns 8] in load steps (static equilibria): k of the last one, 0 for a bond that did not soften then [1];
+     * forces follow from this k at any stretch, so that bonds are springs of their secant stiffness. NULL: explicit
+     * time steps */
     float *settled;
     uint8_t *begun;   /* [row_blocks] 1: the arrays are valid */
     uint8_t *due;     /* [row_blocks] enum softening_due */
@@ -132,9 +133,9 @@ struct state {
     const struct state_modulus *modulus; /* [materials] elastic moduli, borrowed; NULL: bond-based model */
     bool local;                          /* Q is summed over the present neighbourhood, not over a full one */
     real *weighted;                      /* [row_blocks 8] weighted volume Q [m^2] */
-    real share;       /* V/Q of a full neighbourhood, where moduli refer to it; 0: V/Q of each neighbourhood [m] */
-    uint8_t *past;    /* [row_blocks] 1: a bond may have exceeded its limit in the last sweep */
-    uint8_t *pressed; /* [row_blocks] 1: a bond is within its core (kernels/pd/bond_core.h) */
+    real share;    /* V/Q of a full neighbourhood, where moduli refer to it; 0: V/Q of each neighbourhood [m] */
+    uint8_t *past; /* [row_blocks] 1: a bond may have exceeded its breaking stretch in the last computation of forces */
+    uint8_t *pressed; /* [row_blocks] 1: a bond is so short that its repulsive core acts (kernels/pd/bond_core.h) */
     real *pressure, *spring; /* [n_all] pressure P [N/m^2] and spring g [N/m] */
     /* [n_all] rotation R with spring g (kernels/pd/rotation.h), only in models with rotations. 2D: g (R - 1), row major
      * [N/m]; 3D: sqrt(2 g) times the quaternion of R, its scalar last [(N/m)^1/2] */
@@ -179,8 +180,8 @@ struct stencil_column {
 };
 
 /* Bonds that blocks of eight rows, of eight consecutive particles, share: equal neighbours at equal distances with
- * equal weights, no bond broken. Most blocks of a lattice follow one of few stencils, whose columns stay in the nearest
- * cache. Columns of such blocks are written only when a bond is accessed by index
+ * equal weights (factors on the stiffness), no bond broken. Most blocks of a lattice follow one of few stencils, whose
+ * columns stay in the nearest cache. Columns of such blocks are written only when a bond is accessed by index
  * (bond_row_block_write_columns_from_stencil). */
 struct stencil {
     int columns;                   /* number of columns, i.e. of bonds of a row */

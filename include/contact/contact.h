@@ -180,10 +180,11 @@ real contact_critical_time_step(const struct contact *c, const struct particles 
 
 /* Updates the list of pairs of particles of p that may come into contact, before time step number `step_number`. A new
  * search is done in three cases: particles have moved farther than contact_pair_list_safe_displacement since the last
- * search; bonds have been broken since then, and it was at least BREAKS_WAIT steps ago; or a search was requested
- * (c->due). Marks in `loads` the particles on which contact forces may act, and in b their bonds as active, i.e. to be
- * computed. family: horizon and lattice; broken_bond_count: number of bonds broken so far, each counted once for each
- * of its particles; conversion_count: number of changes so far between material points and peridynamic particles. */
+ * search; bonds have been broken since then, and that search was made at least 32 steps before; or a search was
+ * requested (c->due). Marks in `loads` the particles on which contact forces may act, and in b their bonds as active,
+ * i.e. to be computed. family: horizon and lattice; broken_bond_count: number of bonds broken so far, each counted once
+ * for each of its particles; conversion_count: number of changes so far between material points and peridynamic
+ * particles. */
 void contact_update_pair_list_if_outdated(struct contact *c, const struct particles *p, struct bonds *b,
                                           struct loads *loads, const struct family *family, int64_t step_number,
                                           int64_t broken_bond_count, int64_t conversion_count);

@@ -28,7 +28,7 @@ struct conversion {
 
 /* Functions that convert_flagged_points calls, with `context` as first argument. sync: brings position and velocity of
  * the particles list[n] (indices, each once) up to date from the nodes of a mesh, before bonds of these particles are
- * made. converted: is told that the particles list[n] have become peridynamic and have bonds; NULL: not called. */
+ * made. converted: is called after the particles list[n] have become peridynamic and have bonds; NULL: not called. */
 struct conversion_sync {
     void (*sync)(void *context, const int32_t *list, int64_t n);
     void *context;

@@ -11,7 +11,7 @@
 /* State of the coupling of peridynamic particles and material points in a run. PD-MPM bonds are bonds between a
  * peridynamic particle and a material point. */
 struct coupling_state {
-    bool approaches;               /* bodies may be in contact: material points near another body convert */
+    bool approaches;               /* bodies may be in contact: material points near another body become peridynamic */
     struct partial_stress partial; /* share of their stress that material points leave to bonds */
     bool flip;                     /* velocities are transferred from the grid by FLIP */
     bool uses_partial;             /* `partial` is filled: partial stresses, or data of state-based PD-MPM bonds */

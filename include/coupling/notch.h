@@ -54,9 +54,9 @@ void notches_free(struct notches *n);
 /* Sets FLAG_NEAR, by which material points are later converted to peridynamic particles, of points of p beside slits
  * (pre-cracks as free surfaces of the mesh) and narrow voids whose opposite faces are about to touch. n: lists these
  * points. Tests the distance of particles on opposite faces after the time `time_ahead` [s], extrapolated from present
- * positions and velocities, which must be up to date. At a slit, points are marked if this distance is less than
- * spacing (1 - NOTCH_GAP); at a notch of width `width`, if it is less than spacing (1 + NOTCH_GAP) - width; at a void,
- * if the faces are close to contact. spacing: of the particles [m]. */
+ * positions and velocities, which must be up to date. At a slit, points are flagged if this distance is less than
+ * spacing (1 - NOTCH_GAP), NOTCH_GAP being 1e-4; at a notch of width `width`, if it is less than spacing (1 +
+ * NOTCH_GAP) - width; at a void, if the faces are close to contact. spacing: of the particles [m]. */
 void notches_flag_points_at_closing_faces(const struct notches *n, struct particles *p, real spacing, real time_ahead);
 
 #endif

@@ -178,7 +178,7 @@ struct particle_field {
     const char *name, *unit, *meaning; /* name in checkpoints; unit; description */
     size_t offset, size;               /* offset of the (first) array pointer in struct particles; entry size [byte] */
     int (*count)(int dim, int optional); /* number of component arrays in dimension dim */
-    bool in_trials;                      /* belongs to ARCHIVE_TRIAL: plastic state */
+    bool in_trials; /* plastic state, which is also saved before trial equilibria (ARCHIVE_TRIAL) */
 };
 extern const struct particle_field particle_fields[];
 extern const int particle_fields_count;

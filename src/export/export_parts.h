@@ -62,7 +62,7 @@ void touched_particles_free(struct touched *touched);
  * cut. Colours become particle types of LAMMPS, of which pairs can be excluded from bonding. For any two colours, the
  * neighbouring particles with these colours all have a bond, or the bonds of all of them must be cut. Particles with
  * equal entries of touched->key share a colour where possible. Stores the colours in colour[touched->n]. Returns the
- * number of colours, or 0 if more than COLOURS_MOST are needed. */
+ * number of colours, or 0 if more than COLOURS_MOST (3000) are needed. */
 int particle_colours_assign_and_count(int32_t *colour, const struct touched *touched);
 
 /* Finds for each pair of colours (a, b) whether neighbouring particles with these colours are bonded or cut.
@@ -166,8 +166,8 @@ void lammps_script_write(FILE *file, const struct exported *exported, const stru
  * of Cleave LAMMPS does not compute (export_cost.c). */
 void lammps_write_run_time_estimate(FILE *file, const struct exported *exported);
 
-/* Returns the number of time steps after which positions in LAMMPS and Cleave are compared: CHECK_STEPS, or all steps
- * of the run of `exported` if it is shorter. */
+/* Returns the number of time steps after which positions in LAMMPS and Cleave are compared: CHECK_STEPS (200), or all
+ * steps of the run of `exported` if it is shorter. */
 int64_t lammps_reference_step_count(const struct exported *exported);
 
 /* Makes lammps_reference_step_count time steps of the run of `exported` in Cleave and writes the contents of check.csv

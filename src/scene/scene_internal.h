@@ -295,8 +295,8 @@ struct key {
     enum unit unit;
     size_t place, size;   /* 1 + offset of the value in the structure of its group [byte], 0: not stored; size [byte] */
     struct range range;   /* allowed values of a number, or number of entries of a list */
-    const char *fallback; /* default as text; "required"; "-": none; "(..)": an explanation, set by code */
-    const char *help;     /* meaning, for `cleave help`; NULL: of no row of the table of keys */
+    const char *fallback; /* default as text; "required"; "-": none; "(..)": description of a default that code sets */
+    const char *help;     /* meaning, for `cleave help`; NULL: the key is no row of the table of keys */
     /* CHOICE: a|b|c in the order of the enum; REAL: word allowed; NAME: any text is one; HAND: form */
     const char *words;
     const char *low; /* message for a value below the range; NULL: the usual message */
