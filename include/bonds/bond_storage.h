@@ -327,8 +327,8 @@ static inline real bond_weight_before_softening(const struct bonds *b, int64_t r
     return bond_is_softening(b, row_block, bond) ? b->soft.whole[bond] : present_weight;
 }
 
-/* Requests an examination of block `row_block` of eight rows of b (the bonds of eight particles) before forces are
- * computed next, because one of its bonds may begin to soften (kernels/pd/bond_begin.c). May be called by several
+/* Requests that the bonds of block `row_block` of eight rows of b (the bonds of eight particles) are checked before
+ * forces are computed next, because one of them may begin to soften (kernels/pd/bond_begin.c). May be called by several
  * threads at once. */
 static inline void bond_row_block_request_softening_check(struct bonds *b, int64_t row_block)
 {

@@ -130,7 +130,7 @@ bool bonds_row_has_begun_softening(const struct bonds *b, int64_t row);
 /* Starts the softening of bonds of b where the stress of particles p has reached the strength surface of the material,
  * a failure criterion in stress (bonds_strength.c). Computes, at the present positions and for particles with large
  * bond stretches, the ratio U of the stress of the particle to the stress on the strength surface. Where U reaches 1
- * (or the strength factor of the particle, if strength scatters), those bonds of the particle that have not begun to
+ * (or the random strength factor of the particle, if it has one), those bonds of the particle that have not begun to
  * soften do so from their present stretch on. Material points at such bonds are marked for conversion to peridynamic
  * particles. Does nothing if no material has a surface. source: inputs of the bonds (horizon, materials, cracks,
  * mirrors). */

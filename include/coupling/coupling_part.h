@@ -99,8 +99,8 @@ void warn_of_bodies_that_pass_or_stick(const struct run *e, struct warnings *war
 /* Marks the material points of run e that are to become peridynamic particles because contact is near (FLAG_NEAR):
  * those near other bodies, and those beside crack faces that approach each other. Searches for such points in each load
  * step (static equilibrium), or once in APPROACH_STEPS time steps. In every step first updates the list of the blocks
- * of eight rows (the bonds of eight particles each) whose particles may move. Returns true if crack faces were examined
- * in this step, so that points beside them may be marked. */
+ * of eight rows (the bonds of eight particles each) whose particles may move. Returns true if points beside crack faces
+ * were searched for in this step, so that some may be marked. */
 bool conversion_flag_points_near_bodies_or_faces(struct run *e);
 
 /* Converts those material points of run e whose flags require it (FLAG_LOST_BOND, FLAG_NEAR, FLAG_STRESSED) to

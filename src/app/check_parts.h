@@ -115,10 +115,10 @@ void print_bodies_of_separate_pieces(const struct run *e);
 real solid_smallest_edge(const struct run *e, const struct solid *solid);
 
 /* Returns the number of particle layers across the thin parts of body number `body_index` of run e, together with the
- * bodies joined to it; INFINITY if it is not thin. A body of a single solid is thin if its smallest edge is less than
- * `max_layers` spacings; this number of spacings is returned. Any other body is thin if across at least half of its
- * particles it has fewer layers than max_layers / 2; the median number of layers there is returned. Returns INFINITY
- * for a body that is joined to a body of lower index. */
+ * bodies that interfaces join to it; INFINITY if it is not thin. A body of a single solid is thin if its smallest edge
+ * is less than `max_layers` spacings; this number of spacings is returned. Any other body is thin if across at least
+ * half of its particles it has fewer layers than max_layers / 2; the median number of layers there is returned. Returns
+ * INFINITY for a body that is joined to a body of lower index. */
 double count_layers_across_thin_parts(const struct run *e, int body_index, double max_layers);
 
 /* Writes a line to `out` for each body of run e of nearly incompressible material whose particles near faces are too

@@ -93,11 +93,11 @@ status manual_print_page_on_runs(FILE *out);
 status manual_print(FILE *out);
 
 /* Finds the JSON schema of input files, in the installation or else in the build folder of the program, and writes its
- * path to path[capacity]. Returns false if neither has one. */
+ * path to path[capacity]. Returns false if neither has one or the path is too long. */
 bool schema_find_file_path(char *path, size_t capacity);
 
 /* Finds the folder `inputs` of manual and input files, in the installation or else in the source tree of the program,
- * and writes its path to path[capacity]. Returns false if neither has one. */
+ * and writes its path to path[capacity]. Returns false if neither has one or the path is too long. */
 bool documents_find_folder_path(char *path, size_t capacity);
 
 /* Prints to `out` the names of the kinds of input files that the command `cleave new` can create, separated by blanks.
@@ -105,7 +105,7 @@ bool documents_find_folder_path(char *path, size_t capacity);
 void new_scene_kinds_print(FILE *out);
 
 /* Prints to `out` a script by which a shell completes the commands, options and keys of the program. shell: name of the
- * shell, bash or zsh. Returns REFUSED for another shell. */
+ * shell, bash or zsh. Returns REFUSED, with a message, for another shell. */
 status completion_print_shell_script(FILE *out, const char *shell);
 
 #endif

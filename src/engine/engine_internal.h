@@ -117,8 +117,8 @@ void engine_warn_of_uncorrected_faces(const struct scene *s, const struct partic
                                       const struct surface_weights *weights, struct warnings *warnings);
 
 /* Computes the bounding box of those particles of p that are in body number `body_number` of scene s (the input file)
- * or in a body joined to this body, and stores the corners of the box in box_low[dim] and box_high[dim] [m]. Returns
- * true, or false if there are no such particles. */
+ * or in a body that an interface joins to this body, and stores the corners of the box in box_low[dim] and
+ * box_high[dim] [m]. Returns true, or false if there are no such particles. */
 bool engine_compute_box_of_joined_bodies(const struct scene *s, const struct particles *p, int body_number,
                                          real *box_low, real *box_high);
 

@@ -40,36 +40,39 @@ struct gmsh {
  * to 3) and its number `tag` in the file. */
 static inline int64_t gmsh_entity_key(int64_t dim, int64_t tag) { return tag * 4 + dim; }
 
-/* Sets *type to the element type with Gmsh's number `number`. Returns REFUSED for an unsupported type. */
+/* Sets *type to the element type with Gmsh's number `number`. Returns REFUSED, with a message, for an unsupported type.
+ */
 status gmsh_find_type(const struct source *s, int64_t number, const struct gmsh_type **type);
 
 /* Adds an element to the set that the mesh of g has of a physical group, which is created if it is new. dim, tag:
- * dimension and number of the group; element: index of the element in the mesh. Returns REFUSED if there are too many
- * groups. */
+ * dimension and number of the group; element: index of the element in the mesh. Returns REFUSED, with a message, if
+ * there are too many groups. */
 status gmsh_add_element_to_group(struct gmsh *g, int64_t dim, int64_t tag, int64_t element);
 
 /* Reads the nodes of an element of type `type` from the file g and appends it to the mesh. Stores middle nodes of
  * second-order elements only; edges of higher order must be straight. label: number of the element in the file. Returns
- * REFUSED for unknown nodes. */
+ * REFUSED, with a message, for unknown nodes. */
 status gmsh_read_element(struct gmsh *g, const struct gmsh_type *type, int64_t label);
 
-/* Creates g->node, the map from labels of nodes to their indices. Returns REFUSED if a label occurs twice. */
+/* Creates g->node, the map from labels of nodes to their indices. Returns REFUSED, with a message, if a label occurs
+ * twice. */
 status gmsh_map_node_labels(struct gmsh *g);
 
-/* Reads the section of nodes of the file g in format 2.2 into the mesh. Returns REFUSED if it is malformed or a label
- * occurs twice. */
+/* Reads the section of nodes of the file g in format 2.2 into the mesh. Returns REFUSED, with a message, if it is
+ * malformed or a label occurs twice. */
 status gmsh22_read_nodes(struct gmsh *g);
 
 /* Reads the section of elements of the file g in format 2.2 into the mesh. In binary files, elements of one type are in
- * blocks with a header; in text files each element has its type. Returns REFUSED if it is malformed. */
+ * blocks with a header; in text files each element has its type. Returns REFUSED, with a message, if it is malformed.
+ */
 status gmsh22_read_elements(struct gmsh *g);
 
-/* Reads the section of nodes of the file g in format 4.1 into the mesh, block by block. Returns REFUSED if it is
- * malformed or a label occurs twice. */
+/* Reads the section of nodes of the file g in format 4.1 into the mesh, block by block. Returns REFUSED, with a
+ * message, if it is malformed or a label occurs twice. */
 status gmsh41_read_nodes(struct gmsh *g);
 
-/* Reads the section of elements of the file g in format 4.1 into the mesh, block by block. Returns REFUSED if it is
- * malformed. */
+/* Reads the section of elements of the file g in format 4.1 into the mesh, block by block. Returns REFUSED, with a
+ * message, if it is malformed. */
 status gmsh41_read_elements(struct gmsh *g);
 
 #endif

@@ -179,7 +179,7 @@ struct pulse_shares {
 };
 
 /* Stores the largest initial speed of the body of run o as the incident amplitude of the PULSE probe q (amplitudes of a
- * wave packet). Returns REFUSED if nothing moves at the start. */
+ * wave packet). Returns REFUSED, with a message, if nothing moves at the start. */
 status pulse_probe_store_incident_amplitude(struct probe *q, const struct observed_run *o);
 
 /* Returns the results of the PULSE probe q (amplitudes of a wave packet): the amplitudes of the reflected and the
@@ -220,8 +220,8 @@ enum { SIF_FIGURES = 4, SIF_CONTOURS_MAX = 16 };
 extern const struct column sif_figure[SIF_FIGURES];
 
 /* Finds in run o the crack tip of the SIF probe q (stress-intensity factors), its integration contours, and the
- * material around the tip. Returns REFUSED if the body is not plane, no pre-crack ends inside a body, or the contours
- * are too narrow, leave the body, or contain another crack tip or material. */
+ * material around the tip. Returns REFUSED, with a message, if the body is not plane, no pre-crack ends inside a body,
+ * or the contours are too narrow, leave the body, or contain another crack tip or material. */
 status sif_probe_find_tip_and_contours(struct probe *q, const struct observed_run *o);
 
 /* Frees w, the crack tip and the contours of a SIF probe (stress-intensity factors), which
@@ -258,7 +258,7 @@ static inline real sif_probe_result(const struct probe *q, int figure)
 extern const struct column rigid_figure[RIGID_FIGURES];
 
 /* Stores in q the angular momentum and the kinetic energy of the particles of the RIGID probe q (conservation in a body
- * that moves rigidly) at the start of run o. Returns REFUSED if the run is not in a plane. */
+ * that moves rigidly) at the start of run o. Returns REFUSED, with a message, if the run is not in a plane. */
 status rigid_probe_store_initial_motion(struct probe *q, const struct observed_run *o);
 
 /* Computes the rotation angle value[0] of the body of a RIGID probe (conservation in a body that moves rigidly) [rad],
@@ -284,8 +284,8 @@ struct bar {
 };
 
 /* Finds the particles, ends, material and load of the bar of an EXACT probe (comparison of a bar with a closed-form
- * solution) and allocates q->bar. Returns REFUSED if the bar or its loads differ from what the closed-form solution
- * describes. o: the run as probes see it (particles, bonds, time). */
+ * solution) and allocates q->bar. Returns REFUSED, with a message, if the bar or its loads differ from what the
+ * closed-form solution describes. o: the run as probes see it (particles, bonds, time). */
 status bar_probe_find_bar_and_load(struct probe *q, const struct observed_run *o);
 
 /* Frees the bar of an EXACT probe (comparison of a bar with a closed-form solution), which bar_probe_find_bar_and_load

@@ -42,9 +42,10 @@ real softening_list_factor_for_energy(const struct softening_list *l, real energ
 void softening_list_store_largest_stretches(const struct softening_list *l, struct bonds *b, real stretch_factor);
 
 /* Stores the present largest stretches of the bonds b of the particles p as those of the last equilibrium, from which
- * later equilibrium solutions start. Bonds whose stretch has not exceeded their onset of softening are marked as not
- * yet softening, so that the stress across them is examined again. limit: critical stretches and softening of bonds.
- * The first call allocates storage in b->soft; from then on forces are computed from the stored largest stretches. */
+ * later equilibrium solutions start. Bonds whose stretch has not exceeded their onset of softening are stored as not
+ * yet softening, so that the stress across them is compared with the strength again. limit: critical stretches and
+ * softening of bonds. The first call allocates storage in b->soft; from then on forces are computed from the stored
+ * largest stretches. */
 void softening_store_equilibrium_stretches(struct bonds *b, const struct particles *p, const struct bond_limit *limit);
 
 /* For state-based models, computes the energy that the neighbourhood of each particle (all its neighbours) has lost

@@ -46,7 +46,7 @@ void page_add_text_file(struct page *p, const char *entry_name, const char *fold
 
 /* Completes the page p (HTML report) and writes it to the file `path` under a temporary name, which is then renamed.
  * title: title of the window, without markup. Stores the size of the file in *file_size. Returns FAILED if the file
- * cannot be written, REFUSED if it is an input of this command. */
+ * cannot be written, REFUSED, with a message, if it is an input of this command. */
 status page_complete_and_write_file(struct page *p, const char *path, const char *title, int64_t *file_size);
 
 /* Releases the texts and arrays of the composed page *p. */

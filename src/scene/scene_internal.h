@@ -108,7 +108,7 @@ bool key_is_merged_with_included_scene(const char *path);
 status tree_apply_all_overrides(struct reader *r, struct yaml_node *root);
 
 /* Replaces keys of earlier versions of Cleave in the tree `root` by their present names, and notes them in r->scene for
- * a warning. Returns REFUSED if both names of a key are given, and for keys that no longer exist. */
+ * a warning. Returns REFUSED, with a message, if both names of a key are given, and for keys that no longer exist. */
 status tree_rename_old_keys(struct reader *r, struct yaml_node *root);
 
 /* Returns the present name of the key `path` of an override. If `path` is a name of an earlier version of Cleave, notes
@@ -425,8 +425,8 @@ status check_keys_known(struct reader *r, const struct yaml_node *mapping, const
  * those of variables. */
 status check_all_keys_known(const struct reader *r, const struct yaml_node *root);
 
-/* Returns REFUSED, with an example, if node n is no mapping; else OK. group_path: path of its keys in the table. r:
- * reader of the input file. */
+/* Returns REFUSED, with a message that has an example, if node n is no mapping; else OK. group_path: path of its keys
+ * in the table. r: reader of the input file. */
 status expect_mapping(struct reader *r, const struct yaml_node *n, const char *group_path);
 
 /* Returns REFUSED if node n is not of the kind `kind`, with a message of the form "... is not WHAT" with WHAT =
@@ -456,7 +456,8 @@ status read_point(struct reader *r, const struct key *k, const struct yaml_node 
  * the input file, such as `space plane stress`, or `the plane of extrude` inside the section of an extruded solid. */
 const char *space_name_for_message(const struct reader *r);
 
-/* Returns REFUSED, with an example of a value of key k, if node n is no list; else OK. r: reader of the input file. */
+/* Returns REFUSED, with a message that has an example of a value of key k, if node n is no list; else OK. r: reader of
+ * the input file. */
 status expect_list(struct reader *r, const struct key *k, const struct yaml_node *n);
 
 /* Returns REFUSED, with a message, if node n is no list, or if the number of its items is outside the range of key k.

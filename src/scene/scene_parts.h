@@ -117,7 +117,7 @@ status check_scene_keys_and_set_defaults(struct reader *r, const struct yaml_nod
 void resolve_default_time_step_safety_factor(struct reader *r, const struct yaml_node *root);
 
 /* Sets the default of contact.between, the bodies between which contact acts. r, root: reader and tree of the input
- * file. Returns REFUSED for contact with a static solver, and for friction without contact. */
+ * file. Returns REFUSED, with a message, for contact with a static solver, and for friction without contact. */
 status resolve_default_contact_bodies(struct reader *r, const struct yaml_node *root);
 
 /* Returns REFUSED if the bodies of the input file would have more particles than 32-bit indices can count. Bodies must
@@ -128,8 +128,8 @@ status check_particle_count_fits_indices(struct reader *r, const struct yaml_nod
  * REFUSED, with a message, for an invalid interface. */
 status read_interfaces(struct reader *r, const struct yaml_node *root);
 
-/* Checks that each boundary condition that applies to one of several joined bodies applies to all of them. r: reader of
- * the input file; root: tree of the input file. Returns REFUSED, with a message, if one does not. */
+/* Checks that each boundary condition that applies to one of several bodies joined by interfaces applies to all of
+ * them. r: reader of the input file; root: tree of the input file. Returns REFUSED, with a message, if one does not. */
 status check_boundaries_of_joined_bodies(struct reader *r, const struct yaml_node *root);
 
 /* Returns the critical stretch of bonds [1] that follows from the energy release rate of material m, with the model,
@@ -148,14 +148,14 @@ static inline bool limit_spacing_of_spacing_search(struct reader *r, real larges
 
 /* Sets material->onset_stretch, the stretch at which bonds of `material` begin to soften, from its tensile strength;
  * material->critical_stretch must be set. material_node: node of the material. r: reader of the input file. Returns
- * REFUSED if bonds cannot soften with the method or model of the input file, or if they would break before the tensile
- * strength is reached. */
+ * REFUSED, with a message, if bonds cannot soften with the method or model of the input file, or if they would break
+ * before the tensile strength is reached. */
 status read_softening_onset(struct reader *r, const struct yaml_node *material_node, struct material *material);
 
 /* Sets the strength surface of `material`, if the input file gives strengths other than the tensile one, and
  * material->onset_stretch; material->critical_stretch must be set. material_node: node of the material. r: reader of
- * the input file. Returns REFUSED if the strengths contradict each other, or if bonds would begin to soften before the
- * stress reaches the surface in tension. */
+ * the input file. Returns REFUSED, with a message, if the strengths contradict each other, or if bonds would begin to
+ * soften before the stress reaches the surface in tension. */
 status read_strength_surface(struct reader *r, const struct yaml_node *material_node, struct material *material);
 
 /* Checks that `strength` [Pa] is at most a tenth of Young's modulus of `material`. strength_node: node of the strength,
@@ -164,17 +164,17 @@ status read_strength_surface(struct reader *r, const struct yaml_node *material_
 status check_strength_below_tenth_of_modulus(struct reader *r, const struct yaml_node *strength_node,
                                              const struct material *material, real strength);
 
-/* Returns REFUSED if the material with the index `material_index`, read from the node `material_node`, has another
- * softening law than an earlier material. All bonds of a run must have one law, since bonds between two materials have
- * one curve. r: reader of the input file. */
+/* Returns REFUSED, with a message, if the material with the index `material_index`, read from the node `material_node`,
+ * has another softening law than an earlier material. All bonds of a run must have one law, since bonds between two
+ * materials have one curve. r: reader of the input file. */
 status check_single_softening_law(struct reader *r, const struct yaml_node *material_node, int material_index);
 
 /* Returns the first material of scene s (the input file) for which has(material) returns true; NULL if there is none.
  */
 const struct material *scene_first_material(const struct scene *s, bool (*has)(const struct material *));
 
-/* Returns REFUSED if bonds of one material soften while another material yields, and for keys that state-based models
- * do not support with bonds that soften. r, root: reader and tree of the input file. */
+/* Returns REFUSED, with a message, if bonds of one material soften while another material yields, and for keys that
+ * state-based models do not support with bonds that soften. r, root: reader and tree of the input file. */
 status check_softening_is_supported(struct reader *r, const struct yaml_node *root);
 
 /* Checks the friction of contact in the input file. Returns REFUSED, with a message, where friction is not supported:
@@ -214,8 +214,8 @@ status check_keys_for_load_steps(struct reader *r, const struct yaml_node *root)
  * whose bonds soften. */
 bool scene_has_load_steps_with_softening_bonds(const struct scene *s);
 
-/* Returns REFUSED if the input file gives settings of load steps (successive static equilibria) but has another solver,
- * unless all of them have their default values. r, root: reader and tree of the input file. */
+/* Returns REFUSED, with a message, if the input file gives settings of load steps (successive static equilibria) but
+ * has another solver, unless all of them have their default values. r, root: reader and tree of the input file. */
 status check_load_step_keys_unused(struct reader *r, const struct yaml_node *root);
 
 /* Returns the contents s of an input file as they are run, every key with its value or default, as YAML text. Returns

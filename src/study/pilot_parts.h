@@ -44,8 +44,8 @@ struct pilot_search {
 };
 
 /* Lists the methods (peridynamics, material points, ..) that are applicable to the input file of `search` in
- * search->at[] and stores their number in search->n. Returns REFUSED if no method is applicable, if the particle
- * spacing of the input file cannot be varied, or if no run of the input file has the requested result. */
+ * search->at[] and stores their number in search->n. Returns REFUSED, with a message, if no method is applicable, if
+ * the particle spacing of the input file cannot be varied, or if no run of the input file has the requested result. */
 status pilot_list_applicable_methods(struct pilot_search *search);
 
 /* Returns the name of the scalar result whose accuracy the input file requests, or a description of the default result
@@ -60,8 +60,8 @@ void pilot_combine_overrides(struct pilot *choice, const struct scene_override *
 
 /* Determines, from `study`, the pilot runs (short runs at several spacings) of the method `candidate`, the particle
  * spacing that the method requires for the accuracy requested in `search`, and stores it with its cost in *candidate
- * (pilot_judge.c). Returns REFUSED if no accuracy can be attributed to the result (it is missing or zero), FAILED if no
- * result has values at every spacing. */
+ * (pilot_judge.c). Returns REFUSED, with a message, if no accuracy can be attributed to the result (it is missing or
+ * zero), FAILED if no result has values at every spacing. */
 status pilot_determine_required_spacing(struct pilot_search *search, struct pilot_candidate *candidate,
                                         const struct convergence_study *study);
 

@@ -74,7 +74,7 @@ struct study_picture {
 void panels_choose_figures(struct study_picture *picture);
 
 /* Chooses the results (numbers in summary.json) with the names figure_name[figure_count] for the panels of the picture.
- * Returns REFUSED if a name is not in picture->table. */
+ * Returns REFUSED, with a message, if a name is not in picture->table. */
 status panels_show_named_figures(struct study_picture *picture, const char *const *figure_name, int figure_count);
 
 /* Returns true if `key`, the path of a key of the input file, is the seed of random numbers, such as
