@@ -8,9 +8,9 @@
 #include "base.h"
 
 /* Opens the regular file `path` for reading and registers it as an input of this command. The caller closes *file.
- * expected_content: what the file should be, for the message; NULL: left out. REFUSED with `PATH: cause; EXPECTED is
- * expected` if the file cannot be opened or is a folder, pipe, socket or device, except for a pipe that is already open
- * (/dev/stdin, /dev/fd/N). */
+ * expected_content: what the file should be, for the message; NULL: left out. Returns REFUSED, with the message `PATH:
+ * cause; give EXPECTED_CONTENT`, and *file = NULL, if the file cannot be opened or is a folder, pipe, socket or device,
+ * except for a pipe that is already open (/dev/stdin, /dev/fd/N). */
 status input_file_open(FILE **file, const char *path, const char *expected_content);
 
 /* Registers the file at `path`, which a library opens, as an input of this command. A missing file is ignored. */

@@ -25,9 +25,9 @@ static inline void spring_bound_add_spring(struct spring_bound *bound, real stif
     bound->total += stiffness;
 }
 
-/* Returns an upper bound [N/m] of the largest eigenvalue of the stiffness matrix of the springs added to `bound`, by
- * block-Gershgorin: the maximum row sum of the magnitudes in bound->block, which is the sum of K n n over springs of
- * stiffness K and direction n, plus bound->total, the sum of all K. */
+/* Returns an upper bound [N/m] of the largest eigenvalue of the stiffness matrix of the springs added to `bound` in dim
+ * dimensions, by block-Gershgorin: the maximum row sum of the magnitudes in bound->block, which is the sum of K n n
+ * over springs of stiffness K and direction n, plus bound->total, the sum of all K. */
 static inline real spring_bound_largest_eigenvalue(const struct spring_bound *bound, int dim)
 {
     real norm = 0;

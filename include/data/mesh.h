@@ -258,9 +258,9 @@ static inline int64_t mesh_next_active_block(const uint8_t *levels, int64_t bloc
     return block < end_block && levels[block] ? block : next_marked_index(levels, block, end_block);
 }
 
-/* Returns the value [1] of the linear shape function of a corner node at a quadrature point (material point) of its
- * cell. corner, point: number of the corner, and of the corner next to the point; bit d is set on the upper side in
- * direction d. The value is a product over the directions: 3/4 where these bits agree, 1/4 elsewhere. */
+/* Returns the value [1] in dim dimensions of the linear shape function of a corner node at a quadrature point (material
+ * point) of its cell. corner, point: number of the corner, and of the corner next to the point; bit d is set on the
+ * upper side in direction d. The value is a product over the directions: 3/4 where these bits agree, 1/4 elsewhere. */
 static inline real mesh_shape_function_value(int dim, int corner, int point)
 {
     static const real weight[DIM_MAX + 1][CORNERS_MAX] = {
@@ -272,9 +272,9 @@ static inline real mesh_shape_function_value(int dim, int corner, int point)
     return weight[dim][corner ^ point];
 }
 
-/* Returns the derivative along axis `axis` of the linear shape function of a corner node at a quadrature point
- * (material point) of its cell, times the edge h of the cell [1]. corner, point: number of the corner, and of the
- * corner next to the point; bit d is set on the upper side in direction d. */
+/* Returns the derivative along axis `axis`, in dim dimensions, of the linear shape function of a corner node at a
+ * quadrature point (material point) of its cell, times the edge h of the cell [1]. corner, point: number of the corner,
+ * and of the corner next to the point; bit d is set on the upper side in direction d. */
 static inline real mesh_shape_function_derivative(int dim, int corner, int point, int axis)
 {
     real slope = corner >> axis & 1 ? 1 : -1;

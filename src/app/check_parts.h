@@ -135,8 +135,8 @@ void print_advice_on_held_layers(const struct run *e, FILE *out);
  * they are used or not. */
 void print_coarse_cells(const struct run *e);
 
-/* Prints the memory and time that coarse cells of the mesh (larger cells, in which no particles are made) save. cost:
- * measured cost of the run. */
+/* Prints the memory and time that coarse cells of the mesh (larger cells, in which no particles are made) save in run
+ * e. cost: measured cost of the run. */
 void print_coarse_cells_saving(const struct run *e, const struct cost *cost);
 
 /* ---- check_sections.c -------------------------------------------------------------------------------------------- */
@@ -163,9 +163,9 @@ struct length_text length_text_with_unit(real length, int digits, real spacing);
 /* Prints a line for each load and support of run e: its number of particles, area, force and moment. */
 void print_loads(const struct run *e);
 
-/* Writes a line to `out` if the loads on a single body do not balance along an axis along which no support holds it,
- * and act until the end of the run. The line states the velocity and the displacement that the body gains by them, and
- * a remedy. */
+/* Writes a line to `out` if the loads on a single body of run e do not balance along an axis along which no support
+ * holds it, and act until the end of the run. The line states the velocity and the displacement that the body gains by
+ * them, and a remedy. */
 void print_advice_on_unbalanced_loads(const struct run *e, FILE *out);
 
 /* Prints which share of the loaded or supported face of boundary b of run e is not perpendicular to the axis of the
@@ -196,8 +196,8 @@ void hint_unlikely_signs_and_sizes(const struct run *e, struct warnings *warning
  * the error and a remedy. The run must not have taken a step. */
 void print_accuracy_advice(const struct run *e, FILE *out);
 
-/* Adds a line to *warning_list for each setting of the input file that costs more than necessary or has no effect, and
- * for each end of a crack that is exactly on bonds. The run must not have taken a step. */
+/* Adds a line to *warning_list for each setting of the input file of run e that costs more than necessary or has no
+ * effect, and for each end of a crack that is exactly on bonds. The run must not have taken a step. */
 void cost_hints_add_to_warnings(const struct run *e, struct warnings *warning_list);
 
 /* Writes to `out` by how much the stiffness of a part of scene s (the input file) that is `layer_count` particle layers

@@ -102,10 +102,10 @@ void engine_warn_of_particles_faster_than_waves(const struct particles *p, real 
 void engine_warn_of_conflicting_supports(const struct scene *s, const struct loads *loads, const struct particles *p,
                                          struct warnings *warnings);
 
-/* Warns of each support of scene s (the input file) at an end face of a body that lies within a grid cell instead of on
- * a row of nodes, where cells have an edge of two particle spacings: the body is then computed too long or too short.
- * The warning states by how much. p, loads: particles and loads; grid: any grid of the run, whose members `anchor` and
- * `h` give the positions of all nodes. */
+/* Adds a warning to *warnings for each support of scene s (the input file) at an end face of a body that lies within a
+ * grid cell instead of on a row of nodes, where cells have an edge of two particle spacings: the body is then computed
+ * too long or too short. The warning states by how much. p, loads: particles and loads; grid: any grid of the run,
+ * whose members `anchor` and `h` give the positions of all nodes. */
 void engine_warn_of_supports_within_cells(const struct scene *s, const struct loads *loads, const struct particles *p,
                                           const struct grid *grid, struct warnings *warnings);
 

@@ -38,8 +38,9 @@ status abaqus_find_set_of_keyword(struct deck *d, const char *name, bool of_node
  * called `name`. Returns -1 if there is none. */
 int abaqus_find_part(const struct deck *d, const char *name, bool instance);
 
-/* Replaces labels by indices in the sets of the mesh: the labels added since the last call, which belong to `scope`. (A
- * scope is a part of the deck, or what is outside parts.) Removes labels that the scope does not contain. */
+/* Replaces labels by indices in the sets of the mesh of the input deck d: the labels added since the last call, which
+ * belong to `scope`. (A scope is a part of the deck, or what is outside parts.) Removes labels that the scope does not
+ * contain. */
 void abaqus_resolve_sets(struct deck *d, const struct scope *scope);
 
 /* Reads the set of *NSET or *ELSET in deck d: labels, names of other sets, or ranges. of_nodes: true for *NSET. Returns

@@ -18,16 +18,17 @@ struct surface_faces {
     struct surface_face *face;
 };
 
-/* Creates the surface l->surface of the body from `free_faces`, makes the particles at the corners of these faces the
- * particles of load l, and stores their area vectors in the reference state in l->share [m^2], by which the pressure is
- * multiplied to obtain forces. all_boundaries: the boundary conditions of the input file, `boundary_count` in number,
- * including mirrors; spacing: lattice spacing [m]. Returns REFUSED, with a message, if a body is not a lattice, or a
- * mirror plane is not midway between two lattice sites. Release with load_surface_free. */
+/* Creates the surface l->surface of the body from `free_faces`, makes the particles of p at the corners of these faces
+ * the particles of load l, and stores their area vectors in the reference state in l->share [m^2], by which the
+ * pressure is multiplied to obtain forces. all_boundaries: the boundary conditions of the input file, `boundary_count`
+ * in number, including mirrors; spacing: lattice spacing [m]. Returns REFUSED, with a message, if a body is not a
+ * lattice, or a mirror plane is not midway between two lattice sites. Release with load_surface_free. */
 status load_surface_make(struct load *l, const struct surface_faces *free_faces, const struct boundary *all_boundaries,
                          int boundary_count, struct particles *p, real spacing);
 
 /* Computes, for each particle of the load to which the surface s belongs, the area vector that its forces act on,
- * pointing into the body, from the present particle positions. area: [dim][number of particles of the load] [m^2]. */
+ * pointing into the body, from the present positions of the particles p. area: [dim][number of particles of the load]
+ * [m^2]. */
 void load_surface_compute_area_vectors(struct surface *s, const struct particles *p, real *const *area);
 
 /* Frees the surface s, which load_surface_make has made, with its arrays; s may be NULL. */

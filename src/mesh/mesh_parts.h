@@ -39,9 +39,10 @@ void mesh_partial_add_cell(struct mesh *mesh, int64_t cell);
 void mesh_partial_compute_stiffness(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
                                     const uint8_t *cell_needs_update, struct mesh_partial *previous_cells);
 
-/* Recomputes the stiffness of the partial cells of `mesh` (cells with missing points, points whose stress is partly
- * carried by bonds, several materials or doubled nodes) marked in `cell_is_marked`, a byte for each cell. The list of
- * partial cells is unchanged. source: material constants, and the parts of stresses that bonds carry. */
+/* Recomputes the stiffness of the partial cells of `mesh` with particles p (cells with missing points, points whose
+ * stress is partly carried by bonds, several materials or doubled nodes) marked in `cell_is_marked`, a byte for each
+ * cell. The list of partial cells is unchanged. source: material constants, and the parts of stresses that bonds carry.
+ */
 void mesh_partial_recompute_marked_cells(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
                                          const uint8_t *cell_is_marked);
 
@@ -76,9 +77,9 @@ void mesh_slits_free(struct mesh_slits *s);
 void mesh_fit_nodal_values(const struct mesh *mesh, const struct particles *p, real *const *point_value,
                            real *const *nodal_value);
 
-/* Computes nodal values of a vector field as mesh_fit_nodal_values does, from point_value to nodal_value, but for the
- * listed nodes only; the iteration starts from their present values, and all other nodes are unchanged.
- * node_list[node_count]: node indices. */
+/* Computes nodal values of a vector field as mesh_fit_nodal_values does, from point_value (at the points p) to
+ * nodal_value, but for the listed nodes only; the iteration starts from their present values, and all other nodes are
+ * unchanged. node_list[node_count]: node indices. */
 void mesh_fit_values_of_listed_nodes(const struct mesh *mesh, const struct particles *p, real *const *point_value,
                                      real *const *nodal_value, const int32_t *node_list, int64_t node_count);
 

@@ -77,8 +77,8 @@ int particle_probe_value_count(const struct particles *p);
  * line) reports of a particle, 0 <= value_number < particle_probe_value_count(p). */
 struct column particle_probe_value_column(const struct particles *p, int value_number);
 
-/* Returns the damage of `particle` of the run: the share of its bonds that are broken or have softened, by volume [1].
- */
+/* Returns the damage of `particle` of the run o: the share of its bonds that are broken or have softened, by volume
+ * [1]. */
 static inline real probe_damage_of_particle(const struct observed_run *o, int64_t particle)
 {
     const struct bonds *b = o->bonds;
@@ -111,7 +111,7 @@ void probe_motion_discard_interpolation(struct probe *q);
 /* Frees the copies of positions and velocities that probe_motion_store_before_step has made in the probe q. */
 void probe_motion_free(struct probe *q);
 
-/* Returns component `axis` of the position of particle q->list[list_index] of a probe [m]. After
+/* Returns component `axis` of the position of particle q->list[list_index] of p, which the probe q observes [m]. After
  * probe_motion_interpolate_to_sample_time it is the position at the time of the sample (line of history.csv), until
  * probe_motion_discard_interpolation; otherwise it is the present position. */
 static inline real probe_particle_position_component(const struct probe *q, const struct particles *p, int axis,
@@ -120,9 +120,9 @@ static inline real probe_particle_position_component(const struct probe *q, cons
     return q->motion.complete ? q->motion.x[axis][list_index] : p->x[axis][q->list[list_index]];
 }
 
-/* Returns component `axis` of the velocity of particle q->list[list_index] of a probe [m/s]. After
- * probe_motion_interpolate_to_sample_time it is the velocity at the time of the sample (line of history.csv), until
- * probe_motion_discard_interpolation; otherwise it is the present velocity. */
+/* Returns component `axis` of the velocity of particle q->list[list_index] of p, which the probe q observes [m/s].
+ * After probe_motion_interpolate_to_sample_time it is the velocity at the time of the sample (line of history.csv),
+ * until probe_motion_discard_interpolation; otherwise it is the present velocity. */
 static inline real probe_particle_velocity_component(const struct probe *q, const struct particles *p, int axis,
                                                      int64_t list_index)
 {
@@ -163,12 +163,12 @@ struct energies {
  * the current state of the run. */
 struct energies probe_energies(const struct probe *q, const struct observed_run *o);
 
-/* Returns the kinetic energy [J] of the particles that probe q (a measurement during the run) observes, with the
+/* Returns the kinetic energy [J] of those particles of p that probe q (a measurement during the run) observes, with the
  * velocities of probe_particle_velocity_component. */
 real probe_kinetic_energy(const struct probe *q, const struct particles *p);
 
-/* Computes the momentum, momentum[dim] [kg m/s], of the particles that probe q (a measurement during the run) observes,
- * with the velocities of probe_particle_velocity_component. */
+/* Computes the momentum, momentum[dim] [kg m/s], of those particles of p that probe q (a measurement during the run)
+ * observes, with the velocities of probe_particle_velocity_component. */
 void probe_compute_momentum_of_particles(const struct probe *q, const struct particles *p, real *momentum);
 
 /* Results of a PULSE probe [1]: amplitudes of the reflected packet (difference from the baseline, a run on material
@@ -193,8 +193,8 @@ struct pulse_shares pulse_compute_amplitudes(const struct probe *q, const struct
 void spall_probe_detect_separation(struct probe *q, const struct observed_run *o);
 
 /* Computes the mean velocities along x of the two parts of the bar of the SPALL probe q (place and time at which a bar
- * spalls), which broken bonds have separated: *lighter_part_speed and *remaining_part_speed [m/s]. NAN for a part
- * without particles. */
+ * spalls), which broken bonds have separated: *lighter_part_speed and *remaining_part_speed [m/s]. p: particles. NAN
+ * for a part without particles. */
 void spall_probe_compute_part_speeds(const struct probe *q, const struct particles *p, real *lighter_part_speed,
                                      real *remaining_part_speed);
 

@@ -22,7 +22,8 @@ void flow_turn_measure_over_load_step(struct statics *s, const struct particles 
 void flow_turn_warn_of_inexact_stress(const struct flow_turn *turn, int dim, struct warnings *warnings);
 
 /* Adds a warning to *warnings if heat has lowered the yield stress of a point that flows by more than a thousandth
- * within a load step, so that plastic flow may localise in one row of cells. dim: dimension of the space. */
+ * within a load step, so that plastic flow may localise in one row of cells. softening: largest decrease in a load step
+ * so far; dim: dimension of the space. */
 void flow_turn_warn_of_softening(const struct flow_softening *softening, int dim, struct warnings *warnings);
 
 #endif

@@ -29,7 +29,7 @@ real increment_energy_balance_load_size(const struct crack_increment *increment)
 struct crack_increment increment_extrapolate_before_first(const struct crack_increment *first,
                                                           const struct crack_increment *second);
 
-/* Returns the energy [J] that the body has released since the start: the fracture energy of broken bonds plus
+/* Returns the energy [J] that the body has released since the start: the fracture energy of the broken bonds of b plus
  * s->balance.lost, the energy that the jumps between equilibria would have turned into motion and that is lost, since
  * load steps have no inertia. */
 real statics_energy_released(const struct statics *s, const struct bonds *b);

@@ -6,13 +6,13 @@
 #include "quasistatic/statics.h"
 #include "run/run.h"
 
-/* Checks the two gauge positions of the input file, points on both sides of a crack whose distance controls the load
- * steps (successive static equilibria). Returns REFUSED, with a message, if one of them is far from the body, or if the
- * same particle is nearest to both. part: particles of the body. */
+/* Checks the two gauge positions of `scene` (the input file), points on both sides of a crack whose distance controls
+ * the load steps (successive static equilibria). Returns REFUSED, with a message, if one of them is far from the body,
+ * or if the same particle is nearest to both. part: particles of the body. */
 status gauge_check_positions(const struct scene *scene, const struct particles *part);
 
-/* Returns the opening: the increase of the distance between the two gauge particles (statics->gauge, on both sides of a
- * crack) since the start [m]. */
+/* Returns the opening: the increase of the distance between the two gauge particles of `part` (statics->gauge, on both
+ * sides of a crack) since the start [m]. */
 real gauge_opening(const struct particles *part, const struct statics *statics);
 
 /* Returns true if material points or bonds of the body `part` may yield (have plastic strain). */

@@ -87,10 +87,10 @@ void sif_tip_compute_end_of_next_increment(const struct sif_cracks *l, const str
  * common to all tips; p: particles. */
 real sif_tip_toughness(const struct sif_cracks *cracks, const struct particles *p, const struct sif_crack_tip *tip);
 
-/* Computes the stress-intensity factors of a tip and sets tip->heading, the direction of its next increment, by the
- * criterion of maximum hoop stress (Erdogan & Sih 1963). The direction remains unchanged while tip->straight (length
- * [m] that the tip still grows straight after a kink) is positive, or if too few particles are near the tip.
- * faces_in_contact: crack faces are in contact; cracks: data common to all tips. */
+/* Computes the stress-intensity factors of a tip from the displacements of the particles p and sets tip->heading, the
+ * direction of its next increment, by the criterion of maximum hoop stress (Erdogan & Sih 1963). The direction remains
+ * unchanged while tip->straight (length [m] that the tip still grows straight after a kink) is positive, or if too few
+ * particles are near the tip. faces_in_contact: crack faces are in contact; cracks: data common to all tips. */
 void sif_tip_choose_direction(const struct sif_cracks *cracks, const struct particles *p, bool faces_in_contact,
                               struct sif_crack_tip *tip);
 
@@ -130,7 +130,7 @@ void sif_tip_break_bonds_behind(struct run *e, const struct sif_crack_tip *tip);
 status sif_increment_find(struct run *e);
 
 /* Moves all tips of `cracks` that take part in the present crack increment (member `selected` of struct sif_crack_tip)
- * to the ends of their increments, and clears `selected`. */
+ * to the ends of their increments, and clears `selected`. p: particles, by which ends at surfaces are recognised. */
 void sif_tips_move_selected(struct sif_cracks *cracks, const struct particles *p);
 
 /* ---- start (sif_start.c) ----------------------------------------------------------------------------------------- */

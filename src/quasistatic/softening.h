@@ -22,9 +22,9 @@ struct softening_list {
     const struct softening_curve *curve;
 };
 
-/* Lists in *l the intact bonds that soften or may begin to, in the order of rows, with their stretches at the present
- * displacements of p divided by `stretch_divisor` [1], the load factor of these displacements; the stretches at another
- * load factor follow by multiplication. Replaces the former contents of *l; free l->bond with memory_free. */
+/* Lists in *l the intact bonds of b that soften or may begin to, in the order of rows, with their stretches at the
+ * present displacements of p divided by `stretch_divisor` [1], the load factor of these displacements; the stretches at
+ * another load factor follow by multiplication. Replaces the former contents of *l; free l->bond with memory_free. */
 void softening_list_make(struct softening_list *l, const struct bonds *b, const struct particles *p,
                          real stretch_divisor);
 
@@ -37,7 +37,7 @@ real softening_list_dissipated_energy(const struct softening_list *l, real stret
  * `max_factor` they must have dissipated at least `energy`. */
 real softening_list_factor_for_energy(const struct softening_list *l, real energy, real max_factor);
 
-/* Sets the largest stretch of each bond of the list l to that of the last equilibrium or, if larger, to
+/* Sets the largest stretch in b of each bond of the list l to that of the last equilibrium or, if larger, to
  * `stretch_factor` times the stretch stored in the list. */
 void softening_list_store_largest_stretches(const struct softening_list *l, struct bonds *b, real stretch_factor);
 
@@ -49,12 +49,12 @@ void softening_list_store_largest_stretches(const struct softening_list *l, stru
 void softening_store_equilibrium_stretches(struct bonds *b, const struct particles *p, const struct bond_limit *limit);
 
 /* For state-based models, computes the energy that the neighbourhood of each particle (all its neighbours) has lost
- * since the last equilibrium because bonds softened, and adds it to the fracture energy of the row of the particle (its
- * bonds). p: particles midway between the positions of both equilibria, so that the error of the energy balance over
- * the load step is of second order in the size of the step. */
+ * since the last equilibrium because bonds of b softened, and adds it to the fracture energy of the row of the particle
+ * (its bonds). p: particles midway between the positions of both equilibria, so that the error of the energy balance
+ * over the load step is of second order in the size of the step. */
 void softening_add_family_losses(struct bonds *b, const struct particles *p);
 
-/* Resets the largest stretches of all softening bonds to those of the last equilibrium, which
+/* Resets the largest stretches of all softening bonds of b to those of the last equilibrium, which
  * softening_store_equilibrium_stretches has stored, so that another solution can start from there. */
 void softening_restore_equilibrium_stretches(struct bonds *b);
 

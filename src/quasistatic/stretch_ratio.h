@@ -19,22 +19,23 @@ real bonds_largest_stretch_ratio(const struct bonds *b, const struct particles *
 int64_t bonds_break_overstretched(struct run *e, real ratio_tolerance, int64_t max_pairs, real *added_energy,
                                   real *added_crack_area);
 
-/* Breaks all bonds of the list l. Each adds its energy at the critical stretch (member `held` of its record) to the
- * fracture energy, even if its present stretch differs. The difference from its present energy is added to the energy
- * lost by the solver and by the run. */
+/* Breaks all bonds of the list l in run e. Each adds its energy at the critical stretch (member `held` of its record)
+ * to the fracture energy, even if its present stretch differs. The difference from its present energy is added to the
+ * energy lost by the solver and by the run. */
 void bonds_break_listed(struct run *e, const struct break_list *l);
 
-/* Restores the bonds of the list l, which must be the bonds that were broken last, and the energies, damage and flags
- * of their rows (all bonds of one particle) and particles from the records of the list. s: state of the load steps
- * (static equilibria), which holds the energies. */
+/* Restores in b the bonds of the list l, which must be the bonds that were broken last, and the energies, damage and
+ * flags of their rows (all bonds of one particle) and particles p from the records of the list. s: state of the load
+ * steps (static equilibria), which holds the energies. */
 void bonds_restore_broken(struct statics *s, struct bonds *b, struct particles *p, const struct break_list *l);
 
 /* Appends a copy of *record to the list l, whose array grows as needed; free l->bond with memory_free. */
 void break_list_add(struct break_list *l, const struct broken_bond *record);
 
-/* Returns a record of the intact bond `bond`, from which bonds_restore_broken can restore it after it has been broken.
- * row: index of its row (all bonds of one particle). limit: critical stretches; the member `held` of the record is half
- * of the energy of the bond at its critical stretch [J], since the row of the other particle has the other half. */
+/* Returns a record of the intact bond `bond` of b (particles p), from which bonds_restore_broken can restore it after
+ * it has been broken. row: index of its row (all bonds of one particle). limit: critical stretches; the member `held`
+ * of the record is half of the energy of the bond at its critical stretch [J], since the row of the other particle has
+ * the other half. */
 struct broken_bond broken_bond_make_record(const struct bonds *b, const struct particles *p,
                                            const struct bond_limit *limit, const struct bond *bond, int64_t row);
 

@@ -18,9 +18,9 @@ void statics_unknowns_free(struct statics *s);
  * computes the forces at these positions, which updates the plastic state of bonds and material points. */
 void plastic_state_update_at_last_solution(struct run *e);
 
-/* Saves the plastic state of bonds and points to the archive if a->saving is set, else restores it from the archive.
- * optional_arrays: which optional arrays the particles have, a set of bits WITH_... Returns FAILED if an entry is
- * missing or has another size. */
+/* Saves the plastic state of bonds b and particles p to the archive a if a->saving is set, else restores it from the
+ * archive. optional_arrays: which optional arrays the particles have, a set of bits WITH_... Returns FAILED if an entry
+ * is missing or has another size. */
 status plastic_state_save_or_load(struct bonds *b, struct particles *p, int optional_arrays, struct archive *a);
 
 /* Copies the plastic state of bonds b and particles p to *m, and frees the former contents of *m. Later solutions start
@@ -28,8 +28,8 @@ status plastic_state_save_or_load(struct bonds *b, struct particles *p, int opti
  * WITH_... */
 void plastic_state_save(struct memory_archive *m, struct bonds *b, struct particles *p, int optional_arrays);
 
-/* Restores the plastic state of bonds and points that plastic_state_save has copied to *m. Does nothing if there is no
- * copy. optional_arrays: which optional arrays the particles have, a set of bits WITH_... */
+/* Restores the plastic state of bonds b and particles p that plastic_state_save has copied to *m. Does nothing if there
+ * is no copy. optional_arrays: which optional arrays the particles have, a set of bits WITH_... */
 void plastic_state_restore(struct memory_archive *m, struct bonds *b, struct particles *p, int optional_arrays);
 
 #endif

@@ -11,10 +11,11 @@
  * their stiffness). */
 real toughness_of_material(const struct family *family, enum model model, const struct material *m);
 
-/* Returns the crack energy per area [J/m^2] between the particles `particle` and `other_particle`: that of their common
- * material; for two materials that of their interface if scene s (the input file) defines it, else that of the weaker
- * material. Where the strength of bonds is random, the value is multiplied by the square of the relative strength of
- * the bond between these particles. */
+/* Returns the crack energy per area [J/m^2] between the particles `particle` and `other_particle` of p: that of their
+ * common material; for two materials that of their interface if scene s (the input file) defines it, else that of the
+ * weaker material. Where the strength of bonds is random, the value is multiplied by the square of the relative
+ * strength of the bond between these particles. bond_source: inputs of the bonds (horizon, materials, cracks, mirrors).
+ */
 real toughness_between_particles(const struct scene *s, const struct bond_source *bond_source,
                                  const struct particles *p, int64_t particle, int64_t other_particle);
 

@@ -140,7 +140,7 @@ void study_line_title(char *text, size_t capacity, const struct study_picture *p
 /* Writes the words of the varied key `key` and the unit of its values to text[capacity], as `traction on y+ [MPa]`. */
 void study_key_text(char *text, size_t capacity, const struct shown_key *key);
 
-/* Writes the words of the varied keys that have the role `role` in the picture (on the axis, as lines, held at one
+/* Writes the words of the varied keys that have the role `role` in the picture p (on the axis, as lines, held at one
  * value, or averaged over) to text[capacity], separated by commas: `Young's modulus of glass [GPa], spacing of
  * particles [mm]`. with_value: true to add the first value of each key. */
 void study_keys_text(char *text, size_t capacity, const struct study_picture *p, enum key_role role, bool with_value);
