@@ -207,7 +207,7 @@ void contact_activate_particles_after_restart(struct contact *c, const struct pa
 void contact_compute_forces(struct contact *c, struct particles *p, real dt);
 
 /* Allocates c->push, in which contact_compute_forces stores the contact force on each particle of p while c->recorded
- * is true. Does nothing if contact is not possible in this run, or if the array exists. */
+ * is true. Does nothing if contact is not possible in this run, or if the array exists. contact_free releases it. */
 void contact_allocate_force_record(struct contact *c, const struct particles *p);
 
 /* Records the times of first and last contact of the run: if particles were in contact at the last call of

@@ -64,7 +64,7 @@ void initial_pd_region_make(struct region *region, const struct region *scene_re
  * C of the material and T = (1/V) sum K xi^2 l e e e e (partial_stress.c). The sum is over the bonds b, with stiffness
  * K, length xi, direction e and share l of the length inside the cell; V: volume of the point. source: inputs of the
  * bonds (horizon, materials, cracks, mirrors); changed[n]: indices of the particles converted since the last call; only
- * points near them are recomputed. If `changed` is NULL, all points are. */
+ * points near them are recomputed. If `changed` is NULL, all points are. Release with partial_stress_free. */
 void partial_stress_make(struct partial_stress *partial, const struct particles *p, const struct bonds *b,
                          const struct bond_source *source, const int32_t *changed, int64_t n);
 

@@ -133,8 +133,8 @@ struct mesh {
 };
 
 /* Returns the array of the 2^dim nodes at the corners of cell `cell` of the mesh if one of these nodes is an extra
- * node, i.e. a second node at the position of a grid node, where a slit (a pre-crack) divides the mesh. Returns NULL
- * otherwise: the corners are then the nodes `cell` + mesh->corner[c] of the grid. */
+ * node, i.e. a second node at the position of a grid node, where a slit (a pre-crack) divides the mesh. The array
+ * belongs to the mesh. Returns NULL otherwise: the corners are then the nodes `cell` + mesh->corner[c] of the grid. */
 static inline const int32_t *mesh_cell_corner_nodes_at_slit(const struct mesh *mesh, int64_t cell)
 {
     const struct mesh_slits *s = &mesh->slits;
@@ -152,7 +152,8 @@ static inline int64_t mesh_cell_corner_node(const struct mesh *mesh, int64_t cel
 
 /* Returns the array [2^dim][LANES] of the nodes at the corners of the eight cells of group number `group` of partial
  * cells (cells with missing points, or points with bonds to peridynamic particles), if one of the corners is an extra
- * node (second node where a pre-crack divides the mesh); NULL otherwise: all corners are then nodes of the grid. */
+ * node (second node where a pre-crack divides the mesh). The array belongs to the mesh. Returns NULL otherwise: all
+ * corners are then nodes of the grid. */
 static inline const int32_t *mesh_group_corner_nodes_at_slit(const struct mesh *mesh, int64_t group, const int dim)
 {
     const struct mesh_slits *s = &mesh->slits;

@@ -56,8 +56,8 @@ struct row_maker {
 };
 
 /* Allocates the softening data (largest stretch, onset and end of softening) of the bonds b of the particles p. Does
- * nothing if all bonds are brittle. previous: bonds before a rebuild, whose softening is kept, NULL if there are none;
- * source: inputs of the bonds (horizon, materials, cracks, mirrors). */
+ * nothing if all bonds are brittle. bonds_free releases the data. previous: bonds before a rebuild, whose softening is
+ * kept, NULL if there are none; source: inputs of the bonds (horizon, materials, cracks, mirrors). */
 void bonds_allocate_softening_state(struct bonds *b, const struct bonds *previous, const struct bond_source *source,
                                     const struct particles *p);
 
@@ -353,7 +353,8 @@ void bonds_prepare_state_based_model(struct bonds *b, const struct bond_source *
 
 /* Allocates the arrays of b->state, the data of state-based models for each row (the bonds of one particle of p),
  * stores of which particle each mirror image is a copy beyond a plane of symmetry, and computes the weighted volumes.
- * source: geometry and material of the bonds. Call after all rows were made. Does nothing for bond-based models. */
+ * Release with bonds_free_state_based_arrays. source: geometry and material of the bonds. Call after all rows were
+ * made. Does nothing for bond-based models. */
 void bonds_make_state_based_arrays(struct bonds *b, const struct particles *p, const struct bond_source *source);
 
 /* Releases the arrays of b->state, the data of neighbourhoods in state-based models. */

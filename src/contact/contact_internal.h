@@ -89,15 +89,15 @@ void contact_activate_newly_moving_particles(struct contact *c, const struct par
 /* Returns the array of bytes that selects which contacts between particles act in an equilibrium
  * (contact_select_active_and_count_changes): one per particle of the contact list of c (particles that may come into
  * contact) for the contact law of form `surface` (forces of smooth faces), one per pair of particles for the form
- * `pair`. Returns NULL if overlapping contacts act. */
+ * `pair`. The array belongs to c. Returns NULL if exactly the overlapping contacts act. */
 static inline const uint8_t *contact_selection_marks(const struct contact *c)
 {
     return c->by_overlap ? NULL : c->touch;
 }
 
 /* Returns the array of bytes that selects which contacts with rigid body number `body` act in an equilibrium
- * (contact_select_active_and_count_changes), one per particle in the list c->near of this body. Returns NULL if
- * overlapping contacts act. */
+ * (contact_select_active_and_count_changes), one per particle in the list c->near of this body. The array belongs to c.
+ * Returns NULL if exactly the overlapping contacts act. */
 static inline const uint8_t *contact_rigid_selection_marks(const struct contact *c, int body)
 {
     return c->by_overlap ? NULL : c->near[body].touch;
@@ -215,13 +215,14 @@ void contact_face_set_onset_height(struct contact *c, const struct contact *prev
 
 /* Returns a correction of the contact force, in the unit of stiffness times gap, which removes the energy that
  * leap-frog integration adds when contact begins or ends; 0 if no energy is to be removed. The contact has the energy
- * 1/4 stiffness gap^2, gap < 0. balance: account of this contact, updated if `step_was_made` is true, i.e. if a time
- * step was made since the last call; otherwise the last force is returned again. */
+ * 1/4 stiffness gap^2, gap < 0. gap: [m] or [spacings], stiffness: [N/m] or [J] accordingly. balance: account of this
+ * contact, updated if `step_was_made` is true, i.e. if a time step was made since the last call; otherwise the last
+ * force is returned again. */
 real contact_energy_correction_force(struct contact_balance *balance, real stiffness, real gap, bool step_was_made);
 
 /* Returns the initial account of a contact on a new list of pairs, i.e. the sum of the energy errors of leap-frog from
- * which contact_energy_correction_force computes a correcting force. gap: present gap; previous: account of the contact
- * on the previous list, which is continued; NULL if the contact was not listed. */
+ * which contact_energy_correction_force computes a correcting force. gap: present gap [m] or [spacings]; previous:
+ * account of the contact on the previous list, which is continued; NULL if the contact was not listed. */
 struct contact_balance contact_energy_correction_start_account(const struct contact_balance *previous, real gap);
 
 /* Contribution of particle l of a face to the density of the face at particle k (contact law of form `surface`).
@@ -259,11 +260,11 @@ real contact_friction_stored_energy(const struct contact *c);
 
 /* Allocates c->reaction, the reactions to the friction springs, one entry for each particle of the contact list
  * (particles that may come into contact): with them the force of a spring is distributed over the particles of the
- * opposite face. The values are computed with the next contact forces. */
+ * opposite face. The values are computed with the next contact forces. contact_free releases the array. */
 void contact_friction_reactions_make(struct contact *c);
 
 /* Allocates the friction springs of c, whose list of particles is new, and copies to them the springs of particles that
- * were on the previous list, `previous`. */
+ * were on the previous list, `previous`. contact_free releases them. */
 void contact_friction_springs_copy_from_previous(struct contact *c, const struct contact *previous);
 
 /* Copies friction spring number `previous_entry` of the previous list `previous` to *spring. Leaves *spring unchanged

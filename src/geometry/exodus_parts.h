@@ -43,7 +43,7 @@ static inline void exodus_text_make_printable(char *text)
 
 /* Reads the header of a file of the classic netCDF format into f: its dimensions and arrays. Arrays over time and
  * arrays of more than two dimensions are left out. Returns REFUSED, with a message, if the header is damaged or the
- * file is shorter than its arrays. */
+ * file is shorter than its arrays. exodus_close releases the lists. */
 status exodus_classic_open(struct exodus_file *f);
 
 /* Copies `count` numbers of the array `array` of the classic netCDF file f to real_value[count], or to
@@ -52,7 +52,7 @@ void exodus_classic_read_array(const struct exodus_file *f, const struct exodus_
                                real *real_value, int64_t *whole_value);
 
 /* Opens the netCDF-4 file f->path with HDF5 and stores its handle in f. Returns REFUSED, with a message, if HDF5 cannot
- * read the file. */
+ * read the file. Close with exodus_hdf5_close. */
 status exodus_hdf5_open(struct exodus_file *f);
 
 /* Closes the netCDF-4 file of f, opened by exodus_hdf5_open. */

@@ -119,7 +119,8 @@ bool mesh_cell_is_inverted(const struct mesh *mesh, int64_t cell);
 
 /* Allocates all arrays of a mesh that covers the box between the corners `lower_corner` and `upper_corner` [m], without
  * points or cells. node_grid: grid whose anchor and cell size define the nodes; p, source: particles and the slits and
- * voids that double nodes, p = NULL for none. Returns FAILED, with a message, if there are too many nodes. */
+ * voids that double nodes, p = NULL for none. Release with mesh_free. Returns FAILED, with a message, if there are too
+ * many nodes. */
 status mesh_allocate_box(struct mesh *mesh, const struct grid *node_grid, const real *lower_corner,
                          const real *upper_corner, const struct particles *p, const struct mesh_source *source);
 

@@ -47,8 +47,8 @@ struct named quantity_unit_name(const struct quantity *q);
 /* Returns true if the quantity q is a pure number, i.e. all exponents of its unit are 0. */
 bool quantity_is_dimensionless(const struct quantity *q);
 
-/* Returns the operand that is `entries_below_top` entries below the topmost one on the operand stack of c, the
- * compilation of an expression; 0: the topmost operand. The stack must have this many entries. */
+/* Returns the operand that is `entries_below_top` entries below the topmost one (0: the topmost itself) on the operand
+ * stack of c, the compilation of an expression, as a pointer into the stack. The stack must have this many entries. */
 struct operand *compile_operand_from_top(struct compile *c, int entries_below_top);
 
 /* Appends a step to the compiled expression c that pushes a value on the stack: a number or variable (`operation` is

@@ -87,7 +87,8 @@ status tree_parse_yaml(struct reader *r, const char *text, size_t length, int or
 /* Appends the node `child` to the entries of the list or mapping `parent`, without a copy. */
 void yaml_node_append(struct yaml_node *parent, struct yaml_node *child);
 
-/* Returns the entry of the mapping `map` with the key `key`; NULL if it has none. */
+/* Returns the entry of the mapping `map` with the key `key`, a node of the tree; NULL if there is none, or if `map` is
+ * NULL or no mapping. */
 struct yaml_node *yaml_node_find(const struct yaml_node *map, const char *key);
 
 /* Removes `child`, which must be one of the entries of the list or mapping `parent`, from these entries. The node is

@@ -137,11 +137,11 @@ void multigrid_make_coarse_rigid_motions(struct multigrid_level *l, struct multi
 
 /* Computes the prolongation l->down from the next coarser level to level l, and its transpose l->up, the restriction.
  * The prolongation is P - step D^-1 K P: the orthonormal rigid motions P of the aggregates of nodes, smoothed by one
- * step with the matrix K of the level and its diagonal blocks D. */
+ * step with the matrix K of the level and its diagonal blocks D. multigrid_free releases both. */
 void multigrid_make_prolongation_and_restriction(struct multigrid_level *l);
 
 /* Computes the matrix of the next coarser level, `coarser_level`, by the Galerkin product: l->up times the matrix of
- * level l times l->down. */
+ * level l times l->down. multigrid_free releases it. */
 void multigrid_make_coarse_matrix(const struct multigrid_level *l, struct multigrid_level *coarser_level);
 
 /* Factorises the matrix K of level l, the coarsest one, as K = U^T D U, with the upper triangular matrix U and the
