@@ -9,10 +9,10 @@
  * (getloadavg); 0 if this number is not known. */
 double machine_load_average(void);
 
-/* Writes a warning that other programs slow this one down to text[capacity]: the factor by which wall time exceeds
- * processor time. other_process_load: mean number of processes of other programs (machine_load_average); cores: cores
- * of the machine; threads: threads of this program. Returns true if a warning was written; false, and writes nothing,
- * if there are enough cores for all processes and threads. A text longer than `capacity` is truncated. */
+/* Writes to text[capacity] a warning that other programs slow this one down, with the factor by which it takes longer
+ * than alone. other_process_load: mean number of processes of other programs (machine_load_average); cores: cores of
+ * the machine; threads: threads of this program. Returns true if a warning was written; false, and writes nothing, if
+ * there are enough cores for all processes and threads. A text longer than `capacity` is truncated. */
 bool machine_describe_overload_if_any(char *text, size_t capacity, double other_process_load, int cores, int threads);
 
 #endif

@@ -79,11 +79,12 @@ void bonds_free(struct bonds *b);
 
 /* Returns a lower bound [s] of the critical time step 2/omega_max that the particles p would have if all of them were
  * peridynamic and no bond broken, with the block-Gershgorin bound of the largest angular frequency omega_max. source:
- * inputs of the bonds, from which bonds are computed for this purpose; no stored bonds are needed. */
+ * inputs of the bonds, from which bonds are computed for this purpose; no stored bonds are needed. INFINITY if no
+ * particle has a bond. */
 real bonds_critical_time_step_if_all_peridynamic(const struct particles *p, const struct bond_source *source);
 
 /* Returns a lower bound [s] of the critical time step 2/omega_max of the existing bonds b of the particles p. Valid
- * only while all particles are peridynamic and no bond is broken. */
+ * only while all particles are peridynamic and no bond is broken. INFINITY if there are no bonds. */
 real bonds_critical_time_step_of_existing_bonds(const struct bonds *b, const struct particles *p);
 
 /* Copies what load has done to bonds from the bonds `old_bonds` of the particles `old_particles` to the bonds b of p,

@@ -173,8 +173,8 @@ void contact_make(struct contact *c, enum contact_between between, struct contac
 void contact_free(struct contact *c);
 
 /* Returns the critical time step [s] of particles of p that are pushed by forces of the contact c on one side and held
- * by bonds on the other. materials: array of the materials; bonds_time_step: critical time step of the bonds alone
- * [s]. */
+ * by bonds on the other. materials: array of the materials; bonds_time_step: critical time step of the bonds alone [s].
+ * Returns INFINITY if contact is not possible in the run. */
 real contact_critical_time_step(const struct contact *c, const struct particles *p, const struct material *materials,
                                 real bonds_time_step);
 

@@ -64,7 +64,8 @@ void hull_free(struct hull *s);
 real hull_winding_number(const struct hull *s, const real *X);
 
 /* Returns the signed distance [m] of the point X (s->dim components [m]) from the surface s, negative inside (an open
- * surface has no inside). normal: NULL, or receives the unit vector that points away from the surface, outwards. */
+ * surface has no inside); INFINITY if s has no faces. normal: NULL, or receives the unit vector that points away from
+ * the surface, outwards. */
 real hull_signed_distance(const struct hull *s, const real *X, real *normal);
 
 /* Returns true if the signed distance of the point X (s->dim components [m]) from the surface s, negative inside, is at

@@ -141,8 +141,8 @@ struct bond_classes {
     int64_t *group_of; /* [classes offsets] group; -1: no bond, or a bond that reaches no face */
 };
 
-/* Sorts the particles `near` near faces into classes with equal surroundings up to mirrors, and their bonds into groups
- * with one factor each. Release with bond_classes_free. */
+/* Sorts the particles `near` near faces into classes with equal surroundings up to reflections along axes, and their
+ * bonds into groups with one factor each. Release with bond_classes_free. */
 void bond_classes_group_bonds_near_faces(struct bond_classes *classes, const struct near_faces *near);
 
 /* Returns the particle or mirror image that is offset number `offset_number` (a relative position on the lattice) away
@@ -191,8 +191,8 @@ enum { SURFACE_PRODUCTS = 1000 };
 
 /* Solves the least-squares problem q for the factors by Newton's method on its dual (surface_solve.c). factor: receives
  * the factors [groups]. max_matrix_products: largest number of products with the matrix of the dual problem; for large
- * bodies the function makes fewer, so that it takes about 10 s. Returns the remaining residual divided by the residual
- * with all factors 1: 0 for an exact fit. */
+ * bodies the function makes fewer, so that it takes at most about 10 s. Returns the remaining residual divided by the
+ * residual with all factors 1: 0 for an exact fit. */
 real surface_fit_solve_least_squares(const struct surface_fit_problem *q, real *factor, int max_matrix_products);
 
 /* Computes the factors on the weights of all groups of bonds near faces by bounded least squares (surface_fit.c).

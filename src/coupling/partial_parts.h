@@ -45,27 +45,27 @@ struct response {
 struct response bond_force_derivative_by_strain(const struct particles *p, const struct bonds *b,
                                                 const struct bond_source *source, int32_t i, const struct bond *bond);
 
-/* Adds the contribution of a bond to the tensor T = `tensor` [J] of a cell, by which bonds reduce the stiffness of the
- * cell: T_abcd += l e_b dF_a/deps_cd, symmetric in ab and in cd. l: length of the bond inside the cell; e: unit vector
- * along the bond; F: its force. point_position, other_position: positions of the material point and of the other
- * particle of the bond, dim components each [m]; centre, half_edge: centre of the cell and half of an edge [m];
- * response: r dF/deps, with the length r of the bond. */
+/* Adds the contribution of a bond to the tensor T = `tensor` [J] (row-major matrix over symmetric components) of a
+ * cell, by which bonds reduce the stiffness of the cell: T_abcd += l e_b dF_a/deps_cd, symmetric in ab and in cd. l:
+ * length of the bond inside the cell; e: unit vector along the bond; F: its force. point_position, other_position:
+ * positions of the material point and of the other particle of the bond, dim components each [m]; centre, half_edge:
+ * centre of the cell and half of an edge [m]; response: r dF/deps, with the length r of the bond. */
 void partial_tensor_add_bond_contribution(real *tensor, const real *point_position, const real *other_position,
                                           const real *centre, real half_edge, struct response response, int dim);
 
-/* Reduces the tensor `tensor` [J] of the material point `point` of p, by which its state-based bonds b reduce the
- * stiffness of its cell, as far as needed for a positive elastic energy of the point (partial_positive.c).
- * mean_strain_derivative: receives the derivative of the point's mean strain by the strain of its cell, in symmetric
- * components [1]; 0 if the point has no bonds. source: inputs of the bonds (horizon, materials, cracks, mirrors).
- * Returns true if the point has bonds. */
+/* Reduces the tensor `tensor` [J] (row-major matrix over symmetric components) of the material point `point` of p, by
+ * which its state-based bonds b reduce the stiffness of its cell, as far as needed for a positive elastic energy of the
+ * point (partial_positive.c). mean_strain_derivative: receives the derivative of the point's mean strain by the strain
+ * of its cell, in symmetric components [1]; 0 if the point has no bonds. source: inputs of the bonds (horizon,
+ * materials, cracks, mirrors). Returns true if the point has bonds. */
 bool partial_tensor_limit_for_state_based_bonds(real *tensor, real *mean_strain_derivative, const struct particles *p,
                                                 const struct bonds *b, const struct bond_source *source, int64_t point);
 
-/* Reduces the tensor `tensor` [J] of the material point `point` of p, by which bond-based bonds to peridynamic
- * particles reduce the stiffness of its cell, as far as needed for V C - `tensor` without negative eigenvalues. source:
- * inputs of the bonds (horizon, materials, cracks, mirrors); V, C: volume and elastic tensor of the point. A cell with
- * a negative eigenvalue would be unstable with any time step. This has an effect only if particles are not on a lattice
- * or bonds are stiffer than the material. */
+/* Reduces the tensor `tensor` [J] (row-major matrix over symmetric components) of the material point `point` of p, by
+ * which bond-based bonds to peridynamic particles reduce the stiffness of its cell, as far as needed for V C - `tensor`
+ * without negative eigenvalues. source: inputs of the bonds (horizon, materials, cracks, mirrors); V, C: volume and
+ * elastic tensor of the point. A cell with a negative eigenvalue would be unstable with any time step. This has an
+ * effect only if particles are not on a lattice or bonds are stiffer than the material. */
 void partial_tensor_limit_for_bond_based_model(real *tensor, const struct particles *p,
                                                const struct bond_source *source, int64_t point);
 
@@ -110,10 +110,11 @@ void partial_table_update_strain_responses(struct partial_table *t, const struct
                                            const struct bond_source *source, const int32_t *point_list,
                                            int64_t point_count);
 
-/* Computes the tensor `tensor` [J] of the material point `point` of p, by which the bonds b reduce the stiffness of its
- * cell, from the table t and the strain responses that it stores for the bonds of the material points around `point`.
- * The responses must be up to date (partial_table_update_strain_responses). source: inputs of the bonds (horizon,
- * materials, cracks, mirrors); near: working memory. */
+/* Computes the tensor `tensor` [J] (row-major matrix over symmetric components) of the material point `point` of p, by
+ * which the bonds b reduce the stiffness of its cell, from the table t and the strain responses that it stores for the
+ * bonds of the material points around `point`. The responses must be up to date
+ * (partial_table_update_strain_responses). source: inputs of the bonds (horizon, materials, cracks, mirrors); near:
+ * working memory. */
 void partial_table_sum_stiffness_tensor(const struct partial_table *t, const struct particles *p, const struct bonds *b,
                                         const struct bond_source *source, int64_t point, struct neighbour_list *near,
                                         real *tensor);

@@ -18,7 +18,8 @@ void flow_turn_measure_over_load_step(struct statics *s, const struct particles 
                                       const struct elastic *elastic_constants, int64_t load_step);
 
 /* Adds a warning to *warnings if the largest angle *turn by which the direction of plastic flow has turned within a
- * load step is so large that stresses may be wrong by more than 5 %. dim: dimension of the space. */
+ * load step (static equilibrium) is so large that stresses may be wrong by more than 5 %. dim: dimension of the space.
+ */
 void flow_turn_warn_of_inexact_stress(const struct flow_turn *turn, int dim, struct warnings *warnings);
 
 /* Adds a warning to *warnings if heat has lowered the yield stress of a point that flows by more than a thousandth

@@ -38,7 +38,7 @@ void yaml_write_number_list(struct writer *w, const real *value, int count);
 void yaml_write_value(struct writer *w, const struct key *k, const void *value_address);
 
 /* Returns the address of the value of key k in the structure `group_values`, which stores the values of the group of
- * keys to which k belongs. */
+ * keys to which k belongs; NULL if the value of the key is not stored there. */
 const void *key_value_address(const struct key *k, const void *group_values);
 
 /* Writes to the YAML text of the writer w all keys of the group `group_path` (the path of a key with keys below it),

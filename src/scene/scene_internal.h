@@ -81,7 +81,7 @@ void arena_free(struct reader *r);
 
 /* Parses the YAML text text[length] to a tree of nodes in memory of the reader r and stores its root in *root; NULL if
  * the text contains no value. origin_index: index of the file or override from which the text is (see struct
- * yaml_node). Returns REFUSED, with a message, for invalid YAML. */
+ * yaml_node). Returns REFUSED, with a message, for invalid YAML, FAILED if there is no memory. */
 status tree_parse_yaml(struct reader *r, const char *text, size_t length, int origin_index, struct yaml_node **root);
 
 /* Appends the node `child` to the entries of the list or mapping `parent`, without a copy. */
@@ -104,16 +104,17 @@ status tree_merge_included_files(struct reader *r, struct yaml_node *root);
  * with that of an included file. Other values, such as solids, replace the included value as a whole. */
 bool key_is_merged_with_included_scene(const char *path);
 
-/* Applies all overrides of the command line, r->override, to the tree `root` of the input file. Returns REFUSED, with a
- * message, for an invalid one. */
+/* Applies r->override, all overrides of the command line that the reader r has, to the tree `root` of the input file.
+ * Returns REFUSED, with a message, for an invalid one. */
 status tree_apply_all_overrides(struct reader *r, struct yaml_node *root);
 
-/* Replaces keys of earlier versions of Cleave in the tree `root` by their present names, and notes them in r->scene for
- * a warning. Returns REFUSED, with a message, if both names of a key are given, and for keys that no longer exist. */
+/* Replaces keys of earlier versions of Cleave in the tree `root` by their present names, and notes them in r->scene (r:
+ * reader of the input file) for a warning. Returns REFUSED, with a message, if both names of a key are given, and for
+ * keys that no longer exist. */
 status tree_rename_old_keys(struct reader *r, struct yaml_node *root);
 
 /* Returns the present name of the key `path` of an override. If `path` is a name of an earlier version of Cleave, notes
- * this in r->scene for a warning; otherwise returns `path` itself. */
+ * this in r->scene (r: reader of the input file) for a warning; otherwise returns `path` itself. */
 const char *key_path_current_name_of_override(struct reader *r, const char *path);
 
 /* Returns the present name of a key that had the name `former_path` in an earlier version of Cleave; NULL if there was
@@ -145,8 +146,8 @@ const struct yaml_node *tree_find(const struct yaml_node *root, const char *path
  * *root, in memory of the reader r. Returns REFUSED, with a message, if the text is malformed or a file is missing. */
 status scene_parse_tree(struct reader *r, const char *text, size_t length, struct yaml_node **root);
 
-/* Reads all keys of the tree `root` of an input file into r->scene and checks them. Returns REFUSED, with a message, if
- * one is invalid. */
+/* Reads all keys of the tree `root` of an input file into r->scene (r: reader of the file) and checks them. Returns
+ * REFUSED, with a message, if one is invalid. */
 status scene_read_keys_of_tree(struct reader *r, const struct yaml_node *root);
 
 struct pilot_wish;
@@ -229,8 +230,8 @@ bool is_variable_of_formulas(const char *text);
 
 /* ---- variables (scene_number.c) ---------------------------------------------------------------------------------- */
 
-/* Evaluates the variables of the input file with the tree `root` and stores them in r. Returns REFUSED, with a message,
- * for an invalid variable, and for one that an override sets but no value uses. */
+/* Evaluates the variables of the input file with the tree `root` and stores them in its reader r. Returns REFUSED, with
+ * a message, for an invalid variable, and for one that an override sets but no value uses. */
 status read_variables(struct reader *r, const struct yaml_node *root);
 
 /* Returns the value of the variable `name`. r: reader of the input file. Returns NULL, and writes the fault to
@@ -361,8 +362,8 @@ bool foreign_word_advice(const char *foreign_word, const char *group, char *text
  * another program; else NULL. */
 const char *foreign_value_advice(const char *key_path, const char *foreign_value);
 
-/* Returns REFUSED, with a message, if text[length], the file read by r, is the input of Abaqus, LS-DYNA or LAMMPS, a
- * mesh of Gmsh or an STL file; OK if it may be an input file. Defined in scene_foreign_file.c. */
+/* Returns REFUSED, with a message, if text[length], the file of the reader r, is the input of Abaqus, LS-DYNA or
+ * LAMMPS, a mesh of Gmsh or an STL file; OK if it may be an input file. Defined in scene_foreign_file.c. */
 status foreign_file_refuse(struct reader *r, const char *text, size_t length);
 
 /* Returns the keys that are equivalent to `foreign_word`, a word of another program, separated by spaces ("" if there
@@ -387,8 +388,8 @@ status fault_at_location(const struct reader *r, int origin, int line, int colum
  * file or override (see struct yaml_node). r: reader of the input file. */
 void location_write_text(const struct reader *r, int origin_index, int line, int column, char *text, size_t capacity);
 
-/* Stores in r->scene where each key of the input file was given, for keys up to two levels below `root`, so that later
- * messages (scene_prepend_location) can state the location. */
+/* Stores in r->scene (r: reader of the input file) where each key was given, for keys up to two levels below `root`, so
+ * that later messages (scene_prepend_location) can state the location. */
 void scene_store_key_locations(const struct reader *r, const struct yaml_node *root);
 
 /* Writes the text with which messages about node `node` begin, its location and key, to text[capacity]. It is for
@@ -449,8 +450,8 @@ status read_value_of_key(struct reader *r, const struct key *k, const struct yam
  * REFUSED, with a message, for an invalid value. */
 status read_number(struct reader *r, const struct key *k, const struct yaml_node *n, real *value);
 
-/* Reads a point or vector in the unit and range of key k from node n into point[r->dim] [SI]. Returns REFUSED, with a
- * message, for an invalid value. */
+/* Reads a point or vector in the unit and range of key k from node n into point[r->dim] [SI]. r: reader of the input
+ * file. Returns REFUSED, with a message, for an invalid value. */
 status read_point(struct reader *r, const struct key *k, const struct yaml_node *n, real *point);
 
 /* Returns, as words for messages, the space whose dimensions points must have where the reader r is at present: that of
@@ -466,9 +467,9 @@ status expect_list(struct reader *r, const struct key *k, const struct yaml_node
 status expect_list_of_valid_length(struct reader *r, const struct key *k, const struct yaml_node *n);
 
 /* Reads a file name from node name_node: searches the folder of the input file, then the current folder. Stores the
- * path in *path and a hash of the contents of the file in *contents_hash. The caller releases *path with memory_free.
- * file_kind: kind of file, for messages. If r->files is false, copies the name without opening the file. Returns
- * REFUSED, with a message, if the file cannot be read. */
+ * path in *path and a hash of the contents of the file in *contents_hash. r: reader of the input file. The caller
+ * releases *path with memory_free. file_kind: kind of file, for messages. If r->files is false, copies the name without
+ * opening the file. Returns REFUSED, with a message, if the file cannot be read. */
 status read_input_file_path(struct reader *r, const struct yaml_node *name_node, const char *file_kind, char **path,
                             uint64_t *contents_hash);
 

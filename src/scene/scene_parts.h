@@ -9,8 +9,8 @@
  * message, if the region is invalid. */
 status read_region(struct reader *r, const struct yaml_node *region_node, struct region *region);
 
-/* Reads the named regions of the input file with the tree `root` into r->scene. Returns REFUSED, with a message, if one
- * is invalid. */
+/* Reads the named regions of the input file with the tree `root` and the reader r into r->scene. Returns REFUSED, with
+ * a message, if one is invalid. */
 status read_regions(struct reader *r, const struct yaml_node *root);
 
 /* Reads a solid whose surface is in an STL file from the node `solid_node` into *solid. r: reader of the input file.
@@ -38,8 +38,8 @@ bool node_is_motion_key_of_solid(const struct yaml_node *n);
  * reader of the input file. Returns REFUSED, with a message, for invalid keys. */
 status read_motions(struct reader *r, const struct yaml_node *solid_node, struct solid *solid);
 
-/* Reads the materials of the input file with the tree `root` into r->scene. Returns REFUSED, with a message, if one is
- * invalid. */
+/* Reads the materials of the input file with the tree `root` and the reader r into r->scene. Returns REFUSED, with a
+ * message, if one is invalid. */
 status read_materials(struct reader *r, const struct yaml_node *root);
 
 /* Returns the node of the key by which a material yields: yield_stress, johnson_cook or hardening. Returns
@@ -52,8 +52,8 @@ const struct yaml_node *scene_material_yield_key(const struct yaml_node *materia
  * method or solver does not support flow laws. */
 status read_flow_law(struct reader *r, const struct yaml_node *material_node, struct material *material);
 
-/* Reads the bodies of the input file with the tree `root`, deformable and rigid ones, into r->scene. Returns REFUSED,
- * with a message, if one is invalid. */
+/* Reads the bodies of the input file with the tree `root` and the reader r, deformable and rigid ones, into r->scene.
+ * Returns REFUSED, with a message, if one is invalid. */
 status read_bodies(struct reader *r, const struct yaml_node *root);
 
 /* Moves the materials of which no body consists behind the others and counts them in s->unused_materials, no longer in
@@ -66,16 +66,16 @@ void scene_set_unused_materials_aside(struct scene *s);
 status read_body_parts(struct reader *r, const struct yaml_node *parts_node, const struct key *k,
                        struct scene_body *body);
 
-/* Reads the pre-cracks of the input file with the tree `root` into r->scene. Returns REFUSED, with a message, if one is
- * invalid. */
+/* Reads the pre-cracks of the input file with the tree `root` and the reader r into r->scene. Returns REFUSED, with a
+ * message, if one is invalid. */
 status read_cracks(struct reader *r, const struct yaml_node *root);
 
 /* Reads the settings of cracks with prescribed or controlled growth from the tree `root` of the input file into
- * r->scene. Returns REFUSED, with a message, if one is invalid. */
+ * r->scene (r: reader of the file). Returns REFUSED, with a message, if one is invalid. */
 status read_crack_growths(struct reader *r, const struct yaml_node *root);
 
-/* Reads the initial states (velocities, strains, wave pulses) from the tree `root` of the input file into r->scene.
- * Returns REFUSED, with a message, if one is invalid. */
+/* Reads the initial states (velocities, strains, wave pulses) from the tree `root` of the input file into r->scene (r:
+ * reader of the file). Returns REFUSED, with a message, if one is invalid. */
 status read_initial_states(struct reader *r, const struct yaml_node *root);
 
 /* Reads the function of time of the boundary `boundary` from the node `function_node`. If the node is NULL or
@@ -96,16 +96,16 @@ status read_rotation_axis(struct reader *r, const struct yaml_node *rotation_nod
 status read_vector_of_formulas(struct reader *r, const struct key *k, const struct yaml_node *vector_node,
                                unsigned further_variables, real *value, struct expression *formula);
 
-/* Reads the boundary conditions of the input file with the tree `root` into r->scene. Returns REFUSED, with a message,
- * if one is invalid. */
+/* Reads the boundary conditions of the input file with the tree `root` and the reader r into r->scene. Returns REFUSED,
+ * with a message, if one is invalid. */
 status read_boundaries(struct reader *r, const struct yaml_node *root);
 
-/* Reads the settings of the probes (measurements during the run) from the tree `root` of the input file into r->scene.
- * Returns REFUSED, with a message, if one is invalid. */
+/* Reads the settings of the probes (measurements during the run) from the tree `root` of the input file into r->scene
+ * (r: reader of the file). Returns REFUSED, with a message, if one is invalid. */
 status read_probes(struct reader *r, const struct yaml_node *root);
 
-/* Reads the regions for which the input file requests frames of their own from the tree `root` into r->scene. Returns
- * REFUSED, with a message, if one is invalid. */
+/* Reads the regions for which the input file requests output frames of their own from its tree `root` into r->scene (r:
+ * reader of the file). Returns REFUSED, with a message, if one is invalid. */
 status read_regions_of_output_frames(struct reader *r, const struct yaml_node *root);
 
 /* Sets defaults of keys that depend on several other keys, and checks conditions between keys outside of lists. r,
@@ -124,8 +124,8 @@ status resolve_default_contact_bodies(struct reader *r, const struct yaml_node *
  * have been read before. r, root: reader and tree of the input file, for the location in the message. */
 status check_particle_count_fits_indices(struct reader *r, const struct yaml_node *root);
 
-/* Reads the interfaces between bodies into r->scene and joins these bodies. root: tree of the input file. Returns
- * REFUSED, with a message, for an invalid interface. */
+/* Reads the interfaces between bodies into r->scene and joins these bodies. r, root: reader and tree of the input file.
+ * Returns REFUSED, with a message, for an invalid interface. */
 status read_interfaces(struct reader *r, const struct yaml_node *root);
 
 /* Checks that each boundary condition that applies to one of several bodies joined by interfaces applies to all of
@@ -136,10 +136,10 @@ status check_boundaries_of_joined_bodies(struct reader *r, const struct yaml_nod
  * horizon and space of scene s (the input file). */
 real scene_critical_stretch(const struct scene *s, const struct material *m);
 
-/* Limits the spacing that `method: auto` searches for: reduces its upper bound *r->spacing_most to `largest_spacing` if
- * that is smaller, the largest spacing with which a material can have its tensile strength [m]. Returns true then.
- * Returns false, and does nothing, if the spacing is not searched for (r->spacing_most is NULL); the caller then
- * refuses a strength that does not suit the present spacing. */
+/* Limits the spacing that `method: auto` searches for, when the reader r reads the input file: reduces its upper bound
+ * *r->spacing_most to `largest_spacing` if that is smaller, the largest spacing with which a material can have its
+ * tensile strength [m]. Returns true then. Returns false, and does nothing, if the spacing is not searched for
+ * (r->spacing_most is NULL); the caller then refuses a strength that does not suit the present spacing. */
 static inline bool limit_spacing_of_spacing_search(struct reader *r, real largest_spacing)
 {
     if (r->spacing_most) *r->spacing_most = real_min(*r->spacing_most, largest_spacing);
