@@ -366,7 +366,8 @@ void bonds_free_state_based_arrays(struct bonds *b);
 void clamped_bonds_list_at_clamped_mirrors(struct bonds *b, const struct particles *p,
                                            const struct bond_source *source);
 
-/* Releases the lists in b->clamped, the bonds to mirror images in clamped planes. */
+/* Releases the lists in b->clamped, the bonds to mirror images in clamped planes (planes in which all motion is
+ * prevented). */
 void clamped_bonds_free(struct bonds *b);
 
 #endif

@@ -205,11 +205,11 @@ void contact_face_add_force_on_particle(const struct contact *c, struct particle
  * come into contact), by the contact law of form `surface` (forces of smooth faces). */
 real contact_face_energy_of_particle(const struct contact *c, const struct particles *p, int64_t row);
 
-/* Computes the height above the face at which contact of particle number `row` of the contact list of c (particles of p
- * that may come into contact) begins, for a new list of contacts, by the contact law of form `surface` (forces of
- * smooth faces). previous_entry: entry of the particle on the previous list `previous`, -1 if the particle was not
- * listed. If the particle was in contact on that list, the height is chosen so that its contact energy does not change.
- */
+/* Computes into c->face[row] the height above the face at which contact of particle number `row` of the contact list of
+ * c (particles of p that may come into contact) begins, for a new list of contacts, by the contact law of form
+ * `surface` (forces of smooth faces). previous_entry: entry of the particle on the previous list `previous`, -1 if the
+ * particle was not listed. If the particle was in contact on that list, the height is chosen so that its contact energy
+ * does not change. */
 void contact_face_set_onset_height(struct contact *c, const struct contact *previous, int64_t previous_entry,
                                    const struct particles *p, int64_t row);
 

@@ -105,8 +105,8 @@ void mesh_rebuild_cells_after_level_change(struct mesh *mesh, const struct parti
  * each, included in computations). Input: kinds and materials of the cells and masses of the nodes. */
 void mesh_make_cell_rows_and_node_spans(struct mesh *mesh);
 
-/* Finds in each row of nodes of `mesh` along the first axis the span of nodes with mass (first node, and the one after
- * the last), to which loops over nodes are limited. */
+/* Finds in each row of nodes of `mesh` along the first axis the span of nodes with mass, to which loops over nodes are
+ * limited, and stores it in mesh->span (first node, and the one after the last). */
 void mesh_find_node_spans_with_mass(struct mesh *mesh);
 
 /* Makes the blocks of nodes of `mesh` (eight along x) next to cells active, i.e. included in computations, and all

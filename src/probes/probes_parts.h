@@ -220,8 +220,9 @@ enum { SIF_FIGURES = 4, SIF_CONTOURS_MAX = 16 };
 extern const struct column sif_figure[SIF_FIGURES];
 
 /* Finds in run o the crack tip of the SIF probe q (stress-intensity factors), its integration contours, and the
- * material around the tip. Returns REFUSED, with a message, if the body is not plane, no pre-crack ends inside a body,
- * or the contours are too narrow, leave the body, or contain another crack tip or material. */
+ * material around the tip, and stores them in q->sif. Release with sif_probe_free. Returns REFUSED, with a message, if
+ * the body is not plane, no pre-crack ends inside a body, or the contours are too narrow, leave the body, or contain
+ * another crack tip or material. */
 status sif_probe_find_tip_and_contours(struct probe *q, const struct observed_run *o);
 
 /* Frees w, the crack tip and the contours of a SIF probe (stress-intensity factors), which
@@ -284,8 +285,9 @@ struct bar {
 };
 
 /* Finds the particles, ends, material and load of the bar of an EXACT probe (comparison of a bar with a closed-form
- * solution) and allocates q->bar. Returns REFUSED, with a message, if the bar or its loads differ from what the
- * closed-form solution describes. o: the run as probes see it (particles, bonds, time). */
+ * solution) and allocates q->bar for them. Release with bar_probe_free_bar. Returns REFUSED, with a message, if the bar
+ * or its loads differ from what the closed-form solution describes. o: the run as probes see it (particles, bonds,
+ * time). */
 status bar_probe_find_bar_and_load(struct probe *q, const struct observed_run *o);
 
 /* Frees the bar of an EXACT probe (comparison of a bar with a closed-form solution), which bar_probe_find_bar_and_load

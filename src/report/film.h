@@ -70,8 +70,8 @@ struct film {
  * f with film_free. */
 status film_read_frames_of_run(struct film *f, const char *folder, const struct scene *scene);
 
-/* Selects the frames, the fields and the groups of particles (each shown as one particle) that the page (the HTML
- * report of a run) shows of f, such that they take at most `byte_budget` bytes on the page. */
+/* Selects in f the output frames, the fields and the groups of particles (each shown as one particle) that the page
+ * (the HTML report of a run) shows, such that they take at most `byte_budget` bytes on the page. */
 void film_select_within_byte_budget(struct film *f, int64_t byte_budget);
 
 /* Writes the selected output frames of a run and their fields, f, to `page` as the entry `film` of the JSON text of the
