@@ -1,5 +1,5 @@
-/* Declares the parts of `cleave check`: the measured cost of a run, descriptions and advice. Functions print_* and
- * say_* print to standard output, functions advise_* write lines with remarks to a file. */
+/* Declares the parts of `cleave check`: the measured cost of a run, descriptions and advice. Functions print_* print to
+ * standard output, functions advise_* write lines with remarks to a file. */
 #ifndef CLEAVE_CHECK_PARTS
 #define CLEAVE_CHECK_PARTS
 
