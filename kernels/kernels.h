@@ -143,7 +143,7 @@ KERNEL(void, bonds_begin_to_soften, (struct bonds *b, struct particles *p, const
 
 /* Starts the softening of all bonds of b whose stretch at the present positions of p exceeds their onset (the stretch
  * at which softening begins), if the stress across the bond allows it. limit: onsets and breaking stretches. Needs no
- * preceding force computation. For load steps. */
+ * preceding force computation. For load steps (static equilibria). */
 KERNEL(void, bonds_open_beyond_onset, (struct bonds *b, struct particles *p, const struct bond_limit *limit));
 
 /* Updates the damage of softening bonds of b, in state-based models: increases it to the value that follows from the
@@ -157,24 +157,25 @@ KERNEL(int64_t, state_soften,
        (struct bonds *b, struct particles *p, const struct bond_limit *limit, bool *changed));
 
 /* Marks the bond with index q in the arrays of b as broken in row number `row` (all bonds of one particle of p): sets
- * its weight to 0, and updates the counts of broken bonds, damage and flags of the particle. The caller adds the energy
- * of the bond to the fracture energy before, and marks the bond in the row of its other particle likewise. */
+ * its weight (factor on its force) to 0, and updates the counts of broken bonds, damage and flags of the particle. The
+ * caller adds the energy of the bond to the fracture energy before, and marks the bond in the row of its other particle
+ * likewise. */
 KERNEL(void, bond_end, (struct bonds *b, struct particles *p, int64_t row, int64_t q));
 
 /* Breaks the bonds of b whose largest stretch has reached the end of their softening (the stretch at which a softening
  * bond breaks). The energy that such a bond has dissipated becomes fracture energy of its row (the bonds of one
- * particle of p). For load steps, between two equilibria. Returns the number of bonds broken, each counted once for
- * each of its particles. */
+ * particle of p). For load steps (sequences of static equilibria), between two of them. Returns the number of bonds
+ * broken, each counted once for each of its particles. */
 KERNEL(int64_t, bonds_end_softened, (struct bonds *b, struct particles *p));
 
 /* Raises the stored largest stretches of all bonds of b that soften to their stretches at the present positions of p,
  * as a force computation does. To be called before energies are read without a force computation. */
 KERNEL(void, bonds_update_softening, (struct bonds *b, const struct particles *p));
 
-/* Computes pressure (from the dilatation), spring stiffness and rotation of all neighbourhoods (all neighbours of a
- * particle) from the present positions into b->state: the first of the two loops of a state-based force. To be called
- * before these quantities are read without a force computation. Stores the reactions on the cells of material points
- * with bonds in p->end_pull and p->end_moment. */
+/* Computes pressure (force by dilatation), spring stiffness (force by extension) and rotation of all neighbourhoods
+ * (all neighbours of a particle) from the present positions into b->state: the first of the two loops of a state-based
+ * force. To be called before these quantities are read without a force computation. Stores the reactions on the cells
+ * of material points with bonds in p->end_pull and p->end_moment. */
 typedef void family_states_precompute_fn(struct bonds *b, struct particles *p);
 
 /* Breaks the bonds of block number `row_block` of eight rows of b (all bonds of eight particles) whose stretch exceeds
@@ -185,10 +186,10 @@ typedef void family_states_precompute_fn(struct bonds *b, struct particles *p);
 KERNEL(int64_t, bond_break_row_block,
        (struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row_block));
 
-/* Sets the weight of the bond with index q in the arrays of b, which is in row number `row` (all bonds of one particle
- * of p), to w [1]; w = 0 breaks the bond. Adds half of the loss of elastic energy to the fracture energy of the row: a
- * leap-frog velocity update is centred on the change of weights, so the other half is lost in the step to the next
- * positions. The caller changes the weight of the bond in the row of its other particle likewise. */
+/* Sets the weight (factor on the force) of the bond with index q in the arrays of b, which is in row number `row` (all
+ * bonds of one particle of p), to w [1]; w = 0 breaks the bond. Adds half of the loss of elastic energy to the fracture
+ * energy of the row: a leap-frog velocity update is centred on the change of weights, so the other half is lost in the
+ * step to the next positions. The caller changes the weight of the bond in the row of its other particle likewise. */
 KERNEL(void, bond_fade, (struct bonds *b, struct particles *p, int64_t row, int64_t q, real w));
 
 /* Returns an upper bound [1], up to round-off, of the largest stretch of the bonds in block number `row_block` of eight
@@ -203,8 +204,8 @@ KERNEL(void, bond_break_entry,
        (struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q));
 
 /* Restores the bond with index q in the arrays of b, in row number `row` (all bonds of one particle of p), which a
- * trial load step has broken, and sets its weight to w [1]. The caller restores the fracture energy of the row, and
- * damage and flags of its particle. */
+ * trial load step (a static equilibrium that is discarded) has broken, and sets its weight (factor on its force) to w
+ * [1]. The caller restores the fracture energy of the row, and damage and flags of its particle. */
 KERNEL(void, bond_restore_entry, (struct bonds *b, struct particles *p, int64_t row, int64_t q, real w));
 
 /* Returns the elastic energy [J] of the neighbourhood of row number `row` of b (all bonds of one particle of p) in a
@@ -246,12 +247,12 @@ KERNEL(bool, particles_diverged, (const struct particles *p, const int32_t *list
 /* Adds mass, momentum and force of the points of p to the nodes of g: the first particle-to-grid map (Zeng et al. 2022,
  * eqs. 33-38). The force is -V sigma . grad N + N f, with the volume V and the force f of the point, the stress sigma
  * that it transmits (without the partial stress, which bonds carry), and the shape function N of the node. transfer:
- * order of the points, step sizes, partial stress. */
+ * points sorted by cell, step sizes, partial stress. */
 typedef void p2g_fn(struct grid *g, const struct particles *p, const struct transfer_data *transfer);
 
 /* Remapping of MUSL (modified update stress last; Zeng et al. 2022, steps 4 and 6), for FLIP only. Interpolates the
  * change of nodal velocities to the points, v_p += sum N (f/m dt), and adds the new momentum m v_p N of the points to
- * the nodes of g; called the second map in other comments (the first map is p2g). transfer: order of the points, step
+ * the nodes of g; called the second map in other comments (the first map is p2g). transfer: points sorted by cell, step
  * sizes. */
 typedef void musl_remap_fn(struct grid *g, struct particles *p, const struct transfer_data *transfer);
 
@@ -266,9 +267,10 @@ typedef void rotating_remap_gather_fn(const struct grid *g, struct particles *p,
  * mass, too. 2D and 3D. */
 typedef void rotating_remap_scatter_fn(struct grid *g, const struct particles *p, const struct transfer_data *transfer);
 
-/* Moves the points of p with the nodal velocities of g, x_p += dt sum N v, and updates their stress, volume, stretch,
- * plastic strain and conversion flag (Zeng et al. 2022, steps 4, 7, 8); with APIC also v_p and its gradient (Jiang et
- * al. 2015). transfer: order of the points, step sizes, elastic constants. Returns the number of points that have
+/* Moves the points of p with the nodal velocities of g, x_p += dt sum N v, and updates their stress, volume, plastic
+ * strain and, with cpGIMP, the stretches of their edges. Sets FLAG_STRESSED on points whose stress requires that they
+ * become peridynamic particles (Zeng et al. 2022, steps 4, 7, 8). With APIC also updates v_p and its gradient (Jiang et
+ * al. 2015). transfer: points sorted by cell, step sizes, elastic constants. Returns the number of points that have
  * entered another cell. */
 typedef int64_t g2p_fn(const struct grid *g, struct particles *p, const struct transfer_data *transfer);
 
@@ -344,10 +346,10 @@ KERNEL(void, grid_clear, (struct grid *g));
  * separate grids acts between this function and grid_constrain. */
 KERNEL(void, grid_advance, (struct grid *g, enum transfer transfer, real dt_velocity, real smallest_mass));
 
-/* Applies the constraints of the grid g to its nodal velocities (Zeng et al. 2022, step 3, second part): walls
- * prescribe the velocity of their nodes, and `force` becomes the change of the prescribed velocity; nodes beyond planes
- * of symmetry move as mirror images. transfer: FLIP or APIC. Adds the reactions of walls and planes to impulse [N s]
- * and the work of the walls to *work [J]. With APIC the reaction includes the momentum that the prescribed velocity
+/* Applies the constraints of the grid g to its nodal velocities (Zeng et al. 2022, step 3, second part): nodes with a
+ * prescribed velocity (walls) receive it, and their `force` becomes the change of this velocity; nodes beyond planes of
+ * symmetry move as mirror images. transfer: FLIP or APIC. Adds the reactions of walls and planes to impulse [N s] and
+ * the work of the walls to *work [J]. With APIC the reaction includes the momentum that the prescribed velocity
  * replaces. smallest_mass: as in grid_advance [kg]. */
 KERNEL(void, grid_constrain,
        (struct grid *g, enum transfer transfer, real smallest_mass, real impulse[DIM_MAX], real *work));
@@ -361,9 +363,9 @@ static inline void grid_move_nodes(struct grid *g, enum transfer transfer, real 
     grid_constrain(g, transfer, smallest_mass, impulse, work);
 }
 
-/* Divides the nodal momentum that remap has added to g->momentum by the nodal mass, in place: g->momentum becomes a
- * velocity (Zeng et al. 2022, step 6). Walls prescribe the velocity of their nodes; nodes lighter than smallest_mass
- * [kg] get 0. */
+/* Divides the nodal momentum g->momentum, which the remapping of MUSL (second map of momentum from points to nodes) has
+ * summed, by the nodal mass, in place: g->momentum becomes a velocity (Zeng et al. 2022, step 6). Nodes with a
+ * prescribed velocity (walls) receive it; nodes lighter than smallest_mass [kg] get 0. */
 KERNEL(void, grid_remapped, (struct grid *g, real smallest_mass));
 
 /* ---- the mesh of the reference frame (mesh.h), any dimension ----------------------------------------------------- */
@@ -380,10 +382,10 @@ KERNEL(void, mesh_clear, (struct mesh *mesh));
 KERNEL(void, mesh_force, (struct mesh *mesh, const struct particles *p, const struct elastic *m, bool finite));
 
 /* Integrates the motion of the active nodes of the mesh: v += dt_velocity f/m, u += dt v, with u rounded to multiples
- * of mesh->rounding. Walls prescribe the velocity of their nodes; the reactions of the walls are added to impulse[dim]
- * [N s] and their work to *work [J]. Applies dashpots and adds their energy and impulse to mesh->grid.absorbed. f
- * becomes m dv/dt_velocity of each node. Returns the largest velocity component of a node [m/s]; INFINITY if a
- * component is not finite. */
+ * of mesh->rounding. Nodes with a prescribed velocity (walls) receive it; the reactions at these nodes are added to
+ * impulse[dim] [N s] and their work to *work [J]. Applies dashpots and adds their energy and impulse to
+ * mesh->grid.absorbed. f becomes m dv/dt_velocity of each node. Returns the largest velocity component of a node [m/s];
+ * INFINITY if a component is not finite. */
 KERNEL(real, mesh_move, (struct mesh *mesh, real dt, real dt_velocity, real impulse[DIM_MAX], real *work));
 
 /* Interpolates position and velocity of all material points of the mesh from the nodes of the mesh, and stores them in

@@ -242,8 +242,8 @@ static inline bool particle_moves_with_nodes(const struct particles *p, int64_t 
 
 /* Returns the stress sigma_zz [Pa] of particle i of p in plane strain, nu (sigma_xx + sigma_yy) plus a part due to
  * plastic flow; 0 in plane stress, in 1D and in 3D. For material points on a mesh of the undeformed body the relative
- * error of this stress is of the order of the strain. For peridynamic particles the plastic part stays as it was when
- * the particle converted. */
+ * error of this stress is of the order of the strain. For peridynamic particles that were material points before, the
+ * plastic part is that of the time at which they became peridynamic. */
 static inline real particle_out_of_plane_stress(const struct particles *p, int64_t i)
 {
     if (!p->plane_strain) return 0;
@@ -251,12 +251,14 @@ static inline real particle_out_of_plane_stress(const struct particles *p, int64
     return p->plane_strain[p->material[i]].poisson * (p->stress[0][i] + p->stress[1][i]) + flow;
 }
 
-/* Allocates the arrays of p for `particle_count` particles in `dim` dimensions without mirror images; all values are 0.
- * optional_arrays: arrays that are allocated besides the usual ones, sum of WITH_*. Release with particles_free. */
+/* Allocates the arrays of p for `particle_count` particles in `dim` dimensions without mirror images (copies of
+ * particles beyond planes of symmetry); all values are 0. optional_arrays: arrays that are allocated besides the usual
+ * ones, sum of WITH_*. Release with particles_free. */
 void particles_make(struct particles *p, int dim, int64_t particle_count, int optional_arrays);
 
-/* Extends every array of p by `image_count` zeroed entries for mirror images, behind the entries of the body; pointers
- * to the arrays change. optional_arrays: optional arrays of p, sum of WITH_*. Called once, at set-up. */
+/* Extends every array of p by `image_count` zeroed entries for mirror images (copies of particles beyond planes of
+ * symmetry), behind the entries of the body; pointers to the arrays change. optional_arrays: optional arrays of p, sum
+ * of WITH_*. Called once, at set-up. */
 void particles_extend_arrays_for_mirror_images(struct particles *p, int64_t image_count, int optional_arrays);
 
 /* Releases all arrays of the particles p. */

@@ -95,9 +95,10 @@ static inline real softening_remaining_stiffness_fraction(const struct softening
     return onset * softening_curve_value(c, (largest_stretch - onset) / (breaking_stretch - onset)) / largest_stretch;
 }
 
-/* Returns the energy that a softening bond has dissipated, divided by stiffness, weight and length of the bond
- * (dimensionless). c: softening curve; onset, breaking_stretch: stretches at which the bond begins to soften and breaks
- * [1]; largest_stretch: largest stretch of the bond so far, at least `onset` [1]. */
+/* Returns the energy that a softening bond has dissipated, divided by stiffness, weight (factor on its force, such as
+ * the share of the neighbour within the horizon) and length of the bond (dimensionless). c: softening curve; onset,
+ * breaking_stretch: stretches at which the bond begins to soften and breaks [1]; largest_stretch: largest stretch of
+ * the bond so far, at least `onset` [1]. */
 real softening_normalised_dissipated_energy(const struct softening_curve *c, real onset, real breaking_stretch,
                                             real largest_stretch);
 

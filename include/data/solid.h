@@ -82,7 +82,7 @@ struct polygon {
 };
 
 /* A solid. `kind` determines which of the members describe it; in 2D a disc is a BALL. Sides of a box may be infinite.
- * The copies of a solid follow from its motions. */
+ * A solid can have copies, which follow from its motions (translations, rotations, reflections, grids, rings). */
 struct solid {
     enum solid_kind kind;
     bool subtract;                   /* subtracted from the union so far */

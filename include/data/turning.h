@@ -59,14 +59,14 @@ struct rotation_groups {
     real *turn[3]; /* [n + LANES] lack of a point [kg m^2/s], then the spin of its group [1/s]; 2D: only turn[2] */
 };
 
-/* Divides all particles of p into the groups t of about 6 by 6 (by 6) neighbours of the reference configuration, which
- * later rotate together, so that the FLIP transfer conserves angular momentum; joined bodies share groups, others do
- * not. The division begins in the middle of joined bodies, or on a plane of symmetry that these bodies touch, so that
- * mirrored bodies have mirrored groups, and bodies elsewhere do not change the groups. spacing: of the particles [m];
- * symmetry_plane[dim]: position of the plane of symmetry across each axis [m], NAN if there is none;
- * first_joined_body[bodies]: for each body the first body that is joined to it; body_is_supported[bodies]: for each
- * body, true if supports act on it, so that its points do not rotate in groups. Replaces previous groups; release with
- * rotation_groups_free. */
+/* Divides all particles of p into the groups t of about 6 by 6 (by 6) neighbours in the reference configuration, which
+ * later rotate together, so that the FLIP transfer conserves angular momentum. Bodies that interfaces join are divided
+ * like one body; other bodies have groups of their own. Groups are counted from the middle of the bounding box of the
+ * joined bodies or, if a plane of symmetry cuts or touches them, from this plane, so that mirrored bodies have mirrored
+ * groups and the groups do not depend on other bodies. spacing: of the particles [m]; symmetry_plane[dim]: position of
+ * the plane of symmetry across each axis [m], NAN if there is none; first_joined_body[bodies]: for each body the first
+ * body that is joined to it; body_is_supported[bodies]: for each body, true if supports act on it, so that its points
+ * do not rotate in groups. Replaces previous groups; release with rotation_groups_free. */
 void rotation_groups_make(struct rotation_groups *t, const struct particles *p, real spacing,
                           const real *symmetry_plane, const int *first_joined_body, const bool *body_is_supported,
                           int bodies);

@@ -29,8 +29,10 @@ struct voids {
  * such a solid is only known to about a voxel. */
 bool region_has_voxel_image(const struct region *r);
 
-/* Returns true if a void (a slot, a slit or a gap) may be between two points of the shape r; false for a single convex
- * solid, a voxel image, or a region without solids. */
+/* Returns true if a void (a slot, a slit or a gap) may be between two points of the region r, the shape of a body.
+ * Returns false if this is impossible, because the shape is a single convex solid or boxes that together make one box.
+ * Returns false also if r has no solids, or a solid made from a voxel image, whose surface is only known to about a
+ * voxel. */
 bool region_may_have_voids(const struct region *r);
 
 /* Computes v->near, which marks the particles of p that a void (a slot, a slit or a gap of the shape) separates from
@@ -48,8 +50,8 @@ bool void_separates_points(const struct voids *v, int body_number, const real *p
                            bool *facing);
 
 /* Returns true if a void (a slot, a slit or a gap of the shape) separates the particles `particle` and `other_particle`
- * of p, which are of one body. v: NULL if no body has voids; the result is then false. Fast for particles without a
- * void nearby. */
+ * of p, which are of one body, i.e. if the segment between their reference positions leaves the shape of the body. v:
+ * NULL if no body has voids; the result is then false. Fast for particles that are not beside a void (v->near). */
 bool void_separates_particles(const struct voids *v, const struct particles *p, int64_t particle,
                               int64_t other_particle);
 

@@ -40,9 +40,9 @@ status engine_run_to_end(struct run *e);
  * the present state, then makes one time step. Returns FAILED, with a message, if one of the two fails. */
 status engine_adapt_refinement_and_step(struct run *e);
 
-/* Saves the complete state of a run between two steps to the archive a if a->saving is true, else restores it from the
- * archive. run: pointer to the struct run. Returns FAILED if the file cannot be written, or if the stored state does
- * not fit the run or is inconsistent. */
+/* Saves the complete state of a run between two steps to the archive a (checkpoint file or memory) if a->saving is
+ * true, else restores it from the archive. run: pointer to the struct run. Returns FAILED if the file cannot be
+ * written, or if the stored state does not fit the run or is inconsistent. */
 status engine_save_or_load_run_state(void *run, struct archive *a);
 
 /* Restores the state of a run from a checkpoint, which the archive a reads. run: pointer to a struct run of the same

@@ -14,8 +14,8 @@ struct fracture_state {
     struct growing_crack *growth; /* [growths] */
 };
 
-/* Returns true if f (the cracks of a run) has a growing crack whose bonds lose their weight gradually while the tip
- * moves on. Other cracks break the bonds at once when the tip crosses them. */
+/* Returns true if f (the cracks of a run) has a growing crack whose bonds lose their weight (factor on their force)
+ * gradually while the tip moves on. Other cracks break the bonds at once when the tip crosses them. */
 bool cracks_have_gradually_weakening_bonds(const struct fracture_state *f);
 
 #endif

@@ -80,15 +80,16 @@ struct growing_crack {
  * the crack; kept by reference and must outlive g. */
 void growing_crack_make(struct growing_crack *g, const struct growth_rule *rule);
 
-/* Frees the list of fading bonds of the growing crack g and sets all members of g to 0. */
+/* Frees g->fading, the list of bonds that the growing crack g has crossed and whose forces decrease gradually, and sets
+ * all members of g to 0. */
 void growing_crack_free(struct growing_crack *g);
 
 /* Advances the growing crack g from the time t by the time step dt (both [s]). Moves the tip by its speed times dt,
- * adds the bonds that the tip crosses to g->fading, and reduces the weights of all bonds in this list, which become 0
- * as the crack grows on. b, p: bonds and particles; source: inputs of the bonds, with the neighbour search. control:
- * present stress-intensity factors, which turn the tip to the direction of the largest hoop stress and may set its
- * speed; NULL if the factors are not known. Returns the number of directed bonds (bond i-j counts twice) whose weight
- * became 0. */
+ * adds the bonds that the tip crosses to g->fading, and reduces the weights (factors on the forces) of all bonds in
+ * this list, which become 0 as the crack grows on. b, p: bonds and particles; source: inputs of the bonds, with the
+ * neighbour search. control: present stress-intensity factors, which turn the tip to the direction of the largest hoop
+ * stress and may set its speed; NULL if the factors are not known. Returns the number of directed bonds (bond i-j
+ * counts twice) whose weight became 0. */
 int64_t growing_crack_advance_and_count_cut_bonds(struct growing_crack *g, struct bonds *b, struct particles *p,
                                                   const struct bond_source *source,
                                                   const struct growth_control *control, real t, real dt);
@@ -98,8 +99,9 @@ int64_t growing_crack_advance_and_count_cut_bonds(struct growing_crack *g, struc
 real growing_crack_deflection_angle(const struct growing_crack *g);
 
 /* Saves the state of the growing crack g and its fading bonds (crossed bonds that lose their weight gradually) to the
- * archive `a` if a->saving, else restores them from it. crack_number: number of the crack, part of the names of its
- * entries in the archive. Returns FAILED if the archive cannot be read or written or a stored size differs. */
+ * archive `a` (checkpoint file or memory) if a->saving, else restores them from it. crack_number: number of the crack,
+ * part of the names of its entries in the archive. Returns FAILED if the archive cannot be read or written or a stored
+ * size differs. */
 status growing_crack_save_or_load(struct growing_crack *g, int crack_number, struct archive *a);
 
 #endif

@@ -123,9 +123,10 @@ struct crack_area {
     real face, own;
 };
 
-/* Returns the area [m^2] of all cracks t of the particles p, as created up to the last sample. For a crack that starts
- * at a pre-crack, the area of one face is the sum of its growth over strips one spacing wide along the front; branches
- * do not count. For any other crack the area is half the number of its particles times the area of a particle, since
+/* Returns the area [m^2] of one face of all cracks t of the particles p, as created up to the last sample (line of
+ * history.csv); in the member `own`, only half of it for cracks in planes of symmetry. For a crack that starts at a
+ * pre-crack, the area of one face is the sum of its growth over strips one spacing wide along the front; branches do
+ * not count. For any other crack the area is half the number of its particles times the area of a particle, since
  * particles of both faces are counted. In a plane of symmetry, where only one face is modelled, the whole number
  * counts. s: planes of symmetry and thickness. */
 struct crack_area tips_total_crack_area(const struct crack_tips *t, const struct particles *p,
@@ -139,9 +140,9 @@ struct crack_area bar_total_crack_area(const struct bonds *b, const struct parti
 /* Frees the arrays of the crack tips t. */
 void tips_free(struct crack_tips *t);
 
-/* Saves the crack tips t, the crack to which each particle belongs and the recorded samples to the archive `a` if
- * a->saving, else restores them from it. Returns FAILED if the archive cannot be read or written or a stored size
- * differs. */
+/* Saves the crack tips t, the crack to which each particle belongs and the recorded samples to the archive `a`
+ * (checkpoint file or memory) if a->saving, else restores them from it. Returns FAILED if the archive cannot be read or
+ * written or a stored size differs. */
 status tips_save_or_load(struct crack_tips *t, struct archive *a);
 
 #endif

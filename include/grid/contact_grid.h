@@ -53,13 +53,15 @@ struct grid_contact {
 void grid_contact_make(struct grid_contact *c, int body_count);
 
 /* Initialises *side, one of the bodies in contact: its background grid g, its points sorted by cell, `order`, and the
- * range of nodes that these points (of p) reach, which is computed here. g and order are kept by reference. */
+ * range of nodes to which the shape functions of these points (of p) extend, which is computed here. g and order are
+ * kept by reference. */
 void grid_contact_side_make_for_body(struct grid_contact_side *side, struct grid *g, const struct transfer_order *order,
                                      const struct particles *p);
 
-/* Lists in c->node the grid nodes that material points of two bodies reach, with the normal from one body to the other
- * and the positions of the outermost points along this normal. p: particles; side: grid and points of each body,
- * c->sides elements. */
+/* Lists in c->node the grid nodes to which material points of two bodies contribute mass, one entry for each pair of
+ * bodies. Stores in each entry the unit normal from the first body to the second and, in `reach`, how far the points of
+ * both bodies extend along this normal: largest coordinate of the first body, smallest of the second [m]. p: particles;
+ * side[c->sides]: grid and points of each body. */
 void grid_contact_find_shared_nodes(struct grid_contact *c, const struct grid_contact_side *side,
                                     const struct particles *p);
 
@@ -80,8 +82,8 @@ real grid_contact_energy_lost_by_second_mapping(struct grid_contact *c, const st
  * c->ended becomes t [s], and c->began, too, if it is still NAN. */
 void grid_contact_record_first_and_last_contact(struct grid_contact *c, real t);
 
-/* Saves energies and times of the contact c to the archive `a` if a->saving, else restores them from it. Returns FAILED
- * if the archive cannot be read or written or a stored size differs. */
+/* Saves energies and times of the contact c to the archive `a` (checkpoint file or memory) if a->saving, else restores
+ * them from it. Returns FAILED if the archive cannot be read or written or a stored size differs. */
 status grid_contact_save_or_load(struct grid_contact *c, struct archive *a);
 
 /* Frees the arrays of c, the contact of material points on grids. */

@@ -19,9 +19,10 @@ struct grid_coupled {
 };
 
 /* Selects the peridynamic particles of p that the background grid moves in this step: lists them in c, sets
- * FLAG_GRID_COUPLED and sorts them into cells. coupling: with PM and PG, particles in cells that share a node with a
- * cell that contains a material point; with PMG and PGG, all. g: background grid, which must cover all material points
- * (with PMG and PGG all particles). Must be called before the forces are computed. */
+ * FLAG_GRID_COUPLED and sorts them into cells. coupling: with COUPLING_PM and COUPLING_PG, which move particles at the
+ * interface to material points by the grid, those in cells that share a node with a cell that contains a material
+ * point; with COUPLING_PMG and COUPLING_PGG, which have one grid for all particles, all. g: background grid, which must
+ * cover all material points (with one grid for all, all particles). Must be called before the forces are computed. */
 void grid_coupled_select_particles_moved_by_grid(struct grid_coupled *c, enum coupling coupling, struct particles *p,
                                                  const struct grid *g);
 

@@ -200,8 +200,8 @@ status load_find_particles_of_boundary(struct load *l, const struct boundary *b,
 bool load_mark_particles_in_region(const struct boundary *b, const struct particles *p, real spacing,
                                    uint8_t *selected);
 
-/* Sets the particle list of load l to the particles i with selected[i] > 0, ascending, and allocates their shares if
- * the load applies forces. Sets FLAG_DRIVEN on these particles if the load prescribes motion. selected: [p->n]. */
+/* Sets the particle list of load l to the particles i with selected[i] > 0 ([p->n]), ascending. If the load prescribes
+ * motion, sets FLAG_DRIVEN on them; if it applies forces, allocates l->share (areas, volumes or masses). */
 void load_set_particle_list_from_marks(struct load *l, const uint8_t *selected, struct particles *p);
 
 /* Areas of the particles on an exposed face, for tractions (loads_columns.c). In each column of particles along the
@@ -266,16 +266,16 @@ status loads_check_formulas_are_finite(const struct loads *l, const struct parti
 void loads_average_shares_over_velocity_update(struct loads *l, const struct particles *p, real t, real dt_velocity);
 
 /* Recomputes l->share, the factors by which the value of a load is multiplied at each particle (its area, volume or
- * mass times a formula), for loads whose formula or surface changes in time: as means over the two velocity updates
- * before and after the position update from t - dt/2 to t + dt/2 [s]. Part of loads_add_work_of_applied_forces, after
- * the position update. */
+ * mass times a formula), for loads with a formula or surface that changes in time, as means over the two velocity
+ * updates before and after the position update from t - dt/2 to t + dt/2 [s], just made. Part of
+ * loads_add_work_of_applied_forces. */
 void loads_average_shares_over_step_for_work(struct loads *l, const struct particles *p, real t, real dt);
 
 /* Releases the arrays that load_prepare_varying_particle_shares has allocated for load l. */
 void load_varying_shares_free(struct load *l);
 
 /* Computes the force of load l on its particle number `entry` at time t [s], from the reference position of the
- * particle. force: dim components [N]. In load steps the force is that at full load. */
+ * particle. force: dim components [N]. In static problems the force is that at full load. */
 void load_force_on_particle(const struct load *l, const struct particles *p, int64_t entry, real t, real *force);
 
 /* Computes the total force of load l on its particles at time t [s] into l->reaction [N], and the mean displacement of
@@ -290,10 +290,10 @@ void load_sum_force_and_mean_displacement(struct load *l, const struct particles
 void load_value_at_particle(const struct load *l, const struct particles *p, int64_t entry, real t, real *value);
 
 /* Creates the loads l of boundary[boundaries]: finds the particles of each, sets FLAG_DRIVEN on particles with
- * prescribed motion, and appends mirror images of the particles within `mirror_reach` [m] of mirror planes to p. Must
- * be called before the bonds are made. boundary: kept by reference; spacing: lattice spacing [m]; optional_arrays:
- * optional arrays of p, sum of WITH_*. Returns REFUSED, with a message, if a boundary has no particles or no free face,
- * or a mirror is misplaced. Release with loads_free. */
+ * prescribed motion, and appends to p mirror images (copies beyond the plane) of the particles within `mirror_reach`
+ * [m] of mirror planes. Must be called before the bonds are made. boundary: kept by reference; spacing: lattice spacing
+ * [m]; optional_arrays: optional arrays of p, sum of WITH_*. Returns REFUSED, with a message, if a boundary has no
+ * particles or no free face, or a mirror is misplaced. Release with loads_free. */
 status loads_make(struct loads *l, const struct boundary *boundary, int boundaries, struct particles *p, real spacing,
                   real mirror_reach, int optional_arrays);
 
@@ -439,13 +439,13 @@ real loads_largest_velocity_difference(const struct load *load, const struct loa
 
 /* ---- forces and velocities of a step ----------------------------------------------------------------------------- */
 
-/* Sets p->f = 0 for all particles in the lists of l, the loads and supports, before the bond forces are computed. */
+/* Sets p->f = 0 for all particles of loads and supports in l, before bond forces set p->f of particles with bonds. */
 void loads_clear_forces_of_loaded_particles(struct loads *l, struct particles *p);
 
-/* Completes the particle forces p->f after the bond forces were computed: adds the impulse of mirror images to
- * l->impulse, adds applied forces and dashpots, and replaces f of peridynamic particles with prescribed motion by the
- * force that produces the prescribed velocity. t: time at which the velocity update of duration dt_velocity ends, the
- * middle of the step of size dt [s]. */
+/* Completes the particle forces p->f after the bond forces: adds applied forces and dashpots, then replaces f of
+ * peridynamic particles with prescribed motion by the force that produces the prescribed velocity (material points get
+ * it from their nodes). Adds to l->impulse the impulse of these forces and of mirror images (copies beyond a plane of
+ * symmetry). t: middle of the step of size dt, end of the velocity update of duration dt_velocity [s]. */
 void loads_apply_to_particle_forces(struct loads *l, struct particles *p, real t, real dt, real dt_velocity);
 
 /* Sets the velocities prescribed by l (walls) of the nodes of grid g for the step of size dt about t [s]. These are
@@ -459,7 +459,7 @@ void loads_prescribe_grid_velocities(struct loads *l, struct constrained_set *dr
                                      real dt);
 
 /* Finds the nodes of the mesh whose motion boundaries or mirrors of l prescribe, and the absorbing dashpots of its
- * nodes. Call once at set-up, and again whenever the mesh has lost points to conversion. */
+ * nodes. Call once at set-up, and again after points of the mesh have become peridynamic. */
 void loads_find_driven_mesh_nodes(struct loads *l, struct mesh *mesh, const struct particles *p);
 
 /* Sets the velocities prescribed by l (walls) of the mesh nodes that loads_find_driven_mesh_nodes has found, for the
@@ -515,8 +515,8 @@ void loads_collect_static_reactions(struct loads *l, struct particles *p);
  * displacements in l->work, and half the sum of reactions times prescribed displacements in l->constraint_work [J]. */
 void loads_compute_static_work(struct loads *l, const struct particles *p);
 
-/* Saves impulse and work so far, displacement and reaction of each load in l to `a` if a->saving, else restores them.
- * Returns FAILED if an entry is missing or its size differs. */
+/* Saves impulse and work so far, displacement and reaction of each load in l to the archive `a` (checkpoint file or
+ * memory) if a->saving, else restores them. Returns FAILED if an entry is missing or its size differs. */
 status loads_save_or_load(struct loads *l, struct archive *a);
 
 /* Largest number of boundary conditions, since indices are stored as bytes (struct held, struct image). */

@@ -5,9 +5,9 @@
 
 #include "loads/loads.h"
 
-/* Checks all mirror boundaries of l and appends mirror images of the particles within `mirror_reach` [m] of their
- * planes to p. optional_arrays: optional particle arrays, as in particles_make. Part of loads_make. Returns REFUSED,
- * with a message, if a mirror plane is inside its body or two mirrors coincide. */
+/* Checks all mirror boundaries of l and appends to p mirror images (copies beyond the plane) of the particles within
+ * `mirror_reach` [m] of their planes. optional_arrays: optional particle arrays, as in particles_make. Part of
+ * loads_make. Returns REFUSED, with a message, if a mirror plane is inside its body or two mirrors coincide. */
 status loads_make_mirror_images(struct loads *l, struct particles *p, real mirror_reach, int optional_arrays);
 
 /* Sets the flag MOVES_LATER in l->loaded for the particles of p whose bonds may cross a clamped mirror plane (a mirror

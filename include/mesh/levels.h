@@ -233,9 +233,9 @@ bool levels_contain_inverted_cell(const struct mesh_levels *l, real *X);
 void levels_reconnect_finest_mesh(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source);
 
 /* Saves the coarsening level of each cell, the motion of the nodes of coarse cells of l and the data for the next
- * change of levels to the archive if a->saving, else restores them. The finest mesh must be restored before. source:
- * material constants. Returns FAILED, with a message, if the archive cannot be read or written or if the restored
- * levels are inconsistent. */
+ * change of levels to the archive `a` (checkpoint file or memory) if a->saving, else restores them. The finest mesh
+ * must be restored before. source: material constants. Returns FAILED, with a message, if the archive cannot be read or
+ * written or if the restored levels are inconsistent. */
 status levels_save_or_load(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
                            struct archive *a);
 

@@ -30,12 +30,12 @@ struct mesh_source {
     int mirrors;
 };
 
-/* Makes a mesh of all particles of p with FLAG_MESHED. node_grid: grid whose anchor (position of node 0) and cell size
- * define the nodes; source: material constants, partial stresses (carried by bonds), slits (pre-cracks as free
- * surfaces) and voids. Unless source->still, displacement and velocity of the nodes are fitted to those of the
- * particles by least squares. Returns REFUSED, with a message, if the particles are not two per cell and direction, if
- * their volumes differ, or if two bodies share a node and would move as one. Returns FAILED, with a message, if there
- * are too many nodes. Release with mesh_free. */
+/* Makes a mesh of all particles of p with FLAG_MESHED (material points that shall move with the mesh). node_grid: grid
+ * whose anchor (position of node 0) and cell size define the nodes; source: material constants, partial stresses
+ * (carried by bonds), slits (pre-cracks as free surfaces) and voids. Unless source->still, displacement and velocity of
+ * the nodes are fitted to those of the particles by least squares. Returns REFUSED, with a message, if the particles
+ * are not two per cell and direction, if their volumes differ, or if two bodies share a node and would move as one.
+ * Returns FAILED, with a message, if there are too many nodes. Release with mesh_free. */
 status mesh_make(struct mesh *mesh, struct particles *p, const struct grid *node_grid,
                  const struct mesh_source *source);
 
@@ -67,11 +67,11 @@ bool mesh_update_stiffness_of_partial_cells(struct mesh *mesh, const struct part
                                             int64_t changed_count);
 
 /* Adds the particles in inserted_points[inserted_count] (indices), which have become material points again, to the
- * mesh. Momentum is conserved: the velocity of the nodes around them becomes (m_I v_I + sum m_p N v_p)/(m_I + sum m_p
- * N), with the masses and velocities m_I, v_I of each node I and m_p, v_p of each point p, and shape functions N; the
- * displacement of these nodes is fitted by least squares to all points around them. Call
- * mesh_remove_points_and_return_lost_energy with these particles among the changed ones afterwards, to make their
- * cells. Returns the kinetic energy that is lost [J]. */
+ * nodes of the mesh, not yet to its cells. Momentum is conserved: the velocity of the nodes around them becomes (m_I
+ * v_I + sum m_p N v_p)/(m_I + sum m_p N), with the masses and velocities m_I, v_I of each node I and m_p, v_p of each
+ * point p, and shape functions N; the displacement of these nodes is fitted by least squares to all points around them.
+ * Call mesh_remove_points_and_return_lost_energy afterwards, with these particles in its list changed_points: it
+ * rebuilds the cells that contain them. Returns the kinetic energy that is lost [J]. */
 real mesh_insert_points_and_return_lost_energy(struct mesh *mesh, struct particles *p, const int32_t *inserted_points,
                                                int64_t inserted_count);
 
@@ -118,8 +118,9 @@ int mesh_compute_highest_cell_levels(const struct mesh *mesh, const struct mirro
  * diagonals. cell_is_marked: [g->n] marks of the cells, not 0 if marked. */
 void grid_mark_cells_near_marked_cells(const struct grid *g, uint8_t *cell_is_marked, int reach_in_cells);
 
-/* Saves displacement and velocity of the nodes of a mesh to the archive `a` if a->saving, else restores them from it.
- * Returns FAILED, with a message, if the archive cannot be read or written or a stored size differs. */
+/* Saves displacement and velocity of the nodes of a mesh to the archive `a` (checkpoint file or memory) if a->saving,
+ * else restores them from it. Returns FAILED, with a message, if the archive cannot be read or written or a stored size
+ * differs. */
 status mesh_save_or_load_node_motion(struct mesh *mesh, struct archive *a);
 
 #endif

@@ -73,15 +73,15 @@ bool reference_frame_is_in_use(const struct reference_frame *r);
 bool reference_frame_is_possible(const struct reference_frame *r, const struct particles *p, const struct scene *s,
                                  const struct grid_method *mpm);
 
-/* Makes the mesh of the bodies of run e in the reference frame, and finds exposed points (material points with bonds,
- * loads or mirror images) and loaded nodes. source: partial stresses (carried by bonds) and slits (pre-cracks) of this
- * mesh, its other members are ignored; caller_sets_motion: true if the caller sets displacement and velocity of the
- * nodes afterwards. Returns REFUSED or FAILED, with a message, as mesh_make does. */
+/* Makes the mesh of those bodies of run e that move with a mesh (reference frame), and finds exposed points (material
+ * points with bonds, loads or mirror images) and loaded nodes. source: partial stresses (carried by bonds) and slits
+ * (pre-cracks) of this mesh, its other members are ignored; caller_sets_motion: true if the caller sets displacement
+ * and velocity of the nodes afterwards. Returns REFUSED or FAILED, with a message, as mesh_make does. */
 status reference_frame_make_mesh(struct run *e, const struct mesh_source *source, bool caller_sets_motion);
 
-/* Returns the critical time step of the cells of the mesh in the reference frame r [s], INFINITY without a mesh. If
- * material points may become peridynamic (adaptive method), cells that would have lost any of their points are
- * included, unless `coupling` is COUPLING_PARTIAL_STRESS. */
+/* Returns the critical time step of the cells of the mesh of r [s], INFINITY without a mesh. If material points may
+ * become peridynamic (adaptive method), cells that would have lost any of their points are included, unless `coupling`
+ * is COUPLING_PARTIAL_STRESS (bonds carry part of the stress of the points). */
 real reference_frame_critical_time_step(const struct reference_frame *r, const struct scene *s, enum coupling coupling);
 
 /* Finds again the points of the mesh r that have bonds, loads or mirror images (exposed points), and the nodes on which
@@ -132,10 +132,13 @@ bool reference_frame_update_after_conversion(struct reference_frame *r, struct p
 void reference_frame_insert_points(struct reference_frame *r, struct particles *p, const int32_t *inserted_points,
                                    int64_t inserted_count, real *energy_lost);
 
-/* Returns the kinetic energy [J] of all mesh nodes in the reference frame, on all coarsening levels. */
+/* Returns the kinetic energy [J] of all nodes of the mesh that moves bodies (a mesh fixed to the material), those of
+ * the finest cells and those of coarse cells. reference: the mesh with its coarse cells. */
 real reference_frame_kinetic_energy(const struct reference_frame *reference);
 
-/* Returns the strain energy [J] of all mesh cells in the reference frame r, on all coarsening levels. p: particles. */
+/* Returns the strain energy [J] of all cells of the mesh of r (a mesh fixed to the material), the finest ones and the
+ * coarse ones. r: mesh with its coarse cells; motion is first copied to those nodes of coarse cells that follow nodes
+ * of finer cells. p: particles, the material points of the finest cells. */
 real reference_frame_strain_energy(struct reference_frame *r, const struct particles *p);
 
 /* Kind of the load with the shortest rise time, which requires the smallest cells. RISE_NONE: there is no load;
@@ -176,7 +179,7 @@ struct levels_choice {
 
 /* Computes r->room, the highest coarsening level (0: finest) that the thickness of the body allows in each cell, if
  * scene s may have coarse cells; otherwise r->room stays NULL. particle_count: number of particles of the body,
- * including those not made. */
+ * including those that are not made because they are inside coarse cells. */
 void mesh_levels_find_highest_allowed_by_thickness(struct reference_frame *r, const struct scene *s,
                                                    int64_t particle_count);
 

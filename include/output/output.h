@@ -254,9 +254,9 @@ status run_list_frames(const char *folder, int *frame_count, struct listed_frame
 
 /* ---- checkpoints ------------------------------------------------------------------------------------------------- */
 
-/* Type of a function that saves the complete state of a run to the archive a if a->saving is true, else restores it
- * from a. context: the argument `context` of checkpoint_write or checkpoint_read. Returns FAILED if an entry cannot be
- * written or read. */
+/* Type of a function that saves the complete state of a run to the archive a (checkpoint file or memory) if a->saving
+ * is true, else restores it from a. context: the argument `context` of checkpoint_write or checkpoint_read. Returns
+ * FAILED if an entry cannot be written or read. */
 typedef status archive_all_fn(void *context, struct archive *a);
 
 /* Writes the file checkpoint.h5 of o after renaming the previous one to checkpoint.previous.h5. The file contains the
@@ -274,9 +274,9 @@ status checkpoint_read(const struct output *o, const char *scene_text, archive_a
 /* Returns true if `folder`, the folder of a run, holds a checkpoint: checkpoint.h5 or checkpoint.previous.h5. */
 bool checkpoint_exists(const char *folder);
 
-/* Saves the state of the output o (number and times of frames, length and hash of history.csv) to the archive a if
- * a->saving is true, else restores it from a. Returns FAILED if an entry is missing or does not agree with the files of
- * the run. */
+/* Saves the state of the output o (number and times of frames, length and hash of history.csv) to the archive a
+ * (checkpoint file or memory) if a->saving is true, else restores it from a. Returns FAILED if an entry is missing or
+ * does not agree with the files of the run. */
 status output_save_or_load(struct output *o, struct archive *a);
 
 #endif

@@ -319,10 +319,11 @@ enum map map_of_field(const struct plot_field *field);
 void rigid_displacement_of_nearest_particle(const struct region *shape, const struct rigid_placement *at,
                                             const struct output_frame *f, real *displacement);
 
-/* Adds the rigid bodies of the scene s to c, the particles of frame number `frame_number` that a picture shows, with
- * the placements that the run in `folder` has stored for this frame; if displacements are magnified, each body moves
- * with its nearest particle. Adds none if s is NULL or if the run has no files of rigid bodies. f: the frame; s: kept
- * by reference. */
+/* Adds the rigid bodies of the scene s to c, the particles of frame number `frame_number` that a picture shows, at the
+ * positions and rotations that the run in `folder` has stored for this frame. In a picture with magnified displacements
+ * (c->magnify), each body is moved along by the added displacement of the particle nearest to it. Adds none, without a
+ * message, if s is NULL, in one dimension, or if the file with the positions is missing or cannot be read. f: the
+ * frame; s: kept by reference, must outlive c. */
 void plotted_particles_add_rigid_bodies(struct plotted_particles *c, const struct output_frame *f,
                                         const struct scene *s, const char *folder, int frame_number);
 
@@ -424,7 +425,8 @@ void notches_paint_crack_faces(struct colour *pixel, int width, int height, cons
  * deformable bodies are faded, too. */
 struct colour rigid_body_colour(enum map map);
 
-/* Extends the rectangle of the view v so that it shows those rigid bodies of c that are near the particles of c. */
+/* Extends the rectangle of the view v so that it shows the rigid bodies of c (their boxes), on each side by at most 0.3
+ * times the longer side of the rectangle: parts of a body farther away remain outside. */
 void view_extend_to_rigid_bodies(struct view *v, const struct plotted_particles *c);
 
 /* Returns true if at least one rigid body of c is visible in the rectangle of v. In views from outside every rigid body

@@ -68,18 +68,19 @@ void diagnostics_update_energy_balance(struct diagnostics *w, real t, const stru
  * if E_0 is not positive. */
 real diagnostics_relative_energy_change(const struct diagnostics *w);
 
-/* Finds the groups of bonds that broke in this time step: clusters of particles whose flag FLAG_CRACKED is set and that
- * are at most `horizon` apart. searched_particles[particle_count]: numbers of the particles that are searched; NULL for
- * particles 0 .. particle_count - 1. horizon: length of the longest bond [m]. cluster_centre: receives the reference
- * position of the middle of one cluster, dim components [m]. Returns the number of clusters; if it is 0,
- * `cluster_centre` is unchanged. */
+/* Finds the groups of bonds that broke in this time step: clusters of particles whose flag FLAG_CRACKED (bond lost in
+ * this step) is set and that are at most `horizon` apart. searched_particles[particle_count]: numbers of the particles
+ * that are searched; NULL for particles 0 .. particle_count - 1. horizon: length of the longest bond [m].
+ * cluster_centre: receives the reference position of the middle of one cluster, dim components [m]. Returns the number
+ * of clusters; if it is 0, `cluster_centre` is unchanged. */
 int64_t diagnostics_count_clusters_of_new_breaks(const struct particles *p, const int32_t *searched_particles,
                                                  int64_t particle_count, real horizon, real *cluster_centre);
 
-/* Adds the bonds that broke in the step at time t [s] to the number of broken bonds in w, and stores time and position
- * of the first break of the run. broken_bond_count: number of directed bonds that broke in the step. horizon: length of
- * the longest bond [m]. Returns true if driven particles (particles with prescribed motion) lost bonds in this step for
- * the first time in the run. */
+/* Adds the bonds that broke in the step at time t [s], `broken_bond_count` (each counted for both of its particles), to
+ * the number of broken bonds in w. If they are the first ones of the run, stores t and the position of the break: the
+ * middle of a cluster of particles of p that lost bonds and are at most `horizon`, the length of the longest bond [m],
+ * apart. Returns true if driven particles (particles with prescribed motion) lost bonds in this step for the first time
+ * in the run. */
 bool diagnostics_record_broken_bonds(struct diagnostics *w, const struct particles *p, real horizon,
                                      int64_t broken_bond_count, real t);
 
@@ -91,8 +92,8 @@ bool diagnostics_record_broken_bonds(struct diagnostics *w, const struct particl
 status diagnostics_check_divergence(const struct particles *p, bool check_peridynamic, bool check_mesh_points,
                                     real max_speed, int64_t step, real t);
 
-/* Saves the diagnostics w to the archive if a->saving is set, else restores them from it. Returns FAILED if an entry is
- * missing or has another size. */
+/* Saves the diagnostics w to the archive `a` (checkpoint file or memory) if a->saving is set, else restores them from
+ * it. Returns FAILED if an entry is missing or has another size. */
 status diagnostics_save_or_load(struct diagnostics *w, struct archive *a);
 
 /* Returns true if the energies w of the run so far are mere round-off, so that relative energy errors mean nothing:

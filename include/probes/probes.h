@@ -127,13 +127,15 @@ void probes_complete_sample_after_step(struct probes *s, const struct observed_r
  * time of the sample [s]. */
 void probes_warn_of_meaningless_sif(struct probes *s, bool single_equilibrium, real t, struct warnings *warning_list);
 
-/* Updates the probes of s that observe every time step of the run o. BREAK and SPALL probes search for bonds that broke
- * in the step (particles whose flag FLAG_LOST_BOND is set); REACTION probes update the largest force and the sum of
- * squared forces. Must be called before these flags are cleared. */
+/* Updates the probes of s that observe every time step of the run o. BREAK probes (first broken bond of a region) and
+ * SPALL probes (separated end of a bar) search for bonds that broke in the step (particles whose flag FLAG_LOST_BOND is
+ * set); REACTION probes (force of a support) update the largest force and the sum of squared forces. Must be called
+ * before these flags are cleared. */
 void probes_update_every_step(struct probes *s, const struct observed_run *o);
 
-/* Updates the BREAK and SPALL probes of s in run o, which search for bonds that just broke, and no other probes. Load
- * steps call this function each time bonds have broken. */
+/* Updates the BREAK probes (first broken bond of a region) and SPALL probes (separated end of a bar) of s in run o,
+ * which search for bonds that just broke, and no other probes. Load steps (sequences of static equilibria) call this
+ * function each time bonds have broken. */
 void probes_update_broken_bonds(struct probes *s, const struct observed_run *o);
 
 /* Calls emit(context, probe name, quantity name, value) for every result of every probe of s that summary.json reports,
@@ -175,8 +177,8 @@ bool probes_locate_sif_contour(const struct probes *s, int probe, const struct o
                                real *outer_radius);
 
 /* Saves the state of the probes s, such as times and positions of first breaks and largest forces so far, to the
- * archive a if a->saving is set, else restores it from a. Returns FAILED if an entry is missing or its size does not
- * fit the probes. */
+ * archive a (checkpoint file or memory) if a->saving is set, else restores it from a. Returns FAILED if an entry is
+ * missing or its size does not fit the probes. */
 status probes_save_or_load(struct probes *s, struct archive *a);
 
 #endif

@@ -40,8 +40,9 @@ void patch_test_store_largest_residual_force(struct probing *q, const struct sce
  * after the forces have been computed and before nodes are moved. */
 void patch_test_include_mesh_residual_force(struct probing *q, const struct scene *s, const struct mesh *mesh);
 
-/* Writes the profiles of LINE and EXACT probes as CSV files to the folder of `out`, with the number of the last frame
- * written to it in their names. o: view of the current state of the run. Returns FAILED if a file cannot be written. */
+/* Writes the profiles of LINE probes (values along a line) and EXACT probes (comparison with a closed-form solution) as
+ * CSV files to the folder of `out`, with the number of the last frame written to it in their names. o: view of the
+ * current state of the run. Returns FAILED if a file cannot be written. */
 status profiles_write_csv_files(const struct probes *s, const struct output *out, const struct observed_run *o);
 
 /* Adds a warning to *warning_list if profiles (CSV files of LINE and EXACT probes, one for each frame) of the frames

@@ -52,9 +52,9 @@ const char *sif_growth_why_impossible(const struct run *e, struct sif_plane *pla
  * Returns OK for other scenes. */
 status sif_growth_check_scene_allows_it(const struct run *e);
 
-/* Saves the state of run e between two load steps to the archive `a` if a->saving is set, else restores it from `a`. If
- * a->scope is ARCHIVE_TRIAL, only the state that a trial equilibrium changes is saved or restored. Returns FAILED if an
- * entry is missing or has another size. */
+/* Saves the state of run e between two load steps (static equilibria) to the archive `a` (checkpoint file or memory) if
+ * a->saving is set, else restores it from `a`. If a->scope is ARCHIVE_TRIAL, only the state that a trial equilibrium
+ * changes is saved or restored. Returns FAILED if an entry is missing or has another size. */
 status statics_save_or_load(struct run *e, struct archive *a);
 
 /* Frees the arrays in s: system of equations, preconditioner, saved plastic state and bonds of the next crack

@@ -114,9 +114,9 @@ real rigid_kinetic_energy(const struct rigid_body *r);
  * force, weight and moment, to first order in dt [J]; 0 for other bodies. dt: whole time step [s]. */
 real rigid_half_step_kinetic_energy_change(const struct rigid_body *r, real dt);
 
-/* Saves the motion of the rigid body r to the archive `a` if a->saving is set, else restores the motion from the
- * archive. body_number: number of the body in the scene, which the names of the entries in the archive contain. Returns
- * FAILED if the archive cannot be read or written or a stored size differs. */
+/* Saves the motion of the rigid body r to the archive `a` (checkpoint file or memory) if a->saving is set, else
+ * restores the motion from the archive. body_number: number of the body in the scene, which the names of the entries in
+ * the archive contain. Returns FAILED if the archive cannot be read or written or a stored size differs. */
 status rigid_save_or_load(struct rigid_body *r, int body_number, struct archive *a);
 
 #endif

@@ -44,8 +44,9 @@ struct rigid_placement {
     real centre[DIM_MAX], x[DIM_MAX], turn[DIM_MAX][DIM_MAX];
 };
 
-/* Reads the placements of `rigid_body_count` rigid bodies at frame `frame_number` from the folder of a run into
- * placement[rigid_body_count]. Returns false if there is no such file, or if it contains another number of bodies. */
+/* Reads the placements (positions and rotations) of `rigid_body_count` rigid bodies at frame `frame_number` from the
+ * folder of a run into placement[rigid_body_count]. Returns false if there is no such file or it cannot be read, or if
+ * it contains another number of bodies. */
 bool rigids_read_placements_of_frame(struct rigid_placement *placement, int rigid_body_count, const char *folder,
                                      int frame_number);
 

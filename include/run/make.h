@@ -29,10 +29,11 @@ real voids_interaction_distance(const struct scene *s, real cutoff);
  * bodies. */
 bool joined_bodies_are_all_defined_by_solids(const struct scene *s, int first_body);
 
-/* Computes factors on the weights of bonds near free surfaces into w, by moments of the bond weights (key `pd.surface:
- * moments`), and sets source->surface = w, so that w must outlive `source`. Returns REFUSED, with a message, if
- * particles that can have bonds, mirror images included, are not on one lattice. loads: boundary conditions, so that
- * the message can name the boundary of scene s whose mirror plane does not fit the lattice. */
+/* Computes factors on the weights (themselves factors on the forces) of bonds near free surfaces into w, by moments of
+ * the bond weights (key `pd.surface: moments`), and sets source->surface = w, so that w must outlive `source`. Returns
+ * REFUSED, with a message, if particles that can have bonds, mirror images included, are not on one lattice. loads:
+ * boundary conditions, so that the message can name the boundary of scene s whose mirror plane does not fit the
+ * lattice. */
 status run_compute_surface_bond_weight_factors(struct surface_weights *w, struct bond_source *source,
                                                const struct particles *p, const struct loads *loads,
                                                const struct scene *s);
@@ -43,10 +44,11 @@ status run_compute_surface_bond_weight_factors(struct surface_weights *w, struct
 status joined_bodies_check_close_enough(const struct scene *s, const struct particles *p, const struct cells *cells,
                                         real cutoff);
 
-/* Checks the prescribed velocities and displacements of the boundaries of scene s, `loads`. Returns REFUSED, with a
- * message, if a value depends on the reference position of material points on the background grid, which stores present
- * positions only; if, with the explicit solver, a displacement jumps, is not 0 at t = 0, or grows faster than waves;
- * or, with `run_begins` (the beginning of a run, not a restart), if particles with a prescribed displacement are not at
+/* Checks the velocities and displacements that the boundaries of scene s prescribe. loads: loads and supports made from
+ * these boundaries; p: particles at the start; run_begins: true at the beginning of a run, false at a restart. Returns
+ * REFUSED, with a message, in these cases: a value depends on the reference position but acts on material points on the
+ * background grid, which store present positions only; in an explicit run, a displacement jumps, is not 0 at t = 0, or
+ * changes as fast as the fastest wave or faster; at the beginning, particles with a prescribed displacement are not at
  * their reference positions. */
 status prescribed_motion_check(const struct loads *loads, const struct particles *p, const struct scene *s,
                                bool run_begins);

@@ -11,10 +11,10 @@
 #define FILL_FARTHEST 1e7
 
 /* Creates the particles of all bodies of the scene s, from lattices and particle lists, and sets their positions,
- * volumes, masses and initial state. hollow: cells whose particles are not created, NULL for none; the ids of these
- * particles are left out. optional_arrays: optional arrays of p, a sum of WITH_*. Returns REFUSED, with a message and
- * with p empty, for an empty body, an unreadable list, a list in another length unit than the spacing, or two particles
- * at one position. Release p with particles_free. */
+ * volumes, masses and initial state. hollow: cells whose particles are not created since they will be inside coarse
+ * mesh cells, NULL for none; the ids of these particles are left out. optional_arrays: optional arrays of p, a sum of
+ * WITH_*. Returns REFUSED, with a message and with p empty, for an empty body, an unreadable list, a list in another
+ * length unit than the spacing, or two particles at one position. Release p with particles_free. */
 status fill_bodies_with_particles(struct particles *p, const struct scene *s,
                                   const struct cells_without_particles *hollow, int optional_arrays);
 

@@ -4,15 +4,16 @@
 
 #include "scene/scene.h"
 
-/* Reads the scene file `path` into *s, applies the overrides override[overrides] and checks the scene. Returns REFUSED
- * for an invalid scene, with a message `file:line:column: fault; expected value`. Also returns REFUSED for `method:
- * auto`, which pilot runs have to resolve first (study/pilot.h). Nothing has to be released then. Otherwise release s
- * with scene_free. */
+/* Reads the scene (input file) `path` into *s, with the values of keys that override[overrides] replaces (option -s),
+ * and checks it. Returns REFUSED for an invalid scene, with a message `file:line:column: fault; expected value`. Also
+ * returns REFUSED for `method: auto`, which pilot runs have to resolve first (study/pilot.h). Nothing has to be
+ * released then. Otherwise release s with scene_free. */
 status scene_read(struct scene *s, const char *path, const struct scene_override *override, int overrides);
 
-/* Reads a scene from text[length] into *s, applies the overrides override[overrides] and checks the scene. Opens no
- * file, not even to see whether particle lists exist. name: file name for messages. Returns REFUSED, with a message,
- * for an invalid scene and for `method: auto`; nothing has to be released then. Otherwise release s with scene_free. */
+/* Reads a scene (text of an input file) from text[length] into *s, with the values of keys that override[overrides]
+ * replaces (option -s), and checks it. Opens no file, not even to see whether particle lists exist. name: file name for
+ * messages. Returns REFUSED, with a message, for an invalid scene and for `method: auto`; nothing has to be released
+ * then. Otherwise release s with scene_free. */
 status scene_read_text(struct scene *s, const char *text, size_t length, const char *name,
                        const struct scene_override *override, int overrides);
 
@@ -31,9 +32,10 @@ struct pilot_wish {
     struct scene provisional;
 };
 
-/* Reads the scene file `path` with the overrides override[overrides]. If it has `method: auto`, sets w->wanted to true,
- * stores in *w what it requires of the pilot runs, and leaves *s empty. Otherwise sets w->wanted to false and stores
- * the scene in *s, which the caller releases with scene_free. Returns REFUSED, with a message, for an invalid scene. */
+/* Reads the scene (input file) `path`, with the values of keys that override[overrides] replaces (option -s). If it has
+ * `method: auto`, sets w->wanted to true, stores in *w what it requires of the pilot runs, and leaves *s empty.
+ * Otherwise sets w->wanted to false and stores the scene in *s, which the caller releases with scene_free. Returns
+ * REFUSED, with a message, for an invalid scene. */
 status scene_read_or_list_pilot_requirements(struct scene *s, struct pilot_wish *w, const char *path,
                                              const struct scene_override *override, int overrides);
 

@@ -7,7 +7,7 @@
 #include "scene/scene.h"
 
 /* Returns the complete neighbourhood of a particle (all neighbours within the horizon) on the lattice of the scene s,
- * with the horizon and the weights of bonds. */
+ * with the horizon and the weights of bonds (factors on their forces). */
 struct family scene_family(const struct scene *s);
 
 /* Returns the peridynamic model of the bonds of material m in scene s: bond-based, or state-based with its moduli

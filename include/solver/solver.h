@@ -86,8 +86,8 @@ real field_largest_component(const struct field *vectors, int dim, int64_t vecto
  * `unbalanced_norm` so far. The residual is 0 if the unbalanced forces are 0 or, without loads, round-off. */
 void static_solver_set_residual(struct static_solver *s, real reaction_norm, real unbalanced_norm);
 
-/* Saves the state of the static iteration *s to the archive `a` if a->saving is set, else restores *s from `a`. Returns
- * FAILED if the archive cannot be read or written or a stored size differs. */
+/* Saves the state of the static iteration *s to the archive `a` (checkpoint file or memory) if a->saving is set, else
+ * restores *s from `a`. Returns FAILED if the archive cannot be read or written or a stored size differs. */
 status static_solver_save_or_load(struct static_solver *s, struct archive *a);
 
 #endif

@@ -21,8 +21,9 @@ status stability_check_after_step(struct run *e);
 status divergence_check_particles(const struct run *e, bool check_peridynamic, bool check_mesh_points);
 
 /* Checks the energies of the last sample (line of history.csv) of the run e, if a sample was taken in this step; else
- * returns OK. Returns FAILED, with a remedy in the message, if the body has gained energy that neither loads nor
- * supports have supplied, if the velocities change sign in every step, or if an energy is not finite. */
+ * returns OK. Returns FAILED, with a remedy in the message, if more than half of the largest energy so far was gained
+ * without work of loads or supports, if breaking bonds have released more than a quarter of it beyond the energy that
+ * they had stored, if the velocities change sign in every step, or if an energy is not finite. */
 status energy_check_last_sample(struct run *e);
 
 /* Adds a warning to *to and prints it if the fracture energy of the last sample (line of history.csv) is below 0 by

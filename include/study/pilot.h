@@ -20,22 +20,23 @@ struct pilot {
 
 struct pilot_wish;
 
-/* Prints to `out` which scalar result the pilot runs of a scene evaluate, which methods and spacings they vary and how
- * much time they take. wish: what the scene requires of its pilot runs; scene: path of the scene file. Returns REFUSED
- * if no pilot runs of the scene are possible. */
+/* Prints to `out` which scalar result the pilot runs of a scene (runs at coarse spacings that choose method and
+ * spacing) evaluate, which methods and spacings they vary and how much time they take. wish: what the scene requires of
+ * its pilot runs; scene: path of the scene file. Returns REFUSED if no pilot runs of the scene are possible. */
 status pilot_plan_print(const struct pilot_wish *wish, const char *scene, FILE *out);
 
-/* Reads the scene file `scene` with the overrides override[overrides] into *s. If it has `method: auto`, makes pilot
- * runs in the folder FOLDER_pilot, FOLDER being that of the run, and stores the chosen method and spacing there. Later
- * calls with the same scene and overrides use the stored choice. folder: folder of the run, NULL for results/NAME;
- * options: only its members quiet and stop are used. Stores all overrides, those of the user and the chosen ones, in
- * *p. Returns REFUSED if the scene is invalid, or if no method reaches the requested accuracy (the message states the
- * accuracy of each), INTERRUPTED if options.stop is set. Release *p with pilot_free. */
+/* Reads the scene (input file) `scene` into *s, with the values of keys that override[overrides] replaces (option -s).
+ * If it has `method: auto`, makes pilot runs at coarse spacings in the folder FOLDER_pilot, with FOLDER = folder, the
+ * folder of the run (NULL: results/NAME), and stores the chosen method and spacing in FOLDER_pilot; later calls with
+ * the same scene and overrides use the stored choice. options: only its members quiet and stop are used. p: receives
+ * all overrides, those of the user and the chosen ones. Returns REFUSED if the scene is invalid, or if no method
+ * reaches the requested accuracy (the message states the accuracy of each), INTERRUPTED if options.stop is set; then
+ * nothing has to be released. Otherwise release *s with scene_free and *p with pilot_free. */
 status pilot_scene_read_or_choose_method(struct scene *s, struct pilot *p, const char *scene,
                                          const struct scene_override *override, int overrides, const char *folder,
                                          struct study_options options);
 
-/* Frees the overrides in *p, which pilot_scene_read_or_choose_method has stored. */
+/* Frees the overrides (replaced values of keys) in *p, which pilot_scene_read_or_choose_method has stored. */
 void pilot_free(struct pilot *p);
 
 #endif

@@ -86,21 +86,23 @@ void study_compose_default_folder(char *folder, size_t capacity, const struct sc
  * study of another scene, or files that Cleave did not write. */
 status study_folder_check_is_usable_for_scene(const char *folder, const char *text);
 
-/* Marks `folder` as the folder of a study by writing the file STUDY_SCENE with an empty text of the scene, unless the
- * file exists. Returns REFUSED if the folder contains files that Cleave did not write, or if its subfolder `logs` or
- * `pictures` is a symbolic link; FAILED if the file cannot be written. */
+/* Makes `folder` recognisable as the folder of a study: writes the file STUDY_SCENE (study.yaml) with its first line
+ * only, the text of the scene to follow later. Does nothing if `folder` is already that of a study. Returns REFUSED if
+ * the folder contains files that Cleave did not write, or if its subfolder `logs` or `pictures` is a symbolic link;
+ * FAILED if the file cannot be written. */
 status study_folder_mark_as_study(const char *folder);
 
 /* Checks that `folder` may be used for a study, without writing anything. Returns REFUSED if it contains files that
  * Cleave did not write, or if its subfolder `logs` or `pictures` is a symbolic link. */
 status study_folder_check_is_usable(const char *folder);
 
-/* Returns true if `folder` contains the file STUDY_SCENE of a study of the scene with the text `text`. */
+/* Returns true if `folder` contains the file STUDY_SCENE (study.yaml) of a study of the scene with the text `text`. */
 bool study_folder_is_of_scene(const char *folder, const char *text);
 
-/* Writes the file STUDY_SCENE to `folder`: a first line by which Cleave recognises the file, a line with the options of
- * the study, then `text`, the text of the scene. options: options in the form of study_options_compose_from_arguments;
- * if NULL, their line is left out. Returns FAILED if the file cannot be written. */
+/* Writes the file STUDY_SCENE (study.yaml) to `folder`: a first line by which Cleave recognises the file, a line with
+ * the options of the study, then `text`, the text of the scene. options: options in the form of
+ * study_options_compose_from_arguments; if NULL, their line is left out. Returns FAILED if the file cannot be
+ * written. */
 status study_write_scene_and_options(const char *folder, const char *text, const char *options);
 
 /* Reads why the run called `run` of the study in `folder` has failed, the last line of its log, into line[capacity].
@@ -132,9 +134,10 @@ struct study_case *study_add_case(struct study *s, const char *name, const struc
 /* => */
 status study_add_combinations(struct study *s, const struct varied_key *key, int keys);
 
-/* Reads the scene of every run of the study s and sets the states of the runs: CASE_SAME if another run has an equal
- * scene, CASE_DONE_BEFORE if the folder of the run holds its results and, if `keep_failed` is true, CASE_FAILED if it
- * holds a failed run, which the study would otherwise run again. Returns REFUSED if the scene of a run is invalid. */
+/* Reads the scene of every run of the study s and sets the states of the runs before any of them is started: CASE_SAME
+ * if an earlier run of s has an equal scene, whose results are then used; CASE_DONE_BEFORE if the folder of the run
+ * holds its results already; CASE_FAILED if the folder holds a failed run and `keep_failed` is true. If `keep_failed`
+ * is false, failed runs will be executed again. Returns REFUSED if the scene of a run is invalid. */
 status study_determine_case_states(struct study *s, bool keep_failed);
 
 /* Prints to `out` how many runs of the study s have the same scene as another run (CASE_SAME). Prints nothing if there
@@ -171,9 +174,10 @@ struct study_options {
                                         * started */
 };
 
-/* Locks the folder of the study s for this process and writes the file STUDY_SCENE. Returns REFUSED if the folder does
- * not exist, is that of a single run, contains files that Cleave did not write, or is in use by another process. Also
- * returns REFUSED if it contains a study of another scene, unless `overwrite` is true. */
+/* Locks the folder of the study s for this process and writes the file STUDY_SCENE (study.yaml), by which the folder is
+ * recognised. Returns REFUSED if the folder does not exist, is that of a single run, contains files that Cleave did not
+ * write, or is in use by another process. Also returns REFUSED if it contains a study of another scene, unless
+ * `overwrite` is true. */
 status study_lock_folder(struct study *s, bool overwrite);
 
 /* Creates and locks the folder of the study s and executes all runs whose state is CASE_WAITING, each as a separate

@@ -102,9 +102,9 @@ static ALWAYS_INLINE bool cells_mean_dilatation_change(const struct mesh *mesh, 
 /* Computes the stresses of the points number `point` (0 .. 2^dim - 1; particles of p) of eight mesh cells, one cell in
  * each vector lane. cell: eight cell indices, -1 for a lane without cell; s: strain of the cells; change: added to the
  * normal strains of the points [1], NULL: nothing; m: elastic constants of all materials; stress: receives symmetric
- * components [Pa], 0 in lanes without a point. flows: if true, applies return mapping in load steps, updates the
- * plastic state of the points and returns 0; if false, returns the sum of the elastic energies per volume of the points
- * [J/m^3]. */
+ * components [Pa], 0 in lanes without a point. flows: if true, applies the return mapping of load steps (static
+ * equilibria), updates the plastic state of the points and returns 0; if false, returns the sum of the elastic energies
+ * per volume of the points [J/m^3]. */
 static ALWAYS_INLINE real cells_compute_point_stress(const struct mesh *mesh, const struct particles *p,
                                                      const struct elastic *m, const int32_t *cell,
                                                      const struct mesh_cell *s, const lanes *change, const int point,

@@ -21,9 +21,11 @@ static ALWAYS_INLINE lanes lanes_gather_or_zero(const real *from, const int32_t 
     return eight;
 }
 
-/* Loads the plastic state of eight material points of p, and their stresses, into *e for law_update. point: particle
- * numbers, -1 for a lane without a point; stress: symmetric components of the trial stress [Pa]; dt: duration of an
- * explicit step [s], 0 in load steps; m: constants of the material whose law is evaluated. */
+/* Loads stress and plastic state of eight material points of p into *e, the input of law_update: trial stress, stress
+ * at the start of the step (only if dt > 0), back stress, plastic strain, plastic work and temperature. point: particle
+ * numbers, -1 for a lane without a point, which gets zeros; stress: symmetric components of the trial stress [Pa]; dt:
+ * duration of an explicit time step [s], 0 in load steps (static equilibria); m: constants of the material whose law is
+ * evaluated. */
 static ALWAYS_INLINE void law_points_load(const struct particles *p, const struct elastic *m, const int32_t *point,
                                           const lanes *stress, real dt, struct law_points *e, const int dim)
 {
@@ -76,11 +78,11 @@ static ALWAYS_INLINE void mesh_stress_store(const struct particles *p, const int
             if (of_lanes >> l & 1) p->mesh_stress[k][point[l]] = stress[k][l];
 }
 
-/* Maps the trial stresses of the points number `point_number` (0 .. 2^dim - 1; particles of p) of eight mesh cells back
- * to their yield surfaces by their flow laws, and updates their plastic state; for points of several materials once for
- * each law. cell: eight cell indices; yielding_lanes: bit l is set if the point in lane l has a flow law; dt: duration
- * of an explicit step [s], 0 in load steps; stress: symmetric components, trial stress on entry, the returned stress on
- * exit [Pa]; m: elastic constants of all materials. */
+/* Maps the trial stresses of the points number `point_number` (0 .. 2^dim - 1; particles of p) of eight cells of `mesh`
+ * back to their yield surfaces by their flow laws, and updates their plastic state in p. Points of several materials
+ * are mapped material by material. cell: eight cell indices; yielding_lanes: bit l is set if the point in lane l has a
+ * flow law; dt: duration of an explicit time step [s], 0 in load steps (static equilibria); stress: symmetric
+ * components, trial stress on entry, the returned stress on exit [Pa]; m: elastic constants of all materials. */
 static NEVER_INLINE void cells_apply_flow_laws(const struct mesh *mesh, const struct particles *p,
                                                const struct elastic *m, const int32_t *cell, int point_number,
                                                unsigned yielding_lanes, real dt, lanes *stress, int dim)

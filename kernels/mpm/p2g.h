@@ -79,8 +79,9 @@ static ALWAYS_INLINE bool continues(const struct transfer_data *t, const int dim
     return transfer == TRANSFER_APIC || (dim > 1 && t->turn[2] && !t->momentum_only);
 }
 
-/* Loads the stress that the n points `list` of p (n <= AT_ONCE) transmit to the grid into *s. t: inputs of the
- * transfer. */
+/* Loads the stresses that the n points `list` of p (n <= AT_ONCE) transmit to the grid, without the part that bonds
+ * carry, and the volumes of the points into *s. Lanes from n on repeat points of the list (points_entry_of_lane). t:
+ * inputs of the transfer; if t->momentum_only is set, the stresses are 0. */
 static ALWAYS_INLINE void points_load_stress(struct points_stress *s, const struct particles *p,
                                              const struct transfer_data *t, const int32_t *list, int n, const int dim)
 {

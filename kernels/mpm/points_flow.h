@@ -161,9 +161,9 @@ static ALWAYS_INLINE void flow_store_points(struct particles *p, const struct el
     flow_clear_conversion_flags(p, m, e, flowed, point, dim);
 }
 
-/* Stores in p the back stresses, from the state e, of those of eight points whose bits are set in `lanes_set`. The back
- * stresses are stored whether the points have yielded or not, since their components rotate with the points. point:
- * numbers of the points. */
+/* Stores the back stresses e->back of those of the eight points point[0] .. point[7] in p whose bits are set in
+ * `lanes_set` (bit l: point[l]). They are stored whether the points have yielded or not, since their components rotate
+ * with the points. e: state of the points after the return mapping; point: numbers of the points. */
 static NEVER_INLINE void flow_store_back_stress(struct particles *p, const struct law_points *e, unsigned lanes_set,
                                                 const int32_t *point, const int dim)
 {
@@ -172,8 +172,9 @@ static NEVER_INLINE void flow_store_back_stress(struct particles *p, const struc
             p->back_stress[c][point[l]] = e->back[law_place[dim][c]][l];
 }
 
-/* Removes the first n points (at most LANES) from the list `due` of points that wait for their return mapping. At most
- * POINTS others may follow them. */
+/* Removes the first n points (at most LANES) from the list `due` of points that wait for their return mapping. Moves
+ * the remaining ones, at most POINTS (as many as a vector of points holds), to the beginning of the list, with their
+ * velocity gradients due->L, trial stresses and volumes. */
 static ALWAYS_INLINE void flow_points_remove_first(struct flow_points *due, int n, const int dim)
 {
     due->n -= n;

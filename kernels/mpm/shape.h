@@ -140,8 +140,8 @@ struct cell {
     real place[DIM_MAX]; /* lower corner of the cell, in node distances from the anchor */
 };
 
-/* Returns the cell of grid g that contains point i of p, with the lowest node that a point of the cell reaches. shape:
- * shape function of the grid. */
+/* Returns the cell of grid g that contains point i of p, with the lowest node at which a point of the cell has a
+ * weight. shape: shape function of the grid. */
 static ALWAYS_INLINE struct cell cell_containing_point(const struct grid *g, const struct particles *p, int64_t i,
                                                        const int dim, const enum shape shape)
 {
@@ -154,8 +154,8 @@ static ALWAYS_INLINE struct cell cell_containing_point(const struct grid *g, con
     return c;
 }
 
-/* Returns the index in grid g of the first node of a row (along x) of the nodes that points of cell c reach. k1, k2:
- * number of the row along y and along z, from 0. */
+/* Returns the index in grid g of the first node of a row (along x) of the nodes at which points of cell c have weights.
+ * k1, k2: number of the row along y and along z, from 0. */
 static ALWAYS_INLINE int64_t cell_row_first_node(const struct cell *c, const struct grid *g, int k1, int k2,
                                                  const int dim)
 {
@@ -260,11 +260,11 @@ static ALWAYS_INLINE void stencil_compute_corner_weights(struct cell_stencil *s,
     }
 }
 
-/* Finds which rows of nodes the points of stencil s (node weights of a few points) touch along axis d, for shapes with
- * three nodes per direction: a point with t < l does not touch the upper outer row, others not the lower outer row.
- * Stores the first touched row of each point in s->low[d], the first and the end of the rows that any point touches in
- * s->lowest[d] and s->end[d]. l: half widths in node distances. The code has no branches, because on a lattice t = l up
- * to round-off and the result is unpredictable. */
+/* Finds in which rows of nodes along axis d the points of stencil s (node weights of a few points) have weights, for
+ * shapes with three nodes per direction: a point with t < l has none in the upper outer row, others none in the lower
+ * outer row. Stores the first row with a weight of each point in s->low[d], the first and the end of the rows with
+ * weights of any point in s->lowest[d] and s->end[d]. l: half widths in node distances. The code has no branches,
+ * because on a lattice t = l up to round-off and the result is unpredictable. */
 static ALWAYS_INLINE void stencil_find_touched_rows(struct cell_stencil *s, row_of_points l, int d)
 {
     const int all = (1 << POINTS) - 1, upper = ~points_sign_bits(s->t[d] - l) & all;

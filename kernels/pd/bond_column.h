@@ -117,8 +117,8 @@ static ALWAYS_INLINE lanes column_reference_vectors(const struct column column, 
 }
 
 /* Returns, for the eight bonds of `column` (one bond of each of eight particles), component `axis` of the reference
- * bond vector times the weight of the bond [m]. w: weights of the bonds [1]; reference_vector: component `axis` of
- * their reference vectors [m]. */
+ * bond vector times the weight (factor on its force) of the bond [m]. w: weights of the bonds [1]; reference_vector:
+ * component `axis` of their reference vectors [m]. */
 static ALWAYS_INLINE lanes column_weighted_vectors(const struct column column, int axis, lanes w,
                                                    lanes reference_vector)
 {
@@ -144,7 +144,8 @@ static ALWAYS_INLINE uint8_t column_intact_bits(const struct column column)
     return column.stencil ? column.stencil->intact : column.b->common[column.number].intact;
 }
 
-/* Returns the weights [1] of the eight bonds of `column` (one bond of each of eight particles), 0 for broken bonds. */
+/* Returns the weights (factors on the bond forces) [1] of the eight bonds of `column` (one bond of each of eight
+ * particles), 0 for broken bonds. */
 static ALWAYS_INLINE lanes column_weight(const struct column column)
 {
     if (column.kind == COLUMN_UNIT) return lanes_broadcast(1);

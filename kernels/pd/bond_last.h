@@ -25,10 +25,10 @@ static inline real bond_stretch_at_earlier_time(const struct particles *p, real 
     return sqrt(distance2) * fabs(inverse_length) - 1;
 }
 
-/* Returns the energy that a softening bond has dissipated in all, divided by stiffness, weight and length of the bond
- * (dimensionless), when it passes the end of its softening in the leap-frog step from the stretch `before` to `now`
- * [1]: in this step it loses the energy before now (1 - d)/2 with the damage d at its start. c: softening curve; onset,
- * end: stretches at which the bond begins to soften and breaks [1]. */
+/* Returns the energy that a softening bond has dissipated in all, divided by stiffness, weight (factor on its force)
+ * and length of the bond (dimensionless), when it passes the end of its softening in the leap-frog step from the
+ * stretch `before` to `now` [1]: in this step it loses the energy before now (1 - d)/2 with the damage d at its start.
+ * c: softening curve; onset, end: stretches at which the bond begins to soften and breaks [1]. */
 static inline real softening_energy_to_end(const struct softening_curve *c, real onset, real end, real before, real now)
 {
     const real most = real_min(real_max(before, onset), end);

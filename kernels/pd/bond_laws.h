@@ -101,17 +101,17 @@ static inline real bond_entry_elastic_stretch(const struct bonds *b, int64_t row
 }
 
 /* Returns the elastic energy of the bond with index `bond` in the arrays of b at the stretch `stretch` [1], divided by
- * stiffness, weight and reference length of the bond (dimensionless). row_block: block of eight rows (the bonds of
- * eight particles) that contains the bond. */
+ * stiffness, weight (factor on its force) and reference length of the bond (dimensionless). row_block: block of eight
+ * rows (the bonds of eight particles) that contains the bond. */
 static inline real bond_entry_normalised_energy(const struct bonds *b, int64_t row_block, int64_t bond, real stretch)
 {
     const real elastic = bond_entry_elastic_stretch(b, row_block, bond, stretch);
     return 0.5 * ((b->soft.curve ? stretch : elastic) * elastic);
 }
 
-/* Returns the elastic energies of eight bonds, each divided by stiffness, weight and reference length of the bond
- * (dimensionless). model: law of the bonds; stretch: stretches of the bonds [1]; elastic: elastic parts of the
- * stretches, equal to the normalised forces [1]. */
+/* Returns the elastic energies of eight bonds, each divided by stiffness, weight (factor on its force) and reference
+ * length of the bond (dimensionless). model: law of the bonds; stretch: stretches of the bonds [1]; elastic: elastic
+ * parts of the stretches, equal to the normalised forces [1]. */
 static ALWAYS_INLINE lanes bonds_normalised_energy(const enum pd_model model, lanes stretch, lanes elastic)
 {
     return 0.5 * (model == PD_BOND_SOFT ? stretch : elastic) * elastic;

@@ -35,8 +35,9 @@ static ALWAYS_INLINE lanes quaternion_largest_row(const lanes *R, lanes *row)
     return largest;
 }
 
-/* Computes the stored numbers, rotation[ROTATION], of eight rotations R (row major) of particles whose neighbourhoods
- * have the spring stiffnesses `spring`, g [N/m]: in 2D g (R - 1), in 3D sqrt(2 g) times the unit quaternion of R. */
+/* Computes the four numbers rotation[ROTATION] by which the rotations R (row major) of eight particles are stored, with
+ * g = `spring`, the spring stiffnesses (force by extension) of the neighbourhoods of these particles [N/m]: in 2D the
+ * entries of g (R - 1), row by row; in 3D sqrt(2 g) times the unit quaternion of R, its scalar last. */
 static ALWAYS_INLINE void rotation_encode(lanes *rotation, const lanes *R, lanes spring, const int dim)
 {
     if (dim == 2) {
@@ -49,8 +50,8 @@ static ALWAYS_INLINE void rotation_encode(lanes *rotation, const lanes *R, lanes
 }
 
 /* Subtracts the product of the matrix g (R - 1) with the vector `arm` from the vector f, for eight particles with
- * rotations R and spring stiffnesses g. f, arm: dim components; rotation: numbers stored by rotation_encode. In 2D the
- * matrix is (a, -c; c, a). */
+ * rotations R and spring stiffnesses g (force by extension). f, arm: dim components; rotation: numbers stored by
+ * rotation_encode. In 2D the matrix is (a, -c; c, a) with a = rotation[0] and c = rotation[2]. */
 static ALWAYS_INLINE void rotation_subtract_product(lanes *f, const lanes *rotation, const lanes *arm, const int dim)
 {
     if (dim == 2) {

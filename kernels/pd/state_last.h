@@ -57,8 +57,8 @@ static inline void blend_with_value_without_breaking(real *value, real without_b
 
 /* Replaces the rotation of the neighbourhood of particle i, stored in t, by S R + (1 - S) R', with its rotation R over
  * all bonds, its rotation R' without the breaking bonds, and the share S = left->share of the force of the breaking
- * bonds that acts in this step. left: sums over the remaining bonds; spring: spring stiffness of its neighbourhood
- * without the breaking bonds [N/m]; dim: dimensions. */
+ * bonds that acts in this step. left: sums over the remaining bonds; spring: spring stiffness (force by extension) of
+ * the neighbourhood without the breaking bonds [N/m]; dim: dimensions. */
 static inline void rotation_blend(struct state *t, int32_t i, const struct family_left *left, real spring, int dim)
 {
     real R[DIM_MAX * DIM_MAX], along = 0;
@@ -72,10 +72,11 @@ static inline void rotation_blend(struct state *t, int32_t i, const struct famil
         blend_with_value_without_breaking(&t->rotation[c][i], sign * kept[c][0], left->share);
 }
 
-/* Replaces pressure, spring stiffness and rotation in b->state of the particle of row `row` (all bonds of one particle
- * of p) by S a + (1 - S) a', if bonds of the particle break in this step: a is the value with these bonds, a' the value
- * without them, and S the mean share of their force that acts in this step. limit: breaking stretches. Does nothing for
- * material points, to whose state their cells contribute. */
+/* Replaces pressure (force by dilatation), spring stiffness (force by extension) and rotation of the neighbourhood of
+ * one particle in b->state by S a + (1 - S) a', if bonds of this particle break in this step: a is the value with these
+ * bonds, a' the value without them, and S the share of their force that acts in this step (bond_break_moment_of), as a
+ * mean over these bonds. row: row of b that holds the bonds of the particle (of p); limit: breaking stretches, and the
+ * rule for the share. Does nothing for material points, to whose state their cells contribute. */
 static inline void state_blend_row(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                                    int64_t row)
 {
@@ -92,11 +93,11 @@ static inline void state_blend_row(struct bonds *b, const struct particles *p, c
     blend_with_value_without_breaking(&b->state.spring[i], spring, left.share);
 }
 
-/* Prepares the states (pressure, spring stiffness and rotation of a neighbourhood) of the eight particles of block
- * number `row_block` of eight rows of b for a step in which bonds break. Copies them to b->state.before, which breaking
- * bonds use. Then replaces them in b->state by weighted means of the values with and without the breaking bonds, which
- * the remaining bonds use. limit: breaking stretches. Only for blocks in which a bond of a particle of p exceeds its
- * limit. */
+/* Prepares the states of the neighbourhoods (pressure: force by dilatation, spring stiffness: force by extension,
+ * rotation) of the eight particles of block number `row_block` of eight rows of b for a step in which bonds break.
+ * Copies them to b->state.before, which breaking bonds use. Then replaces them in b->state by weighted means of the
+ * values with and without the breaking bonds, which the remaining bonds use. limit: breaking stretches. Only for blocks
+ * in which a bond of a particle of p exceeds its limit. */
 static inline void state_blend_breaking_rows(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                                              int64_t row_block)
 {
@@ -112,9 +113,9 @@ static inline void state_blend_breaking_rows(struct bonds *b, const struct parti
 /* ---- force of a breaking bond ------------------------------------------------------------------------------------ */
 
 /* Returns one number of the state in b that particle i of p had before its bonds broke in this step. component: 0
- * pressure, 1 spring stiffness, from 2 on the stored rotation. For a mirror image, returns the state of its source
- * particle, with the rotation reflected: the bond from this particle to the image of the other particle breaks in the
- * same step and must use equal numbers. */
+ * pressure (force by dilatation), 1 spring stiffness (force by extension), from 2 on the stored rotation
+ * (rotation_encode). For a mirror image, returns the state of its source particle, with the rotation reflected: the
+ * bond from this particle to the image of the other particle breaks in the same step and must use equal numbers. */
 static inline real state_component_before_breaking(const struct bonds *b, const struct particles *p, int component,
                                                    int64_t i)
 {

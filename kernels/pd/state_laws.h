@@ -59,9 +59,9 @@ static ALWAYS_INLINE void state_bond_compute_vectors(struct state_bond *s, const
     s->inverse_length = column_inverse_length(column);
 }
 
-/* Returns weight times reference length, w |xi| [m], of the eight bonds of `column` (one bond of each of eight
- * particles), or w |xi|^2 [m^2] if `square` is true. On a lattice |xi| is the exact length of the lattice shell,
- * without the round-off of positions. w, inverse_length: weights [1] and inverse lengths [1/m] of the bonds. */
+/* Returns weight (factor on the force) times reference length, w |xi| [m], of the eight bonds of `column` (one bond of
+ * each of eight particles), or w |xi|^2 [m^2] if `square` is true. On a lattice |xi| is the exact length of the lattice
+ * shell, without the round-off of positions. w, inverse_length: weights [1] and inverse lengths [1/m] of the bonds. */
 static ALWAYS_INLINE lanes state_weighted_length(const struct column column, lanes w, lanes inverse_length,
                                                  const bool square)
 {
