@@ -135,15 +135,16 @@ KERNEL(int64_t, bond_forces,
         struct pd_motion *motion));
 
 /* Starts the softening of all bonds of b whose stretch exceeds their onset (the stretch at which softening begins), if
- * the stress across the bond allows it (pd/bond_begin.c). p: particles; limit: onsets and breaking stretches. Examines
- * the blocks of eight rows (the bonds of eight particles) in which the last force computation has found such a bond.
- * The result is the same for both particles of a bond. A bond beyond its onset already loses some energy at once, which
- * is added to the fracture energy. Called by bond_forces. */
+ * the normal stress across the bond exceeds about half the shear modulus times the stretch (pd/bond_begin.c). p:
+ * particles; limit: onsets and breaking stretches. Examines the blocks of eight rows (the bonds of eight particles) in
+ * which the last force computation has found such a bond. The result is the same for both particles of a bond. A bond
+ * beyond its onset already loses some energy at once, which is added to the fracture energy. Called by bond_forces. */
 KERNEL(void, bonds_begin_to_soften, (struct bonds *b, struct particles *p, const struct bond_limit *limit));
 
 /* Starts the softening of all bonds of b whose stretch at the present positions of p exceeds their onset (the stretch
- * at which softening begins), if the stress across the bond allows it. limit: onsets and breaking stretches. Needs no
- * preceding force computation. For load steps (static equilibria). */
+ * at which softening begins), if the normal stress across the bond exceeds about half the shear modulus times the
+ * stretch. limit: onsets and breaking stretches. Needs no preceding force computation. For load steps (static
+ * equilibria). */
 KERNEL(void, bonds_open_beyond_onset, (struct bonds *b, struct particles *p, const struct bond_limit *limit));
 
 /* Updates the damage of softening bonds of b, in state-based models: increases it to the value that follows from the
@@ -220,15 +221,16 @@ KERNEL(real, state_row_energy, (const struct bonds *b, const struct particles *p
 typedef real bond_energy_fn(const struct bonds *b, const struct particles *p, real *row_energy);
 
 /* Returns half the plastic work k (s_y alpha + H_b alpha^2/2) [J] of the bonds of all rows of b (a row: all bonds of
- * one particle), broken bonds included; 0 if no bond yields. s_y: yield stretch; alpha: accumulated plastic stretch;
- * H_b: hardening; k: stiffness of a bond. */
+ * one particle), broken bonds included. A bond between two peridynamic particles is in two rows, so that its whole work
+ * is included; 0 if no bond yields. s_y: yield stretch; alpha: accumulated plastic stretch; H_b: hardening; k:
+ * stiffness of a bond. */
 KERNEL(real, bond_plastic_work, (const struct bonds *b));
-/* Returns half the plastic work [J] of the bonds of row number `row` of b, i.e. of one particle. Only in models whose
- * bonds yield. */
+/* Returns half the plastic work [J] of the bonds of row number `row` of b, i.e. of one particle; the rows of the
+ * neighbours have the other half. Only in models whose bonds yield. */
 KERNEL(real, bond_row_plastic_work, (const struct bonds *b, int64_t row));
 /* Returns the mean accumulated plastic stretch [1] of the intact bonds of row number `row` of b, i.e. of one particle,
  * weighted by w |xi|, weight times reference length of a bond; 0 without intact bonds. In uniaxial flow this is the
- * plastic strain; for a point that has just converted, its plastic strain as a material point. */
+ * plastic strain; for a particle that has just become peridynamic, its plastic strain as a material point. */
 KERNEL(real, bond_row_plastic_path, (const struct bonds *b, int64_t row));
 
 /* Computes the stress of every peridynamic particle from its bonds in b into p->stress [Pa]: the virial (1/2V) sum F
@@ -251,9 +253,9 @@ KERNEL(bool, particles_diverged, (const struct particles *p, const int32_t *list
 typedef void p2g_fn(struct grid *g, const struct particles *p, const struct transfer_data *transfer);
 
 /* Remapping of MUSL (modified update stress last; Zeng et al. 2022, steps 4 and 6), for FLIP only. Interpolates the
- * change of nodal velocities to the points, v_p += sum N (f/m dt), and adds the new momentum m v_p N of the points to
- * the nodes of g; called the second map in other comments (the first map is p2g). transfer: points sorted by cell, step
- * sizes. */
+ * change of nodal velocities to the points of p, v_p += sum N (f/m dt), and adds the new momentum m v_p N of the points
+ * to the nodes of g; called the second map in other comments (the first map is p2g). transfer: points sorted by cell,
+ * step sizes. */
 typedef void musl_remap_fn(struct grid *g, struct particles *p, const struct transfer_data *transfer);
 
 /* First half of the grid-to-particle-to-grid remapping of MUSL for points in rotating groups (data/turning.h). Adds the
@@ -374,11 +376,11 @@ KERNEL(void, grid_remapped, (struct grid *g, real smallest_mass));
 KERNEL(void, mesh_clear, (struct mesh *mesh));
 
 /* Adds the internal forces of all cells of the mesh that are not at rest to the nodes. Marks the cells in which a point
- * may exceed its conversion stress, for mesh_points_mark. p: particles, with the reactions of bonds on material points
- * (p->end_*). If p has the arrays plastic_correction, points beyond the yield stress flow, and their plastic state is
- * updated (mesh_flow.h). Points of flow laws with mode LAW_EXPLICIT keep the state of the last mesh_points_flow
- * instead. m: elastic constants by material. finite: true for Biot strain in axes that rotate with the cell, false for
- * the symmetric displacement gradient (mesh_law.h). */
+ * may exceed its conversion stress (at which it becomes peridynamic), for mesh_points_mark. p: particles, with the
+ * reactions of bonds on material points (p->end_*). If p has the arrays plastic_correction, points beyond the yield
+ * stress flow, and their plastic state is updated (mesh_flow.h). Points of flow laws with mode LAW_EXPLICIT keep the
+ * state of the last mesh_points_flow instead. m: elastic constants by material. finite: true for Biot strain in axes
+ * that rotate with the cell, false for the symmetric displacement gradient (mesh_law.h). */
 KERNEL(void, mesh_force, (struct mesh *mesh, const struct particles *p, const struct elastic *m, bool finite));
 
 /* Integrates the motion of the active nodes of the mesh: v += dt_velocity f/m, u += dt v, with u rounded to multiples
@@ -416,14 +418,15 @@ KERNEL(void, mesh_points_flow, (const struct mesh *mesh, const struct particles 
  * the index of the particle. */
 KERNEL(void, mesh_points_gradient, (const struct mesh *mesh, real *const *to));
 /* Sets FLAG_STRESSED on material points of the mesh (particles of p) whose largest principal stress exceeds their
- * conversion stress, in the cells that the last mesh_force marked as `stressed`. m: elastic constants by material;
- * finite: true for finite strain, false for small strain. */
+ * conversion stress (at which they become peridynamic), in the cells that the last mesh_force marked as `stressed`. m:
+ * elastic constants by material; finite: true for finite strain, false for small strain. */
 KERNEL(void, mesh_points_mark, (const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite));
 
 /* Sets mark[cell] = 1 for whole cells of the mesh (with all points, of one material, without bonds) in which the
- * principal stress of a point may exceed `share` [1] times the conversion stress; other entries are not changed. mark:
- * [grid.n], indexed by cell; all: true to examine all such cells, false only those that the last mesh_force marked as
- * `stressed`; m: elastic constants by material; finite: true for finite strain, false for small strain. */
+ * principal stress of a point may exceed `share` [1] times the conversion stress (at which it becomes peridynamic);
+ * other entries are not changed. mark: [grid.n], indexed by cell; all: true to examine all such cells, false only those
+ * that the last mesh_force marked as `stressed`; m: elastic constants by material; finite: true for finite strain,
+ * false for small strain. */
 KERNEL(void, mesh_cells_mark, (const struct mesh *mesh, const struct elastic *m, real share, bool all, uint8_t *mark,
                                bool finite));
 

@@ -46,7 +46,7 @@ void transfer_order_sort_points_by_cell(struct transfer_order *o, const struct p
  * entries. Returns the number of these particles. */
 int64_t transfer_order_list_points_that_left_cells(const struct transfer_order *o, int32_t *list);
 
-/* Sorts the particles of o, to the same order as transfer_order_sort_points_by_cell, where only the particles
+/* Sorts the particles (of p) in o, to the same order as transfer_order_sort_points_by_cell, where only the particles
  * list[count] have left their cells (transfer_order_list_points_that_left_cells), and clears their entries of o->left.
  * The box of the grid g must be that of the previous sort. */
 void transfer_order_move_points_that_left_cells(struct transfer_order *o, const struct particles *p,

@@ -41,9 +41,9 @@ struct grid_method {
 
 /* Makes the background grids mpm of a run: one for all bodies, or one for each body if material points of several
  * bodies can be in contact. Sets cell size and positions of the nodes; grid_sort_points_into_cells allocates the nodes
- * later. May be called again, with another `nodes_midway_between_particles`, to change the positions of the nodes. s:
- * scene; p: particles; nodes_midway_between_particles: true if bodies move with a mesh of the undeformed body
- * (reference frame), whose particles must be midway between nodes. */
+ * later. May be called again, with another `nodes_midway_between_particles`, to change the positions of the nodes.
+ * Released by engine_free_run. s: scene; p: particles; nodes_midway_between_particles: true if bodies move with a mesh
+ * of the undeformed body (reference frame), whose particles must be midway between nodes. */
 void background_grids_make(struct grid_method *mpm, const struct scene *s, const struct particles *p,
                            bool nodes_midway_between_particles);
 

@@ -189,7 +189,7 @@ static inline bool boundary_is_clamped_mirror(const struct boundary *b, int dim)
  * constrains only nodes of grids and meshes in its plane, no particles. */
 uint8_t boundary_prescribed_components(const struct boundary *b, int dim);
 
-/* Finds the particles on which boundary b acts, those in its region (for a clamped mirror those in its plane), and
+/* Finds the particles of p on which boundary b acts, those in its region (for a clamped mirror those in its plane), and
  * stores them in l, ascending, with their shares of the load: areas, volumes or masses. Sets FLAG_DRIVEN on particles
  * with prescribed motion. spacing: lattice spacing [m]. Returns REFUSED, with a message, for a force on a region
  * without particles or a traction on particles without a free face. */
@@ -235,9 +235,9 @@ typedef void face_particle_fn(void *context, int32_t particle, real area);
 void face_visit_surface_particles(const struct boundary *b, const struct particles *p, const uint8_t *selected,
                                   real spacing, face_particle_fn *visit, void *context);
 
-/* Finds the particles with a free face on which the pressure boundary[boundary_number] acts, and stores them in l with
- * the areas of these faces. boundary[boundaries]: all boundary conditions of the scene, because mirrors may cover a
- * face. spacing: lattice spacing [m]. Returns REFUSED, with a message, if the region has no particles or no free
+/* Finds the particles of p with a free face on which the pressure boundary[boundary_number] acts, and stores them in l
+ * with the areas of these faces. boundary[boundaries]: all boundary conditions of the scene, because mirrors may cover
+ * a face. spacing: lattice spacing [m]. Returns REFUSED, with a message, if the region has no particles or no free
  * face. */
 status load_find_pressure_faces(struct load *l, const struct boundary *boundary, int boundaries, int boundary_number,
                                 struct particles *p, real spacing);
@@ -252,21 +252,21 @@ void pressure_visit_faces(const struct boundary *boundary, int boundaries, int n
                           real spacing, const uint8_t *selected, pressure_face_fn *visit, void *context);
 
 /* Prepares load l if it has a formula or is a pressure that follows the deformation: multiplies its shares (areas,
- * volumes or masses of particles) by formulas that do not depend on time, and allocates arrays for shares that depend
- * on time. Returns REFUSED, with a message, if a formula has no finite value at a particle. */
+ * volumes or masses of particles of p) by formulas that do not depend on time, and allocates arrays for shares that
+ * depend on time. Returns REFUSED, with a message, if a formula has no finite value at a particle. */
 status load_prepare_varying_particle_shares(struct load *l, const struct particles *p);
 
-/* Checks that the formulas of all loads and supports in l have finite values at their particles at time t [s]. Returns
- * FAILED, with a message that contains boundary, position and time, if a value is not finite. */
+/* Checks that the formulas of all loads and supports in l have finite values at their particles in p at time t [s].
+ * Returns FAILED, with a message that contains boundary, position and time, if a value is not finite. */
 status loads_check_formulas_are_finite(const struct loads *l, const struct particles *p, real t);
 
-/* Recomputes l->share, the factors by which the value of a load is multiplied at each particle (its area, volume or
- * mass times a formula), for loads whose formula or surface changes in time: as means over the velocity update of
+/* Recomputes l->share, the factors by which the value of a load is multiplied at each particle of p (its area, volume
+ * or mass times a formula), for loads whose formula or surface changes in time: as means over the velocity update of
  * duration dt_velocity [s] that ends at time t [s]. Part of loads_add_applied_forces. */
 void loads_average_shares_over_velocity_update(struct loads *l, const struct particles *p, real t, real dt_velocity);
 
-/* Recomputes l->share, the factors by which the value of a load is multiplied at each particle (its area, volume or
- * mass times a formula), for loads with a formula or surface that changes in time, as means over the two velocity
+/* Recomputes l->share, the factors by which the value of a load is multiplied at each particle of p (its area, volume
+ * or mass times a formula), for loads with a formula or surface that changes in time, as means over the two velocity
  * updates before and after the position update from t - dt/2 to t + dt/2 [s], just made. Part of
  * loads_add_work_of_applied_forces. */
 void loads_average_shares_over_step_for_work(struct loads *l, const struct particles *p, real t, real dt);
@@ -275,15 +275,15 @@ void loads_average_shares_over_step_for_work(struct loads *l, const struct parti
 void load_varying_shares_free(struct load *l);
 
 /* Computes the force of load l on its particle number `entry` at time t [s], from the reference position of the
- * particle. force: dim components [N]. In static problems the force is that at full load. */
+ * particle in p. force: dim components [N]. In static problems the force is that at full load. */
 void load_force_on_particle(const struct load *l, const struct particles *p, int64_t entry, real t, real *force);
 
-/* Computes the total force of load l on its particles at time t [s] into l->reaction [N], and the mean displacement of
- * its particles into l->displacement [m]. The mean is weighted by force, so that total force times mean displacement is
- * the work; it is not weighted if the forces sum to zero. */
+/* Computes the total force of load l on its particles in p at time t [s] into l->reaction [N], and the mean
+ * displacement of its particles into l->displacement [m]. The mean is weighted by force, so that total force times mean
+ * displacement is the work; it is not weighted if the forces sum to zero. */
 void load_sum_force_and_mean_displacement(struct load *l, const struct particles *p, real t);
 
-/* Computes the value that the boundary of load l prescribes at its particle number `entry` at time t [s]:
+/* Computes the value that the boundary of load l prescribes at its particle number `entry` (of p) at time t [s]:
  * boundary.value times its function of time and its formula. value: receives dim components in the unit of
  * boundary.value, for example a traction [Pa]; it is not multiplied by the area, volume or mass of the particle, nor by
  * the spatial profile of a body force. Not defined for prescribed rotations. */
@@ -300,14 +300,14 @@ status loads_make(struct loads *l, const struct boundary *boundary, int boundari
 /* Frees all arrays of *l and of its loads; the boundaries, which belong to the scene, remain. */
 void loads_free(struct loads *l);
 
-/* Sets in l the list of particles on which contact forces may act, in place of the previous one: n indices in ascending
- * order, which are copied. The forces of these particles are cleared before each step, and they are moved after all
- * forces are complete, not already while bond forces are computed. */
+/* Sets in l the list of particles of p on which contact forces may act, in place of the previous one: n indices in
+ * ascending order, which are copied. The forces of these particles are cleared before each step, and they are moved
+ * after all forces are complete, not already while bond forces are computed. */
 void loads_set_contact_particles(struct loads *l, const struct particles *p, const int32_t *list, int64_t n);
 
 /* ---- applied forces (loads_applied.c) ---------------------------------------------------------------------------- */
 
-/* Combines loads of l with equal particle lists, to traverse each list once. Called at the end of loads_make. */
+/* Combines loads of l with equal particle lists, to traverse each list once. dim: of the space. Part of loads_make. */
 void loads_merge_equal_particle_lists(struct loads *l, int dim);
 
 /* Releases the arrays load.share (area, volume or mass of each loaded particle) of all loads in l, also arrays that
@@ -327,7 +327,7 @@ void loads_add_work_of_applied_forces(struct loads *l, struct particles *p, real
  * of them act on the same part of a face, or if one lies in a mirror plane. */
 status absorbing_boundaries_check(const struct loads *l, const struct particles *p);
 
-/* Creates the dashpots on the particles of all absorbing faces in l. Must be called after loads_make.
+/* Creates the dashpots on the particles of p at all absorbing faces in l. Must be called after loads_make.
  * impedance[m][material]: wave impedances of the materials for particles that are moved by m (enum moved_by: bonds,
  * grid or mesh), kept by reference. Release with absorbing_dashpots_free. */
 void absorbing_dashpots_make(struct loads *l, const struct particles *p, const struct impedance *const *impedance);
@@ -340,12 +340,12 @@ void absorbing_dashpots_free(struct loads *l);
 void loads_add_dashpot_forces(struct loads *l, struct particles *p, real dt_velocity);
 
 /* Appends the absorbing dashpots (l) of grid nodes to g; part of loads_prescribe_grid_velocities, after the prescribed
- * velocities of nodes are set. The coefficients of the dashpots on particles are distributed to the nodes by the kernel
- * kernels->spread. half_width: half the reference edge of a particle [m]. */
+ * velocities of nodes are set. The coefficients of the dashpots on particles of p are distributed to the nodes by the
+ * kernel kernels->spread. half_width: half the reference edge of a particle [m]. */
 void loads_add_grid_dashpots(struct loads *l, struct grid *g, const struct particles *p, const struct kernels *kernels,
                              real half_width);
 
-/* Appends the absorbing dashpots of mesh nodes to mesh->grid, from the particles of absorbing faces in l; part of
+/* Appends the absorbing dashpots of mesh nodes to mesh->grid, from the particles of p at absorbing faces in l; part of
  * loads_find_driven_mesh_nodes. */
 void loads_add_mesh_dashpots(struct loads *l, struct mesh *mesh, const struct particles *p);
 
@@ -371,8 +371,8 @@ struct prescribed_displacement prescribed_displacement_make(const struct boundar
 /* Returns component `component` of the displacement [m] at the reference position X[dim]; it must be prescribed. */
 real prescribed_displacement_at(const struct prescribed_displacement *prescribed, const real *X, int component);
 
-/* Computes the displacement that load l prescribes for its particle number `entry` (an index of l->particle) at time t
- * [s]. displacement: dim components [m], 0 where not prescribed. */
+/* Computes the displacement that load l prescribes for its particle number `entry` (an index of l->particle; of p) at
+ * time t [s]. displacement: dim components [m], 0 where not prescribed. */
 void load_displacement_of_particle(const struct load *l, const struct particles *p, int64_t entry, real t,
                                    real *displacement);
 
@@ -410,7 +410,7 @@ static inline bool boundary_motion_varies_in_space(const struct boundary *b)
 }
 
 /* Returns the largest speed [m/s] of the displacement that load l prescribes between the times 0 and `t_end` [s],
- * INFINITY if the displacement jumps. Formulas are sampled at some times and at some particles. */
+ * INFINITY if the displacement jumps. Formulas are sampled at some times and at some particles of p. */
 real load_largest_displacement_speed(const struct load *l, const struct particles *p, real t_end);
 
 /* Returns the largest difference [m/s] between the velocity that load l prescribes at times from 0 to `t_end` [s] and
@@ -450,16 +450,16 @@ void loads_apply_to_particle_forces(struct loads *l, struct particles *p, real t
 
 /* Sets the velocities prescribed by l (walls) of the nodes of grid g for the step of size dt about t [s]. These are
  * nodes in the region of a prescribed motion, nodes on a mirror plane, and nodes at least half of whose mass belongs to
- * points with prescribed motion. Nodes beyond a mirror plane move as mirror images if the plane is on a node or midway
- * between two, else they are constrained like nodes on the plane. driven_nodes: constrained nodes of this grid, kept
- * between calls, zeroed at first. kernels: maps between points and nodes; half_width: half the reference edge of a
+ * points of p with prescribed motion. Nodes beyond a mirror plane move as mirror images if the plane is on a node or
+ * midway between two, else they are constrained like nodes on the plane. driven_nodes: constrained nodes of this grid,
+ * kept between calls, zeroed at first. kernels: maps between points and nodes; half_width: half the reference edge of a
  * particle [m]. Must be called after the first particle-to-grid map. */
 void loads_prescribe_grid_velocities(struct loads *l, struct constrained_set *driven_nodes, struct grid *g,
                                      const struct particles *p, const struct kernels *kernels, real half_width, real t,
                                      real dt);
 
-/* Finds the nodes of the mesh whose motion boundaries or mirrors of l prescribe, and the absorbing dashpots of its
- * nodes. Call once at set-up, and again after points of the mesh have become peridynamic. */
+/* Finds the nodes of the mesh (of points of p) whose motion boundaries or mirrors of l prescribe, and the absorbing
+ * dashpots of its nodes. Call once at set-up, and again after points of the mesh have become peridynamic. */
 void loads_find_driven_mesh_nodes(struct loads *l, struct mesh *mesh, const struct particles *p);
 
 /* Sets the velocities prescribed by l (walls) of the mesh nodes that loads_find_driven_mesh_nodes has found, for the
@@ -477,8 +477,8 @@ void loads_prescribe_coarse_velocities(const struct loads *l, const struct const
                                        struct grid *g, real t, real dt);
 
 /* Imposes prescribed motion after the grid-to-particle transfer of the step of size dt about t [s]. Sets the velocity
- * of material points, and the position of particles with prescribed displacement, to the prescribed values. Adds the
- * work of applied forces to l->work. Returns true if the position of a point on a grid was changed. */
+ * of material points of p, and the position of particles with prescribed displacement, to the prescribed values. Adds
+ * the work of applied forces to l->work. Returns true if the position of a point on a grid was changed. */
 bool loads_impose_prescribed_motion(struct loads *l, struct particles *p, real t, real dt);
 
 /* Adds the reactions of the prescribed nodes, mirror nodes and dashpots of grid g (or of the grid of a mesh) to the
@@ -499,9 +499,9 @@ void static_boundaries_make_from_dynamic(struct boundary *static_boundary, const
 void loads_compute_static_displacements(struct loads *l, const struct particles *p, real ramp_time,
                                         real *const *displacement, uint8_t *driven_components);
 
-/* Adds the inertia forces of a rigid rotation to the applied forces l of a free body in 2D (inertia relief), so that
- * loads with a moment have an equilibrium, for example loads on scattered particles of an irregular lattice. Returns
- * the moment of the loads divided by the largest moment that forces of this size could have [1]. */
+/* Adds the inertia forces of a rigid rotation to the applied forces l of a free body of particles p in 2D (inertia
+ * relief), so that loads with a moment have an equilibrium, for example loads on scattered particles of an irregular
+ * lattice. Returns the moment of the loads divided by the largest moment that forces of this size could have [1]. */
 real loads_add_inertia_relief(struct loads *l, const struct particles *p);
 
 /* Adds the applied forces l of a static problem at full load, with those of loads_add_inertia_relief, to p->f [N]. */
@@ -511,7 +511,7 @@ void loads_add_static_forces(const struct loads *l, struct particles *p);
  * prescribes, then sets these components of p->f to 0. Reactions of other loads become 0. */
 void loads_collect_static_reactions(struct loads *l, struct particles *p);
 
-/* Computes the work of loads that grow in proportion on a linear body: stores half the sum of applied forces times
+/* Computes the work of loads that grow in proportion on a linear body p: stores half the sum of applied forces times
  * displacements in l->work, and half the sum of reactions times prescribed displacements in l->constraint_work [J]. */
 void loads_compute_static_work(struct loads *l, const struct particles *p);
 

@@ -15,9 +15,9 @@ status loads_make_mirror_images(struct loads *l, struct particles *p, real mirro
  * particles must not be moved before. */
 void loads_flag_particles_at_clamped_mirrors(struct loads *l, const struct particles *p);
 
-/* Copies position x, velocity v, kind and FLAG_DRIVEN of the source particles to their mirror images, reflected in the
- * mirror plane. Before this, the coordinates of the source particles normal to the mirror are rounded to multiples of
- * l->place_step, if it is not 0, so that image and particle are exactly symmetric. */
+/* Copies position x, velocity v, kind and FLAG_DRIVEN of the source particles of p to their mirror images, reflected in
+ * the mirror plane. Before this, the coordinates of the source particles normal to the mirror are rounded to multiples
+ * of l->place_step, if it is not 0, so that image and particle are exactly symmetric. */
 void loads_update_mirror_images(const struct loads *l, struct particles *p);
 
 /* Checks the distance between parallel mirrors of l for a body with bonds of at most `bond_length` [m]. A particle

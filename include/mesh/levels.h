@@ -107,7 +107,7 @@ static inline const struct mesh *level_mesh_read_only(const struct mesh_levels *
 static inline int levels_steps_per_cycle(const struct mesh_levels *l) { return 1 << l->n; }
 
 /* Makes in l the levels 1 to `coarse_level_count` of coarse cells over the mesh `finest_mesh`, which is level 0; at
- * first they have no cells. finest_mesh: finest mesh with material points, kept by reference; source: material
+ * first they have no cells. finest_mesh: finest mesh, with material points of p, kept by reference; source: material
  * constants, slits (pre-cracks as free surfaces) and voids; density: mass density of each material [kg/m^3].
  * `coarse_level_count` = 0 makes no levels. Returns FAILED, with a message, if a level would have too many nodes.
  * Release with levels_free. */
@@ -137,7 +137,7 @@ void levels_compute_coarsest_admissible_levels(const struct mesh_levels *l, cons
                                                const uint8_t *finest_required, const uint8_t *highest_level,
                                                uint8_t *admissible);
 
-/* Forbids coarsening where the present motion would be lost. For each cell that `intended_cell_level` would make
+/* Forbids coarsening where the present motion would be lost. For each cell of l that `intended_cell_level` would make
  * coarser than at present, the motion of the nodes inside is compared with the interpolation from its corners. If the
  * energy of the difference (kinetic, and of its strain) exceeds `max_energy` [J/kg], `highest_level` becomes one less
  * than `intended_cell_level` in this cell. intended_cell_level, highest_level: a byte for each cell of level 0, the
@@ -152,8 +152,8 @@ bool levels_forbid_lossy_coarsening(const struct mesh_levels *l, const uint8_t *
 void levels_mark_all_cells_in_marked_coarse_cells(const struct mesh_levels *l, const uint8_t *cell_level,
                                                   uint8_t *cell_is_marked);
 
-/* Marks all cells of level 0 (the finest) within `reach_in_cells` cells of a marked one, in all directions including
- * diagonals. cell_is_marked: a byte for each cell of level 0, not 0 if marked. */
+/* Marks all cells of l of level 0 (the finest) within `reach_in_cells` cells of a marked one, in all directions
+ * including diagonals. cell_is_marked: a byte for each cell of level 0, not 0 if marked. */
 void levels_mark_cells_near_marked_cells(const struct mesh_levels *l, uint8_t *cell_is_marked, int reach_in_cells);
 
 /* Changes the coarsening levels of cells. new_cell_level: for each of the l->fine->grid.n cells of level 0 (the finest)
@@ -166,13 +166,14 @@ void levels_change_refinement(struct mesh_levels *l, const struct particles *p, 
 
 /* Changes the velocities of all nodes of l by the nodal forces of half a time step. Between steps, the velocities of
  * level L (0: finest) are half a time step of this level, 2^L dt/2, behind the displacements: dt > 0 brings both to the
- * same time, dt < 0 reverts this. elastic: array of the elastic constants of all materials; finite_strain: true if
- * strains are finite, false if small; |dt|: time step of level 0 [s]. */
+ * same time, dt < 0 reverts this. p: particles; elastic: array of the elastic constants of all materials;
+ * finite_strain: true if strains are finite, false if small; |dt|: time step of level 0 [s]. */
 void levels_shift_velocities_half_step(struct mesh_levels *l, const struct particles *p, const struct elastic *elastic,
                                        bool finite_strain, real dt);
 
-/* Copies displacement and velocity to all ghosts, from the coarsening level 1 upwards. A ghost is a node of the mesh of
- * a coarser level at the position of a node of the next finer level; the motion of the finer node is copied to it. */
+/* Copies displacement and velocity to all ghosts of l, from the coarsening level 1 upwards. A ghost is a node of the
+ * mesh of a coarser level at the position of a node of the next finer level; the motion of the finer node is copied to
+ * it. */
 void levels_copy_motion_to_ghost_nodes(struct mesh_levels *l);
 
 /* Interpolates displacement and velocity of the nodes of coarse cells of l to all nodes of level 0 (the finest mesh)
@@ -188,8 +189,8 @@ void levels_prolong_motion_to_nodes_near_points(struct mesh_levels *l);
 int levels_highest_level_due_in_step(const struct mesh_levels *l, int64_t step);
 
 /* Computes the forces of coarse cells of l of levels 1 to `highest_level` on their nodes and on nodes of finer levels
- * at the interfaces. The forces of level 0 (the finest) must be complete before. elastic: array of the elastic
- * constants of all materials; finite_strain: true if strains are finite, false if small. */
+ * at the interfaces. The forces of level 0 (the finest) must be complete before. p: particles; elastic: array of the
+ * elastic constants of all materials; finite_strain: true if strains are finite, false if small. */
 void levels_compute_forces_of_coarse_cells(struct mesh_levels *l, const struct particles *p,
                                            const struct elastic *elastic, bool finite_strain, int highest_level);
 
@@ -203,8 +204,8 @@ real levels_move_nodes_return_largest_velocity(struct mesh_levels *l, real dt, r
 /* Returns the kinetic energy of the nodes of all coarse levels of l [J], without those of level 0 (the finest). */
 real levels_kinetic_energy_of_coarse_levels(const struct mesh_levels *l);
 
-/* Returns the strain energy of all coarse cells of l [J]; level 0 (the finest) is not included. elastic: array of the
- * elastic constants of all materials; finite_strain: true if strains are finite, false if small. */
+/* Returns the strain energy of all coarse cells of l [J]; level 0 (the finest) is not included. p: particles; elastic:
+ * array of the elastic constants of all materials; finite_strain: true if strains are finite, false if small. */
 real levels_strain_energy_of_coarse_cells(struct mesh_levels *l, const struct particles *p,
                                           const struct elastic *elastic, bool finite_strain);
 
@@ -234,8 +235,8 @@ void levels_reconnect_finest_mesh(struct mesh_levels *l, const struct particles 
 
 /* Saves the coarsening level of each cell, the motion of the nodes of coarse cells of l and the data for the next
  * change of levels to the archive `a` (checkpoint file or memory) if a->saving, else restores them. The finest mesh
- * must be restored before. source: material constants. Returns FAILED, with a message, if the archive cannot be read or
- * written or if the restored levels are inconsistent. */
+ * must be restored before. p: particles; source: material constants. Returns FAILED, with a message, if the archive
+ * cannot be read or written or if the restored levels are inconsistent. */
 status levels_save_or_load(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
                            struct archive *a);
 

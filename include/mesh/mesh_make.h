@@ -57,7 +57,7 @@ int64_t mesh_count_connected_parts(const struct particles *p, const struct grid 
 real mesh_remove_points_and_return_lost_energy(struct mesh *mesh, struct particles *p, const struct mesh_source *source,
                                                const int32_t *changed_points, int64_t changed_count);
 
-/* Recomputes the stiffness of the cells of the points in changed_points[changed_count] (indices) after only their
+/* Recomputes the stiffness of the cells of the points of p in changed_points[changed_count] (indices) after only their
  * partial stresses (shares of the stress that bonds carry) have changed; all points remain in the mesh. All cells must
  * be partial cells before and afterwards: cells with a stiffness matrix of their own, because points are missing or
  * leave a share of their stress to bonds. Else returns false without any change; call
@@ -79,8 +79,8 @@ real mesh_insert_points_and_return_lost_energy(struct mesh *mesh, struct particl
  * part of a coarse cell. */
 bool mesh_cell_contains_material(const struct mesh *mesh, int64_t cell);
 
-/* Lists the exposed points of the mesh: material points of p with bonds, boundary conditions `loads` or mirror images.
- * Their positions and velocities are updated in every step, since bonds and loads read them. */
+/* Lists the exposed points of the mesh: material points of p with bonds in b, boundary conditions `loads` or mirror
+ * images. Their positions and velocities are updated in every step, since bonds and loads read them. */
 void mesh_list_bonded_or_loaded_points(struct mesh *mesh, const struct particles *p, const struct bonds *b,
                                        const struct loads *loads);
 

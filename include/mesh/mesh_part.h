@@ -60,7 +60,7 @@ void frame_warn_of_unfitting_mirror_planes(const struct run *e, struct warnings 
 
 /* Decides for each body of scene s whether its material points use a mesh fixed to the material (reference frame) or
  * the background grid (current frame), and stores the choice with its reason in r->choice. Sets FLAG_MESHED of the
- * particles in the reference frame, and makes the background grids `mpm` for this choice. Returns REFUSED, with a
+ * particles of p in the reference frame, and makes the background grids `mpm` for this choice. Returns REFUSED, with a
  * message, if the scene requires the reference frame for a body that cannot use it. */
 status body_frames_choose_mesh_or_grid(struct reference_frame *r, struct grid_method *mpm, struct particles *p,
                                        const struct scene *s);
@@ -68,7 +68,7 @@ status body_frames_choose_mesh_or_grid(struct reference_frame *r, struct grid_me
 /* Returns true if the material points of at least one body move with a mesh (the reference frame r). */
 bool reference_frame_is_in_use(const struct reference_frame *r);
 
-/* Returns true if the bodies of scene s can move with a mesh (be in the reference frame r): the particles form one
+/* Returns true if the bodies of scene s can move with a mesh (be in the reference frame r): the particles p form one
  * connected mesh on a lattice that fits the cells of the background grid of mpm. */
 bool reference_frame_is_possible(const struct reference_frame *r, const struct particles *p, const struct scene *s,
                                  const struct grid_method *mpm);
@@ -76,7 +76,8 @@ bool reference_frame_is_possible(const struct reference_frame *r, const struct p
 /* Makes the mesh of those bodies of run e that move with a mesh (reference frame), and finds exposed points (material
  * points with bonds, loads or mirror images) and loaded nodes. source: partial stresses (carried by bonds) and slits
  * (pre-cracks) of this mesh, its other members are ignored; caller_sets_motion: true if the caller sets displacement
- * and velocity of the nodes afterwards. Returns REFUSED or FAILED, with a message, as mesh_make does. */
+ * and velocity of the nodes afterwards. Returns REFUSED or FAILED, with a message, as mesh_make does. Released by
+ * engine_free_run. */
 status reference_frame_make_mesh(struct run *e, const struct mesh_source *source, bool caller_sets_motion);
 
 /* Returns the critical time step of the cells of the mesh of r [s], INFINITY without a mesh. If material points may
@@ -84,12 +85,12 @@ status reference_frame_make_mesh(struct run *e, const struct mesh_source *source
  * is COUPLING_PARTIAL_STRESS (bonds carry part of the stress of the points). */
 real reference_frame_critical_time_step(const struct reference_frame *r, const struct scene *s, enum coupling coupling);
 
-/* Finds again the points of the mesh r that have bonds, loads or mirror images (exposed points), and the nodes on which
- * the boundary conditions `loads` act, after points or coarsening levels of the mesh have changed. */
+/* Finds again the points (of p) of the mesh r that have bonds, loads or mirror images (exposed points), and the nodes
+ * on which the boundary conditions `loads` act, after points or coarsening levels of the mesh have changed. */
 void reference_frame_list_bonded_or_loaded_points(struct reference_frame *r, const struct particles *p,
                                                   const struct bonds *bonds, struct loads *loads);
 
-/* Updates the exposed points of the mesh r, i.e. the material points with bonds, loads or mirror images: their
+/* Updates the exposed points of the mesh r, i.e. the material points of p with bonds, loads or mirror images: their
  * positions and velocities from the nodes and, if they have state-based bonds to peridynamic particles, their
  * strains. */
 void reference_frame_move_bonded_or_loaded_points(struct reference_frame *r, struct particles *p);
@@ -99,20 +100,20 @@ void reference_frame_move_bonded_or_loaded_points(struct reference_frame *r, str
  * finest cells, acts every 2^L steps. */
 void reference_frame_compute_forces(struct reference_frame *r, struct particles *p, int64_t step);
 
-/* Integrates the motion of the nodes under the forces of reference_frame_compute_forces, then updates the points of the
- * mesh r that have bonds, loads or mirror images. loads: prescribed velocities, to whose sums of work and reactions
- * those of this step are added; clock: step number and time step; t_middle: time in the middle of the step [s];
- * dt_velocity: interval over which velocities are advanced [s]. */
+/* Integrates the motion of the nodes under the forces of reference_frame_compute_forces, then updates the points (of p)
+ * of the mesh r that have bonds, loads or mirror images. loads: prescribed velocities, to whose sums of work and
+ * reactions those of this step are added; clock: step number and time step; t_middle: time in the middle of the step
+ * [s]; dt_velocity: interval over which velocities are advanced [s]. */
 void reference_frame_move_nodes(struct reference_frame *r, struct particles *p, struct loads *loads,
                                 const struct run_clock *clock, real t_middle, real dt_velocity);
 
-/* Updates positions, velocities and stresses of all material points of the mesh r from the nodes, then those of the
- * mirror images of particles, which `loads` lists. */
+/* Updates positions, velocities and stresses of all material points (of p) of the mesh r from the nodes, then those of
+ * the mirror images of particles, which `loads` lists. */
 void reference_frame_update_motion_and_stress(struct reference_frame *r, struct particles *p,
                                               const struct loads *loads);
 
-/* Updates positions and velocities of all material points of the mesh r from the nodes, then those of the mirror images
- * of particles, which `loads` lists. */
+/* Updates positions and velocities of all material points (of p) of the mesh r from the nodes, then those of the mirror
+ * images of particles, which `loads` lists. */
 void reference_frame_update_point_motion(struct reference_frame *r, struct particles *p, const struct loads *loads);
 
 /* Updates positions and velocities of the material points of p in point_list[point_count] (indices) from the nodes of
@@ -120,15 +121,15 @@ void reference_frame_update_point_motion(struct reference_frame *r, struct parti
 void reference_frame_update_listed_points(struct reference_frame *r, struct particles *p, const struct loads *loads,
                                           const int32_t *point_list, int64_t point_count);
 
-/* Updates the mesh r after `converted_count` particles (0: none) have become peridynamic and the partial stresses
+/* Updates the mesh r after `converted_count` particles of p (0: none) have become peridynamic and the partial stresses
  * (shares of stress that bonds carry) of the points listed in partial->touched have changed. The kinetic energy that
  * the nodes lose by this is added to *energy_lost [J]. Returns true if points may have left the mesh; the caller must
  * then call reference_frame_list_bonded_or_loaded_points. Returns false if only the stiffness of cells has changed. */
 bool reference_frame_update_after_conversion(struct reference_frame *r, struct particles *p, int64_t converted_count,
                                              const struct partial_stress *partial, real *energy_lost);
 
-/* Adds the particles in inserted_points[inserted_count] (indices), which have become material points again, to the mesh
- * r. Momentum is conserved; the kinetic energy that is lost is added to *energy_lost [J]. */
+/* Adds the particles of p in inserted_points[inserted_count] (indices), which have become material points again, to the
+ * mesh r. Momentum is conserved; the kinetic energy that is lost is added to *energy_lost [J]. */
 void reference_frame_insert_points(struct reference_frame *r, struct particles *p, const int32_t *inserted_points,
                                    int64_t inserted_count, real *energy_lost);
 
@@ -184,24 +185,25 @@ void mesh_levels_find_highest_allowed_by_thickness(struct reference_frame *r, co
                                                    int64_t particle_count);
 
 /* Returns the number of levels of coarse cells for scene s, and the reason. The number is given by the scene or chosen
- * from its loads and the thickness of the body. dt_critical: critical time step of the run [s]. r: the mesh. */
+ * from its loads and the thickness of the body. dt_critical: critical time step of the run [s]. r: the mesh; p:
+ * particles. */
 struct levels_choice mesh_levels_choose_level_count(const struct reference_frame *r, const struct particles *p,
                                                     const struct scene *s, real dt_critical);
 
-/* Writes the number of levels of coarse cells and the reason for it in words to `text` (`capacity` bytes). c: number
- * and reason, from mesh_levels_choose_level_count; s: scene. */
+/* Writes the number of levels of coarse cells and the reason for it in words to `text` (`capacity` bytes; a longer text
+ * is cut). c: number and reason, from mesh_levels_choose_level_count; s: scene. */
 void mesh_levels_describe_level_count(const struct levels_choice *c, const struct scene *s, char *text,
                                       size_t capacity);
 
 /* Returns true if the scene s gives more levels of coarse cells than its loads or the thickness of the body allow, and
- * writes why to `reason` (`capacity` bytes). Returns false otherwise. c: number of levels with its reason, from
- * mesh_levels_choose_level_count; frame: the mesh, with the limits by thickness. */
+ * writes why to `reason` (`capacity` bytes; a longer text is cut). Returns false otherwise. c: number of levels with
+ * its reason, from mesh_levels_choose_level_count; frame: the mesh, with the limits by thickness. */
 bool mesh_levels_of_scene_exceed_limit(const struct levels_choice *c, const struct reference_frame *frame,
                                        const struct scene *s, char *reason, size_t capacity);
 
 /* Makes the coarse cells of run e, whose time step must be known, with initial coarsening levels;
  * levels_from_checkpoint: true if the levels follow from a checkpoint instead. Returns FAILED, with a message, if a
- * level would have too many nodes. */
+ * level would have too many nodes. Released by engine_free_run. */
 status mesh_levels_make_coarse_cells(struct run *e, bool levels_from_checkpoint);
 
 /* Returns true if the coarsening levels of l may change before step number `step`: if there are coarse levels, step >
@@ -209,9 +211,9 @@ status mesh_levels_make_coarse_cells(struct run *e, bool levels_from_checkpoint)
 bool mesh_levels_may_change_before_step(const struct mesh_levels *l, int64_t step);
 
 /* Computes the coarsening levels of cells of r (0: finest) for the next steps from stress, cracks and present motion.
- * loads: boundary conditions; step: number of the next step; mass: of the body [kg]. Returns an array that the caller
- * frees, with the level of the cell to which each cell of level 0 (the finest) shall belong, or NULL if no level
- * changes. */
+ * p: particles; loads: boundary conditions; step: number of the next step; mass: of the body [kg]. Returns an array
+ * that the caller frees, with the level of the cell to which each cell of level 0 (the finest) shall belong, or NULL if
+ * no level changes. */
 uint8_t *mesh_levels_choose_for_next_steps(struct reference_frame *r, const struct particles *p,
                                            const struct loads *loads, int64_t step, real mass);
 
@@ -220,12 +222,12 @@ uint8_t *mesh_levels_choose_for_next_steps(struct reference_frame *r, const stru
  * particles (levels_need_more_particles). The energy that the change removes is added to e->damped. */
 void mesh_levels_change_cell_levels(struct run *e, const uint8_t *new_cell_level);
 
-/* Postpones the conversion of material points that are too close to coarse cells of l: clears the flags by which they
- * would convert, and requests finer cells there. To be called before points convert. */
+/* Postpones the conversion to peridynamics of those material points of p that are too close to coarse cells of l:
+ * clears the flags by which they would convert, and requests finer cells there. To be called before points convert. */
 void mesh_levels_delay_conversion_at_coarse_cells(struct mesh_levels *l, struct particles *p);
 
 /* Updates, after coarsening levels have changed, the lists of nodes of coarse cells on which boundary conditions act,
- * of points of the mesh r with bonds, loads or mirror images, and of nodes on which loads act. */
+ * of points (of p) of the mesh r with bonds, loads or mirror images, and of nodes on which loads act. */
 void mesh_levels_update_node_lists(struct reference_frame *r, const struct particles *p, const struct bonds *bonds,
                                    struct loads *loads);
 
@@ -258,7 +260,8 @@ void cells_without_particles_update_from_levels(struct reference_frame *r, const
 
 /* Creates in r->shown, for output only, the material points of those coarse cells that have no particles, with values
  * interpolated from the nodes. body: particles of the run; m: array of the materials; with_gradients: true to compute
- * displacement gradients, too. Returns false if there are no such cells. */
+ * displacement gradients, too. Returns false if no cell is without particles. Release r->shown with
+ * coarse_cell_points_free. */
 bool coarse_cell_points_make_for_output(struct reference_frame *r, const struct particles *body,
                                         const struct material *m, bool with_gradients);
 

@@ -161,8 +161,8 @@ struct frame_extra {
     struct frame_state state, more_state; /* quantities computed for frames: of the particles, of `more` */
 };
 
-/* Writes to o the next frame (state of the particles) of the whole body at time t [s] after `step` time steps: the file
- * frames/NNNNNN.hdf, then the index files frames.hdf.series and frames.xdmf. Data that do not change while the
+/* Writes to o the next frame (state of the particles p) of the whole body at time t [s] after `step` time steps: the
+ * file frames/NNNNNN.hdf, then the index files frames.hdf.series and frames.xdmf. Data that do not change while the
  * particles stay the same are written to a separate file before the first frame, and all frames link to it. Particles
  * are sorted by id. All fields but the reference positions have single precision. scene_text: text of the scene, stored
  * in the separate file. Returns when the files are complete, FAILED if one cannot be written. */

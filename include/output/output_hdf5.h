@@ -29,10 +29,11 @@ void hdf_prepare(void);
 
 /* Creates the HDF5 file `path`, replacing an existing one, and stores its handle in *f. compress: compress the tables
  * that hdf_write_rows_zero_padded writes with gzip. No time stamps are stored, so that equal content gives equal bytes.
- * A failure is stored in f->failed. */
+ * Close it with hdf_close_written_file or hdf_close. A failure is stored in f->failed. */
 void hdf_create(struct hdf *f, const char *path, bool compress);
 
-/* Opens the HDF5 file `path` for reading and stores its handle in *f. A failure is stored in f->failed. */
+/* Opens the HDF5 file `path` for reading and stores its handle in *f. Close it with hdf_close. A failure is stored in
+ * f->failed. */
 void hdf_open(struct hdf *f, const char *path);
 
 /* Closes the HDF5 file of *f and all its objects. A failure is stored in f->failed. */
@@ -129,7 +130,8 @@ bool hdf_is_link(hid_t file, const char *name);
 bool hdf_dataset_is_in_its_file(hid_t dataset);
 
 /* Reads the attribute `name` of the dataset or group at the path `object_path` of the file into text[capacity]; "" if
- * there is no such attribute or it is no text. */
+ * there is no such attribute, it is no text, or it has a fixed length of more than capacity - 1 bytes. Longer texts of
+ * variable length are cut. */
 void hdf_read_text_attribute(hid_t file, const char *object_path, const char *name, char *text, size_t capacity);
 
 #endif

@@ -86,13 +86,14 @@ status gnuplot_check_font_has_title(const char *text);
  * edge of the picture. It is broken into two lines if it is too long for one line of letters of legible size. */
 void gnuplot_write_title(struct gnuplot *g, const char *text, double left_margin);
 
-/* Ends the input of gnuplot, waits until the picture is complete, and renames it from its temporary name to its final
- * path. Returns FAILED if gnuplot is missing (the message names the package to install), or if the picture is missing
- * or incomplete (the message contains that of gnuplot). An existing picture at the final path then remains. */
+/* Ends the input of the gnuplot process g, waits until the picture is complete, and renames it from its temporary name
+ * to its final path. Returns FAILED if gnuplot is missing (the message names the package to install), or if the picture
+ * is missing or incomplete (the message contains that of gnuplot). An existing picture at the final path then
+ * remains. */
 status gnuplot_close(struct gnuplot *g);
 
-/* Copies the last line that is not blank from `file`, a file with the error messages of a program, to text[size].
- * Writes `it gave no reason` if there is no such line. The file is read from its beginning. */
+/* Copies the last line that is not blank from `file`, a file with the error messages of a program, to text[size], cut
+ * to size - 1 bytes. Writes `it gave no reason` if there is no such line. The file is read from its beginning. */
 void error_message_read_last_line(FILE *file, char *text, size_t size);
 
 /* Writes `text` to the file `file` as a quoted gnuplot string in which no character has a special meaning. */

@@ -148,10 +148,11 @@ enum { TITLE_LENGTH = 256 };
 struct plotted_particles;
 struct view;
 
-/* Composes the title of a picture in title[TITLE_LENGTH]: `NAME, METHOD: QUANTITY`, with name and method of the run in
- * r->folder, and QUANTITY = quantity, what the picture shows; unknown parts are left out. If r->title is given, it is
- * the title. c: particles of the picture, or NULL; if given, the position of a slice and a factor on displacements are
- * appended to the title. view: rectangle of the picture, which determines the unit of the position; NULL if c is. */
+/* Composes the title of a picture in title[TITLE_LENGTH] (a longer one is cut): `NAME, METHOD: QUANTITY`, with name and
+ * method of the run in r->folder, and QUANTITY = quantity, what the picture shows; unknown parts are left out. If
+ * r->title is given, it is the title. c: particles of the picture, or NULL; if given, the position of a slice and a
+ * factor on displacements are appended to the title. view: rectangle of the picture, which determines the unit of the
+ * position; NULL if c is. */
 void picture_compose_title(char *title, const struct plot_request *r, const char *quantity,
                            const struct plotted_particles *c, const struct view *view);
 
@@ -198,7 +199,7 @@ struct plot_field {
  * name, or if it has no meaning in this dimension. */
 status plot_field_find_by_name(const struct plot_field **field, const char *name, int dim);
 
-/* Writes the name of a field as in pictures, for example `stress xx`, to text[capacity]. */
+/* Writes the name of a field as in pictures, for example `stress xx`, to text[capacity], cut to capacity - 1 bytes. */
 void plot_field_write_label(char *text, size_t capacity, const struct plot_field *field);
 
 /* Reads the values of the field `field` at the particles of the frame f (state at one time), which was read from the

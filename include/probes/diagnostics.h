@@ -45,7 +45,7 @@ struct diagnostics {
  * no bond has broken yet. */
 void diagnostics_make(struct diagnostics *w);
 
-/* Computes the total momentum of the particles and of the mesh nodes, stores it in w->now.momentum, and updates
+/* Computes the total momentum of the particles p and of the mesh nodes, stores it in w->now.momentum, and updates
  * w->now.momentum_error, the largest error so far. nodes[grid_count]: grids whose nodes carry the mass of their points.
  * impulse: impulse of loads and supports from the start to the time of the velocities, dim components [N s]. */
 void diagnostics_update_momentum(struct diagnostics *w, const struct particles *p, const struct grid *const *nodes,
@@ -68,9 +68,9 @@ void diagnostics_update_energy_balance(struct diagnostics *w, real t, const stru
  * if E_0 is not positive. */
 real diagnostics_relative_energy_change(const struct diagnostics *w);
 
-/* Finds the groups of bonds that broke in this time step: clusters of particles whose flag FLAG_CRACKED (bond lost in
- * this step) is set and that are at most `horizon` apart. searched_particles[particle_count]: numbers of the particles
- * that are searched; NULL for particles 0 .. particle_count - 1. horizon: length of the longest bond [m].
+/* Finds the groups of bonds that broke in this time step: clusters of particles of p whose flag FLAG_CRACKED (bond lost
+ * in this step) is set and that are at most `horizon` apart. searched_particles[particle_count]: numbers of the
+ * particles that are searched; NULL for particles 0 .. particle_count - 1. horizon: length of the longest bond [m].
  * cluster_centre: receives the reference position of the middle of one cluster, dim components [m]. Returns the number
  * of clusters; if it is 0, `cluster_centre` is unchanged. */
 int64_t diagnostics_count_clusters_of_new_breaks(const struct particles *p, const int32_t *searched_particles,
@@ -84,8 +84,8 @@ int64_t diagnostics_count_clusters_of_new_breaks(const struct particles *p, cons
 bool diagnostics_record_broken_bonds(struct diagnostics *w, const struct particles *p, real horizon,
                                      int64_t broken_bond_count, real t);
 
-/* Searches for particles whose position or velocity is not finite or whose speed exceeds `max_speed`, the fastest wave
- * speed of the scene [m/s]. check_peridynamic: search the peridynamic particles too; check_mesh_points: search the
+/* Searches for particles of p whose position or velocity is not finite or whose speed exceeds `max_speed`, the fastest
+ * wave speed of the scene [m/s]. check_peridynamic: search the peridynamic particles too; check_mesh_points: search the
  * material points of a mesh too. Both are false in most steps, since the functions that move these particles detect
  * divergence. step, t: number and time [s] of the step, for the message. Returns FAILED if there is such a particle,
  * with its position and the cause in the message. */

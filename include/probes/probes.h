@@ -166,13 +166,14 @@ enum { PROFILE_NAME = NAME_MAX_LENGTH + 16 };
  * file_name[PROFILE_NAME]. Returns false, without a name, if there are at most `profile` profiles. */
 bool probes_compose_profile_file_name(const struct probes *s, int profile, int frame_number, char *file_name);
 
-/* Copies the stress-intensity factors at the last sample of the SIF probe called `probe_name`, and the direction of the
- * crack tip, to *control, by which a growing crack is controlled. Returns false if the probe has no values yet. */
+/* Copies the stress-intensity factors at the last sample of the SIF probe of s called `probe_name`, and the direction
+ * of the crack tip, to *control, by which a growing crack is controlled. Returns false if the probe has no values
+ * yet. */
 bool probes_copy_sif_of_probe(const struct probes *s, const char *probe_name, struct growth_control *control);
 
-/* Stores the current position of the crack tip that the SIF probe number `probe` observes in tip_position[2] [m], and
- * the outer radius of the integration contours around the tip in *outer_radius [m]. o: view of the run. Returns false,
- * and stores nothing, if the probe is not a SIF probe. */
+/* Stores the current position of the crack tip that the SIF probe (stress-intensity factors) number `probe` of s
+ * observes in tip_position[2] [m], and the outer radius of the integration contours around the tip in *outer_radius
+ * [m]. o: view of the run. Returns false, and stores nothing, if the probe is not a SIF probe. */
 bool probes_locate_sif_contour(const struct probes *s, int probe, const struct observed_run *o, real tip_position[2],
                                real *outer_radius);
 

@@ -20,8 +20,8 @@ struct probing {
 /* Returns the largest absolute value [Pa] among all components of the stress of all particles of p. */
 real particles_largest_stress_component(const struct particles *p);
 
-/* Stores the wave pulses among the initial states of the scene s in probing->pulse, a new array, and their number in
- * probing->pulses. */
+/* Stores the wave pulses among the initial states of the scene s in probing->pulse, a new array (released by
+ * engine_free_run), and their number in probing->pulses. */
 void scene_list_wave_pulses(const struct scene *s, struct probing *probing);
 
 /* Extends the cracks of run e with prescribed or controlled growth by the growth of one time step, and cuts the bonds
@@ -29,9 +29,9 @@ void scene_list_wave_pulses(const struct scene *s, struct probing *probing);
  * factors. Returns the number of directed bonds cut. */
 int64_t cracks_grow_one_step_and_count_cut_bonds(struct run *e);
 
-/* Stores in q->residual_step0 the largest force component on grid nodes and on peridynamic particles in the regions of
- * PATCH probes of scene s [N]. Under uniform strain these forces should be 0 (patch test). Must be called in the first
- * step, after the forces have been computed and before particles are moved. */
+/* Stores in q->residual_step0 the largest force component on grid nodes and on peridynamic particles of p in the
+ * regions of PATCH probes of scene s [N]. Under uniform strain these forces should be 0 (patch test). Must be called in
+ * the first step, after the forces have been computed and before particles are moved. */
 void patch_test_store_largest_residual_force(struct probing *q, const struct scene *s, const struct particles *p,
                                              const struct grid_method *grid);
 
@@ -40,8 +40,8 @@ void patch_test_store_largest_residual_force(struct probing *q, const struct sce
  * after the forces have been computed and before nodes are moved. */
 void patch_test_include_mesh_residual_force(struct probing *q, const struct scene *s, const struct mesh *mesh);
 
-/* Writes the profiles of LINE probes (values along a line) and EXACT probes (comparison with a closed-form solution) as
- * CSV files to the folder of `out`, with the number of the last frame written to it in their names. o: view of the
+/* Writes the profiles of LINE probes (values along a line) and EXACT probes (comparison with a closed-form solution) of
+ * s as CSV files to the folder of `out`, with the number of the last frame written to it in their names. o: view of the
  * current state of the run. Returns FAILED if a file cannot be written. */
 status profiles_write_csv_files(const struct probes *s, const struct output *out, const struct observed_run *o);
 

@@ -8,7 +8,7 @@ struct sif_plane;
 struct statics;
 
 /* Finds the static equilibrium of a scene without load steps, of bonds by conjugate gradients (`solver: cg`) or of a
- * grid by damped time steps (`solver: relaxation`), and completes the run. Returns FAILED if no equilibrium is found
+ * grid by damped time steps (`solver: relaxation`), and completes the run e. Returns FAILED if no equilibrium is found
  * or a file cannot be written, INTERRUPTED, after a checkpoint, if the run is to stop. */
 status engine_solve_single_equilibrium(struct run *e);
 
@@ -19,18 +19,18 @@ status engine_run_load_steps(struct run *e);
 
 /* Initialises e->solver, with which engine_solve_single_equilibrium finds one static equilibrium under the loads at the
  * end of the scene's duration. Returns REFUSED, with a message, if forces or moments are neither balanced nor carried
- * by supports. */
+ * by supports. Released by engine_free_run. */
 status engine_static_solver_make(struct run *e);
 
 /* Checks that the solver of load steps can treat the bodies, loads and supports of the scene of run e. Returns REFUSED,
  * with the reason, if it cannot. */
 status statics_check_scene_is_solvable(const struct run *e);
 
-/* Finds the equilibrium under the loads at time t [s], from which `cleave check` estimates the cost of a run. The run
+/* Finds the equilibrium under the loads at time t [s], from which `cleave check` estimates the cost of a run. The run e
  * cannot be continued with load steps afterwards. Returns FAILED, with a message, if no equilibrium is found. */
 status engine_find_equilibrium_for_cost_estimate(struct run *e, real t);
 
-/* Computes the largest ratio of bond stretch to critical stretch that the whole run would reach if no bond broke.
+/* Computes the largest ratio of bond stretch to critical stretch that the whole run e would reach if no bond broke.
  * *ratio receives the ratio [1], *load_time the time of the loads at which it is reached [s]. The run must be in the
  * equilibrium that engine_find_equilibrium_for_cost_estimate found for the time first_load_time [s]. If all loads grow
  * in proportion, its stretches are scaled; if loads reverse or others begin later, further equilibria are computed.

@@ -91,7 +91,8 @@ void rigid_move_to_prescribed_position(struct rigid_body *r, real t);
 
 /* Advances the rigid body r by one leap-frog step: a free body under r->force, r->moment and its weight, other moving
  * bodies with their prescribed velocity. Velocities advance by dt_velocity, positions by dt [s]. t_middle: time in the
- * middle of the step [s]. Stores the conserved kinetic energy of the step in r->kinetic. */
+ * middle of the step [s]. Stores in r->kinetic the kinetic energy that leap-frog conserves, with the product of the
+ * velocities before and after the step in place of their squares. */
 void rigid_advance_one_step(struct rigid_body *r, real t_middle, real dt, real dt_velocity);
 
 /* Adds to r->work the work done since the last call by the drive of the rigid body r, i.e. by the force that enforces

@@ -19,7 +19,8 @@ struct rigid_set {
 };
 
 /* Makes all rigid bodies of scene s at t = 0 in *rigid, and lists the shapes of the deformable bodies for contact.
- * Returns REFUSED, with a message, if a rigid body is unbounded while it moves or has no volume (rigid_make). */
+ * Returns REFUSED, with a message, if a rigid body is unbounded while it moves or has no volume (rigid_make). Released
+ * by engine_free_run. */
 status rigids_make(struct rigid_set *rigid, const struct scene *s);
 
 /* Checks the positions of all rigid bodies at the start. Returns REFUSED, with a message, if one overlaps particles, or

@@ -20,10 +20,10 @@ real particles_kinetic_energy(const struct particles *p);
  * none. */
 real points_strain_energy(const struct particles *p, const struct material *m, const struct partial_stress *partial);
 
-/* Returns the elastic strain energy [J] of those material points that are among the particles point_list[point_count]
- * (indices): 1/2 sum sigma : C^-1 : sigma V with stress sigma, elastic stiffness C and volume V of each point, without
- * the part of the stress that bonds carry. m: array of the materials; partial: that part (partial stress), NULL for
- * none. */
+/* Returns the elastic strain energy [J] of those material points that are among the particles of p in
+ * point_list[point_count] (indices): 1/2 sum sigma : C^-1 : sigma V with stress sigma, elastic stiffness C and volume V
+ * of each point, without the part of the stress that bonds carry. m: array of the materials; partial: that part
+ * (partial stress), NULL for none. */
 real points_strain_energy_of_list(const struct particles *p, const struct material *m,
                                   const struct partial_stress *partial, const int32_t *point_list, int64_t point_count);
 
@@ -54,7 +54,7 @@ static inline void family_states_precompute(struct bonds *b, struct particles *p
     if (s->modulus) state_precompute_table[p->dim][s->rotates ? PD_MOSPD : PD_OSPD](b, p);
 }
 
-/* Computes the stress of all peridynamic particles from their bonds at the present positions [Pa], into the stress
+/* Computes the stress of all peridynamic particles from their bonds in b at the present positions [Pa], into the stress
  * arrays of p. Time steps do not use this stress; call the function before stresses are written to files or decide on
  * reversion to material points. source: bond law; kernels: compiled loops for the vector instructions of this
  * machine. */

@@ -31,8 +31,8 @@ bool joined_bodies_are_all_defined_by_solids(const struct scene *s, int first_bo
 
 /* Computes factors on the weights (themselves factors on the forces) of bonds near free surfaces into w, by moments of
  * the bond weights (key `pd.surface: moments`), and sets source->surface = w, so that w must outlive `source`. Returns
- * REFUSED, with a message, if particles that can have bonds, mirror images included, are not on one lattice. loads:
- * boundary conditions, so that the message can name the boundary of scene s whose mirror plane does not fit the
+ * REFUSED, with a message, if particles of p that can have bonds, mirror images included, are not on one lattice.
+ * loads: boundary conditions, so that the message can name the boundary of scene s whose mirror plane does not fit the
  * lattice. */
 status run_compute_surface_bond_weight_factors(struct surface_weights *w, struct bond_source *source,
                                                const struct particles *p, const struct loads *loads,

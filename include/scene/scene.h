@@ -360,9 +360,9 @@ const struct material *scene_material_of_number(const struct scene *s, int numbe
 /* Releases the members of the scene *s, which was read by a function of scene_read.h. */
 void scene_free(struct scene *s);
 
-/* Adds a location in the scene file to the beginning of the stored message of a refusal (status_message), unless it
- * begins with one. It is the location of the body, boundary, key or group of keys with which the message begins, else
- * the path of the scene file. Does nothing unless `result` is REFUSED. Returns `result`. */
+/* Adds a location in the file of the scene s to the beginning of the stored message of a refusal (status_message),
+ * unless it begins with one. It is the location of the body, boundary, key or group of keys with which the message
+ * begins, else the path of the scene file. Does nothing unless `result` is REFUSED. Returns `result`. */
 status scene_prepend_location(const struct scene *s, status result);
 
 /* Finds the key, group of keys or named item with which the warning `text` begins, and writes its location in the scene

@@ -18,7 +18,7 @@ bool time_read(real *value, const char *text, char *message, size_t capacity);
 bool value_read_in_unit(real *value, const char *text, const char *symbol, char *message, size_t capacity);
 
 /* Writes the number `text` into joined[capacity], with the unit of the number `other` if it has none itself: `-5`
- * beside `5 mm` becomes `-5mm`. Returns `joined`. */
+ * beside `5 mm` becomes `-5mm`. A longer text is cut. Returns `joined`. */
 const char *number_text_with_unit_of(char *joined, size_t capacity, const char *text, const char *other);
 
 /* Returns the symbol of the SI unit of numbers that a scene states without a unit for the key `path`, e.g. "Pa" for
@@ -34,7 +34,7 @@ struct word_proposal {
     char text[100];
 };
 
-/* Returns the text `; do you mean NAME?` with that one of the n > 0 names name[n] that has the smallest edit distance
+/* Returns the text `; did you mean NAME?` with that one of the n > 0 names name[n] that has the smallest edit distance
  * to `word`, the first one if there are several; the text `;` if that name is not similar to `word`
  * (words_are_similar). */
 struct word_proposal word_propose_similar(const char *word, const char *const *name, int n);

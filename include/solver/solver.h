@@ -61,7 +61,7 @@ status static_solver_make(struct static_solver *s, const struct static_body *bod
 
 /* Allocates and computes the vectors in *s that cg_step and relaxation_step need for `body`: weights of particles on
  * mirror planes, diagonal stiffness, round-off of the forces. static_solver_make must have been called.
- * conjugate_gradients: true to prepare for cg_step, false for relaxation_step. */
+ * conjugate_gradients: true to prepare for cg_step, false for relaxation_step. Release with static_solver_free. */
 void static_solver_make_iteration_vectors(struct static_solver *s, const struct static_body *body,
                                           bool conjugate_gradients);
 

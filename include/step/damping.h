@@ -21,9 +21,9 @@ real damping_velocity_increment_factor(real rate_times_dt);
  * are damped by half a step only. */
 struct damping_shares damping_shares_of_step(real rate_times_dt, bool first_step);
 
-/* Multiplies all velocities of particles and mesh nodes by exp(-c dt/2) before the first velocity update of the run,
- * and subtracts the momentum that is lost from the impulse of the loads, loads->impulse. rate_times_dt: c dt [1], with
- * the damping rate c and the time step dt. Returns the kinetic energy that is lost [J]. */
+/* Multiplies all velocities of the particles p and of the mesh nodes by exp(-c dt/2) before the first velocity update
+ * of the run, and subtracts the momentum that is lost from the impulse of the loads, loads->impulse. rate_times_dt: c
+ * dt [1], with the damping rate c and the time step dt. Returns the kinetic energy that is lost [J]. */
 real damping_apply_first_half_return_energy_loss(struct particles *p, const struct mesh *mesh, struct loads *loads,
                                                  real rate_times_dt);
 
@@ -32,14 +32,14 @@ real damping_apply_first_half_return_energy_loss(struct particles *p, const stru
 void damping_store_velocities(struct damping_state *s, const struct particles *p, const struct mesh *mesh);
 
 /* Returns the energy that bulk damping has dissipated since the previous time step [J], computed from the velocities
- * that damping_store_velocities stored in *s in this step and the present ones of particles and mesh nodes.
+ * that damping_store_velocities stored in *s in this step and the present ones of the particles p and the mesh nodes.
  * rate_times_dt: c dt [1], c being the damping rate and dt the time step. Valid from the second step on. */
 real damping_energy_loss_since_previous_step(const struct damping_state *s, const struct particles *p,
                                              const struct mesh *mesh, real rate_times_dt);
 
-/* Multiplies all velocities of particles and mesh nodes by exp(-c dt) at the end of a time step, and subtracts the
- * momentum that is lost from the impulse of the loads, loads->impulse. rate_times_dt: c dt [1], with the damping rate c
- * and the time step dt. */
+/* Multiplies all velocities of the particles p and of the mesh nodes by exp(-c dt) at the end of a time step, and
+ * subtracts the momentum that is lost from the impulse of the loads, loads->impulse. rate_times_dt: c dt [1], with the
+ * damping rate c and the time step dt. */
 void damping_apply_full_step(struct particles *p, const struct mesh *mesh, struct loads *loads, real rate_times_dt);
 
 /* Returns the energy that bulk damping dissipates in the velocity update that follows the last time step [J].

@@ -14,10 +14,10 @@ struct large_motion {
     bool turned; /* the warning that a pressure does not follow the rotation of its surface has been printed */
 };
 
-/* Adds a warning to `warning_list`, once in a run, if particles of one body have moved into each other. Does nothing if
- * the scene has contact within bodies or accepts this by its key `accept`. Only particles whose distance in the
- * reference configuration exceeds `horizon` [m] are compared, since no bond keeps them apart. t: present time [s]; m:
- * state of the checks, by which particles are compared at most 25 times per run. */
+/* Adds a warning to `warning_list`, once in a run, if particles of p of one body have moved into each other. Does
+ * nothing if the scene has contact within bodies or accepts this by its key `accept`. Only particles whose distance in
+ * the reference configuration exceeds `horizon` [m] are compared, since no bond keeps them apart. t: present time [s];
+ * m: state of the checks, by which particles are compared at most 25 times per run. */
 void large_motion_warn_of_passing_parts(struct large_motion *m, const struct particles *p, const struct scene *s,
                                         real horizon, real t, struct warnings *warning_list);
 

@@ -109,7 +109,7 @@ status report_finished_step(struct run *e);
  * frames, and writes the last checkpoint. Returns FAILED if a file cannot be written. */
 status report_finish_after_last_step(struct run *e);
 
-/* Returns the share of all particles that are still at rest, which time steps skip (data/active_set.h) [1]:
+/* Returns the share of all particles p that are still at rest, which time steps skip (data/active_set.h) [1]:
  * peridynamic particles by the bonds b, material points by the mesh. */
 real particles_at_rest_fraction(const struct bonds *b, const struct mesh *mesh, const struct particles *p);
 
@@ -131,10 +131,10 @@ void warn_of_tips_above_rayleigh_speed(const struct crack_tips *t, const struct 
 void warn_of_bond_yielding(struct run_report *r, const struct bonds *b, const struct scene *s,
                            struct warnings *warning_list);
 
-/* Computes the fields that particles do not store (strain, density, plastic work, level of the coarse cell) and stores
- * pointers to them in *extra, from which the frame is written. requested_field_bits: set of these fields, as bits
- * ASK_... (output/output.h). Before the call, the positions and stresses of all particles must be up to date
- * (run_update_particle_motion_and_stress), and extra->more, the material points of coarse cells, must be set. Call
+/* Computes the fields that the particles of run e do not store (strain, density, plastic work, level of the coarse
+ * cell) and stores pointers to them in *extra, from which the frame is written. requested_field_bits: set of these
+ * fields, as bits ASK_... (output/output.h). Before the call, the positions and stresses of all particles must be up to
+ * date (run_update_particle_motion_and_stress), and extra->more, the material points of coarse cells, must be set. Call
  * frame_fields_free once the frame has been copied by output_frame_begin. */
 void frame_fields_compute_requested(struct run *e, unsigned requested_field_bits, struct frame_extra *extra);
 

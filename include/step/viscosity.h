@@ -42,7 +42,7 @@ void viscosity_add_nodal_forces(struct run *e);
 
 /* Returns the factor by which viscosity reduces the critical time step, sqrt(1 + Q^2) - Q [1]. Q is the largest ratio
  * of viscous pressure to rho c^2 (density rho, wave speed c) to be expected from the speeds of bodies, supports and
- * loads. initial_speed: the largest speed of particles at t = 0 [m/s]. */
+ * loads. initial_speed: the largest speed of the particles p at t = 0 [m/s]. */
 real viscosity_time_step_factor(const struct scene *s, const struct loads *loads, const struct particles *p,
                                 real initial_speed);
 

@@ -79,7 +79,7 @@ status study_make_with_keys(struct study *s, const char *scene, const char *fold
                             const struct varied_key *key, int keys);
 
 /* Writes the path of the default folder of a study of a scene, results/NAME_KIND with the name of the scene and KIND =
- * study_kind, to folder[capacity]. */
+ * study_kind, to folder[capacity], cut to capacity - 1 bytes. */
 void study_compose_default_folder(char *folder, size_t capacity, const struct scene *scene, const char *study_kind);
 
 /* Checks that `folder` may be used for a study of the scene with the text `text`. Returns REFUSED if it contains a
@@ -105,8 +105,8 @@ bool study_folder_is_of_scene(const char *folder, const char *text);
  * written. */
 status study_write_scene_and_options(const char *folder, const char *text, const char *options);
 
-/* Reads why the run called `run` of the study in `folder` has failed, the last line of its log, into line[capacity].
- * Stores "it gave no reason" if there is none. */
+/* Reads why the run called `run` of the study in `folder` has failed, the last line of its log, into line[capacity],
+ * cut to capacity - 1 bytes. Stores "it gave no reason" if there is none. */
 void study_read_reason_of_failure(char *line, size_t capacity, const char *folder, const char *run);
 
 /* Composes the options of the command of a study as words for a shell, from argv[argc], the words after the name of the

@@ -219,7 +219,8 @@ static ALWAYS_INLINE void points_add_dilatation_rate(struct points_motion *m, ro
 
 /* Averages the rates of dilatation of the n <= MEAN_POINTS points `list` of p in a cell that differ in body or
  * material, each over the points of the same body and material (dilatation.h). t: constants of the materials; motion:
- * motion of these points, AT_ONCE of them in each entry, whose velocity gradients are changed. */
+ * motion of these points, AT_ONCE of them (points processed together) in each entry, whose velocity gradients are
+ * changed. */
 static NEVER_INLINE void points_average_mixed_dilatation_rates(const struct particles *p, const struct transfer_data *t,
                                                                const int32_t *list, struct points_motion *motion, int n,
                                                                const int dim)
@@ -239,7 +240,7 @@ static NEVER_INLINE void points_average_mixed_dilatation_rates(const struct part
 
 /* Averages the rates of dilatation of the n <= MEAN_POINTS points `list` of p in a cell (dilatation.h), after storing
  * the rates before averaging in t->dilatation unless materials yield. motion: motion of these points, AT_ONCE of them
- * in each entry, whose velocity gradients are changed. */
+ * (points processed together) in each entry, whose velocity gradients are changed. */
 static ALWAYS_INLINE void points_average_dilatation_rates(const struct particles *p, const struct transfer_data *t,
                                                           const int32_t *list, struct points_motion *motion, int n,
                                                           const int dim)
@@ -290,10 +291,11 @@ static ALWAYS_INLINE void points_mark_left(const struct transfer_order *o, const
     for (; __builtin_expect(bits, 0); bits &= bits - 1) o->left[list - o->particle + __builtin_ctz((unsigned)bits)] = 1;
 }
 
-/* Updates position, stress, volume, stretch and rotation of the points list[n] of p (n <= AT_ONCE) of cell c of grid g
- * from their motion m. t: inputs of the transfer, with the order that contains `list`; shape: shape function. On return
- * m->velocity contains displacements [m]. due: list to which points of yielding materials are appended for the return
- * mapping. Returns the number of points that have left the cell; they are marked in t->order->left. */
+/* Updates position, stress, volume, stretch and rotation of the points list[n] of p (n <= AT_ONCE, points processed
+ * together) of cell c of grid g from their motion m. t: inputs of the transfer, with the order that contains `list`;
+ * shape: shape function. On return m->velocity contains displacements [m]. due: list to which points of yielding
+ * materials are appended for the return mapping. Returns the number of points that have left the cell; they are marked
+ * in t->order->left. */
 static ALWAYS_INLINE int g2p_update(const struct grid *g, const struct cell *c, struct particles *p,
                                     const struct transfer_data *t, struct flow_points *due, struct points_motion *m,
                                     const int32_t *list, int n, const int dim, const enum shape shape)

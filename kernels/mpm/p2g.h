@@ -79,9 +79,9 @@ static ALWAYS_INLINE bool continues(const struct transfer_data *t, const int dim
     return transfer == TRANSFER_APIC || (dim > 1 && t->turn[2] && !t->momentum_only);
 }
 
-/* Loads the stresses that the n points `list` of p (n <= AT_ONCE) transmit to the grid, without the part that bonds
- * carry, and the volumes of the points into *s. Lanes from n on repeat points of the list (points_entry_of_lane). t:
- * inputs of the transfer; if t->momentum_only is set, the stresses are 0. */
+/* Loads the stresses that the n points `list` of p (n <= AT_ONCE, points processed together) transmit to the grid,
+ * without the part that bonds carry, and the volumes of the points into *s. Lanes from n on repeat points of the list
+ * (points_entry_of_lane). t: inputs of the transfer; if t->momentum_only is set, the stresses are 0. */
 static ALWAYS_INLINE void points_load_stress(struct points_stress *s, const struct particles *p,
                                              const struct transfer_data *t, const int32_t *list, int n, const int dim)
 {
@@ -174,7 +174,7 @@ static ALWAYS_INLINE void p2g_prefetch_point(const struct particles *p, const st
 
 /* Replaces the mean normal stress of each of the points list[n] of p in a cell, n <= MEAN_POINTS, by its average over
  * the points of the same body and material (dilatation.h). t: constants of the materials; stress: stresses of the
- * points, AT_ONCE points in each entry, changed. */
+ * points, AT_ONCE points (processed together) in each entry, changed. */
 static ALWAYS_INLINE void points_average_mean_stress(const struct particles *p, const struct transfer_data *t,
                                                      const int32_t *list, struct points_stress *stress, int n,
                                                      const int dim)
@@ -202,9 +202,10 @@ static ALWAYS_INLINE void points_average_mean_stress(const struct particles *p, 
         for (int d = 0; d < dim; d++) stress[k].stress[d] += *(const points_anywhere *)(change + k * AT_ONCE(dim));
 }
 
-/* Adds mass, momentum and force of the points list[n] of p (n <= AT_ONCE) in cell c of grid g to `sum`, the nodal sums
- * over the points of this cell. stress: stress of these points; t: inputs of the transfer, with the shape function
- * `shape` and the scheme `transfer`; continued: true if points extrapolate their velocity to nodes (`continues`). */
+/* Adds mass, momentum and force of the points list[n] of p (n <= AT_ONCE, points processed together) in cell c of grid
+ * g to `sum`, the nodal sums over the points of this cell. stress: stress of these points; t: inputs of the transfer,
+ * with the shape function `shape` and the scheme `transfer`; continued: true if points extrapolate their velocity to
+ * nodes (`continues`). */
 static ALWAYS_INLINE void p2g_add_points(cell_sums sum, const struct grid *g, const struct cell *c,
                                          const struct particles *p, const struct transfer_data *t,
                                          const struct points_stress *stress, const int32_t *list, int n, const int dim,

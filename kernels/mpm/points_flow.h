@@ -188,10 +188,10 @@ static ALWAYS_INLINE void flow_points_remove_first(struct flow_points *due, int 
 
 /* Return mapping: maps the trial stresses of n points of p (n <= LANES) back to their yield surfaces if their materials
  * yield, stores stress, plastic strain, plastic work, back stress and temperature, and clears FLAG_STRESSED of those
- * that yield if the resulting stress does not exceed the conversion stress. Their volumes must have been stored in p.
- * point: numbers of the points, filled up to LANES; L: velocity gradients [1/s]; stress[components], volume: trial
- * stresses [Pa], which are changed, and volumes [m^3]; t: time step and constants of the materials. Points of several
- * materials are mapped material by material. */
+ * that yield if the resulting stress does not exceed the conversion stress (at which points become peridynamic). Their
+ * volumes must have been stored in p. point: numbers of the points, filled up to LANES; L: velocity gradients [1/s];
+ * stress[components], volume: trial stresses [Pa], which are changed, and volumes [m^3]; t: time step and constants of
+ * the materials. Points of several materials are mapped material by material. */
 static NEVER_INLINE void flow_points_map(struct particles *p, const struct transfer_data *t, const int32_t *point,
                                          int n, const lanes *L, lanes *stress, lanes volume, const int dim)
 {
@@ -230,7 +230,8 @@ static NEVER_INLINE void flow_points_return_mapping(struct particles *p, const s
 }
 
 /* Appends n points to the list `due` of points that wait for their return mapping. point: numbers of the points, filled
- * up to AT_ONCE; L: velocity gradients [1/s]; stress[components], volume: trial stresses [Pa] and volumes [m^3]. */
+ * up to AT_ONCE (points processed together); L: velocity gradients [1/s]; stress[components], volume: trial stresses
+ * [Pa] and volumes [m^3]. */
 static ALWAYS_INLINE void flow_points_append(struct flow_points *due, const int32_t *point, int n,
                                              const row_of_points *L, const row_of_points *stress, row_of_points volume,
                                              const int dim)

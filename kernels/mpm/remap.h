@@ -44,9 +44,9 @@ static ALWAYS_INLINE void remap_gather_momentum(row_of_points *momentum, const s
     }
 }
 
-/* Updates the velocities of the points list[n] (n <= AT_ONCE) of cell c by the change of the nodal velocities of g, and
- * adds their new momentum to `sum`, the nodal sums over the points of the cell. p: particles; t: inputs of the
- * transfer; shape: shape function. */
+/* Updates the velocities of the points list[n] (n <= AT_ONCE, points processed together) of cell c by the change of the
+ * nodal velocities of g, and adds their new momentum to `sum`, the nodal sums over the points of the cell. p:
+ * particles; t: inputs of the transfer; shape: shape function. */
 static ALWAYS_INLINE void remap_update_points(remap_rows sum, const struct grid *g, const struct cell *c,
                                               struct particles *p, const struct transfer_data *t, const int32_t *list,
                                               int n, const int dim, const enum shape shape)

@@ -72,9 +72,9 @@ static ALWAYS_INLINE void turn_gather_corner_arms(const struct grid *g, const st
     }
 }
 
-/* Interpolates the change dv_I of the nodal velocities (g->force) to the n points `list` (n <= AT_ONCE) of cell c and
- * adds it to their velocities in p. Stores in t->turn the angular momentum [kg m^2/s] that this interpolation loses at
- * each point: m sum N (x_I - x_p) x dv_I. shape: shape function. */
+/* Interpolates the change dv_I of the nodal velocities (g->force) to the n points `list` (n <= AT_ONCE, points
+ * processed together) of cell c and adds it to their velocities in p. Stores in t->turn the angular momentum [kg m^2/s]
+ * that this interpolation loses at each point: m sum N (x_I - x_p) x dv_I. shape: shape function. */
 static ALWAYS_INLINE void turn_gather_points(const struct grid *g, const struct cell *c, struct particles *p,
                                              const struct transfer_data *t, const int32_t *list, int n, const int dim,
                                              const enum shape shape)

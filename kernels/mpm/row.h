@@ -128,16 +128,18 @@ static ALWAYS_INLINE int points_at_once(int points_left, const int dim) { return
  * pairs of consecutive numbers, as neighbours along x have: two of them are then loaded or stored at once. */
 enum { PAIRED = POINTS, POINT_NUMBERS = POINTS + 1 };
 
-/* Returns the index in a list of n points (n <= AT_ONCE) of the point that vector lane `lane` holds. Lanes beyond the
- * last point repeat the last point or, if n is even, the last two, so that pairs stay together. */
+/* Returns the index in a list of n points (n <= AT_ONCE, points processed together) of the point that vector lane
+ * `lane` holds. Lanes beyond the last point repeat the last point or, if n is even, the last two, so that pairs stay
+ * together. */
 static ALWAYS_INLINE int points_entry_of_lane(int lane, int n)
 {
     return lane < n ? lane : n % 2 == 1 ? n - 1 : n - 2 + lane % 2;
 }
 
-/* Stores the indices list[n] of n points (n <= AT_ONCE) in point[0] .. point[POINTS - 1], one per lane, with repeated
- * points in further lanes (points_entry_of_lane). Sets point[PAIRED] to 1 if the points are pairs of consecutive
- * indices, else to 0. list: must have POINTS entries, of which those from n on are not used, unless n is 1. */
+/* Stores the indices list[n] of n points (n <= AT_ONCE, points processed together) in point[0] .. point[POINTS - 1],
+ * one per lane, with repeated points in further lanes (points_entry_of_lane). Sets point[PAIRED] to 1 if the points are
+ * pairs of consecutive indices, else to 0. list: must have POINTS entries, of which those from n on are not used,
+ * unless n is 1. */
 static ALWAYS_INLINE void points_list(int32_t *point, const int32_t *list, int n, const int dim)
 {
     if (n == 1) {

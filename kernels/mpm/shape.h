@@ -162,8 +162,8 @@ static ALWAYS_INLINE int64_t cell_row_first_node(const struct cell *c, const str
     return c->node + (dim > 1 ? k1 * g->stride[1] : 0) + (dim > 2 ? k2 * g->stride[2] : 0);
 }
 
-/* Returns the index of node k (from 0) of a row of nodes of a cell, less the index of the first node of the row. A row
- * is four nodes along x or, for linear shape functions (shape) in 2D and 3D, all corners of the cell. */
+/* Returns the index of node k (from 0) of a row of nodes of a cell of grid g, less the index of the first node of the
+ * row. A row is four nodes along x or, for linear shape functions (shape) in 2D and 3D, all corners of the cell. */
 static ALWAYS_INLINE int64_t row_node_offset(const struct grid *g, int k, const int dim, const enum shape shape)
 {
     return HAS_CORNERS(dim, shape) ? k % 2 + k / 2 % 2 * g->stride[1] + k / 4 * g->stride[2] : k;
@@ -304,8 +304,8 @@ static ALWAYS_INLINE bool grid_maps_ahead(const struct grid *g, const int dim)
     return ahead;
 }
 
-/* Computes the stencil s: weights and slopes of the shape functions of the n points `list` of p (n <= AT_ONCE) in cell
- * c of grid g. half_width: half the reference edge of a particle, l_p [m]. */
+/* Computes the stencil s: weights and slopes of the shape functions of the n points `list` of p (n <= AT_ONCE, points
+ * processed together) in cell c of grid g. half_width: half the reference edge of a particle, l_p [m]. */
 static ALWAYS_INLINE void cell_stencil_make(struct cell_stencil *s, const struct grid *g, const struct cell *c,
                                             const struct particles *p, const int32_t *list, int n, real half_width,
                                             const int dim, const enum shape shape)

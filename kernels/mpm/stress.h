@@ -201,7 +201,8 @@ static ALWAYS_INLINE real stress_largest_principal(const real *stress, const int
 }
 
 /* Returns an upper bound [Pa] of the largest principal stress of the stress `stress` (components xx yy xy in 2D, xx yy
- * zz xy yz zx in 3D). The principal stress itself is computed only where this bound exceeds the conversion stress. */
+ * zz xy yz zx in 3D). The principal stress itself is computed only where this bound exceeds the conversion stress (at
+ * which a point becomes peridynamic). */
 static ALWAYS_INLINE real stress_principal_bound(const real *stress, const int dim)
 {
     if (dim == 1) return stress[0];

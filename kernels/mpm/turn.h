@@ -20,9 +20,9 @@ static ALWAYS_INLINE row_of_points rotating_velocity_slope(const row_of_points *
     return mixed + time_part * (spin[0] * spin[0] + spin[1] * spin[1] + spin[2] * spin[2]);
 }
 
-/* Computes the velocity gradients slope[d dim + e] = dv_d/dx_e [1/s] of AT_ONCE(dim) points that rotate with their
- * groups. point: numbers of the points; t: inputs of the transfer, with the spins t->turn; time_part: the part of a
- * time step over which they turn (rotating_velocity_slope) [s]. */
+/* Computes the velocity gradients slope[d dim + e] = dv_d/dx_e [1/s] of AT_ONCE(dim) points (processed together) that
+ * rotate with their groups. point: numbers of the points; t: inputs of the transfer, with the spins t->turn; time_part:
+ * the part of a time step over which they turn (rotating_velocity_slope) [s]. */
 static ALWAYS_INLINE void rotating_velocity_gradients(const struct transfer_data *t, const int32_t *point,
                                                       const real time_part, row_of_points *slope, const int dim)
 {

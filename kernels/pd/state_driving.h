@@ -9,8 +9,8 @@
 
 /* Returns the energy [J] that an increase of the damage of `bond`, a bond in b, releases, divided by this increase and
  * by the weight of the bond (factor on its force), at the present states (pressure, spring stiffness, rotation) of the
- * neighbourhoods of both particles. Damage may grow only if the result is positive. i: particle to whose bonds `bond`
- * belongs; the result for the other particle is bitwise equal. */
+ * neighbourhoods of both particles. Damage may grow only if the result is positive. i: particle of p to whose bonds
+ * `bond` belongs; the result for the other particle is bitwise equal. */
 static inline real bond_driving_energy(const struct bonds *b, const struct particles *p, const struct bond *bond,
                                        int32_t i)
 {
