@@ -72,7 +72,7 @@ status exodus_read_integers(const struct exodus_file *f, const char *name, int64
 status exodus_read_coordinates(const struct exodus_file *f, real *coordinates[DIM_MAX]);
 
 /* Reads one row of an array of texts of the file f into text[LONG_NAME_LENGTH], without blanks at its end; a longer
- * text is cut, "" if the file has no such array. The array is called `name` followed by `name_suffix`, or only `name`
+ * text is cut; "" if the file has no such array. The array is called `name` followed by `name_suffix`, or only `name`
  * if `name_suffix` is 0. row: number of the row, from 0; rows: number of rows that the array must have. */
 void exodus_read_text_row(const struct exodus_file *f, const char *name, int64_t name_suffix, int64_t row, int64_t rows,
                           char *text);

@@ -448,7 +448,7 @@ void loads_clear_forces_of_loaded_particles(struct loads *l, struct particles *p
  * symmetry). t: middle of the step of size dt, end of the velocity update of duration dt_velocity [s]. */
 void loads_apply_to_particle_forces(struct loads *l, struct particles *p, real t, real dt, real dt_velocity);
 
-/* Sets the velocities prescribed by l (walls) of the nodes of grid g for the step of size dt about t [s]. These are
+/* Stores in g->wall the velocities that l prescribes for nodes of grid g in the step of size dt about t [s]. These are
  * nodes in the region of a prescribed motion, nodes on a mirror plane, and nodes at least half of whose mass belongs to
  * points of p with prescribed motion. Nodes beyond a mirror plane move as mirror images if the plane is on a node or
  * midway between two, else they are constrained like nodes on the plane. driven_nodes: constrained nodes of this grid,
@@ -462,8 +462,8 @@ void loads_prescribe_grid_velocities(struct loads *l, struct constrained_set *dr
  * dashpots of its nodes. Call once at set-up, and again after points of the mesh have become peridynamic. */
 void loads_find_driven_mesh_nodes(struct loads *l, struct mesh *mesh, const struct particles *p);
 
-/* Sets the velocities prescribed by l (walls) of the mesh nodes that loads_find_driven_mesh_nodes has found, for the
- * step of size dt about t [s]. */
+/* Stores in mesh->grid.wall the velocities that l prescribes for the nodes found by loads_find_driven_mesh_nodes, for
+ * the step of size dt about t [s]. */
 void loads_prescribe_mesh_velocities(const struct loads *l, struct mesh *mesh, real t, real dt);
 
 /* Finds the nodes of g, the grid of a mesh of coarse cells, whose motion l prescribes, by their positions: nodes in
@@ -471,8 +471,8 @@ void loads_prescribe_mesh_velocities(const struct loads *l, struct mesh *mesh, r
 void loads_find_driven_coarse_nodes(const struct loads *l, struct constrained_set *driven_nodes, struct grid *g,
                                     const struct particles *p);
 
-/* Sets the velocities prescribed by l (walls) of the nodes in `driven_nodes`, found by loads_find_driven_coarse_nodes,
- * on grid g of a mesh of coarse cells, for the step of size dt about t [s]. */
+/* Stores in g->wall the velocities that l prescribes for the nodes in `driven_nodes`, found by
+ * loads_find_driven_coarse_nodes, of grid g of a mesh of coarse cells, for the step of size dt about t [s]. */
 void loads_prescribe_coarse_velocities(const struct loads *l, const struct constrained_set *driven_nodes,
                                        struct grid *g, real t, real dt);
 

@@ -212,8 +212,8 @@ bool mesh_levels_may_change_before_step(const struct mesh_levels *l, int64_t ste
 
 /* Computes the coarsening levels of cells of r (0: finest) for the next steps from stress, cracks and present motion.
  * p: particles; loads: boundary conditions; step: number of the next step; mass: of the body [kg]. Returns an array
- * that the caller frees, with the level of the cell to which each cell of level 0 (the finest) shall belong, or NULL if
- * no level changes. */
+ * that the caller releases with memory_free, with the level of the cell to which each cell of level 0 (the finest)
+ * shall belong, or NULL if no level changes. */
 uint8_t *mesh_levels_choose_for_next_steps(struct reference_frame *r, const struct particles *p,
                                            const struct loads *loads, int64_t step, real mass);
 
@@ -223,7 +223,8 @@ uint8_t *mesh_levels_choose_for_next_steps(struct reference_frame *r, const stru
 void mesh_levels_change_cell_levels(struct run *e, const uint8_t *new_cell_level);
 
 /* Postpones the conversion to peridynamics of those material points of p that are too close to coarse cells of l:
- * clears the flags by which they would convert, and requests finer cells there. To be called before points convert. */
+ * clears the flags by which they would become peridynamic, and requests finer cells there. To be called before points
+ * convert. */
 void mesh_levels_delay_conversion_at_coarse_cells(struct mesh_levels *l, struct particles *p);
 
 /* Updates, after coarsening levels have changed, the lists of nodes of coarse cells on which boundary conditions act,

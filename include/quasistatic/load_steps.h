@@ -22,8 +22,8 @@ status engine_run_load_steps(struct run *e);
  * by supports. Released by engine_free_run. */
 status engine_static_solver_make(struct run *e);
 
-/* Checks that the solver of load steps can treat the bodies, loads and supports of the scene of run e. Returns REFUSED,
- * with the reason, if it cannot. */
+/* Checks that the solver of load steps (sequences of static equilibria) can treat the bodies, loads and supports of the
+ * scene of run e. Returns REFUSED, with the reason, if it cannot. */
 status statics_check_scene_is_solvable(const struct run *e);
 
 /* Finds the equilibrium under the loads at time t [s], from which `cleave check` estimates the cost of a run. The run e

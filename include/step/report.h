@@ -113,8 +113,9 @@ status report_finish_after_last_step(struct run *e);
  * peridynamic particles by the bonds b, material points by the mesh. */
 real particles_at_rest_fraction(const struct bonds *b, const struct mesh *mesh, const struct particles *p);
 
-/* Warns at the end of the run e if energy or angular momentum is not conserved, if interface damping dissipated much
- * energy, or if bonds broke in a collision that is too fast for the particle spacing. */
+/* Warns at the end of the run e if energy or angular momentum is not conserved, if interface damping (near interfaces
+ * of material points and peridynamic particles) dissipated much energy, or if bonds broke in a collision that is too
+ * fast for the particle spacing. */
 void warn_of_unconserved_quantities(struct run *e);
 
 struct crack_tips;

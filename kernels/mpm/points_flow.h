@@ -116,8 +116,8 @@ static ALWAYS_INLINE void flow_load_points(const struct particles *p, const stru
 
 /* Clears the flag that a point is stressed enough to become peridynamic (FLAG_STRESSED), which was set by the trial
  * stress, of those of eight points of p whose stress after plastic flow no longer exceeds the stress at which they
- * convert. flowed: bit l is set if point[l] has yielded; m: material of the points; e: their state after the return
- * mapping. */
+ * become peridynamic. flowed: bit l is set if point[l] has yielded; m: material of the points; e: their state after the
+ * return mapping. */
 static ALWAYS_INLINE void flow_clear_conversion_flags(struct particles *p, const struct elastic *m,
                                                       const struct law_points *e, unsigned flowed, const int32_t *point,
                                                       const int dim)
