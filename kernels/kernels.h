@@ -221,8 +221,8 @@ KERNEL(real, state_row_energy, (const struct bonds *b, const struct particles *p
 typedef real bond_energy_fn(const struct bonds *b, const struct particles *p, real *row_energy);
 
 /* Returns half the plastic work k (s_y alpha + H_b alpha^2/2) [J] of the bonds of all rows of b (a row: all bonds of
- * one particle), broken bonds included. A bond between two peridynamic particles is in two rows, so that its whole work
- * is included; 0 if no bond yields. s_y: yield stretch; alpha: accumulated plastic stretch; H_b: hardening; k:
+ * one particle), broken bonds included; 0 if no bond yields. A bond between two peridynamic particles is in two rows,
+ * so that its whole work is included. s_y: yield stretch; alpha: accumulated plastic stretch; H_b: hardening; k:
  * stiffness of a bond. */
 KERNEL(real, bond_plastic_work, (const struct bonds *b));
 /* Returns half the plastic work [J] of the bonds of row number `row` of b, i.e. of one particle; the rows of the
@@ -378,9 +378,10 @@ KERNEL(void, mesh_clear, (struct mesh *mesh));
 /* Adds the internal forces of all cells of the mesh that are not at rest to the nodes. Marks the cells in which a point
  * may exceed its conversion stress (at which it becomes peridynamic), for mesh_points_mark. p: particles, with the
  * reactions of bonds on material points (p->end_*). If p has the arrays plastic_correction, points beyond the yield
- * stress flow, and their plastic state is updated (mesh_flow.h). Points of flow laws with mode LAW_EXPLICIT keep the
- * state of the last mesh_points_flow instead. m: elastic constants by material. finite: true for Biot strain in axes
- * that rotate with the cell, false for the symmetric displacement gradient (mesh_law.h). */
+ * stress flow, and their plastic state is updated (mesh_flow.h). Points of flow laws with mode LAW_EXPLICIT (for
+ * explicit time steps) keep the state of the last mesh_points_flow instead. m: elastic constants by material. finite:
+ * true for Biot strain in axes that rotate with the cell, false for the symmetric displacement gradient
+ * (mesh_law.h). */
 KERNEL(void, mesh_force, (struct mesh *mesh, const struct particles *p, const struct elastic *m, bool finite));
 
 /* Integrates the motion of the active nodes of the mesh: v += dt_velocity f/m, u += dt v, with u rounded to multiples
@@ -407,11 +408,11 @@ KERNEL(void, mesh_exposed_force, (struct mesh *mesh, const struct particles *p))
 /* Computes Cauchy stress [Pa] and volume [m^3] of all material points of the mesh into p. m: elastic constants by
  * material; finite: true for finite strain, false for small strain. */
 KERNEL(void, mesh_points_stress, (const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite));
-/* Updates the plastic state of all material points of the mesh whose flow law has mode LAW_EXPLICIT, for a step of dt
- * [s] that has ended with the present displacements. p->mesh_stress contains the stresses of the points at the start of
- * the step and receives the stresses at its end. With dt = 0, before the first step, p->mesh_stress receives the
- * stresses of the present displacements, and no point yields. m: elastic constants by material; finite: true for finite
- * strain, false for small strain. */
+/* Updates the plastic state of all material points of the mesh whose flow law has mode LAW_EXPLICIT (for explicit time
+ * steps), for a step of dt [s] that has ended with the present displacements. p->mesh_stress contains the stresses of
+ * the points at the start of the step and receives the stresses at its end. With dt = 0, before the first step,
+ * p->mesh_stress receives the stresses of the present displacements, and no point yields. m: elastic constants by
+ * material; finite: true for finite strain, false for small strain. */
 KERNEL(void, mesh_points_flow, (const struct mesh *mesh, const struct particles *p, const struct elastic *m, real dt,
                                 bool finite));
 /* Computes the displacement gradient du_a/dX_b [1] of every material point i of the mesh into to[a dim + b][i], i being

@@ -121,10 +121,10 @@ void probes_store_motion_before_step(struct probes *s, const struct observed_run
  * assumed to be in equilibrium. o: view of the run. */
 void probes_complete_sample_after_step(struct probes *s, const struct observed_run *o, const struct velocity_time *now);
 
-/* Appends to *warning_list and prints, once for each SIF probe, a warning that K_I, K_II and J have no value at the
- * last sample (line of history.csv): the integration ring round a tip that has grown leaves the body, or the results of
- * its contours differ by more than 20 %. single_equilibrium: also for tips at rest, where no wave can be the cause. t:
- * time of the sample [s]. */
+/* Appends to *warning_list and prints, once for each SIF probe (stress-intensity factors), a warning that K_I, K_II and
+ * J have no value at the last sample (line of history.csv): the integration ring round a tip that has grown leaves the
+ * body, or the results of its contours differ by more than 20 %. single_equilibrium: also for tips at rest, where no
+ * wave can be the cause. t: time of the sample [s]. */
 void probes_warn_of_meaningless_sif(struct probes *s, bool single_equilibrium, real t, struct warnings *warning_list);
 
 /* Updates the probes of s that observe every time step of the run o. BREAK probes (first broken bond of a region) and
@@ -166,9 +166,9 @@ enum { PROFILE_NAME = NAME_MAX_LENGTH + 16 };
  * file_name[PROFILE_NAME]. Returns false, without a name, if there are at most `profile` profiles. */
 bool probes_compose_profile_file_name(const struct probes *s, int profile, int frame_number, char *file_name);
 
-/* Copies the stress-intensity factors at the last sample of the SIF probe of s called `probe_name`, and the direction
- * of the crack tip, to *control, by which a growing crack is controlled. Returns false if the probe has no values
- * yet. */
+/* Copies the stress-intensity factors at the last sample of the probe of s (kind SIF) called `probe_name`, and the
+ * direction of the crack tip, to *control, by which a growing crack is controlled. Returns false if the probe has no
+ * values yet. */
 bool probes_copy_sif_of_probe(const struct probes *s, const char *probe_name, struct growth_control *control);
 
 /* Stores the current position of the crack tip that the SIF probe (stress-intensity factors) number `probe` of s

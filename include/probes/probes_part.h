@@ -25,8 +25,8 @@ real particles_largest_stress_component(const struct particles *p);
 void scene_list_wave_pulses(const struct scene *s, struct probing *probing);
 
 /* Extends the cracks of run e with prescribed or controlled growth by the growth of one time step, and cuts the bonds
- * that they cross. The speed and direction of a crack controlled by a SIF probe follow from its stress-intensity
- * factors. Returns the number of directed bonds cut. */
+ * that they cross. The speed and direction of a crack controlled by a SIF probe (stress-intensity factors) follow from
+ * the factors of the probe. Returns the number of directed bonds cut. */
 int64_t cracks_grow_one_step_and_count_cut_bonds(struct run *e);
 
 /* Stores in q->residual_step0 the largest force component on grid nodes and on peridynamic particles of p in the

@@ -46,9 +46,9 @@ real particles_leapfrog_energy_gap(const struct particles *p, real *const *old_v
 void particles_linear_momentum(const struct particles *p, const struct grid *const *nodes, int grid_count,
                                real *momentum, real *momentum_scale);
 
-/* Computes the weighted volume and the dilatation of each neighbourhood of the bonds b at the current positions of p,
- * before forces, stresses or energies of state-based peridynamics are computed. Does nothing for bond-based models. s:
- * bond law. */
+/* Computes the state of each neighbourhood of the bonds b at the current positions of p, before forces, stresses or
+ * energies of state-based peridynamics are computed: pressure (force by dilatation), spring stiffness (force by
+ * extension) and rotation. Does nothing for bond-based models. s: bond law, which determines the model. */
 static inline void family_states_precompute(struct bonds *b, struct particles *p, const struct bond_source *s)
 {
     if (s->modulus) state_precompute_table[p->dim][s->rotates ? PD_MOSPD : PD_OSPD](b, p);

@@ -26,7 +26,7 @@ status fill_compute_lattice_site_position(const struct scene *s, int body, real 
 
 /* Finds the cells of the grid hollow->box in which all lattice sites (possible particle positions) are inside the body
  * with the index `body_index` of scene s. Sets hollow->whole[cell] to 1 for these cells, else to 0, in an array that is
- * allocated here and released by the caller. hollow->box must be set before. */
+ * allocated here and that the caller releases with memory_free. hollow->box must be set before. */
 void fill_mark_cells_inside_body(struct cells_without_particles *hollow, const struct scene *s, int body_index);
 
 /* Compares the distances between neighbours in the particle list of each body with the particle spacing of scene s. p:

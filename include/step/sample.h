@@ -41,9 +41,9 @@ real sample_current_elastic_energy(struct run *e);
  * support) probes. In a static run, must be called in equilibrium states only. */
 void sample_update_probes_of_every_step(struct run *e);
 
-/* Records the bonds of run e that broke in this step: updates the first break of the run and the BREAK and SPALL
- * probes, and warns if driven particles (with prescribed motion) lose bonds. broken_bond_count: number of bonds that
- * broke, each counted once for each of its particles. */
+/* Records the bonds of run e that broke in this step: updates the first break of the run and the BREAK probes (first
+ * broken bond of a region) and SPALL probes (separated end of a bar), and warns if driven particles (with prescribed
+ * motion) lose bonds. broken_bond_count: number of bonds that broke, each counted once for each of its particles. */
 void sample_record_broken_bonds(struct run *e, int64_t broken_bond_count);
 
 #endif

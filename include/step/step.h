@@ -7,8 +7,8 @@
 #include "run/run.h"
 
 /* Advances the run e by one time step e->clock.dt: computes forces, breaks bonds, moves particles and nodes, and
- * converts material points. Returns FAILED if material points have left the background grid because their motion has
- * diverged. */
+ * converts material points to peridynamic particles. Returns FAILED if material points have left the background grid
+ * because their motion has diverged. */
 status step(struct run *e);
 
 /* Marks (FLAG_NEAR) the material points of run e that are near other bodies, at their present positions, with rigid
@@ -18,9 +18,9 @@ status step(struct run *e);
  * point. */
 bool step_flag_points_before_rigid_bodies_move(struct run *e, real present, real t);
 
-/* Converts material points near broken bonds to peridynamic particles between load steps, at fixed positions. e: run;
- * broken_bond_count: number of bonds broken since the last call, each counted once for each of its particles. Returns
- * true if points have been converted. */
+/* Converts material points near broken bonds to peridynamic particles between load steps (static equilibria), at fixed
+ * positions. e: run; broken_bond_count: number of bonds broken since the last call, each counted once for each of its
+ * particles. Returns true if points have been converted. */
 bool step_convert_points_at_broken_bonds(struct run *e, int64_t broken_bond_count);
 
 /* Computes the internal forces of the run e at the current positions without moving anything: forces of bonds in

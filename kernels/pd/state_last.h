@@ -132,8 +132,8 @@ static inline real state_component_before_breaking(const struct bonds *b, const 
 }
 
 /* Computes the force f[dim] [N] of the state-based bond `bond` on particle i of p, to whose bonds in b it belongs, from
- * the states (pressure, spring, rotation) of the neighbourhoods of both particles. present: true for their present
- * states, false for the states before bonds broke in this step. */
+ * the states (pressure, spring stiffness, rotation) of the neighbourhoods of both particles. present: true for their
+ * present states, false for the states before bonds broke in this step. */
 static inline void state_bond_force(const struct bonds *b, const struct particles *p, const struct bond *bond,
                                     int32_t i, bool present, real *f, const int dim)
 {
