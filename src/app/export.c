@@ -59,6 +59,11 @@ status command_export_main(int argc, char **argv)
     const struct target *target = NULL;
     for (size_t k = 0; k < COUNT_OF(targets) && argc > 1; k++)
         if (strcmp(argv[1], targets[k].name) == 0) target = &targets[k];
+    if (!target && argc > 1 && strcmp(argv[1], "perilab") == 0)
+        return status_set(REFUSED,
+                          "export: input files of PeriLab are not written, because their keys change from version "
+                          "to version; use exodus for a mesh that PeriLab reads; usage: cleave %s",
+                          usage);
     if (!target) return status_set(REFUSED, "export: give lammps or exodus; usage: cleave %s", usage);
     const bool lammps = target->write == export_lammps;
     TRY(export_words(&request, &argc, argv));

@@ -17,7 +17,9 @@ status particle_draft_refuse_empty_body(const struct particle_draft *d, int body
     char why[200] = "contains no particle: its shape is at most ";
     size_t used = strlen(why);
     if (listed)
-        return particle_draft_refuse_body(d, body, "has no particle in its list: check the column body of the list");
+        return particle_draft_refuse_body(d, body,
+                                          "has no particle in its list: check that the list has particles and, if "
+                                          "several bodies share it, its column body");
     region_compute_bounding_box_if_finite(&d->scene->body[body].shape, d->scene->dim, from, to);
     for (int a = 0; a < d->scene->dim; a++)
         used += (size_t)snprintf(why + used, sizeof why - used, "%s%.4g", a ? " x " : "", to[a] - from[a]);

@@ -125,8 +125,12 @@ static status header_read(struct csv *c, struct particle_list *l)
                               "%s: columns: [%s] does not name %s; name every column of the file, such as [%s]",
                               c->in.path, l->form.columns, list_quantity[k].name, names);
         else if (!has[k])
-            return csv_report_fault(&c->in, c->in.text, "column %s is missing; name it in the first line, such as %s",
-                                    list_quantity[k].name, names);
+            return csv_report_fault(&c->in, c->in.text, "column %s is missing; name it in the first line, such as %s%s",
+                                    list_quantity[k].name, names,
+                                    strncmp(c->in.text, "ITEM:", 5) == 0
+                                        ? "; this is a dump of LAMMPS: remove its lines up to ITEM: ATOMS, and these "
+                                          "two words from that line"
+                                        : "");
     if (has[COLUMN_MASS] && has[COLUMN_DENSITY])
         return csv_report_fault(
             &c->in, c->in.text,

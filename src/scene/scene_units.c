@@ -51,8 +51,8 @@ static const struct prefix {
     const char *name;
     int ten;
 } prefixes[] = {
-    {"n", -18}, {"u", -12}, {"\u00b5", -12}, {"\u03bc", -12}, {"m", -6},
-    {"c", -4},  {"k", 6},   {"M", 12},       {"G", 18},       {"T", 24},
+    {"p", -24}, {"n", -18}, {"u", -12}, {"\u00b5", -12}, {"\u03bc", -12}, {"m", -6},
+    {"c", -4},  {"k", 6},   {"M", 12},  {"G", 18},       {"T", 24},
 };
 
 static const struct symbol *symbol_named(const char *name, size_t length)

@@ -193,5 +193,7 @@ silent "a list at its spacing" 'apart: masses' "$work/lone.yaml" -s particles.sp
 holds "the run says it: $(cat "$work/said")" grep -q "$apart" "$work/said"
 awk -F, 'NR == 1 { print $0 ", volume [mm^3]"; next } { print $0 ", 4" }' "$work/lone.csv" >"$work/wide.csv"
 silent "a wide list with volumes" 'apart: masses' "$work/lone.yaml" -s bodies.p.particles=wide.csv
+# Areas in place of volumes, as other programs have in the plane: the thickness is 0.003 m.
+says "a list of areas" 'wide.csv: volumes are 0.333 times the distance of nearest neighbours (0.002 m)^2 times the thickness, so masses .*areas, multiply' "$work/lone.yaml" -s bodies.p.particles=wide.csv -s thickness=3mm
 
 finish

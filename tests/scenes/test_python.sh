@@ -343,6 +343,8 @@ holds("a sound scene", found == [] and found.rows["particles"][0].startswith("40
 holds("hints", any("symmetric" in hint for hint in found.hints))
 found = made.changed({"material.young": "72 Pa", "output.regions": None}).check(trial=False)
 holds("a warning: %s" % found, any("check the units of young" in line for line in found) and made.changes == {})
+held = made.changed({"boundary.1": {"name": "held", "fixed": "all", "face": "x-"}}).check(trial=False)
+holds("a dictionary among the changes: %s" % held, "held: x held on x-" in held.text)
 made.save(work + "/made.yaml")
 holds("no temporary file in what check says: %s" % found, not any("/cleave-" in line for line in [*found, found.text]))
 holds("saved", cleave.Scene(work + "/made.yaml").check(trial=False) == [] and open(work + "/made.yaml").read() == made.text)

@@ -15,7 +15,7 @@ import numpy as np
 from ._errors import MISSING, PLACE, Error, SceneError, count_of, in_python, number_of
 from ._program import Progress, call_fully, value_text
 from ._run import Run
-from ._yaml import scene_text
+from ._yaml import override_text, scene_text
 
 Path = Union[str, "os.PathLike[str]"]
 Callback = Optional[Callable[[Progress], Any]]
@@ -95,7 +95,7 @@ class Scene:
     def _words(self) -> Iterator[List[str]]:
         """Yields the words of the command line that stand for this scene; of a dictionary there is a file meanwhile. A
         SceneError gets its key and the text of its line."""
-        changes = [word for key, value in self.changes.items() for word in ("-s", "%s=%s" % (key, value_text(value)))]
+        changes = [word for key, value in self.changes.items() for word in ("-s", "%s=%s" % (key, override_text(value)))]
         with tempfile.TemporaryDirectory(prefix="cleave-") as folder:
             path = self.path
             if path is None:

@@ -34,6 +34,12 @@ def _flow(value: Any) -> str:
     return _scalar(value)
 
 
+def override_text(value: Any) -> str:
+    """Returns a value as `-s key=value` takes it; dictionaries, also within lists, in braces."""
+    listed = isinstance(value, (list, tuple)) and any(isinstance(entry, collections.abc.Mapping) for entry in value)
+    return _flow(value) if listed or isinstance(value, collections.abc.Mapping) else value_text(value)
+
+
 def _nested(value: Any) -> bool:
     """Returns true for a value that takes several lines: a dictionary, or a list with dictionaries in it."""
     if isinstance(value, collections.abc.Mapping):

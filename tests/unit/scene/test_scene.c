@@ -223,6 +223,7 @@ static void test_units(void **state)
         {"particles.spacing", "0.7 \u00b5m", 0.7e-6},
         {"particles.spacing", "0.1 km", 100},
         {"particles.spacing", "900 nm", 900e-9},
+        {"particles.spacing", "4 pm", 4e-12},
         {"particles.spacing", "+.5cm", 0.5e-2},
         {"particles.spacing", "\"1 mm\"", 1e-3},
         {"duration", "20 us", 20e-6},
