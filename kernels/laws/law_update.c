@@ -42,8 +42,8 @@ static ALWAYS_INLINE int tensor_components(const enum space space)
 
 /* Computes the relative stress s - g X of eight points [Pa], with the trial stress s (p->s) and the back stress X
  * (p->back). xi: receives components(space) entries: in 3D and plane strain the deviator of s - g X in the order xx yy
- * zz xy yz zx; in plane stress the components xx + yy, xx - yy and xy; in 1D the uniaxial stress. g: factor on the back
- * stress [1]. */
+ * zz xy yz zx; in plane stress the components xx + yy, xx - yy and xy, in 1D the component xx, in both after X_zz has
+ * been subtracted from the normal components of X, which is deviatoric. g: factor on the back stress [1]. */
 static ALWAYS_INLINE void relative_stress(const struct law_points *p, lanes g, lanes *xi, const enum space space)
 {
     if (space == SPACE_LINE) {
@@ -218,8 +218,8 @@ static ALWAYS_INLINE void linearise_rate(const struct law *law, const struct law
 /* Returns the plastic flow t = da/q [1/Pa] of eight points in a small step, by one linearised evaluation (da: increment
  * of plastic strain, q: equivalent relative stress). law: flow law; p: state of the points; trial, xi: yield equation
  * and relative stress [Pa] of the trial state; bound: yield stress at the start of the step [Pa]; slope: its derivative
- * by the plastic strain [Pa]. *back: receives the factors by which the back stress changes in the step (recall_after).
- * space: compile-time constant. */
+ * by the plastic strain [Pa], used only up to law->steepest. *back: receives the factors by which the back stress
+ * changes in the step (recall_after). space: compile-time constant. */
 static ALWAYS_INLINE lanes solve_explicit(const struct law *law, const struct law_points *p,
                                           const struct flow_equation *trial, const lanes *xi, lanes bound, lanes slope,
                                           struct flow_recall *back, const enum space space)
@@ -271,10 +271,12 @@ static ALWAYS_INLINE lanes solve_load_step(const struct law *law, const struct l
 }
 
 /* Applies plastic flow to eight points: computes their increments of plastic strain, strain = 3/2 t xi [1] (components
- * xx yy zz xy yz zx), and changes their stress p->s and back stress p->back accordingly. xi: relative stress at the end
- * of the step [Pa], in the order of relative_stress; t: increment of equivalent plastic strain, divided by the
- * equivalent relative stress [1/Pa]; back: factors by which the back stress changes in the step (recall_after). law:
- * elastic and kinematic constants; space: compile-time constant. */
+ * xx yy zz xy yz zx), and changes their stress p->s and back stress p->back accordingly. xi: relative stress (stress
+ * minus back stress) at the end of the step [Pa], as relative_stress stores it: in 3D and plane strain the deviator in
+ * the same order, in plane stress xx + yy, xx - yy and xy, in 1D the uniaxial stress; t: increment of equivalent
+ * plastic strain, divided by the equivalent relative stress [1/Pa]; back: the back stress becomes back->left times
+ * itself plus back->added times its linear increment. law: elastic and kinematic constants; space: compile-time
+ * constant. */
 static ALWAYS_INLINE void flow_apply(const struct law *law, struct law_points *p, const lanes *xi, lanes t,
                                      const struct flow_recall *back, lanes *strain, const enum space space)
 {

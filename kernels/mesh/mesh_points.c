@@ -139,7 +139,7 @@ static ALWAYS_INLINE void cells_rotate(const struct mesh_cell *s, lanes *rotatio
 }
 
 /* Computes for points with state-based bonds in group `group` of eight partial cells (with missing or unequal points)
- * the rotation p->end_rotation of their cell and its share p->end_strain [1] in the mean strain of their bonds. */
+ * p->end_rotation, the rotation of their cell, and p->end_strain, its part in the mean strain of their bonds [1]. */
 static ALWAYS_INLINE void group_ends_update(const struct mesh *mesh, struct particles *p, int64_t group, const int dim,
                                             const bool finite)
 {
@@ -260,7 +260,7 @@ static ALWAYS_INLINE void store_point_stress(struct particles *p, const struct e
     p->volume[i] = p->volume0[i] * det;
 }
 
-/* Stores Cauchy stress and, at finite strain, volume of the points of cell I in p. m: elastic constants [material]. */
+/* Stores Cauchy stress and, at finite strain (`finite`), volume of the points of cell I in p. m: elastic constants. */
 static ALWAYS_INLINE void cell_stress(const struct mesh *mesh, struct particles *p, const struct elastic *m, int64_t I,
                                       const int dim, bool finite)
 {
@@ -324,8 +324,8 @@ void mesh_points_gradient(const struct mesh *mesh, real *const *to)
 
 /* ---- conversion -------------------------------------------------------------------------------------------------- */
 
-/* Sets FLAG_STRESSED in p for those points of cell I whose stress exceeds the limit for conversion to peridynamic
- * particles. m: elastic constants of all materials; finite: true for finite strain. */
+/* Sets FLAG_STRESSED in p for those points of cell I whose stress, by Hooke's law, exceeds that of conversion to
+ * peridynamic particles (stress_converts). m: elastic constants of all materials; finite: true for finite strain. */
 static ALWAYS_INLINE void cell_points_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m,
                                            int64_t I, const int dim, bool finite)
 {

@@ -14,9 +14,9 @@ struct flow_step {
 };
 
 /* Updates the plastic state of the points of eight cells at the end of an explicit step, or only stores their stresses
- * if f->dt is 0. f: arguments of the loop over cells (mesh, particles, materials, time step); cell: eight cell
- * indices, -1 for a lane without cell; u[c][i]: displacement of corner c along axis i [m]; finite: true for finite
- * strain. */
+ * if f->dt is 0. f: arguments of the loop over cells (mesh, particles, materials, time step); cell: eight cell indices,
+ * -1 for a lane without cell; u[c][i]: displacement of corner c from the undeformed state, along axis i (0 .. dim - 1)
+ * [m]; finite: true for finite strain. */
 static ALWAYS_INLINE void cells_step(const struct flow_step *f, const int32_t *cell, lanes u[CORNERS_MAX][3],
                                      const int dim, const bool finite)
 {

@@ -159,7 +159,7 @@ static int by_node(const void *a, const void *b)
 
 /* Lists in g->follower the light nodes of this step, at least smallest_mass and below g->light_mass [kg], each with the
  * two heavier nodes from which its acceleration is extrapolated (struct follower). Ascending by node. Nodes held by
- * walls other than planes of symmetry are left out. */
+ * walls other than planes of symmetry, and nodes without such heavier nodes, are left out. */
 static void followers_find(struct grid *g, real smallest_mass)
 {
     int64_t n = 0;
@@ -216,8 +216,8 @@ static void followers_in(struct grid *g, enum transfer transfer, real smallest_m
     for (int64_t k = 0; k < g->walls; k++) g->held[g->wall[k].node] = 0;
 }
 
-/* Extrapolates the change of velocity of the light nodes in g->follower from two heavier nodes each and adds it to the
- * velocity of the light node. Call after velocities are computed. */
+/* Extrapolates the change of velocity (stored in g->force at this time) of the light nodes in g->follower from two
+ * heavier nodes each and adds it to the velocity of the light node. Call after velocities are computed. */
 static void followers_out(struct grid *g)
 {
     for (int64_t k = 0; k < g->followers; k++)

@@ -297,8 +297,8 @@ static void moments_shift(struct rotation_groups *t)
 }
 
 /* Adds the inertia of each group of t (points that rotate together) to that of its root, the group that it has joined.
- * If the inertia of a root nearly vanishes about some axis, adds the inertia of its mass at a radius of LEAST_ARM
- * spacings. spacing: distance of the particles [m]. */
+ * If the inertia of a root about some axis is less than about that of its mass at a radius of LEAST_ARM spacings, adds
+ * this inertia about all axes (g->added). spacing: distance of the particles [m]. */
 static void inertias_find(struct rotation_groups *t, real spacing, int dim)
 {
     for (int32_t g = 0; g < t->groups; g++) {

@@ -202,8 +202,9 @@ static void measure_rates(struct bonds *b, const struct particles *p, real dt)
 /* Returns true if the stress across candidate c (a bond that may begin to soften) is tensile enough for it to soften.
  * The stress follows from the stretch of the bond and from the dilatation at the bond, the mean of the dilatations of
  * its two particles. If one particle has bonds to only some of its neighbours, as a material point has, the dilatation
- * of the other particle is used. The answer is thus the same from both particles of a bond. limit: softening by pair
- * of materials. b, p: all bonds and particles. */
+ * of the other particle is used. The answer is thus the same from both particles of a bond. In 1D, and if neither
+ * particle has bonds to all neighbours, returns true. limit: softening by pair of materials. b, p: all bonds and
+ * particles. */
 static bool is_pulled(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                       const struct candidate *c)
 {

@@ -282,9 +282,10 @@ real bond_row_block_stretch(const struct bonds *b, const struct particles *p, in
 }
 
 /* Returns a mask with lane l set if a bond of particle l of row block g (the bonds of eight particles) may exceed its
- * breaking limit. Compares the largest stretch of each particle's bonds with the limit stored for that particle if
- * strength is random or bonds soften, else with the smallest critical stretch of all pairs of materials in `limit`. b,
- * p: all bonds and particles. */
+ * breaking limit. Compares the largest stretch of each particle's bonds with the limit stored for that particle
+ * (b->trigger) if strength is random or bonds soften (times b->soft.least_ratio if none of the block has begun to
+ * soften), else with the smallest critical stretch of all pairs of materials in `limit`. b, p: all bonds and particles.
+ */
 static lanes_mask rows_due(const struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t g)
 {
     const bool stored = p->strength || b->soft.curve;

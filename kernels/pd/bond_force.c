@@ -56,9 +56,10 @@ static ALWAYS_INLINE struct bond_sums bond_force_column(struct bond_sums sum, co
 }
 
 /* Computes the forces of the bonds on the eight particles of row block g (their bonds are stored together) into p->f,
- * without the repulsive cores of bonds (bond_core.h). Returns true if a bond may exceed its breaking limit. *pressed:
- * receives true if a bond is compressed into its core, else false. model: bond law, a compile-time constant. b: all
- * bonds. */
+ * without the repulsive cores of bonds (bond_core.h). Returns true if a bond may exceed its breaking limit: if its
+ * stretch is above the smallest limit of the bonds of its particle (b->trigger), or, with softening bonds, above 0.
+ * *pressed: receives true if a bond is compressed into its core, else false. model: bond law, a compile-time constant.
+ * b: all bonds. */
 static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
                                                const enum pd_model model, bool *pressed)
 {

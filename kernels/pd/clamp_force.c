@@ -86,8 +86,9 @@ static ALWAYS_INLINE void state_reactions(const struct bonds *b, const struct pa
     for (int d = 0; d < dim; d++) lanes_store(c->reaction[d] + k, -a.w * (along * a.inverse * a.y[d] + effective[d]));
 }
 
-/* Computes the forces on the mirror images in the eight bonds k .. k + 7 of the list b->clamped (bonds across clamped
- * planes) into its member `reaction` [N], by the function for the model of the bonds b. p: particles and images. */
+/* Computes the forces that bonds exert on mirror images of particles (behind clamped planes, which are planes of
+ * symmetry) for the eight bonds k .. k + 7 of the list b->clamped, and stores them in b->clamped.reaction [N]. Uses the
+ * function for the model of the bonds b. p: particles and images. */
 static ALWAYS_INLINE void clamp_force_reactions(const struct bonds *b, const struct particles *p, int64_t k,
                                                 const int dim)
 {

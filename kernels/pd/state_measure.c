@@ -87,10 +87,10 @@ static ALWAYS_INLINE real energy_row_block(const struct bonds *b, const struct p
     return total;
 }
 
-/* Adds the symmetric part of T (x) y of eight bonds to sum[component], one lane for each of their eight particles. T:
- * part of the bond force that follows from the state of that particle alone [N]; y: bond vector [m]. column: the
- * bonds, one of each particle; s: positions and states of the particles; model: state-based model, a compile-time
- * constant. p: all particles. */
+/* Adds the symmetric part of T (x) y of eight bonds to sum[component] (order xx yy xy in 2D, xx yy zz xy yz zx in 3D),
+ * one lane for each of their eight particles. T: part of the bond force that follows from the state of that particle
+ * alone [N]; y: bond vector [m]. column: the eight bonds, entry k of the bond lists of the eight particles; s:
+ * positions and states of the particles; model: state-based model, a compile-time constant. p: all particles. */
 static ALWAYS_INLINE void stress_column(lanes *sum, const struct own_state *s, const struct column column,
                                         const struct particles *p, const int dim, const enum pd_model model)
 {

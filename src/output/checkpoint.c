@@ -45,7 +45,7 @@ static status entry_save(struct archive *a, const char *name, void *data, size_t
 }
 
 /* Reads one entry of the archive a, `size` bytes under `name`, into `data`. Returns FAILED if the entry is missing, of
- * another size or unreadable. */
+ * another size or unreadable, with a message. */
 static status entry_restore(struct archive *a, const char *name, void *data, size_t size)
 {
     struct hdf *f = a->file;
@@ -106,8 +106,8 @@ static status state_write(struct output *o, const char *path, const char *scene_
 }
 
 /* Synchronises history.csv of the output o with the disk. It is done before a checkpoint is written, since the run may
- * be resumed only from a checkpoint whose earlier samples are in the file. Returns FAILED, with a message, if it is not
- * possible. */
+ * be resumed only from a checkpoint whose earlier samples are in the file. Returns OK without such a file; FAILED, with
+ * a message, if it is not possible. */
 static status history_sync(const struct output *o)
 {
     if (!o->history || (fflush(o->history) == 0 && fsync(fileno(o->history)) == 0)) return OK;

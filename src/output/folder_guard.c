@@ -16,7 +16,7 @@ bool file_name_is_hidden_or_temporary(const char *name)
 
 /* Checks that a command of the given kind may write into a folder: it may contain only hidden files, temporary files
  * and those files with which folders of this kind begin. Returns REFUSED, with a message, if there is another entry,
- * whose name the message gives. Returns OK if the folder does not exist. */
+ * whose name the message gives. Also returns REFUSED if the folder cannot be read, and OK if it does not exist. */
 static status entries_guard(const struct folder_kind *kind, const char *folder)
 {
     char found[PATH_NAME_ROOM] = "";

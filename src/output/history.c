@@ -15,8 +15,8 @@
  * line. */
 static size_t entry_length(const char *from) { return strcspn(from, ",\n"); }
 
-/* Returns an allocated copy of the name in a column heading `name [unit]` of `length` characters, without the unit.
- * from: beginning of the heading. Release it with memory_free. */
+/* Returns an allocated copy of the name in a column heading `name [unit]` of `length` characters, without the unit;
+ * control characters are replaced. from: beginning of the heading. Release it with memory_free. */
 static char *history_column_name(const char *from, size_t length)
 {
     char *name = NEW("history.name", (int64_t)length + 1, char);

@@ -115,7 +115,7 @@ static bool skip_rows(struct dump *d, int64_t n)
 }
 
 /* Appends the numbers of all complete time steps of the dump d to the array *step of *n entries, which grows; the
- * caller releases it. Returns FAILED, with a message, unless they ascend. */
+ * caller releases it. Returns FAILED, with a message, if they do not ascend or a header is malformed. */
 static status steps_read(struct dump *d, int *n, int64_t **step)
 {
     struct dump_head h;
@@ -167,8 +167,9 @@ void lammps_frame_free(struct lammps_frame *f)
     *f = (struct lammps_frame){0};
 }
 
-/* Reads the quantities of one particle from the current line of d into value[WANTED]; 0 for quantities that the dump
- * does not have. h: header with their columns. Returns false if a column is missing or not a finite number. */
+/* Reads the quantities of one particle from the current line of d into value[WANTED], in the order of wanted_name (id,
+ * position, velocity, damage); 0 for quantities that the dump does not have. h: header with their columns. Returns
+ * false if a column is missing or not a finite number. */
 static bool dump_row_read(const struct dump *d, const struct dump_head *h, double value[WANTED])
 {
     double number[FRAME_COLUMNS_MOST];

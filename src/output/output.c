@@ -96,8 +96,8 @@ static bool is_scene_of_run(const char *path, const char *scene_text)
     return is;
 }
 
-/* Returns true if `name` in the folder is a folder `frames` that contains no frames. A run that was killed before it
- * wrote scene.yaml leaves only this folder. */
+/* Returns true if `name` in the folder is a folder `frames` that is empty but for hidden and temporary files. A run
+ * that was killed before it wrote scene.yaml leaves only this folder. */
 static bool is_frames_folder(const char *folder, const char *name)
 {
     const struct path frames = path_join(folder, name);
@@ -113,8 +113,8 @@ static const struct folder_kind run_kind = {
     .what = "run", .sign = "scene.yaml", .is_sign = is_scene_of_run, .is_early = is_frames_folder, .inner = {"frames"}};
 
 /* Checks the folder in which a run of the scene with the text scene_text would write. mode: whether an older run may be
- * overwritten. Returns REFUSED if the folder contains other files. Also returns REFUSED, and sets *other, if it
- * contains the run of another scene, unless mode is OUTPUT_OVERWRITE. */
+ * overwritten. Returns REFUSED, with a message, if the folder cannot be written or contains other files. Also returns
+ * REFUSED, and sets *other, if it contains the run of another scene, unless mode is OUTPUT_OVERWRITE. */
 static status folder_check(const char *folder, const char *scene_text, enum output_mode mode, bool *other)
 {
     char *text = NULL;
@@ -152,9 +152,9 @@ static bool has_advanced(const char *folder)
     return lines > 1;
 }
 
-/* Checks that `mode` (first run, resume or overwrite) is possible with an older run in the folder. Returns REFUSED if
- * there is an older run and mode is OUTPUT_FIRST, or if mode is OUTPUT_RESUME and the older run has advanced but has no
- * checkpoints. Warns if there is nothing to resume. */
+/* Checks that `mode` (first run, resume or overwrite) is possible with an older run in the folder. Returns REFUSED,
+ * with a message, if there is an older run and mode is OUTPUT_FIRST, or if mode is OUTPUT_RESUME and the older run has
+ * advanced but has no checkpoints. Warns if there is nothing to resume. */
 static status mode_check(const char *folder, enum output_mode mode)
 {
     char ended[NAME_MAX_LENGTH] = "interrupted";
@@ -276,24 +276,25 @@ static bool index_lists(const char *path)
     return listed;
 }
 
-/* Checks the file `path`, which a run would remove. Returns REFUSED if it has the name of an output frame or particles
- * file, but is not from Cleave: it has no footer of Cleave's files, and the index of the older run does not list it. */
+/* Checks the file `path`, which a run would remove. Returns REFUSED, with a message, if it has the name of an output
+ * frame or particles file, but is not from Cleave: it has no footer of Cleave's files, and the index of the older run
+ * does not list it. */
 static status frame_guard(const char *path)
 {
     if (!is_frame(strrchr(path, '/') + 1, "") || file_has_checksum_footer(path) || index_lists(path)) return OK;
     return status_set(REFUSED, "%s was not written by cleave, or is cut off; move or remove it", path);
 }
 
-/* Checks the file `path`, a VTK file of the surfaces of rigid bodies that a run would remove. Returns REFUSED if it
- * does not begin as Cleave's files of this kind do. */
+/* Checks the file `path`, a VTK file of the surfaces of rigid bodies that a run would remove. Returns REFUSED, with a
+ * message, if it does not begin as Cleave's files of this kind do. */
 static status rigid_guard(const char *path)
 {
     static const char *const begin[] = {RIGID_FILE_BEGIN};
     return file_check_is_from_cleave(path, begin, 1);
 }
 
-/* Checks the tables, frames and particles files in a folder that a run would write or remove. Returns REFUSED if one of
- * them is an existing file that Cleave did not write. */
+/* Checks the tables, frames and particles files in a folder that a run would write or remove. Returns REFUSED, with a
+ * message, if one of them is an existing file that Cleave did not write. */
 static status files_guard(const char *folder)
 {
     for (size_t k = 0; k < COUNT_OF(made); k++)

@@ -226,9 +226,9 @@ static void write_marks(struct hdf *f, const struct frame_job *job)
     if (job->untouched) hdf_write_text_attribute(f, "/Cleave", "zero", "contact_force");
 }
 
-/* Writes the output frame of a job (the description of a frame to be written) under its temporary name
- * PATH.cleave.tmp, and renames it to PATH. Before that, writes the particles file to which it links, if this is new.
- * Returns FAILED if a file cannot be written. */
+/* Writes the output frame of a job (the description of a frame to be written) under its temporary name PATH.cleave.tmp,
+ * and renames it to PATH. Before that, writes the particles file to which it links, if this is new. Returns FAILED,
+ * with a message, if a file cannot be written. */
 static status frame_write(struct frame_job *job)
 {
     struct hdf f;
@@ -243,9 +243,9 @@ static status frame_write(struct frame_job *job)
     return file_replace_by_temporary(job->path.text);
 }
 
-/* Writes the output frame of a job (the description of a frame to be written) and then the index files of its series
- * of frames, which thus never list a missing frame. The folder of the run is two levels above the frame. Returns
- * FAILED if a file cannot be written. */
+/* Writes the output frame of a job (the description of a frame to be written) and then the index files of its series of
+ * frames, which thus never list a missing frame. The folder of the run is two levels above the frame. Returns FAILED,
+ * with a message, if a file cannot be written. */
 static status job_write(struct frame_job *job)
 {
     TRY(frame_write(job));
@@ -414,7 +414,7 @@ static void series_check(const struct output *o, struct frame_series *s, int *lo
 }
 
 /* Composes and writes both index files of a series of output frames of the output o (frames.hdf.series and
- * frames.xdmf). Returns FAILED if one cannot be written. */
+ * frames.xdmf). Returns FAILED, with a message, if one cannot be written. */
 static status series_index(const struct output *o, struct frame_series *series)
 {
     struct frame_indices index = {0};

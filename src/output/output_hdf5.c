@@ -338,7 +338,7 @@ void hdf_write_text_list(struct hdf *f, const char *name, const char *text)
 }
 
 /* Writes the attribute `name` of the group `group` in the file f, with one value *value of the HDF5 type `type`, and
- * closes the data space `space`. */
+ * closes the data space `space`. A fault is recorded in f. */
 static void output_hdf5_mark(struct hdf *f, const char *group, const char *name, hid_t type, hid_t space,
                              const void *value)
 {

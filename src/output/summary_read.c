@@ -181,8 +181,8 @@ static bool value(struct reader *r, const char *rest, int depth)
     return true;
 }
 
-/* Reads the whole file `path` into *text, with a final 0; the caller releases it with free. Returns FAILED if it cannot
- * be read. */
+/* Reads the whole file `path` into *text, with a final 0; the caller releases it with free. Returns FAILED, with a
+ * message, if it cannot be read. */
 static status read_text(const char *path, char **text)
 {
     if (path_exists(path) && !path_is_file(path))

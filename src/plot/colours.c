@@ -79,7 +79,7 @@ static const struct stop bond_stops[] = {
 };
 
 /* Returns the colour at the position `at` in 0..1 of a colour scale, interpolated linearly between its stops
- * stop[stops]. Smaller and larger positions get the colour of the nearer end. */
+ * stop[stops]. Smaller and larger positions get the colour of the nearer end, NAN that of the upper end. */
 static struct colour along_stops(const struct stop *stop, int stops, double at)
 {
     int k = 0;

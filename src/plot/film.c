@@ -60,9 +60,9 @@ static bool pipe_make(int *ends)
     return true;
 }
 
-/* Starts ffmpeg as the process *f, which writes the film sheet.path under a temporary name. The film is in H.264 with
- * even numbers of pixels, which most players require, or a GIF with a palette of its own. fps: frames per second; 0:
- * the default. Returns FAILED, with a message, if ffmpeg cannot be started. */
+/* Starts ffmpeg as the process *f, which writes the film with path and format `sheet` under a temporary name. The film
+ * is in H.264 with even numbers of pixels, which most players require, or a GIF with a palette of its own. fps: frames
+ * per second; 0: the default. Returns FAILED, with a message, if ffmpeg cannot be started. */
 static status ffmpeg_start(struct ffmpeg *f, struct sheet sheet, int fps)
 {
     struct path to;
@@ -112,9 +112,9 @@ static status ffmpeg_feed(struct ffmpeg *f, const char *picture)
     return sent == length ? OK : status_set(FAILED, "%s", "");
 }
 
-/* Closes the input of the process f, waits until it ends, and renames the film from its temporary name to sheet.path.
- * fed: status of writing the pictures into ffmpeg. Returns `fed` if it is not OK, and FAILED with the message of ffmpeg
- * if there is no film. Removes an incomplete film. */
+/* Closes the input of the process f, waits until it ends, and renames the film from its temporary name to sheet.path,
+ * its path. fed: status of writing the pictures into ffmpeg. Returns `fed` if it is not OK, and FAILED with the message
+ * of ffmpeg if there is no film. Removes an incomplete film. */
 static status ffmpeg_end(struct ffmpeg *f, struct sheet sheet, status fed)
 {
     char reason[256];

@@ -59,7 +59,7 @@ static _Noreturn void become_gnuplot(const int *pipe_ends, int complaints)
 }
 
 /* Starts gnuplot for the picture g->path. Opens a pipe to its standard input, g->to, and a file for its messages,
- * g->complaints. Returns FAILED if gnuplot cannot be started. */
+ * g->complaints. Returns FAILED, with a message, if gnuplot cannot be started. */
 static status gnuplot_start(struct gnuplot *g)
 {
     int ends[2];
@@ -154,9 +154,10 @@ static void gnuplot_release(struct gnuplot *g)
 /* Factor on the height of a narrow picture of curves, whose key is below its panel. */
 static const double CURVES_HIGHER = 1.35;
 
-/* Returns the height [pixel] of a picture that is laid out for width x height [pixel]. It is the height that the user
- * has chosen, if any. If the user has chosen only a width, the height of the layout is scaled with the width; a narrow
- * picture of curves is made a little higher. letters: factor on the size of letters, 1 for pictures of curves. */
+/* Returns the height [pixel] of a picture that is laid out for width x height [pixel]: the height that the user has
+ * chosen, if any. If the user (picture_size_set) has chosen only a width, the height of the layout is scaled with the
+ * width; a picture of curves so narrow that its key is below is made CURVES_HIGHER times as high. letters: factor on
+ * the size of letters, 1 for pictures of curves. */
 static int height_for(int width, int height, double letters)
 {
     const double scale = usual.width ? (double)usual.width / width : 1;

@@ -47,7 +47,7 @@ static struct bar_scale bar_scale_of(const struct view *view, enum map map)
 }
 
 /* Returns the distance between the tics (labelled marks) of a vertical colour bar with the scale s, in the unit of its
- * label. length: length of the bar [pixel]. */
+ * label, at least s->tics. length: length of the bar [pixel]. */
 static double bar_tics(const struct bar_scale *s, int length)
 {
     return fmax(s->tics, tic_distance(s->high - s->low, length, picture_is_too_narrow_for_key() ? 22 : 28));

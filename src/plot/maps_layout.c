@@ -73,8 +73,8 @@ static void strip_set(struct layout *l, int width)
     l->below = l->axes + (l->bar_under ? BAR_STRIP : 0) + (lines > 0 ? lines * KEY_ROW + KEY_UNDER : 0);
 }
 
-/* Returns the largest height of a picture [pixel]. tall: true for a picture of which the width alone is given: it may
- * be as high as a page. */
+/* Returns the largest height of a picture [pixel]: the height that the user has chosen, if any. If only a width is
+ * chosen, it is that of a page if `tall` is true, else at most TALL_MOST times the width. */
 static double height_most(bool tall)
 {
     const struct picture_size given = picture_size_get();
@@ -129,8 +129,10 @@ static struct layout layout_settled(const struct maps_shown *m, bool under, int 
     return layout_of(columns, panels, aspect, height, &margins);
 }
 
-/* Returns the best layout of panel_count panels of the maps `shown` that is at most `height` [pixel] high: one whose
- * panels fit if there is any. height_over_width: of a panel. */
+/* Returns the best layout of panel_count panels of the maps `shown`, at most `height` [pixel] high. It is the layout,
+ * over all numbers of columns, with the smallest cost: large panels, a good ratio of height to width and few empty
+ * panels are wanted, and a layout whose panels do not fit is chosen only if no other does. height_over_width: ratio for
+ * a panel. */
 static struct layout layout_best(const struct maps_shown *shown, int panel_count, double height_over_width,
                                  double height)
 {

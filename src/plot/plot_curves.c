@@ -163,8 +163,9 @@ static struct value_range shifted_range(const struct history *h, int column, dou
 
 static double largest_magnitude_of(struct value_range r) { return fmax(fabs(r.low), fabs(r.high)); }
 
-/* Returns the kinetic energy at the start of the history h [J] if it would flatten the curves of all other energies,
- * else 0. */
+/* Returns the kinetic energy at the start of the history h [J] if it exceeds HEAVY times the largest magnitude of all
+ * other energies and of its own change, so that it would flatten their curves; else 0. Also 0 if all of these are
+ * round-off (NOTHING). */
 static double flattening_energy(const struct history *h)
 {
     const int kinetic = history_find_column(h, "kinetic");
@@ -306,7 +307,7 @@ static status draw_energy(struct sheet sheet, const char *title, const struct se
 }
 
 /* Draws the pictures of the history s, which must have at least two samples, with the title `title`. in_steps: the
- * history has a row for each load step instead of times. Returns FAILED if gnuplot fails. */
+ * history has a row for each load step instead of times. Returns FAILED, with a message, if gnuplot fails. */
 static status draw_curves(const struct plot_request *r, const char *title, const struct series *s, bool in_steps)
 {
     const char *ending = picture_ending[r->format];

@@ -63,9 +63,9 @@ static bool surely_connected(const struct pairs *p, int64_t i, int64_t j)
     return same_side(p, i, j) && (p->f->damage[i] <= 0 || p->f->damage[j] <= 0);
 }
 
-/* Returns the largest elongation |x_j - x_i|/|X_j - X_i| - 1 for which a particle j near particle i of the output
- * frame p->f counts as connected to it: JUMP + JUMP_TIMES * (median elongation of the pairs of i). near: particles
- * near i. */
+/* Returns the largest elongation |x_j - x_i|/|X_j - X_i| - 1 for which a particle j near particle i of the output frame
+ * p->f counts as connected to it: JUMP + JUMP_TIMES * (median elongation of the pairs of i). near: particles near i, of
+ * which the first NEAR_MOST are used. */
 static double jump_of(const struct pairs *p, const struct neighbour_list *near, int64_t i)
 {
     double all[NEAR_MOST];
@@ -75,8 +75,9 @@ static double jump_of(const struct pairs *p, const struct neighbour_list *near, 
     return n > 0 ? JUMP + JUMP_TIMES * fmax(median_by_sorting(all, n), 0) : JUMP;
 }
 
-/* Returns true if the neighbours i and j of the output frame p->f are drawn as connected. jump: largest elongation
- * |x_j - x_i|/|X_j - X_i| - 1 for which a neighbour of particle i counts as connected. */
+/* Returns true if the neighbours i and j of the output frame p->f are drawn as connected: they are on one side of all
+ * cracks (same_side), and their elongation |x_j - x_i|/|X_j - X_i| - 1 is at most `jump`, at most LONGEST - 1 and, if
+ * both have lost bonds, at most p->limit. */
 static bool connected(const struct pairs *p, int64_t i, int64_t j, double jump)
 {
     const double longer = elongation(p->f, i, j);
@@ -85,9 +86,9 @@ static bool connected(const struct pairs *p, int64_t i, int64_t j, double jump)
     return longer <= most && same_side(p, i, j);
 }
 
-/* Returns the elongation |x_j - x_i|/|X_j - X_i| - 1 above which two neighbours i and j that have both lost bonds are
- * drawn apart. It is PARTED_MORE times the 99th percentile of the elongations of neighbours that are certainly
- * connected, and at least PARTED/p->magnify. */
+/* Returns the elongation |x_j - x_i|/|X_j - X_i| - 1 above which two neighbours that have both lost bonds are drawn
+ * apart. It is PARTED_MORE times the 99th percentile of the elongations of neighbours that are certainly connected, and
+ * at least PARTED/p->magnify. */
 static double parted_limit(const struct pairs *p)
 {
     struct neighbour_list near = {0};
@@ -135,8 +136,8 @@ static void gradient_of(const struct pairs *p, struct neighbour_list *near, int6
         }
 }
 
-/* Returns true if the displacements in the output frame f differ by more than STRAIN_SEEN spacings, so that a
- * deformation may be visible. spacing: spacing of the particles [m]. */
+/* Returns true if the displacements in the output frame f differ along one axis by more than STRAIN_SEEN spacings, so
+ * that a deformation may be visible. spacing: spacing of the particles [m]. */
 static bool may_be_deformed(const struct output_frame *f, double spacing)
 {
     double most = 0;

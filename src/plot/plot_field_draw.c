@@ -152,8 +152,8 @@ static status projection_check(const struct plot_request *r, int dim)
                       r->projection.outside ? "--view" : "--slice", dim, dim > 1 ? "s" : "");
 }
 
-/* Returns REFUSED if the request r gives the ends or the table of a colour scale although its field consists of named
- * values, such as materials, each of which has a fixed colour. */
+/* Returns REFUSED, with a message, if the request r gives the ends or the table of a colour scale although its field
+ * consists of named values, such as materials, each of which has a fixed colour. */
 static status scale_check(const struct plot_request *r)
 {
     if (r->projection.field->scale != CATEGORY || (!r->table && !r->range[0])) return OK;

@@ -39,7 +39,7 @@ status run_read_frame(struct output_frame *f, const char *folder, int frame_numb
 }
 
 /* Selects at most `panels` of the output frames r->list to be shown, evenly spread from the first to the last. If
- * panels is 1, selects the last frame. */
+ * panels is 1, selects the last frame. Allocates r->show. */
 static void spread_frames(struct run_frames *r, int panels)
 {
     r->shown = r->listed < panels ? r->listed : panels;
@@ -48,8 +48,8 @@ static void spread_frames(struct run_frames *r, int panels)
         r->show[k] = r->list[r->shown == 1 ? r->listed - 1 : (int)lround((double)k * (r->listed - 1) / (r->shown - 1))];
 }
 
-/* Selects in r for each of time[times] [s] the output frame that is nearest to it. A frame that is nearest to several
- * consecutive times is selected once. */
+/* Selects in r for each of time[times] [s] the output frame that is nearest to it. An infinite time selects the last
+ * frame. A frame that is nearest to several consecutive times is selected once. */
 static void nearest_frames(struct run_frames *r, const double *time, int times)
 {
     r->show = NEW("plot.show", times, struct listed_frame);
@@ -62,8 +62,9 @@ static void nearest_frames(struct run_frames *r, const double *time, int times)
     }
 }
 
-/* Checks that the requested times time[times] [s] are within the range of the output frames f, extended by the mean
- * time between frames at both ends. Returns REFUSED, with a message, if one is not, else OK. */
+/* Checks that the requested times time[times] [s], unless infinite (the last frame), are within the range of the output
+ * frames f, extended by the mean time between frames at both ends. Returns REFUSED, with a message, if one is not, else
+ * OK. */
 static status times_within(const struct run_frames *f, const double *time, int times)
 {
     if (f->listed == 0) return OK;

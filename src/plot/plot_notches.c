@@ -37,7 +37,7 @@ static double place_along(const struct faces *f, const double *X, double *off)
 }
 
 /* Returns true if particle i of c, with the coordinate s along the pre-crack and the distance `off` from it [m], is
- * beside the pre-crack f. */
+ * beside the pre-crack f: at most BESIDE spacings from it, and not more than half a section beyond its ends. */
 static bool is_beside(const struct faces *f, const struct plotted_particles *c, int64_t i, double s, double off)
 {
     const double reach = BESIDE * (c->size ? c->size[i] : c->spacing);
@@ -62,9 +62,9 @@ static void faces_move_between_particles(struct faces *f, const struct plotted_p
 }
 
 /* Adds the displacement of particle i of c to that of the adjacent face of the pre-crack f. Does nothing if the
- * particle is farther from the pre-crack than BESIDE spacings or badly damaged. Each face is divided into sections
- * along the pre-crack. The displacement is extrapolated from the particle to the nearest point of the face by the
- * deformation gradient, and is added, weighted by nearness, to the sum of the section there. */
+ * particle is farther from the pre-crack than BESIDE spacings or its damage exceeds RUBBLE. Each face is divided into
+ * sections along the pre-crack. The displacement is extrapolated from the particle to the nearest point of the face by
+ * the deformation gradient, and is added, weighted by nearness, to the sum of the section there. */
 static void face_add_motion(struct faces *f, const struct plotted_particles *c, int64_t i)
 {
     const double X[2] = {c->reference[0][i], c->reference[1][i]}, *axis[2] = {c->camera.right, c->camera.up};

@@ -53,8 +53,9 @@ static double outline_reach(const struct outline *s, int k)
 }
 
 /* Returns the distance [m] from the centre of the particle with the outline s, measured before the deformation, of a
- * point of the particle. off[2]: position of the point relative to the centre after the deformation [m]. Returns
- * INFINITY if the point is more than `beside` [m] outside the particle. */
+ * point of the particle; its reference position follows by the inverse of the deformation gradient. off[2]: position of
+ * the point relative to the centre after the deformation [m]. Returns INFINITY if the point is more than `beside` [m]
+ * outside the particle. */
 static double distance_within(const struct outline *s, const double *off, double beside)
 {
     double xi[2];
@@ -64,7 +65,7 @@ static double distance_within(const struct outline *s, const double *off, double
 }
 
 /* Limits the range *low .. *high [m] along axis k of the map that particle i of c covers to the side of each plane of
- * symmetry on which its centre is. */
+ * symmetry on which its centre is. Planes that are not perpendicular to axis k are skipped. */
 static void clip_at_mirrors(const struct plotted_particles *c, int64_t i, int k, double *low, double *high)
 {
     const double *axis = k == 0 ? c->camera.right : c->camera.up;

@@ -78,8 +78,8 @@ static void plot_factors(FILE *to, const struct factors *f)
 }
 
 /* Writes the gnuplot commands that plot the relative differences of K between the integration contours of each probe to
- * `to`. Values above 1/2 indicate waves, or a kink of the crack, within the contours. s: history and its column of the
- * time; l: layout of the picture; f: columns of the probes. */
+ * `to`. The scale is logarithmic, in percent. Values above 50 % indicate waves, or a kink of the crack, within the
+ * contours. s: history and its column of the time; l: layout of the picture; f: columns of the probes. */
 static void plot_spread(FILE *to, const struct series *s, const struct curves_layout *l, const struct factors *f)
 {
     const struct two_panels two = curves_layout_edges_of_two_panels(l);
@@ -150,8 +150,9 @@ static double plot_sif_figure_of(const char *folder, const char *probe, const ch
     return summary_read_number(folder, key, &value) == OK ? value : NAN;
 }
 
-/* Finds the paths of the crack tips that have grown and stores them in w[PATHS_SHOWN]. Returns their number, 0 if there
- * are none. folder: folder of the run; h: history of the run. */
+/* Finds the crack paths for the picture: for each of the first PATHS_SHOWN probes with a column NAME.K_eq in the
+ * history h whose crack has grown, stores in w[PATHS_SHOWN] the columns of the tip position, its first and last value,
+ * and the angles that summary.json in `folder`, the folder of the run, states. Returns the number of paths. */
 static int find_tip_paths(struct tip_path *w, const char *folder, const struct history *h)
 {
     char name[PATHS_SHOWN][NAME_MAX_LENGTH];
@@ -193,8 +194,8 @@ static void send_tip_path(FILE *to, const struct history *h, const struct tip_pa
 }
 
 /* Computes the end point end[2] [m] of a line at the crack angle that an experiment measured. The line begins at the
- * start of the path w, is as long as the crack has grown, and is on the side to which the path has turned. Returns
- * false if the input file (scene) states no experiment for this path. */
+ * start of the path w, is as long as the crack has grown, and turns from the initial direction of the crack to the same
+ * side as the path. Returns false if the input file (scene) states no experiment for this path. */
 static bool ray_of(const struct tip_path *w, double end[2])
 {
     const double pi = 3.14159265358979323846, along = w->direction * pi / 180;
@@ -229,8 +230,8 @@ static void paths_extent(const struct tip_path *w, int n, double *low, double *h
 
 /* Opens the picture of the crack paths of the history s, file `path`, and sets the ranges of its axes, both in one
  * scale. The height of the picture follows from the rectangle low[2]..high[2] [m]. metre: unit of the axes; entries:
- * number of entries of the key (legend); longest: number of letters of the longest entry. Returns FAILED if gnuplot
- * cannot be started. g: receives the process. */
+ * number of entries of the key (legend); longest: number of letters of the longest entry. g: receives the gnuplot
+ * process. Returns FAILED, with a message, if it cannot be started. */
 static status paths_open(struct gnuplot *g, const char *path, const struct series *s, const double *low,
                          const double *high, const struct unit *metre, int entries, size_t longest)
 {

@@ -104,7 +104,7 @@ static struct component main_component(const struct history *h, const struct com
 }
 
 /* Returns the sign (1 or -1) of component c where it first exceeds the share DRIVEN of its largest magnitude in the
- * history h. */
+ * history h. Returns 1 if it never does. */
 static double first_sign(const struct history *h, const struct component *c)
 {
     const double least = DRIVEN * largest_of(h, c);
@@ -228,8 +228,9 @@ static void range_extend(struct value_range *range, double value)
     range->low = fmin(range->low, value), range->high = fmax(range->high, value);
 }
 
-/* Computes the ends of the axes of force and displacement in r from the values of its curves in the history h. Leaves
- * out displacements after the force has ended if they would fill most of the axis. */
+/* Computes the ends of the axes of force and displacement in r from the values of its curves in the history h.
+ * Displacements after the force has last exceeded FORCE_LEFT times its largest value are left out if they would make
+ * the axis longer than REST_SHOWN times; r->dropped then receives the end of these displacements. */
 static void reactions_set_ranges(struct reactions *r, const struct history *h)
 {
     struct value_range whole = {0, 0};
@@ -272,8 +273,9 @@ static void reactions_find(struct reactions *r, const struct history *h, double 
     reactions_set_ranges(r, h);
 }
 
-/* Returns true if the curves a and b (force against displacement) are nowhere further apart than the width of a line.
- * r: all curves, for the ends of the axes; h: history with the values. */
+/* Returns true if the curves a and b (force against displacement) differ in no sample by more than LINE_WIDE times the
+ * length of the axis of force or of displacement. r: all curves, for the ends of the axes; h: history with the values.
+ */
 static bool curves_coincide(const struct reactions *r, const struct history *h, const struct reaction *a,
                             const struct reaction *b)
 {

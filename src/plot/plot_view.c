@@ -126,9 +126,9 @@ enum { EXTREMES_LEAST = 3 };
 
 /* Returns the largest magnitude of a value of the field of c that its colour scale has to cover. The magnitude is the
  * distance above `low`, or the absolute value if `scale` is that of a field of both signs. Only magnitudes above 0
- * count, because most of a body can be at rest or elastic. A small share of the largest ones is omitted as outliers,
- * and the result is limited to HOT_TIMES the magnitude that the share HOT of them exceeds. Returns 0 if none is above
- * 0. sample[SAMPLE_MOST]: work array. */
+ * count, because most of a body can be at rest or elastic. The share EXTREME of the largest ones, or EXTREMES_LEAST of
+ * them (at most a twentieth), is omitted as outliers, and the result is limited to HOT_TIMES the magnitude that the
+ * share HOT of them exceeds. Returns 0 if none is above 0. sample[SAMPLE_MOST]: work array. */
 static double magnitude_of(double *sample, const struct plotted_particles *c, enum field_scale scale, double low)
 {
     const int64_t stride = c->n / SAMPLE_MOST + 1;
@@ -163,7 +163,7 @@ void view_set_field_and_colour_range(struct view *v, const struct plot_field *fi
 
 /* Reads an end of the colour scale of a field, a number with a unit of the field, from the request r into *value, in SI
  * units. end: 0 for the lower end, 1 for the upper end; an end without a unit has the unit of the other end. Returns
- * REFUSED for other texts. */
+ * REFUSED, with a message, for other texts. */
 static status range_end_read(real *value, const struct plot_request *r, int end, const struct plot_field *field)
 {
     char what[256], text[128];
@@ -193,7 +193,8 @@ static void count_beyond(struct view *v, const struct plotted_particles *cloud, 
 }
 
 /* Sets the rectangle of the view v, and the ends and the table of its colours, to the options of the request r. Returns
- * REFUSED if an end of the colours is no number with a unit of the field, or if the ends are in the wrong order. */
+ * REFUSED, with a message, if an end of the colours is no number with a unit of the field, or if the ends are in the
+ * wrong order. */
 static status view_set_options(struct view *v, const struct plot_request *r)
 {
     v->table = r->table;
@@ -212,7 +213,7 @@ static status view_set_options(struct view *v, const struct plot_request *r)
 }
 
 /* Returns true if the rectangle of view v shows a part of one of the output frames cloud[clouds]: a particle in the
- * rectangle or within two spacings of it, or a part of a rigid body. */
+ * rectangle or at most two spacings outside it, or a part of a rigid body. */
 static bool view_shows_any(const struct view *v, const struct plotted_particles *cloud, int clouds)
 {
     bool any = false;
@@ -227,9 +228,9 @@ static bool view_shows_any(const struct view *v, const struct plotted_particles 
 /* Largest size of the rectangle of --crop over that of the body. */
 static const double CROP_MOST = 200;
 
-/* Returns REFUSED, with a message, if the view v is cropped to a rectangle in which there is nothing to see, else OK.
- * around: view of everything, whose rectangle the message states; r: request with the crop; cloud[clouds]: drawn
- * particles of the output frames. */
+/* Returns REFUSED, with a message, if the view v is cropped to a rectangle that shows no particle and no rigid body, or
+ * that is CROP_MOST times as large as the view of everything; else OK. around: view of everything, whose rectangle the
+ * message states; r: request with the crop; cloud[clouds]: drawn particles of the output frames. */
 static status view_check_crop(const struct view *v, const struct view *around, const struct plot_request *r,
                               const struct plotted_particles *cloud, int clouds)
 {

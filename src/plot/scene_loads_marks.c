@@ -72,8 +72,8 @@ static const struct boundary *boundary_of(const struct run *e, const struct load
 }
 
 /* Computes vector[dim], the force density, displacement or velocity that the load l of run e prescribes for its
- * particle number k at time t [s], in the unit in which loads of this kind are given (such as Pa). Returns its
- * magnitude in this unit. For a pressure the vector has the direction of the force. */
+ * particle number k at time t [s], in the SI unit of this kind of load (such as Pa). Returns its magnitude in this
+ * unit. For a pressure the vector has the direction of the force. */
 static double vector_at(const struct run *e, const struct load *l, int64_t k, double t, real *vector)
 {
     const struct particles *p = &e->part;
@@ -310,7 +310,8 @@ static void mirror_plane_mark(struct marks *m, const struct boundary *b)
     }
 }
 
-/* Returns the colour of the boundary condition with the index `number`: of the first twelve each has its own. */
+/* Returns the colour of the boundary condition with the index `number`: the colours of the first CURVE_COLOURS + 5
+ * differ, then they repeat. */
 static const char *colour_of_load(int number)
 {
     static const char *const further[] = {"#882255", "#117733", "#332288", "#999933", "#aa4499"};
@@ -368,8 +369,8 @@ static double speed_at_start(const struct particles *p, int64_t i)
     return sqrt(sum);
 }
 
-/* Draws an arrow from the centre of each moving rigid body along its velocity. fastest: the speed whose arrow has full
- * length [m/s]. */
+/* Draws an arrow from the centre of each moving rigid body along its velocity: adds it to the current line of marks m.
+ * Its length is m->arrow times its speed divided by `fastest` [m/s]. */
 static void rigid_arrows(struct marks *m, double fastest)
 {
     const struct scene *s = m->engine->scene;

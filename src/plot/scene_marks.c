@@ -160,8 +160,8 @@ static void tip_marks(struct marks *m)
     for (int k = 0; k < t->n; k++) marks_add_point(m, t->tip[k].origin, NULL);
 }
 
-/* Draws the position, line or region of probe number k of the scene of m. text: entry of the probe in the key
- * (legend), "" for none. Of a probe without a position only the symbol in the key is drawn. */
+/* Draws the position, line or region of probe number k of the scene of m. text: entry of the probe in the key, "" for
+ * none. Of a probe without a position only the symbol in the key (legend) is drawn. */
 static void probe_mark(struct marks *m, int k, const char *text)
 {
     const struct scene *s = m->engine->scene;

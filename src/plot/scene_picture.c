@@ -204,8 +204,8 @@ static int key_columns(const struct marks *m, double wide)
 
 /* Returns the layout of a picture that shows the view v in one panel, and the key (legend) of m. untitled: the picture
  * has no title; outside: the view is of a body in 3D from outside, so that no axis needs space on the left. If panel
- * and key do not fit into the size that the user has chosen (picture_size_set), the layout is of a larger picture with
- * the same ratio of width and height. */
+ * and key do not fit into the size that the user chose (picture_size_set), the layout is of a larger picture with the
+ * same ratio of width and height. */
 static struct layout scene_layout(const struct view *v, const struct marks *m, bool untitled, bool outside)
 {
     const bool narrow = picture_is_too_narrow_for_key();

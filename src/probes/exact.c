@@ -83,8 +83,9 @@ static void add_pulse(struct exact_values *v, const struct exact *e, const struc
     v->strain += factor * sign * wave.strain;
 }
 
-/* Adds pulse p and its reflections at the ends of the bar e to *v, at coordinate X [m] and time t [s]. The reflections
- * are images of the pulse, each a length of the bar farther away; the displacement changes its sign at a fixed end. */
+/* Adds displacement, velocity and strain of pulse p and of its reflections at the ends of the bar e to *v, at
+ * coordinate X [m] and time t [s]. The reflections are images of the pulse, each a length of the bar farther away; the
+ * displacement changes its sign at a fixed end and keeps it at a free end. The ends follow from e->reflection. */
 static void one_pulse(struct exact_values *v, const struct exact *e, const struct wave_pulse *p, real X, real t)
 {
     real L = length(e), gone = wave_speed(e) * t;

@@ -10,8 +10,8 @@
 /* ---- every step -------------------------------------------------------------------------------------------------- */
 
 /* Counts the separate groups of bonds of run o that break in this step in the region of the probe q of kind BREAK
- * (first bond break). If there are any, also stores time, load step and position as those of the first break; do not
- * call after the first break. Bonds of particles with prescribed motion do not count. */
+ * (first bond break). If there are any, also stores time, load step and position as those of the first break; must not
+ * be called after the first break. Bonds of particles with prescribed motion do not count. */
 static void step_break(struct probe *q, const struct observed_run *o)
 {
     q->memory.ends = diagnostics_count_clusters_of_new_breaks(o->part, q->list, q->n, o->horizon, q->memory.position);
@@ -127,7 +127,7 @@ void probes_begin_sample_before_step(struct probes *s, const struct observed_run
 }
 
 /* Returns true if the values of probe q (a requested measurement) depend on velocities. Leap-frog provides velocities
- * half a step before and after a sample only, so they are interpolated. */
+ * half a step before and after a sample only, so that the sample interpolates them. */
 static bool has_motion(const struct probe *q)
 {
     const enum probe_kind kind = q->request.kind;

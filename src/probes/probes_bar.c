@@ -14,7 +14,7 @@
 /* ---- stress and strain ------------------------------------------------------------------------------------------- */
 
 /* Returns the rank of particle i of p: its position in the order of the particles of bar b from left to right, from 0;
- * -1 (left) or b->n (right) for a mirror image beyond an end. */
+ * -1 (left) or b->n (right) if i is the mirror image of a particle beyond an end of the bar. */
 static int64_t probes_bar_rank(const struct bar *b, const struct particles *p, int32_t i)
 {
     if (i < p->n) return b->rank[i];
@@ -238,8 +238,8 @@ static real mean_between(const struct bar *b, const struct particles *p, const r
 }
 
 /* Computes positions of stress fronts of bar b in run o, and stresses and strains of the plateaus behind them, and
- * stores them at their indices (enum figure) in value[FIGURES]. Entries of fronts that do not exist at this time keep
- * their value. */
+ * stores them at their indices (enum figure) in value[FIGURES]. Entries of fronts that do not exist at this time are
+ * not changed. */
 static void fronts(const struct bar *b, const struct observed_run *o, real *value)
 {
     struct exact_front front[EXACT_FRONTS];

@@ -88,9 +88,9 @@ static bool acts_on(const struct load *l, int32_t particle)
     return false;
 }
 
-/* Stores the reflection factor of both ends of the bar of probe q (a requested measurement): 1 (fixed) at a mirror or
- * where a load of run o constrains the outermost particle, else -1 (free). Returns REFUSED, with a message, if a
- * boundary drives the bar with a velocity. */
+/* Stores the reflection factor of both ends of the bar of probe q (a requested measurement): 1 (fixed) at a plane of
+ * symmetry or where a support of run o holds the outermost particle, else -1 (free). Returns REFUSED, with a message,
+ * if a boundary drives the bar with a velocity. */
 static status find_ends(struct probe *q, const struct observed_run *o)
 {
     struct bar *b = q->bar;

@@ -247,8 +247,9 @@ static void put_position(const struct emitter *e, const real *X)
     for (int d = 0; d < e->o->part->dim; d++) probes_figures_put(e, axis_name[d], X[d]);
 }
 
-/* Reports the crack tip of a probe of kind TIP (crack tip) to e->emit: start, arrest, growth, angle, speeds, position,
- * and the number of tips that are equally long. Reports nothing without a tip. */
+/* Reports the crack tip of a probe of kind TIP (crack tip) to e->emit: growth, angle, position, times of start and
+ * arrest and speeds (except in load steps), and the number of tips that are equally long. Reports nothing without a
+ * tip. */
 static void figures_tip(const struct emitter *e)
 {
     const struct crack_tip *tip = probe_find_followed_crack_tip(e->q, e->o->tips);
@@ -280,8 +281,9 @@ static void figures_break(const struct emitter *e)
                        0.5 * reproducible_sum(e->q->n, broken_term, &(struct region_sum){.q = e->q, .o = e->o}));
 }
 
-/* Reports the largest and the root-mean-square reaction force of a probe of kind REACTION (force on a support) [N] and
- * the present displacement of its boundary [m] to e->emit. */
+/* Reports to e->emit the largest and the root-mean-square reaction force of a probe of kind REACTION (force on a
+ * support) [N], in load steps also displacement and number of the step with the largest force, and the magnitude of the
+ * present displacement of its boundary [m]. */
 static void figures_reaction(const struct emitter *e)
 {
     const struct probe_memory *m = &e->q->memory;

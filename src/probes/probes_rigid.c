@@ -37,10 +37,10 @@ static void centre_block(const void *context, int64_t first, int64_t end, real *
     }
 }
 
-/* Adds to sum[5], over the particles first .. end - 1 of a probe (a requested measurement): m X . x and m X x x, which
- * give the best-fit rotation, angular momentum, |m x x v| and kinetic energy. X, x: reference and current position
- * relative to the centres of mass. context: a struct rigid_sum. reproducible_sums calls it for each block of
- * particles. */
+/* Adds to sum[5], over the particles first .. end - 1 of a probe (a requested measurement): m X . x and m X x x (which
+ * give the best-fit rotation), angular momentum, |m x x v| and kinetic energy, in this order. X, x: reference and
+ * current position relative to the centres of mass. context: a struct rigid_sum. reproducible_sums calls it for each
+ * block of particles. */
 static void turn_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct rigid_sum *s = context;
@@ -110,10 +110,10 @@ static void rigid_most(struct rigid_memory *m, const real *value, int first, int
     for (int k = first; k < end; k++) m->most[k] = isnan(value[k]) ? NAN : real_max(m->most[k], fabs(value[k]));
 }
 
-/* Computes the results of probe q of kind RIGID (rigid-body motion) of run o that depend on positions: value[0], the
- * rotation angle of the body [rad]; value[1], its largest absolute principal stress [Pa]; value[2], its largest
- * in-plane shear stress [Pa]. The angle continues beyond half a turn if the body rotates by less than half a turn
- * between samples. */
+/* Computes the results of probe q of kind RIGID (rigid-body motion) of run o from the positions of its particles:
+ * value[0], the rotation angle of the body [rad]; value[1], the largest absolute principal stress of any of its
+ * particles [Pa]; value[2], the largest in-plane shear stress [Pa]. The angle continues beyond half a turn if the body
+ * rotates by less than half a turn between samples. */
 void rigid_probe_compute_angle_and_stresses(struct probe *q, const struct observed_run *o, real *value)
 {
     struct rigid_memory *m = &q->memory.rigid;

@@ -137,8 +137,8 @@ static void make_cracks(struct sif_tracked *w, const struct observed_run *o)
 }
 
 /* Returns true if a circle of radius `radius` [m] around tip t is not completely inside the body of run o. The part
- * near the crack faces, which may be open, is not tested. position: receives a point of the circle without a particle
- * nearby, if there is one [m]. */
+ * near the crack faces, which may be open, more than OPEN_ANGLE pi from the direction ahead, is not tested. position:
+ * receives a point of the circle without a particle nearby, if there is one [m]. */
 static bool ring_leaves(const struct sif_tip *t, real radius, const struct observed_run *o, real position[2])
 {
     const int stations = 16 + (int)real_min(1e4, 4 * radius / o->spacing);
@@ -233,8 +233,8 @@ static status check_ring(const struct sif_tracked *w, const struct probe_request
 }
 
 /* Stores in w the body number and the elastic constants of the material around the tip. r: request, for messages; o:
- * run. Returns REFUSED, with a message, if no particle is ahead of the tip, or if another material or body is within
- * the contours. */
+ * run. Returns REFUSED, with a message, if no particle is one spacing ahead of the tip, or if another material or body
+ * is within the contours. */
 static status find_medium(struct sif_tracked *w, const struct probe_request *r, const struct observed_run *o)
 {
     const struct particles *p = o->part;
@@ -333,8 +333,8 @@ static void room(real **array, int64_t n)
     if (!*array) *array = NEW("sif.motion", n, real);
 }
 
-/* Copies the in-plane displacements of all particles to w->u and, if stresses of particles are used, their stresses to
- * w->stress. p: all particles. */
+/* Copies the in-plane displacements of all particles to w->u and, if the factors are computed from stresses of
+ * particles (SIF_PARTICLE), the in-plane stresses xx yy xy to w->stress. p: all particles. */
 static void keep_displacement(struct sif_tracked *w, const struct particles *p)
 {
     for (int d = 0; d < 2; d++) {

@@ -41,10 +41,10 @@ static void turning_about(const struct turning *t, const real *position, const r
 }
 
 /* Computes spin[DIM_MAX], the angular momentum of all bodies about their common centre of mass [kg m^2/s], from the
- * particles p and the nodes of the mesh, which may be NULL. The velocity gradients that points have with the transfer
- * method APIC are left out. bodies: number of bodies. Returns the value by which errors of the angular momentum are
- * divided: the sum of the magnitudes of the angular momenta of the bodies, but at least LEAST_TURN times the largest
- * angular momentum that is possible with their kinetic energy. */
+ * particles p and the nodes of the mesh (NULL: none), which count in place of the material points that they move. The
+ * velocity gradients that points have with the transfer method APIC are left out. bodies: number of bodies. Returns the
+ * value by which errors of the angular momentum are divided: the sum of the magnitudes of the angular momenta of the
+ * bodies, but at least LEAST_TURN times the largest angular momentum that is possible with their kinetic energy. */
 static real diagnostics_spin_of(const struct particles *p, const struct mesh *mesh, int bodies, real *spin)
 {
     struct turning *body = NEW("probes.spin", bodies + 1, struct turning), all = {0};

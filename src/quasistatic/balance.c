@@ -188,8 +188,8 @@ static status solve_substeps(struct run *e, real t, int substeps, bool *crossed)
 
 /* Finds the equilibrium of run e at pseudo-time t [s]. If faces pass through each other, restores the initial state and
  * divides the increment into SUBSTEPS_FACTOR times as many substeps. Returns FAILED, with a message, if they still do
- * after TRIES_MOST such divisions, or if an equilibrium is not found. For bodies that yield there is one attempt only,
- * because yielding is not undone. */
+ * after TRIES_MOST such divisions, or if an equilibrium is not found. One attempt only is made without contact, and for
+ * bodies that yield, because yielding is not undone. */
 static status solve_whole(struct run *e, real t)
 {
     const real from = e->statics->t;

@@ -63,10 +63,11 @@ static status go_to_size(struct run *e, real size, real least, real most)
     return equilibrium_find_at_time(e, real_min(real_max(statics_time_of_load_size(e, size), least), most));
 }
 
-/* Finds the equilibrium of run e at pseudo-time t [s], then determines the next crack increment. If bonds are far
- * beyond their critical stretch at t, uses an earlier pseudo-time at which they come near it, because the body would
- * have broken before t: at t, bonds would yield that otherwise do not, and large energies would hide the energy that an
- * increment releases. Returns FAILED, with a message, if an equilibrium is not found. */
+/* Finds the equilibrium of run e at pseudo-time t [s], then determines the next crack increment. If the largest stretch
+ * ratio (stretch divided by critical stretch) at t exceeds FAR_BEYOND, uses an earlier pseudo-time at which it is about
+ * NEAR_LIMIT, because the body would have broken before t: at t, bonds would yield that otherwise do not, and large
+ * energies would hide the energy that an increment releases. Returns FAILED, with a message, if an equilibrium is not
+ * found. */
 static status approach_loads(struct run *e, real t)
 {
     struct statics *s = e->statics;
@@ -239,8 +240,8 @@ static status load_step_begin(struct run *e, real t)
     return increment && s->solutions > solutions ? crack_increment_find(e) : OK;
 }
 
-/* Makes the next load step of run e under the control (load, energy or opening) of the scene. Returns FAILED, with a
- * message, if an equilibrium is not found. */
+/* Makes the next load step of run e: if bonds soften, by softening_make_load_step, else under the control (load, energy
+ * or opening) of the scene. Returns FAILED, with a message, if an equilibrium is not found. */
 static status load_step(struct run *e)
 {
     const struct scene *s = e->scene;

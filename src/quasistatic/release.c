@@ -86,11 +86,11 @@ static real kinetic_present(const struct particles *part, const struct reference
     return particles_kinetic_energy(part) + reference_frame_kinetic_energy(frame);
 }
 
-/* Computes the motion of run e after bonds have broken (dynamic release) in explicit time steps: undamped until no
- * bond has broken for CROSSINGS_QUIET times the time in which a wave crosses the body, then damped until the body is
- * nearly at rest. Stops at the latest after CROSSINGS_MOST such times, CROSSINGS_DAMPED of them damped. *broken:
- * receives the number of directed bonds that break (each bond counts twice). Returns FAILED, with a message, if the
- * motion diverges. */
+/* Computes the motion of run e after bonds have broken (dynamic release) in explicit time steps: undamped until no bond
+ * has broken for CROSSINGS_QUIET times the time in which a wave crosses the body, then damped until the kinetic energy
+ * is at most MOTION_SMALL times the elastic energy. Stops at the latest after CROSSINGS_MOST such times,
+ * CROSSINGS_DAMPED of them damped. *broken: receives the number of directed bonds that break (each bond counts twice).
+ * Returns FAILED, with a message, if the motion diverges. */
 static status steps_in_time(struct run *e, int64_t *broken)
 {
     const real crossing = (particles_bounding_box_longest_edge(&e->part) + e->scene->spacing) /

@@ -203,9 +203,9 @@ real sif_tip_toughness(const struct sif_cracks *cracks, const struct particles *
     return toughness_of_material(&cracks->source->family, cracks->scene->model, material_at(cracks, p, tip));
 }
 
-/* Returns true if the body of p continues ahead of `tip`: if enough particles whose motion is not prescribed are near
- * the point one spacing ahead. Enough are two in 2D, in 3D two for each spacing of the width of the body along the
- * crack front. l: cracks, with the plane of the tips. */
+/* Returns true if the body of p continues ahead of `tip`: if at least n particles of the body, without those whose
+ * motion is prescribed, are within REACH spacings of the point one spacing ahead of the tip. n is 2 in 2D; in 3D it is
+ * 2 for each whole spacing of the width of the body along the crack front. l: cracks, with the plane of the tips. */
 static bool body_continues(const struct sif_cracks *l, const struct particles *p, const struct sif_crack_tip *tip)
 {
     const real h = l->plane.spacing;

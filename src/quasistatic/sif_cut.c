@@ -43,8 +43,9 @@ static void row_bonds_cut(const struct sif_cracks *l, const struct bonds *b, con
     }
 }
 
-/* Lists in `segments` the segment from[2] .. to[2] of the crack path of `tip` and its mirror images. Coordinates are
- * those in the plane in which the tips of l move [m]. Release the list with crack_list_free. */
+/* Lists in `segments` the segment from[2] .. to[2] of the crack path of `tip`, extended by BEYOND spacings ahead, and
+ * its mirror images. Coordinates are those in the plane in which the tips of l move [m]. Release the list with
+ * crack_list_free. */
 static void segment_images(const struct sif_cracks *l, const struct sif_crack_tip *tip, const real from[2],
                            const real to[2], struct crack_list *segments)
 {

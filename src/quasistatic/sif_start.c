@@ -15,7 +15,7 @@
 enum { ROW_LEAST = 4 }; /* particles of a row along the crack */
 
 /* Stores in tip->length_behind the length [m] of the longest pre-crack, among those of the scene in l, that ends at
- * the tip, and in tip->reversed whether the tip is at the first corner of a pre-crack. */
+ * most HERE spacings from the tip, and in tip->reversed whether the tip is at the first corner of a pre-crack. */
 static void crack_behind_tip(const struct sif_cracks *l, struct sif_crack_tip *tip)
 {
     const struct scene *s = l->scene;
@@ -30,10 +30,10 @@ static void crack_behind_tip(const struct sif_cracks *l, struct sif_crack_tip *t
     }
 }
 
-/* Moves a crack tip that lies on a row of particles of p sideways to half the distance to the next row, so that
- * round-off does not decide further growth. A crack along a row assigns the particles of the row to one of its faces
- * (crack_cuts_bond); the tip is moved to the side on which bonds are then cut. plane: plane in which tips move.
- * Returns true if the tip has been moved. */
+/* Moves a crack tip that lies on a row of at least ROW_LEAST particles of p sideways to half the distance to the next
+ * row, so that round-off does not decide further growth. A crack along a row assigns the particles of the row to one of
+ * its faces (crack_cuts_bond); the tip is moved to the side on which bonds are then cut. plane: plane in which tips
+ * move. Returns true if the tip has been moved. Does nothing, and returns false, for a tip on a plane of symmetry. */
 static bool tip_off_row(const struct sif_plane *plane, const struct particles *p, struct sif_crack_tip *tip)
 {
     const real h = plane->spacing, *along = tip->along;

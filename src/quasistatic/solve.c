@@ -14,7 +14,8 @@
 #include "step/sample.h"
 #include "loads/mirrors.h"
 
-/* Returns the parts of run e that the solvers of a static equilibrium read and change, as pointers into *e. */
+/* Returns what the solvers of a static equilibrium need of run e: pointers to its particles, bonds and loads, which the
+ * solvers change, and its force function, materials, spacing and tolerance. */
 static struct static_body static_body_of(struct run *e)
 {
     return (struct static_body){&e->part,
@@ -60,8 +61,8 @@ static int64_t bonds_past_limit(const struct bonds *b, const struct particles *p
     return past;
 }
 
-/* Adds a warning to *to that `past` bonds exceed their critical stretch in a static solution. Does nothing if past =
- * 0. */
+/* Adds a warning to *to that `past` bonds exceed their critical stretch in the equilibrium of a solver that breaks no
+ * bonds (a single equilibrium, not load steps). Does nothing if past = 0. */
 static void warn_past_limit(struct warnings *to, int64_t past)
 {
     char text[200];
@@ -166,8 +167,9 @@ static void closing_update(struct closing *closing, const struct bond_source *s,
 }
 
 /* Adds and prints a warning (*to) if faces of a crack of scene s have closed in a static equilibrium, where they pass
- * through each other: their particles have approached by more than the strain of the body explains. source: bond source
- * with the cracks and the search cells of the particles p. */
+ * through each other: their particles have approached by more than the strain of the body explains. Does nothing
+ * without pre-cracks, without bonds (method mpm), or if the input file accepts this warning. source: bond source with
+ * the cracks and the search cells of the particles p. */
 static void warn_of_closed_faces(const struct scene *s, const struct particles *p, const struct bond_source *source,
                                  struct warnings *to)
 {

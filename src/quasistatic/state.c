@@ -20,7 +20,8 @@ static void list_find(const struct bonds *bonds, struct break_list *l)
 }
 
 /* Saves the list l of the bonds of the next crack increment to the archive a if a->saving is true, else restores it and
- * finds the bonds in the present rows of `bonds`. Returns FAILED if the archive cannot be written or lacks the list. */
+ * finds the bonds in the present rows of `bonds`. Returns FAILED, with a message, if the archive cannot be written or
+ * lacks the list. */
 static status statics_list_archive(struct break_list *l, const struct bonds *bonds, struct archive *a)
 {
     ARCHIVE_VALUE(a, "statics/next", l->n);
@@ -31,7 +32,8 @@ static status statics_list_archive(struct break_list *l, const struct bonds *bon
 }
 
 /* Saves the tips of SIF-driven cracks (directed by stress-intensity factors) and the path of these cracks in l to the
- * archive a if a->saving is true, else restores them. Returns FAILED if the archive cannot be written or lacks them. */
+ * archive a if a->saving is true, else restores them. Returns FAILED, with a message, if the archive cannot be written
+ * or lacks them. */
 static status sif_archive(struct sif_cracks *l, struct archive *a)
 {
     ARCHIVE_VALUE(a, "statics/led", l->known);
@@ -47,8 +49,8 @@ static status sif_archive(struct sif_cracks *l, struct archive *a)
 }
 
 /* Saves the next crack increment of s and the tips of SIF-driven cracks (directed by stress-intensity factors) to the
- * archive a if a->saving is true, else restores them and finds the bonds in the present rows of b. Returns FAILED if
- * the archive cannot be written or lacks them. */
+ * archive a if a->saving is true, else restores them and finds the bonds in the present rows of b. Returns FAILED, with
+ * a message, if the archive cannot be written or lacks them. */
 static status increment_archive(struct statics *s, struct bonds *b, struct archive *a)
 {
     ARCHIVE_VALUE(a, "statics/released_time", s->released_time);
@@ -62,7 +64,7 @@ static status increment_archive(struct statics *s, struct bonds *b, struct archi
 
 /* Saves to the archive a if a->saving is true, else restores from it: scales and noise of the forces in the solver of
  * s, its counters, whether its preconditioner is still valid, and the last results of load steps for the history.
- * clock: step counter of the run. Returns FAILED if the archive cannot be written or lacks them. */
+ * clock: step counter of the run. Returns FAILED, with a message, if the archive cannot be written or lacks them. */
 static status search_archive(struct statics *s, struct run_clock *clock, struct archive *a)
 {
     struct newton_solver *q = &s->balance;

@@ -37,10 +37,10 @@ static void warn_of_yielding_bonds(const struct scene *s, const struct family *f
     }
 }
 
-/* Adds to `to` a warning if the softening bonds of scene s dissipate more energy in a load step than half a spacing of
- * new crack needs. of_spacing: energy of one spacing of crack [J]. Reason: with edge notches of 0.5 to 1.5 mm in glass,
- * at spacings of 0.05 and 0.1 mm, the largest load differs from that in steps of a twentieth of a spacing by +-4 % for
- * steps of half a spacing, 8 % for one, 15 % for two, 23 % for four. */
+/* Adds to `to` a warning if the softening bonds of scene s, under energy control, dissipate more energy in a load step
+ * than STEP_SPACINGS_MOST spacings of new crack need. of_spacing: energy of one spacing of crack [J]. Reason: with edge
+ * notches of 0.5 to 1.5 mm in glass, at spacings of 0.05 and 0.1 mm, the largest load differs from that in steps of a
+ * twentieth of a spacing by +-4 % for steps of half a spacing, 8 % for one, 15 % for two, 23 % for four. */
 static void warn_of_large_steps(const struct scene *s, real of_spacing, struct warnings *to)
 {
     const real given = s->steps.energy, spacings = given / of_spacing;

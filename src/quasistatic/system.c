@@ -15,8 +15,8 @@
 /* ---- plastic state ----------------------------------------------------------------------------------------------- */
 
 /* Saves the plastic state of bonds b and particles p to the archive a if a->saving is true, else restores it.
- * optional_arrays: which optional arrays the particles have, a set of bits WITH_... Returns FAILED if an entry is
- * missing or has another size. */
+ * optional_arrays: which optional arrays the particles have, a set of bits WITH_... Returns FAILED, with a message, if
+ * an entry is missing or has another size. */
 status plastic_state_save_or_load(struct bonds *b, struct particles *p, int optional_arrays, struct archive *a)
 {
     TRY(bonds_save_or_load(b, p, a));

@@ -12,7 +12,7 @@
 
 /* Saves all data of run e that a trial equilibrium changes to the archive a if a->saving is true, else restores them
  * from it. Positions of mirror images and mesh points are left out, since they follow from the other data. Returns
- * FAILED if an entry is missing. */
+ * FAILED, with a message, if an entry is missing. */
 static status trial_archive(struct run *e, struct archive *a)
 {
     for (int k = 0; k < e->scene->rigids; k++) TRY(rigid_save_or_load(&e->rigid->body[k], k, a));

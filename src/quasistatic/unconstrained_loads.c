@@ -8,9 +8,9 @@
 #define UNHELD_SMALL 0.01 /* share of all loads below which unbalanced loads do not end a run (empirical) */
 
 /* Returns how far the applied forces on fragment f (a piece of the body that can move rigidly without resistance) are
- * from balance along its free motions, 0 to 1: the largest |sum| of their components along a motion, divided by the
- * sum of their absolute values, which *size receives. Motions along which the forces are much smaller than along
- * another motion are ignored. s: applied forces; part: particles. */
+ * from balance along its free motions, 0 to 1: the largest |sum| of their components along a motion, divided by the sum
+ * of their absolute values, which *size receives. Motions along which the sum of absolute values is at most
+ * 1/UNHELD_SMALL of that of the motion chosen before are ignored. s: applied forces; part: particles. */
 static real unbalanced_share(const struct statics *s, const struct particles *part,
                              const struct unconstrained_fragment *f, real *size)
 {

@@ -22,8 +22,8 @@ static uint8_t *mirror_node_flags(const struct mesh *mesh)
 }
 
 /* Lists the unknowns in node[]: the indices of the peridynamic particles of p, then those of the nodes of `mesh` with
- * mass. *particles: receives the number of particles among them. node = NULL: the unknowns are only counted. Returns
- * their number. */
+ * mass that are no mirror nodes. *particles: receives the number of particles among them. node = NULL: the unknowns are
+ * only counted. Returns their number. */
 static int64_t nodes_list(const struct particles *p, const struct mesh *mesh, int32_t *node, int64_t *particles)
 {
     int64_t n = 0;
@@ -49,8 +49,9 @@ static void component_hold(struct statics *s, int64_t k, int d, int load)
     s->load[k * DIM_MAX + d] = (int16_t)load;
 }
 
-/* Marks in s the particles of p on planes of symmetry in `loads`: their normal displacement is prescribed as 0, on
- * clamped planes every component, and their weight is halved, since half of such a particle belongs to the body. */
+/* Marks in s the particles of p on planes of symmetry in `loads` (of the body of the plane only, if it names one):
+ * their normal displacement is prescribed as 0, on clamped planes every component, and their weight is halved, since
+ * half of such a particle belongs to the body. */
 static void mirror_particles_mark(struct statics *s, const struct particles *p, const struct loads *loads)
 {
     for (int b = 0; b < loads->n; b++) {

@@ -17,7 +17,8 @@ enum { LOAD_TIMES = 64, LOAD_PARTICLES = 1024 }; /* load times, and particles of
 enum { DISPLACEMENTS, FORCES, SORTS };
 
 /* Computes the scalar products of the loads of run e at time t with its loads at time u [s]: product[DISPLACEMENTS] for
- * the prescribed displacements [m^2], product[FORCES] for the applied forces [N^2]. */
+ * the prescribed displacements [m^2], product[FORCES] for the applied forces [N^2]. Of each load about LOAD_PARTICLES
+ * particles, evenly spaced, represent all. */
 static void products(const struct run *e, real t, real u, real *product)
 {
     const int dim = e->part.dim;
@@ -69,7 +70,8 @@ static void largest_update(real t, real own, struct worst *worst, struct found *
 /* Compares the loads at time t [s] with the largest loads. Sets worst->back to t if the loads at t point against the
  * largest ones more than at all earlier times; sets worst->beside to t if their part perpendicular to the largest ones
  * is larger than at all earlier times. own, with: scalar products of the loads at t with themselves and with the
- * largest loads; found: largest values so far, updated. */
+ * largest loads; found: largest values so far, updated. Parts smaller than SIDEWAYS times the largest loads are
+ * ignored. */
 static void others_update(real t, real own, real with, struct worst *worst, struct found *found)
 {
     const real size = found->largest, back = -with, beside = own - square(with) / size;

@@ -62,8 +62,8 @@ static void set_free(struct film_set *s)
 }
 
 /* Sets s->busy[i] to true for each particle i of the particle set s (the particles that consecutive frames have in
- * common) that is damaged or has yielded in `frame`. Also updates s->history[i], a hash of the kinds and fragments of
- * particle i in all output frames. path: file of the frame. */
+ * common) that is damaged or has a plastic strain above YIELDED in `frame`. Also updates s->history[i], a hash of the
+ * kinds and fragments of particle i in all output frames. path: file of the frame. */
 static void set_mark(struct film_set *s, const struct output_frame *frame, const char *path)
 {
     int columns = 0;

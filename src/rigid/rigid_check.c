@@ -29,8 +29,8 @@ static status check_room(const struct rigid_body *r, const struct scene *s, cons
                       p->dim > 2 ? p->x[2][at] : 0, -deepest);
 }
 
-/* Returns REFUSED, with a message, if r is a free body and touches a mirror of scene s: its mirror image would be
- * another body. Returns OK otherwise. */
+/* Returns REFUSED, with a message, if r is a free body and the bounding box of its shape is at most a spacing from a
+ * mirror (plane of symmetry) of scene s: its mirror image would be another body. Returns OK otherwise. */
 static status check_mirrors(const struct rigid_body *r, const struct scene *s)
 {
     real from[DIM_MAX], to[DIM_MAX];

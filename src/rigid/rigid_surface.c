@@ -70,9 +70,10 @@ static void node_position(const struct net *g, int64_t k, real *X)
 }
 
 /* Makes a grid of nodes over the box low[dim] .. high[dim] [m], and computes the level set of the region `shape`, cut
- * to this box, at its nodes. The length of the box along its longest or its shortest edge is a whole number of cells
- * plus half a cell. This keeps nodes off the faces of the box, where round-off would decide on which side they are. The
- * caller frees g->value, g->point and g->crossing. */
+ * to this box, at its nodes. The edge of a cell is chosen such that the length of the box along its longest or, for
+ * thin boxes, its shortest edge is a whole number of cells plus half a cell (unless there would be more than NODES_MOST
+ * nodes). This keeps nodes off the faces of the box, where round-off would decide on which side they are. The caller
+ * frees g->value, g->point and g->crossing. */
 static void net_make(struct net *g, const struct region *shape, int dim, const real *low, const real *high)
 {
     real thinnest = INFINITY, longest = 0, nodes;
@@ -255,8 +256,8 @@ static real box_point_nearest(const struct region *shape, int dim, const real *l
 }
 
 /* Extends the box low[dim] .. high[dim] [m] if the region `shape` lies outside it, so that the box contains the nearest
- * part of the region to a depth of some grid cells. The extension begins at the point of the box that is nearest to the
- * region, and is along the gradient of the level set. longest: longest edge of the box [m]. */
+ * part of the region to a depth of about four grid cells. The extension begins at the point of the box that is nearest
+ * to the region, and is along the gradient of the level set. longest: longest edge of the box [m]. */
 static void box_extend_to_region(const struct region *shape, int dim, real *low, real *high, real longest)
 {
     real X[DIM_MAX] = {0}, gradient[DIM_MAX];

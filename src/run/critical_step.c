@@ -74,8 +74,8 @@ real bonds_critical_time_step_by_iteration(struct bonds *b, struct particles *p,
 
 /* Computes the size of a block of the lattice whose largest frequency is used in place of that of the whole body:
  * edge[dim], the numbers of particles along the axes. The block is large enough for particles with full neighbourhoods
- * (all their neighbours) and, if that is cheap, for long waves. f: neighbourhood of the bonds; longest[dim]: extent of
- * the body along each axis [m]. Returns the number of particles of the block. */
+ * (all their neighbours) and, if it then has fewer than BLOCK_BONDS_MOST bonds, also for long waves. f: neighbourhood
+ * of the bonds; longest[dim]: extent of the body along each axis [m]. Returns the number of particles of the block. */
 static int64_t edges_of(const struct family *f, const real *longest, int64_t edge[DIM_MAX])
 {
     static const int times[DIM_MAX + 1] = {0, 8, 2, 1};

@@ -19,8 +19,9 @@ static status position_dependent_on_grid(const struct boundary *b, const struct 
 
 #define DISPLACEMENT_TOLERANCE 1e-9 /* tolerance of displacements at the start [spacings] */
 
-/* Returns REFUSED, with a message, if a particle with prescribed displacement does not start at its reference
- * position. l: the load of the boundary condition b; spacing: lattice spacing [m]. p: all particles. */
+/* Returns REFUSED, with a message, if a particle with prescribed displacement does not start at its reference position,
+ * up to DISPLACEMENT_TOLERANCE spacings. l: the load of the boundary condition b; spacing: lattice spacing [m]. p: all
+ * particles. */
 static status starts_at_reference(const struct boundary *b, const struct particles *p, const struct load *l,
                                   real spacing)
 {
@@ -37,8 +38,9 @@ static status starts_at_reference(const struct boundary *b, const struct particl
     return OK;
 }
 
-/* Returns REFUSED, with a message, if the displacement that boundary condition b prescribes at t = 0 is not 0, because
- * this would be a jump within the first step. p: particles; l: the load of b; spacing: lattice spacing [m]. */
+/* Returns REFUSED, with a message, if the displacement that boundary condition b prescribes at t = 0 exceeds
+ * DISPLACEMENT_TOLERANCE spacings, because this would be a jump within the first step. p: particles; l: the load of b;
+ * spacing: lattice spacing [m]. */
 static status starts_at_rest(const struct boundary *b, const struct particles *p, const struct load *l, real spacing)
 {
     for (int64_t k = 0; k < l->n; k++) {

@@ -159,9 +159,10 @@ static status place_skip(struct particle_draft *d, const real *place)
 }
 
 /* Adds a particle to d, the list of particles to be created, if the lattice position place[dim] [m] is in the shape of
- * a body. The position is then shifted at random by up to half of `particles.irregularity` spacings along each axis
- * (Imachi et al. 2019, eq. 49). body: index of the body; volume: volume of the particle [m^3]. Returns REFUSED, with a
- * message, if there would be too many particles. */
+ * a body. A position in a coarse cell, whose particles are not created, is only counted. The position is shifted at
+ * random by up to half of `particles.irregularity` spacings along each axis (Imachi et al. 2019, eq. 49). body: index
+ * of the body; volume: volume of the particle [m^3]. Returns REFUSED, with a message, if there would be too many
+ * particles. */
 static status lattice_point(struct particle_draft *d, int body, const real *place, real volume)
 {
     const struct scene *s = d->scene;

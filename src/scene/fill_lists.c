@@ -166,8 +166,9 @@ static status refuse_list(const struct crowd *c, const char *format, ...)
                       why);
 }
 
-/* Checks the particle list of body c->body by its statistics v. Returns REFUSED, with a message, if its units do not
- * match the spacing, or if it would have so many bonds that they exceed the memory. */
+/* Checks the particle list of body c->body by its statistics v. Returns REFUSED, with a message, if distances or
+ * volumes of the particles do not match the spacing, as with a wrong unit, or if bonds of the particles would exceed
+ * the memory. */
 static status crowd_judge(const struct crowd *c, const struct verdict *v)
 {
     const real spacing = c->s->spacing, bytes = BYTES_PER_BOND * v->family * (real)c->n;

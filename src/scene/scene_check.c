@@ -264,7 +264,8 @@ static bool list_forms_agree(const struct particle_list_form *a, const struct pa
 }
 
 /* Returns true if the particle list of the body with the index `body` in s forms a lattice with the spacing that the
- * input file (scene) gives. Returns false for a list that cannot be read, which is reported later. */
+ * input file (scene) gives; a list that an earlier body has read in the same form is not read again. Returns false for
+ * a list that cannot be read, which is reported later. */
 static bool list_lattice(const struct scene *s, int body)
 {
     struct particle_list list;
@@ -458,8 +459,10 @@ static status check_model(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-/* Returns REFUSED for keys that the static solvers do not support. Must be called after materials and probes are read.
- * root: YAML tree of the input file (scene), for the location in the message. */
+/* Returns REFUSED, with a message, for keys of the input file (scene) that do not suit its solver: for every solver,
+ * keys of load steps that are not used and softening that is not supported; for static solvers, also keys that they do
+ * not support. Must be called after materials and probes are read. root: YAML tree of the input file, for the location
+ * in the message. */
 status check_keys_for_static_solver(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;

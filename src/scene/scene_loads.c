@@ -269,8 +269,9 @@ static bool carries_unit(struct reader *r, const struct yaml_node *n, real value
     return unit;
 }
 
-/* Returns REFUSED, with a message, if the factor of time of the boundary condition b is a file column with a unit, and
- * the value of b has a unit too: only one of them can give the magnitude of the load. kind: YAML node of the value. */
+/* Checks that only one of two factors of the load of boundary condition b has a unit: the value of b, or its factor of
+ * time if that is a column of a CSV file. Returns REFUSED, with a message, if the heading of the column has a unit, and
+ * the value has one too or a component above 1. kind: YAML node of the value (traction, velocity, ...). */
 static status check_time_unit(struct reader *r, const struct yaml_node *kind, const struct boundary *b)
 {
     real most = 0;

@@ -57,8 +57,9 @@ static status read_particle_list(struct reader *r, const struct yaml_node *n, st
     return r->files ? particle_list_read_column_names(&b->list, b->file, &b->form, r->dim) : OK;
 }
 
-/* Returns REFUSED, with a message, if body b is not rigid and has keys of rigid bodies, or is rigid and has keys of
- * other bodies. n: YAML node of the body. */
+/* Returns REFUSED, with a message, if body b is not rigid and has keys of rigid bodies (mass, ramp, force), or is rigid
+ * and has keys of other bodies, an infinite box, ramp without a prescribed velocity, or force without mass. n: YAML
+ * node of the body. */
 static status check_rigid_body(struct reader *r, const struct yaml_node *n, const struct scene_body *b)
 {
     static const char *const own[] = {"mass", "ramp", "force"};
@@ -166,8 +167,10 @@ status read_bodies(struct reader *r, const struct yaml_node *root)
 
 /* ---- initial states ---------------------------------------------------------------------------------------------- */
 
-/* Reads the polarisation of the pulse w, along its direction (default) or across it, and normalises it. n: YAML node
- * of `polarisation`; NULL: not given. Returns REFUSED, with a message, for any other vector. */
+/* Completes the polarisation (direction of the motion) of the pulse w, whose direction must be set. w->polarisation
+ * holds the vector of the input file; if none is given (n NULL), the direction is used. Normalises it, and sets
+ * w->transverse to true if it is perpendicular to the direction, false if parallel. Returns REFUSED, with a message,
+ * for a vector of length 0 or one that is neither parallel nor perpendicular. n: YAML node of `polarisation`. */
 static status read_polarisation(struct reader *r, const struct yaml_node *n, struct wave_pulse *w)
 {
     const int dim = r->dim;

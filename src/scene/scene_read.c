@@ -58,7 +58,7 @@ static status scene_read_all(struct reader *r, const char *text, size_t length, 
 
 /* Reads an input file (scene) from a text of `length` bytes into r->scene, in the C locale. With `method: auto` stores
  * only the request for pilot runs, in *wish, and frees the scene. Returns REFUSED, with a message and the scene freed,
- * for an invalid scene, and for `method: auto` if wish is NULL. */
+ * for an invalid scene, and for `method: auto` if wish is NULL; FAILED if memory is exhausted. */
 static status read_scene(struct reader *r, const char *text, size_t length, struct pilot_wish *wish)
 {
     struct scene *s = r->scene;

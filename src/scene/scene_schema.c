@@ -20,8 +20,8 @@ static void write_string(FILE *out, const char *text, size_t length)
     fputc('"', out);
 }
 
-/* Writes the words of `words`, a text a|b|c, to `out` as a JSON enumeration. Words of digits are written as numbers,
- * too, and `true` as a boolean, since YAML reads them as such. */
+/* Writes the words of `words`, a text a|b|c, to `out` as a JSON enumeration. A word of digits is written twice, as a
+ * text and as a number, and `true` as a text and as a boolean, since YAML may read either. */
 static void write_words(FILE *out, const char *words)
 {
     const char *between = "";

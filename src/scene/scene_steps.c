@@ -58,8 +58,9 @@ bool scene_has_load_steps_with_softening_bonds(const struct scene *s)
     return scene_has_load_steps(s) && scene_first_material(s, material_has_softening_bonds);
 }
 
-/* Returns REFUSED, with a message, for settings that load steps do not support if bonds soften; OK if none soften.
- * root: YAML tree of the input file (scene), for the location in the message. */
+/* Returns REFUSED, with a message, if bonds soften in load steps together with a method other than pd, rigid bodies, a
+ * key of `steps` that determines the crack path, or a material whose bonds break without softening; else OK. root: YAML
+ * tree of the input file (scene), for the location in the message. */
 static status check_steps_softening(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;

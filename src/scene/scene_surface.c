@@ -28,8 +28,8 @@ status check_strength_below_tenth_of_modulus(struct reader *r, const struct yaml
                  node_text(r, strength_node), 0.1 * material->young);
 }
 
-/* Returns REFUSED unless low sigma_t < value <= high sigma_t, with the tensile strength sigma_t of material m. value: a
- * strength [Pa]; n: node from which it was read, for the message. */
+/* Returns OK if low sigma_t < value <= high sigma_t, else REFUSED with a message, with the tensile strength sigma_t of
+ * material m. value: a strength [Pa]; n: node from which it was read, for the message. */
 static status check_fraction(struct reader *r, const struct yaml_node *n, const struct material *m, real value,
                              real low, real high)
 {

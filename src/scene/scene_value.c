@@ -67,8 +67,8 @@ static status read_whole(struct reader *r, const struct yaml_node *n, real *valu
     return fault(r, n, "%s is %g; give a whole number", node_text(r, n), number);
 }
 
-/* Reads a whole number from YAML node n into *value. Returns REFUSED, with a message, for other texts and outside the
- * range of key k (of input files). */
+/* Reads a whole number from YAML node n into *value: digits, or an expression or fraction whose value is whole. Returns
+ * REFUSED, with a message, for other texts and outside the range of key k (of input files). */
 static status read_int(struct reader *r, const struct key *k, const struct yaml_node *n, int *value)
 {
     const char *c = n->text + (*n->text == '-');

@@ -16,8 +16,8 @@ struct lengths {
     real of[LENGTHS_MOST];
 };
 
-/* Returns the extent [m] along an axis of the box that is the first solid of a body; 0 if the first solid is no box.
- * body: index in the scene s; axis: 0 to 2. */
+/* Returns the extent [m] along an axis of the box that is the first solid of a body; 0 if the first solid is no box or
+ * has motions. body: index in the scene s; axis: 0 to 2. */
 static real box_extent(const struct scene *s, int body, int axis)
 {
     const struct region *shape = &s->body[body].shape;
@@ -118,8 +118,9 @@ real spacing_that_fits_box_edges(const struct scene *s, real h, bool even_edge_c
 static const double particles_usual[] = {0, 200, 3000,
                                          8000}; /* number of particles in 1D, 2D, 3D; lengths can require more */
 
-/* Returns the largest spacing [m] that resolves the extent of `shape`, the shape of a body of the scene s, and the
- * radii of its round solids; INFINITY if the shape is infinite. */
+/* Returns the largest spacing [m] with at least ACROSS_BODY spacings along each edge of the bounding box of `shape`,
+ * the shape of a body of the scene s, and IN_HOLE in each radius of its round solids; INFINITY if the shape is
+ * infinite. */
 static double body_spacing(const struct scene *s, const struct region *shape)
 {
     real from[DIM_MAX], to[DIM_MAX];
@@ -147,8 +148,8 @@ static double distance_to_face(const struct scene *s, const real *X)
     return least;
 }
 
-/* Returns the largest spacing [m] that resolves the length of crack c and the distances of its ends from the faces of
- * the first body of s; INFINITY in 1D. */
+/* Returns the largest spacing [m] with at least IN_CRACK spacings in the length of crack c and in the distance of each
+ * of its ends from the nearest face of the first body of s; INFINITY in 1D. */
 static double crack_spacing(const struct scene *s, const struct crack *c)
 {
     double squares = 0, least = INFINITY;
@@ -162,8 +163,9 @@ static double crack_spacing(const struct scene *s, const struct crack *c)
     return least;
 }
 
-/* Returns the largest spacing [m] that resolves the initial pulses, sinusoidal body forces and pulses in time of the
- * scene s; INFINITY if there are none. */
+/* Returns the largest spacing [m] with at least IN_PULSE spacings in the width of each initial pulse, the wavelength of
+ * each sinusoidal body force and, in dynamic runs, the length of the wave of each load pulse of the scene s; INFINITY
+ * if there are none. */
 static double load_spacing(const struct scene *s)
 {
     double least = INFINITY;
@@ -179,8 +181,8 @@ static double load_spacing(const struct scene *s)
     return least;
 }
 
-/* Returns the largest spacing [m] that resolves the contours of a probe p of stress-intensity factors; INFINITY for
- * other probes. */
+/* Returns the largest spacing [m] with at least IN_RING spacings in each given radius of the contours of a probe p of
+ * stress-intensity factors; INFINITY for other probes. */
 static double probe_spacing(const struct probe_request *p)
 {
     double least = INFINITY;

@@ -193,8 +193,8 @@ static void strain_note(struct newton_solver *q, const struct field *d, real cur
 }
 
 /* Measures how far the forces q->f are from equilibrium. Sets q->scale to the largest of the norms of applied forces,
- * reactions and round-off [N], q->residual to the norm of the unbalanced forces, divided by q->scale [1], and q->worst
- * to the node with the largest unbalanced force. */
+ * reactions and round-off and SCALE_LEAST times the largest scale so far [N], q->residual to the norm of the unbalanced
+ * forces, divided by q->scale [1], and q->worst to the node with the largest unbalanced force. */
 static void equilibrium_measure(struct newton_solver *q)
 {
     real sum[2], most = -1;
@@ -278,9 +278,9 @@ static void follow_negative(struct newton_solver *q)
 
 /* Solves K x = f for the free components of the correction x = q->x by preconditioned conjugate gradients, starting
  * from the given x. Components with prescribed displacement do not change. Stops when the residual is `wanted` [N] or
- * FORCING_LEAST times its initial value, whichever is larger, or when it makes no progress. If a direction with
- * negative stiffness is found, x is extended along it (Steihaug 1983), unless `prescribed` is true, which means that
- * supports move. */
+ * FORCING_LEAST times its initial value, whichever is larger, when it has not decreased for DIRECTIONS_IDLE directions,
+ * or after DIRECTIONS_MOST directions. If a direction with negative stiffness is found, x is extended along it
+ * (Steihaug 1983), unless `prescribed` is true, which means that supports move. */
 static void correction(struct newton_solver *q, real wanted, bool prescribed)
 {
     real rz = 0, left2, best2 = INFINITY;
@@ -317,8 +317,9 @@ static void forces_along(struct newton_solver *q, real share)
     forces_at(q, &q->z, &q->q);
 }
 
-/* Returns the factor of the correction x = q->x at which the force along x nearly vanishes; it is 1 for linear bodies.
- * The energy decreases up to that point: the factor is reduced if the force there points against x, and increased if it
+/* Returns the factor of the correction x = q->x at which the force along x is at most PUSH_LEFT of its initial value,
+ * or the norm of the forces has halved, after at most EVALUATIONS_MOST evaluations; it is 1 for linear bodies. The
+ * energy decreases up to that point: the factor is reduced if the force there points against x, and increased if it
  * still points along x. left: norm of the residual before the correction [N]; prescribed: true if supports move, so
  * that the increment is made in full. Stores the displacements at the factor in q->z and the forces there in q->q. */
 static real line_search(struct newton_solver *q, real left, bool prescribed)
@@ -368,8 +369,9 @@ static real work_along(struct newton_solver *q, real share, real left, bool pres
 }
 
 /* Adds the correction q->x, multiplied by the factor of the line search, to the displacements q->u, and updates the
- * forces q->f. left: norm of the residual before the correction [N]; prescribed: true if supports move. Returns the
- * work of all forces along the increment [J]. */
+ * forces q->f. left: norm of the residual before the correction [N]; prescribed: true if supports move. During the line
+ * search material laws follow the state at which forces are evaluated (q->laws, if laws change); afterwards those fixed
+ * before hold again. Returns the work of all forces along the increment [J]. */
 static real advance(struct newton_solver *q, real left, bool prescribed)
 {
     if (q->laws) q->laws(q->context, false);

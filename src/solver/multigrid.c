@@ -22,9 +22,9 @@ enum { DENSE = 700, DEGREE = 1, DEGREE_COARSE = 2 };
 #define STIFFNESS_LEAST 1e-12
 
 /* Computes the diagonal block of row i (one node) on the finest level l. A rigid translation causes no bond forces, so
- * the block should equal minus the sum of the other blocks of the row; it is set to this sum if the two differ by
- * round-off only. A larger difference is the stiffness of supports and foundations and is stored in l->rest. Also sets
- * l->scale (mean diagonal entry) and l->unconstrained of the row. */
+ * the block should equal minus the sum of the other blocks of the row; it is set to this sum if the two differ by at
+ * most ROUND_OFF times the trace of the block. A larger difference is the stiffness of supports and foundations and is
+ * stored in l->rest. Also sets l->scale (mean diagonal entry) and l->unconstrained of the row. */
 static void diagonal_exact(const struct multigrid_level *l, int64_t i)
 {
     const int size = l->width * l->width;
@@ -124,8 +124,8 @@ static void coarse_diagonal(struct multigrid_level *l)
     multigrid_invert_diagonal_blocks(l);
 }
 
-/* Builds the next coarser level of m. Returns false, and builds none, if it would not have clearly fewer nodes than the
- * coarsest level so far. */
+/* Builds the next coarser level of m. Returns false, and builds none, if it would have no node, or more than 0.7 times
+ * as many as the coarsest level so far. */
 static bool coarsen(struct multigrid *m)
 {
     struct multigrid_level *l = &m->level[m->levels - 1], *next = l + 1;

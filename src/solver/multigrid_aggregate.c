@@ -66,9 +66,10 @@ static bool neighbours_free(const struct multigrid_level *l, const float *streng
     return any;
 }
 
-/* Returns the number of the aggregate whose nodes have the largest sum of connection strengths with node i of level l;
- * -1 if no aggregate is connected with it. An aggregate is a set of nodes that form one node of the coarser level.
- * strength: strengths of the matrix entries, 0 for weak connections. */
+/* Returns the number of the aggregate, among the first CANDIDATES that are connected with node i of level l, whose
+ * nodes have the largest sum of connection strengths with the node; -1 if no aggregate is connected with it. An
+ * aggregate is a set of nodes that form one node of the coarser level. strength: strengths of the matrix entries, 0 for
+ * weak connections. */
 static int32_t aggregate_nearest(const struct multigrid_level *l, const float *strength, int64_t i)
 {
     enum { CANDIDATES = 16 };

@@ -144,9 +144,9 @@ static void lanczos_turn(struct multigrid_level *l, real a, real b, real length)
     l->x = l->y, l->y = x;
 }
 
-/* Estimates the largest eigenvalue of D^-1 K by the Lanczos method and stores it in l->largest. K: matrix of level l;
- * D: its diagonal blocks. The Lanczos vectors x are orthonormal in the product with D, in which D^-1 K is symmetric: x
- * . D D^-1 K x = x . t with t = K x. */
+/* Estimates the largest eigenvalue of D^-1 K by LANCZOS steps of the Lanczos method and stores it, multiplied by
+ * LANCZOS_SHORT and at least 1, in l->largest. K: matrix of level l; D: its diagonal blocks. The Lanczos vectors x are
+ * orthonormal in the product with D, in which D^-1 K is symmetric: x . D D^-1 K x = x . t with t = K x. */
 void multigrid_estimate_largest_eigenvalue(struct multigrid_level *l)
 {
     real a[LANCZOS], b[LANCZOS + 1] = {0}, sum[2];

@@ -45,7 +45,7 @@ static void damping_block(const void *context, int64_t first, int64_t end, real 
 #define DAMPING_MOST 1.9 /* 2 would stop the motion */
 
 /* Returns the damping coefficient c = 2 sqrt(u^T k u/u^T u), at most DAMPING_MOST [1], with u^T k u in sum[0] and u^T u
- * in sum[1] (damping_block). */
+ * in sum[1] (damping_block); 0 if one of the sums is not positive. */
 static real damping(const real *sum)
 {
     const real ratio = sum[1] > 0 ? sum[0] / sum[1] : 0;

@@ -56,7 +56,8 @@ static real inactive_since_sample(const struct run_clock *clock, struct run_repo
 }
 
 /* Returns true if angular momentum must be conserved: no boundary, rigid body or damping of scene s acts on the bodies.
- * Returns false also with coarse cells in `frame`, which diagnostics_update_angular_momentum does not read. */
+ * Returns false also in 1D, for a static solver, and with coarse cells in `frame`, which
+ * diagnostics_update_angular_momentum does not read. */
 static bool is_free(const struct scene *s, const struct reference_frame *frame)
 {
     return s->dim > 1 && scene_is_dynamic(s) && s->boundaries == 0 && s->rigids == 0 && s->damping == 0 &&

@@ -25,7 +25,8 @@
 #define DAMPED_DOUBTFUL 0.1
 
 /* Warns that breaking bonds released more energy than they had stored, if the excess is above ENERGY_DOUBTFUL of the
- * largest energy. s: scene, for the advice; w: energies of the run; to: list of warnings. */
+ * largest energy. Does nothing for a single equilibrium. s: scene, for the advice; w: energies of the run; to: list of
+ * warnings. */
 static void say_released(const struct scene *s, const struct diagnostics *w, struct warnings *to)
 {
     char text[320];
@@ -59,11 +60,11 @@ bool fracture_energy_warn_if_negative(const struct scene *s, const struct diagno
  * flight: smaller errors are those of the work of loads. A judgement. */
 #define FLIGHT_LEAST 1e-3
 
-/* Warns of an error of the energy balance that is small beside the kinetic energy of the common motion of all
- * particles, but above ENERGY_DOUBTFUL of the largest energy apart from that. In flight through the grid stress gains
- * energy where points are not mapped ahead of their positions (field_set_flight): with linear shapes a block of 40 x
- * 20 points at 200 m/s gains a fifth in eleven cells. w: energies of the run; to: list of warnings. Returns true if it
- * warns. p: all particles. */
+/* Warns of an error of the energy balance that is at least FLIGHT_LEAST and at most ENERGY_DOUBTFUL of the largest
+ * energy, but above ENERGY_DOUBTFUL of the largest energy without that of the common motion of all particles. Only for
+ * runs with points on the grid. In flight through the grid stress gains energy where points are not mapped ahead of
+ * their positions (field_set_flight): with linear shapes a block of 40 x 20 points at 200 m/s gains a fifth in eleven
+ * cells. w: energies of the run; to: list of warnings. Returns true if it warns. p: all particles. */
 static bool say_flight(const struct particles *p, const struct diagnostics *w, struct warnings *to)
 {
     const real error = w->now.balance_error, amount = fabs(error) * w->energy_scale;
@@ -85,8 +86,8 @@ static bool say_flight(const struct particles *p, const struct diagnostics *w, s
 #define SPIN_OF_ROUND_OFF 1e-9
 
 /* Warns that the bodies gained or lost angular momentum although no load acts on them, if the relative error exceeds
- * SPIN_DOUBTFUL. w: sums of the run; apic: true if points on the grid use APIC; spacing: distance of particles [m]; to:
- * list of warnings. */
+ * SPIN_DOUBTFUL and the angular momentum is no round-off. w: sums of the run; apic: true if points on the grid use
+ * APIC; spacing: distance of particles [m]; to: list of warnings. */
 static void say_spin(const struct diagnostics *w, bool apic, real spacing, struct warnings *to)
 {
     const real error = w->now.spin_error;
@@ -163,11 +164,11 @@ void warn_of_tips_above_rayleigh_speed(const struct crack_tips *t, const struct 
     warnings_add_and_print(warning_list, text);
 }
 
-/* Warns of the error of the energy balance, and advises how to reduce it, in a run of scene s with yielding material
- * points of p on the grid. Warns only if |error| is between FLOW_DOUBTFUL and ENERGY_DOUBTFUL. APIC loses more energy
- * with more time steps; other errors decrease with the time step. (Measured: bars that hit a wall at 190 m/s gain 0.27
- * to 0.85 % at 0.8 of the critical time step, -0.01 to 0.14 % at 0.5.) error: relative error [1]; dt: time step [s];
- * to: list of warnings. */
+/* Warns in a run of scene s with yielding material points of p on the grid that the energy balance has an error, and
+ * advises how to reduce it. Does nothing unless |error| is between FLOW_DOUBTFUL and ENERGY_DOUBTFUL, above which
+ * another warning is given. APIC loses more energy with more time steps; other errors decrease with the time step.
+ * (Measured: bars that hit a wall at 190 m/s gain 0.27 to 0.85 % at 0.8 of the critical time step, -0.01 to 0.14 % at
+ * 0.5.) error: relative error [1], positive if energy is gained; dt: time step [s]; to: list of warnings. */
 static void say_flow_error(const struct particles *p, const struct scene *s, real dt, real error, struct warnings *to)
 {
     char text[360];

@@ -6,7 +6,8 @@
 /* Least collision speed that is reported, divided by the speed at which a front breaks or yields a body [1]. */
 #define SHOCK 0.1
 
-/* Returns the strain at which material m breaks or yields in the scene s [1]; INFINITY if it does neither. */
+/* Returns the strain at which bonds of material m begin to soften or break, or the material yields, whichever is
+ * smaller [1]; with method mpm, which has no bonds, only yielding counts. INFINITY if it does neither. s: scene. */
 static real strain_limit(const struct scene *s, const struct material *m)
 {
     const real strain = s->method == METHOD_MPM ? INFINITY : m->onset_stretch;

@@ -452,8 +452,9 @@ static bool say_flowed(const struct particles *p, real t, struct warnings *to)
  * (Nagtegaal & de Jong 1981; C: kinematic modulus). */
 #define TURNED_MOST 0.5
 
-/* Warns of the first point of p on the grid whose back stress may oscillate: one with kinematic hardening and a plastic
- * strain above TURNED_MOST. t: present time [s]; to: list of warnings. Returns true if there is such a point. */
+/* Warns, in 2D and 3D, of the first point of p on the grid whose back stress may oscillate: one with kinematic
+ * hardening and a plastic strain above TURNED_MOST. t: present time [s]; to: list of warnings. Returns true if there is
+ * such a point. */
 static bool say_turned(const struct particles *p, const struct scene *s, real t, struct warnings *to)
 {
     char text[360];

@@ -132,11 +132,12 @@ static real critical_of_lattices(const struct bond_source *all, const struct par
 enum { ITERATED_MOST = 15000 };
 
 /* Returns the critical time step of the bonds of the run e [s]. Returns INFINITY for the method mpm, which has no
- * bonds, and the time in which a wave crosses one spacing for a peridynamic body without bonds. In a small peridynamic
- * body, or one that is not on a lattice, the step follows from the highest frequency of the body, found by iteration.
- * Otherwise it follows from the highest frequency of an infinite lattice. Scattered particles, bonds near surfaces and
- * heavy neighbours can make the body stiffer than this lattice. Therefore the step is multiplied by the ratio of two
- * bounds from row sums of stiffness matrices, that of the body to that of the lattice, if this is below 1. */
+ * bonds, and the time in which a wave crosses one spacing for a peridynamic body without bonds. With method pd, for a
+ * body of at most ITERATED_MOST particles or with randomly shifted positions, the step follows from the highest
+ * frequency of the body, found by iteration. Otherwise it follows from the highest frequency of an infinite lattice.
+ * Scattered particles, bonds near surfaces and heavy neighbours can make the body stiffer than this lattice. Therefore
+ * the step is multiplied by the ratio of two bounds from row sums of stiffness matrices, that of the body to that of
+ * the lattice, if this is below 1. */
 static real critical_of_bonds(struct run *e)
 {
     const struct scene *s = e->scene;

@@ -58,10 +58,11 @@ static double horizon_moves(const struct convergence_study *s, const double *val
     return longer - own;
 }
 
-/* Computes the error of the result `name` (a number in summary.json) at each spacing level (runs with one particle
- * spacing) of the study s that results because cracks grow from particle to particle, into resolution[levels]. It is
- * half a spacing [m] for positions and lengths of cracks; for angles it is the rotation of the crack if its end moves
- * by half a spacing [degree]. Returns false, and stores nothing, for results that change continuously. */
+/* Estimates the error of a result that is caused by crack growth from particle to particle, at each spacing level (set
+ * of runs with one particle spacing) of the study s, and stores it in resolution[levels]. name: key of the result in
+ * summary.json. For positions and lengths of cracks the error is half a spacing [m]. For angles it is the rotation of
+ * the longest crack if its tip moves by half a spacing [degree]. Returns false, and stores nothing, for other results.
+ */
 static bool resolution_find(double *resolution, const struct convergence_study *s, const char *name)
 {
     const char *dot = strrchr(name, '.'), *own = dot ? dot + 1 : name;

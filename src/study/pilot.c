@@ -160,9 +160,10 @@ static status search_finer(struct pilot_search *p)
     return done;
 }
 
-/* Returns a candidate method of the search p (for the method of `method: auto`) that contradicts the method c: its
- * value of the scalar result differs by more than the uncertainties of both and the requested accuracy together, so
- * that one of the two values must be wrong. Returns NULL if there is none. */
+/* Returns a candidate method of the search p (for the method of `method: auto`) that contradicts the method c: the
+ * values of the scalar result differ by more than the sum of both uncertainties and of the requested relative accuracy
+ * times the value of c, so that one of the two must be wrong. Candidates that failed, or have no result yet, are
+ * skipped. Returns NULL if no candidate contradicts c. */
 static const struct pilot_candidate *contradiction(const struct pilot_search *p, const struct pilot_candidate *c)
 {
     for (int k = 0; k < p->n; k++) {
