@@ -257,9 +257,9 @@ static void bond_begin(struct bonds *b, const struct particles *p, int64_t row, 
 }
 
 /* Examines the bonds of row block g (the bonds of eight particles) that are beyond their onset of softening and have
- * not begun to soften. Starts the softening of those across which the stress is tensile enough. Sets DUE_DENIED in
- * b->soft.due[g] if the stress does not allow one of the bonds to soften. limit: critical stretches, softening and
- * time step. p: all particles. */
+ * not begun to soften. Starts the softening of those across which the stress is tensile enough (is_pulled) and, with
+ * tables of rates, whose stretch is above the onset at their rate. Sets DUE_DENIED in b->soft.due[g] if the stress does
+ * not allow one of the bonds to soften. limit: critical stretches, softening and time step. p: all particles. */
 static void row_block_examine(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t g)
 {
     bool denied = false;

@@ -429,7 +429,8 @@ status mesh_slits_double_nodes(struct mesh *mesh, const struct particles *p, con
 
 /* Links the block of nodes (eight along x) of `mesh` that contains the extra node or cell `extra` to the block that
  * contains `base`, the node or cell at its position. Motion then spreads from one block to the other. Extra nodes and
- * cells are made where slits divide nodes and cells. */
+ * cells are made where slits (pre-cracks of the mesh) divide nodes and cells. A link equal to the last one is not
+ * stored again. */
 static void link_add(struct mesh *mesh, int64_t extra, int64_t base)
 {
     struct mesh_slits *s = &mesh->slits;

@@ -82,7 +82,8 @@ static status draw_every(const struct plot_request *r, const struct run_frames *
 /* Draws for request r the maps of damage, of the chosen field, of the kinds of particles and of fragments of a plane
  * body or a slice. A map is omitted if the output frames do not contain its quantity. cloud[frames->shown]: drawn
  * particles of the selected frames. If r->every is set, also draws these maps for every frame of the run. Returns
- * REFUSED if the request does not suit the field, FAILED if a frame cannot be read or gnuplot fails, with a message. */
+ * REFUSED if the colour range or the crop of the request is not valid, FAILED if a frame cannot be read or gnuplot
+ * fails, with a message. */
 static status draw_flat(const struct plot_request *r, const struct run_frames *frames,
                         const struct plotted_particles *cloud)
 {
@@ -110,8 +111,8 @@ static status draw_flat(const struct plot_request *r, const struct run_frames *f
 }
 
 /* Draws for request r two maps of a three-dimensional run as seen from outside the body: the chosen field and the
- * cracks. cloud[frames->shown]: drawn particles of the selected output frames. Returns REFUSED if the request does not
- * suit the field, FAILED if gnuplot fails, with a message. */
+ * cracks. cloud[frames->shown]: drawn particles of the selected output frames. Returns REFUSED if the colour range or
+ * the crop of the request is not valid, FAILED if gnuplot fails, with a message. */
 static status draw_outside(const struct plot_request *r, const struct run_frames *frames,
                            const struct plotted_particles *cloud)
 {
@@ -181,7 +182,8 @@ static status draw_profiles(const struct plot_request *r, const struct run_frame
 
 /* Draws for request r the maps of a run in two or three dimensions: those of a slice and, in 3D, of an outside view.
  * frames: selected output frames; last: the last of them, read. Returns REFUSED if no particle is in the requested
- * slice, or the request does not suit the field; FAILED if a frame cannot be read or gnuplot fails; with a message. */
+ * slice, or the colour range or the crop of the request is not valid; FAILED if a frame cannot be read or gnuplot
+ * fails; with a message. */
 static status draw_solid(struct plot_request *r, const struct run_frames *frames, const struct output_frame *last)
 {
     r->projection.outside = false;

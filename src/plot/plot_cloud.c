@@ -120,7 +120,7 @@ static int thinnest_direction(const struct output_frame *f)
 }
 
 /* Returns the coordinate along the axis `normal` [m] of the particle of output frame f whose coordinate is nearest to
- * `wanted` [m], the lower one of two that are equally near. */
+ * `wanted` [m], the lower one of two whose distances differ by less than TIE spacings. */
 static double nearest_coordinate(const struct output_frame *f, int normal, double wanted)
 {
     const double tie = TIE * frame_particle_spacing(f);

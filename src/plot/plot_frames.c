@@ -80,7 +80,8 @@ static status times_within(const struct run_frames *f, const double *time, int t
 }
 
 /* Replaces numbers of load steps among time[r->times] by their times [s], which history.csv of the run of request r
- * states. Returns REFUSED if the run has no such step, FAILED if the file cannot be read, both with a message. */
+ * states. Does nothing unless the run has load steps and a number without unit is given (r->bare). Returns REFUSED if
+ * the run has no such step, FAILED if the file cannot be read, both with a message. */
 static status steps_to_times(double *time, const struct plot_request *r)
 {
     struct history h;

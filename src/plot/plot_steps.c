@@ -154,9 +154,10 @@ static void reaction_append(struct reactions *r, const struct history *h, const 
     snprintf(a->name, sizeof a->name, "%s", name);
 }
 
-/* Appends to r the curves of the support or rigid body `name` in the history h: one for each component along which it
- * is driven. A body that moves by `still` [m] or less is appended only if `resting` is true: the largest component of
- * its force, without a displacement. Nothing is appended if there is no force. rigid: true for a rigid body. */
+/* Appends to r the curves of the support or rigid body `name` in the history h: one for each component whose largest
+ * displacement is at least DRIVEN times that of the largest one. A body that moves by `still` [m] or less is appended
+ * only if `resting` is true: the largest component of its force, without a displacement. Nothing is appended if there
+ * is no force. rigid: true for a rigid body. */
 static void reactions_add_body(struct reactions *r, const struct history *h, const char *name, bool rigid, double still,
                                bool resting)
 {

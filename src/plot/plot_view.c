@@ -41,9 +41,8 @@ struct span {
     double from, to;
 };
 
-/* Returns the range of sample[kept] without outliers: omits the largest and the smallest values, the share `share` of
- * the values at each end. Omits `few` values at each end instead, but at most 1/20 of all, if these are more. Returns
- * an empty range if there are no values. Sorts the sample. */
+/* Returns the range of sample[kept] without outliers: omits at each end the share `share` of the values or, if that is
+ * more, `few` values, but at most 1/20 of all. Returns an empty range if there are no values. Sorts the sample. */
 static struct span bulk_of(double *sample, int64_t kept, double share, int64_t few)
 {
     array_sort(sample, kept, sizeof *sample, plot_view_ascending);

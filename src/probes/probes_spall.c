@@ -82,8 +82,9 @@ static void columns_bonds(struct columns *c, const struct observed_run *o, int b
 }
 
 /* Finds the material points of body number `body` of p that are next to each plane between columns (slices along x):
- * c->last[k], the largest x left of plane k, and c->next[k], the smallest x right of it [m]. If both are close, the
- * grid connects them. Points that have just lost a bond are ignored, as they are about to become peridynamic. */
+ * c->last[k], the largest x left of plane k, and c->next[k], the smallest x right of it [m]. If they are at most a bond
+ * length apart, the grid connects them. Points that have just lost a bond are ignored, as they are about to become
+ * peridynamic. */
 static void columns_points(struct columns *c, const struct particles *p, int body)
 {
     for (int64_t k = 0; k < c->n; k++) c->last[k] = -INFINITY, c->next[k] = INFINITY;

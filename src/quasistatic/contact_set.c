@@ -107,10 +107,10 @@ void statics_contact_begin_solution(struct run *e, real pseudo_time)
     q->reach = contact_pair_list_safe_displacement(e->contact);
 }
 
-/* Updates the set of active contacts at the end of a solution, by a new search for pairs if particles have moved far,
- * else by the overlap of the known pairs. Returns true if the set has not changed, so that the equilibrium is valid.
- * Also recomputes the norm of the loads, by which residuals are measured, with the present contact forces. run: the
- * run (struct run). */
+/* Updates the set of active contacts at the end of a solution, by a new search for pairs if one is needed
+ * (contact_search_is_needed), else by the overlap of the known pairs. Returns true if the set has not changed, so that
+ * the equilibrium is valid. Also recomputes the norm of the loads, by which residuals are measured, with the present
+ * contact forces. run: the run (struct run). */
 bool statics_contact_update_and_is_set_unchanged(void *run)
 {
     struct run *e = run;

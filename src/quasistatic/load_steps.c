@@ -260,8 +260,8 @@ static status load_step(struct run *e)
 }
 
 /* Returns REFUSED, with a message, if the control of the load steps of scene s is energy or opening, which scale the
- * loads by the pseudo-time, but loads and supports are constant. quarter, half, whole: load sizes at a quarter, at half
- * and at the end of the duration, [m] or [N]. */
+ * loads by the pseudo-time, but loads and supports are constant; else OK. quarter, half, whole: load sizes at a
+ * quarter, at half and at the end of the duration, [m] or [N]. */
 static status check_loads_grow(const struct scene *s, real quarter, real half, real whole)
 {
     if (s->steps.control == CONTROL_LOAD || half != whole || quarter != whole) return OK;

@@ -127,9 +127,10 @@ static int64_t segment_convert(const struct sif_cracks *l, struct particles *p, 
     return marked;
 }
 
-/* Determines the direction of growth of all SIF-driven tips of run e that can grow, and converts material points near
- * their next segments to peridynamic particles. Since converted points change the equilibrium, both are repeated until
- * none is converted, at most CONVERSIONS_MOST times. Returns FAILED, with a message, if an equilibrium is not found. */
+/* Determines the direction of growth of all SIF-driven tips of run e that can grow, and converts the material points
+ * within a horizon of their next path segments to peridynamic particles. Since converted points change the equilibrium,
+ * both are repeated until none is converted, at most CONVERSIONS_MOST times. Returns FAILED, with a message, if an
+ * equilibrium is not found. */
 static status tips_turn_all(struct run *e)
 {
     struct sif_cracks *l = &e->statics->sif;

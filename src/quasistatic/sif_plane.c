@@ -29,8 +29,8 @@ static void make_unit(real *a)
 
 /* Sets the two axes of the plane in which crack tips move, which is perpendicular to plane->front, the direction of the
  * crack fronts. Coordinate axes that are perpendicular to the fronts are preferred, so that planes of symmetry are
- * perpendicular to an axis of the plane. If the front is nearly parallel to a coordinate axis, it is set exactly to
- * that axis. */
+ * perpendicular to an axis of the plane. If the front is parallel to a coordinate axis or plane up to STRAIGHT
+ * (components of the unit vector), it is set exactly to that axis or plane. */
 static void axes_make(struct sif_plane *plane)
 {
     real *f = plane->front;

@@ -147,8 +147,8 @@ static const struct crack *crack_between(const struct bond_source *s, const stru
 }
 
 /* Updates *closing by the pair of particles i and j of p, neighbours on the lattice: if a crack of s is between them,
- * the largest shortening of such a pair beyond the width of the crack, and its position; else the largest strain of a
- * pair. s: bond source, with the cracks. */
+ * the largest shortening of such a pair beyond the width of the crack, divided by the reference distance [1], and its
+ * position [m]; else the largest |strain| of a pair [1]. s: bond source, with the cracks. */
 static void closing_update(struct closing *closing, const struct bond_source *s, const struct particles *p, int64_t i,
                            int64_t j)
 {

@@ -57,8 +57,9 @@ static void warn_of_large_steps(const struct scene *s, real of_spacing, struct w
         STEP_SPACINGS_MOST * given / spacings);
 }
 
-/* Adds warnings to *to of parts of the scene of run e that a static solution ignores or treats differently. It is the
- * callback `warn` of struct part. */
+/* Adds warnings to *to: in load steps of yielding bonds and of steps that dissipate too much energy; for a single
+ * equilibrium of parts of the scene of run e that the solution ignores or treats differently. It is the callback `warn`
+ * of struct part. */
 static void warn_of_solver(const struct run *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
@@ -87,8 +88,8 @@ static void warn_of_solver(const struct run *e, struct warnings *to)
             s->duration);
 }
 
-/* Writes the results of load steps of run e to the summary j: control, steps, equilibria, energy released. It is the
- * callback `summary` of struct part. */
+/* Writes the results of load steps of run e to the summary j: control, steps, equilibria, energy released. Does nothing
+ * for other runs. It is the callback `summary` of struct part. */
 static void put_load_steps(const struct run *e, struct json *j)
 {
     static const char *const control[] = {

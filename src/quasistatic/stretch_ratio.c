@@ -100,8 +100,9 @@ struct overstretched {
     struct broken_bond *record; /* [n] the bonds */
 };
 
-/* Appends a bond to the list o of bonds that exceed or nearly reach their critical stretch. over: ratio of its stretch
- * to its critical stretch [1]; record: row and index of the bond, its particles and its energy, which are copied. */
+/* Appends a bond to the list o of the bonds with the largest ratios of stretch to critical stretch. over: ratio of its
+ * stretch to its critical stretch [1]; record: row and index of the bond, its particles and its energy, which are
+ * copied. */
 static void overstretched_add(struct overstretched *o, real over, const struct broken_bond *record)
 {
     GROW("statics.overloads", o->ratio, o->n + 1);

@@ -154,8 +154,8 @@ struct candidate {
 static int motions(int dim) { return dim * (dim + 1) / 2; }
 
 /* Computes u[dim], the displacement at the point x[dim] [m] by rigid motion number k (0 .. motions(dim) - 1) of
- * fragment c: unit translations first, then rotations about its centre, scaled such that the nodes of the fragment
- * move by about 1. */
+ * fragment c: unit translations first, then rotations about its centre, scaled such that the nodes of the fragment move
+ * by about 1, or 0 for a fragment of one point. */
 static void motion_at(const struct candidate *c, int dim, int k, const real *x, real *u)
 {
     for (int d = 0; d < dim; d++) u[d] = d == k;

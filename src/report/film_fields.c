@@ -68,7 +68,8 @@ static int float_compare(const void *a, const void *b)
 
 /* Chooses the range of values with which a field is stored in 8 bits. The range omits the share BEYOND of the sampled
  * values at each end, and is extended to zero, or made symmetric about zero, as the colour scale of the field requires.
- * Damage has the range 0..1. Sets field->used to false if all values are equal. */
+ * Damage has the range 0..1. Sets field->used to false, and chooses no range, if all values are equal or none is known.
+ */
 static void field_settle(struct film_field *field)
 {
     const bool damage = strcmp(field->of->name, "damage") == 0;

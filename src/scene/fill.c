@@ -117,7 +117,8 @@ static real cell_volume(const struct scene *s)
 }
 
 /* Computes the axes axis[dim] of the lattice that covers the whole shape of one body of d->scene. body: index of the
- * body. Returns REFUSED, with a message, if the shape is unbounded or too large for the spacing. */
+ * body. Returns REFUSED, with a message, if the shape or its first solid is unbounded, or if the lattice would have
+ * more than 64 PARTICLES_MAX positions or one farther than FILL_FARTHEST spacings from its centre. */
 static status lattice_axes(const struct particle_draft *d, int body, struct axis axis[DIM_MAX])
 {
     const struct scene *s = d->scene;

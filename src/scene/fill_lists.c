@@ -130,8 +130,8 @@ static struct verdict crowd_look(const struct crowd *c)
 
 /* Returns a guess of the unit of length of a particle list as text for a message, such as " (is it in mm?)"; "" if
  * there is none. ratio: a length in the list divided by its expected value, such as 1e3 for mm; by_volume: the same
- * ratio computed from the volumes in the list, NAN without volumes. If `ratio` suits both cm and mm, by_volume decides;
- * without it the text names both. */
+ * ratio computed from the volumes in the list, NAN without volumes. A ratio from the volumes within a factor of 1.5 of
+ * a unit decides; else `ratio` alone, which for 30 to 400 may mean mm or cm, so that the text names both. */
 static const char *unit_guess(real ratio, real by_volume)
 {
     static const struct {
@@ -168,7 +168,7 @@ static status refuse_list(const struct crowd *c, const char *format, ...)
 
 /* Checks the particle list of body c->body by its statistics v. Returns REFUSED, with a message, if distances or
  * volumes of the particles do not match the spacing, as with a wrong unit, or if bonds of the particles would exceed
- * the memory. */
+ * the memory. Returns OK for a list with all particles at one position, which check_distances refuses. */
 static status crowd_judge(const struct crowd *c, const struct verdict *v)
 {
     const real spacing = c->s->spacing, bytes = BYTES_PER_BOND * v->family * (real)c->n;

@@ -61,8 +61,8 @@ static status table_check(const struct table *t, const char *path, const char *n
 }
 
 /* Reads the dataset `name` of an open HDF5 file into t->value [rows][columns], which the caller releases with
- * memory_free. path: name of the file, for messages. Returns REFUSED for links, for data stored in other files, and for
- * datasets that are no list of numbers. */
+ * memory_free. path: name of the file, for messages. Returns REFUSED, with a message, for links, for data stored in
+ * other files, and for datasets that are no list of numbers. */
 static status table_read(hid_t file, const char *path, const char *name, struct table *t)
 {
     if (hdf_is_link(file, name))
@@ -107,8 +107,8 @@ static status table_take(struct particle_list *l, int column, const struct table
 
 /* Reads the dataset `name` of an HDF5 file as `count` columns of the list l, beginning with `column` (COLUMN_*). The
  * positions set the number of entries l->n; positions and velocities may have more components than the space. path:
- * name of the file, for messages. Returns REFUSED for another number of rows or columns, a wrong unit or an invalid
- * value. */
+ * name of the file, for messages. Returns REFUSED, with a message, for another number of rows or columns, a wrong unit
+ * or an invalid value. */
 static status hdf5_column(struct particle_list *l, hid_t file, const char *path, const char *name, int column,
                           int count)
 {
@@ -153,7 +153,7 @@ static status hdf5_columns(struct particle_list *l, hid_t file, const char *path
 }
 
 /* Reads the list l from the HDF5 file `path`. If the library crashes on a damaged file, the crash message names the
- * file. Returns REFUSED if the file is not HDF5 or its datasets are invalid. */
+ * file. Returns REFUSED, with a message, if the file is not HDF5 or its datasets are invalid. */
 static status hdf5_read(struct particle_list *l, const char *path)
 {
     status s;

@@ -327,7 +327,7 @@ static status csv_grow(struct csv *c, struct particle_list *l)
 
 /* Stores the material name `field` in l->name unless it is there, and sets *value to -1 minus its index, so that
  * negative values distinguish names from material numbers. c: file, for messages. Returns REFUSED, with a message, for
- * too many or too long names. */
+ * more than NAMES_MAX names, or a name of NAME_MAX_LENGTH characters or more. */
 static status csv_name(const struct csv *c, struct particle_list *l, const char *field, real *value)
 {
     int k = 0;

@@ -71,8 +71,9 @@ status check_particle_count_fits_indices(struct reader *r, const struct yaml_nod
                  node_text(r, spacing), total, longest);
 }
 
-/* Returns REFUSED if the input file (scene) has friction where it is not supported: with the contact law between pairs
- * of particles, or together with planes of symmetry. root: YAML tree of the scene, for the location in the message. */
+/* Returns REFUSED, with a message, if the input file (scene) has friction where it is not supported: with the contact
+ * law between pairs of particles, or together with planes of symmetry. root: YAML tree of the scene, for the location
+ * in the message. */
 status check_friction_is_supported(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -90,8 +91,8 @@ status check_friction_is_supported(struct reader *r, const struct yaml_node *roo
     return OK;
 }
 
-/* Returns REFUSED if a static problem has absorbing faces. root: YAML tree of the input file (scene), for the location
- * in the message. */
+/* Returns REFUSED, with a message, if a static problem has absorbing faces. root: YAML tree of the input file (scene),
+ * for the location in the message. */
 status check_no_absorbing_boundary_if_static(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -104,8 +105,9 @@ status check_no_absorbing_boundary_if_static(struct reader *r, const struct yaml
     return OK;
 }
 
-/* Returns REFUSED if a static problem has damping, or if damping is combined with coarse grid cells that have time
- * steps of their own (mpm.levels). root: YAML tree of the input file (scene), for the location in the message. */
+/* Returns REFUSED, with a message, if a static problem has damping, or if damping is combined with coarse grid cells
+ * that have time steps of their own (mpm.levels). root: YAML tree of the input file (scene), for the location in the
+ * message. */
 static status check_damping(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -123,9 +125,9 @@ static status check_damping(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-/* Returns REFUSED for loads that other keys of the scene exclude: pressures on particles at irregular (randomly
- * shifted) positions; with static solvers, pressures that follow the surface, rotations, and velocities by a formula
- * whose displacement is unknown. root: YAML tree of the input file (scene), for the location in the message. */
+/* Returns REFUSED, with a message, for loads that other keys of the scene exclude: pressures on particles at irregular
+ * (randomly shifted) positions; with static solvers, pressures that follow the surface, rotations, and velocities by a
+ * formula whose displacement is unknown. root: YAML tree of the input file (scene), for the location in the message. */
 status check_loads_are_supported(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -155,8 +157,8 @@ status check_loads_are_supported(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-/* Returns REFUSED if the input file (scene) gives a time step with which the run would take more than 1e12 steps.
- * root: YAML tree of the scene, for the location in the message. */
+/* Returns REFUSED, with a message, if the input file (scene) gives a time step with which the run would take more than
+ * 1e12 steps. root: YAML tree of the scene, for the location in the message. */
 static status check_steps(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -166,8 +168,8 @@ static status check_steps(struct reader *r, const struct yaml_node *root)
                  node_text(r, step), s->duration / s->time_step);
 }
 
-/* Returns REFUSED if mpm.origin, a node of the grid, is more than FILL_FARTHEST spacings from 0; particles must not be
- * there either. root: tree of the scene, for the location in the message. */
+/* Returns REFUSED, with a message, if mpm.origin, a node of the grid, is more than FILL_FARTHEST spacings from 0;
+ * particles must not be there either. root: tree of the scene, for the location in the message. */
 static status check_origin(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -180,8 +182,8 @@ static status check_origin(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-/* Returns REFUSED if mpm.transfer is given as apic and the shape functions are linear, which is unstable. root: YAML
- * tree of the input file (scene), for the location in the message. */
+/* Returns REFUSED, with a message, if mpm.transfer is given as apic and the shape functions are linear, which is
+ * unstable. root: YAML tree of the input file (scene), for the location in the message. */
 static status check_transfer(struct reader *r, const struct yaml_node *root)
 {
     const struct yaml_node *transfer = scene_check_below(root, "mpm", "transfer");
@@ -426,10 +428,10 @@ static status check_accuracy(struct reader *r, const struct yaml_node *root)
     return n ? fault(r, n, "has no effect without method: auto; remove it") : OK;
 }
 
-/* Returns REFUSED for combinations of material model and surface correction that have no meaning: state-based models
- * in space line; pd.surface: volume with these models; pd.surface: moments on irregular lattices, in space line, or
- * with state-based models that normalise each family. root: YAML tree of the input file (scene), for the location in
- * the message. */
+/* Returns REFUSED, with a message, for combinations of material model and surface correction that have no meaning:
+ * state-based models in space line; pd.surface: volume with these models; pd.surface: moments on irregular lattices, in
+ * space line, or with state-based models that normalise each family. root: YAML tree of the input file (scene), for the
+ * location in the message. */
 static status check_model(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;

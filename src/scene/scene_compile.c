@@ -44,7 +44,7 @@ bool quantity_is_dimensionless(const struct quantity *q) { return same_unit(q, &
 /* ---- steps ------------------------------------------------------------------------------------------------------- */
 
 /* Appends a step to the compiled expression c: the operation `op`, with the number `value` if it pushes a number.
- * Returns false, with a message in c->what, if the expression has too many steps. */
+ * Returns false, with a message in c->what, if the expression has EXPRESSION_STEPS steps already. */
 static bool add_step(struct compile *c, enum expression_op op, real value)
 {
     if (c->steps == EXPRESSION_STEPS)
@@ -144,7 +144,7 @@ bool compile_append_product_or_quotient(struct compile *c, char sign, const char
 
 /* Raises *unit to the power `power`: multiplies the exponents of m, kg and s by the power. place: number of the
  * operator's character in the text, for the message. Returns false, with a message in c, if an exponent becomes neither
- * whole nor half, or too large. */
+ * whole nor half, or twice the exponent exceeds POWER_MOST. */
 static bool power_of_unit(struct compile *c, struct quantity *unit, real power, int place)
 {
     for (int k = 0; k < 3; k++) {

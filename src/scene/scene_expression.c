@@ -54,7 +54,7 @@ static void skip(struct compile *c)
 }
 
 /* Appends the first `length` characters of `text` to c->kept, the text of the expression that scene.yaml contains.
- * Returns false, with a message in c, if c->kept becomes too long. */
+ * Returns false, with a message in c, if c->kept becomes longer than EXPRESSION_TEXT characters. */
 static bool keep(struct compile *c, const char *text, size_t length)
 {
     if (c->used + length > EXPRESSION_TEXT)
@@ -65,8 +65,9 @@ static bool keep(struct compile *c, const char *text, size_t length)
     return true;
 }
 
-/* Appends the part of the source text from c->copied, up to which it has been copied already, to `here` to c->kept,
- * the text of the expression in scene.yaml. Returns false, with a message in c, if c->kept becomes too long. */
+/* Appends the part of the source text from c->copied, up to which it has been copied already, to `here` to c->kept, the
+ * text of the expression in scene.yaml. Returns false, with a message in c, if c->kept becomes longer than
+ * EXPRESSION_TEXT characters. */
 static bool keep_to(struct compile *c, const char *here)
 {
     const char *from = c->copied;
@@ -76,7 +77,7 @@ static bool keep_to(struct compile *c, const char *here)
 
 /* Appends the value q of a variable, in brackets, to c->kept (the text for scene.yaml) in place of its name. word:
  * beginning of the name in the source text; the name ends at c->at. Returns false, with a message in c, if c->kept
- * becomes too long. */
+ * becomes longer than EXPRESSION_TEXT characters. */
 static bool keep_value(struct compile *c, const char *word, const struct quantity *q)
 {
     char number[32], unit[200], text[240];

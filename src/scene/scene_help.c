@@ -145,7 +145,7 @@ static int key_distance(const struct key *k, const char *path)
 }
 
 /* Returns REFUSED with the message that `path` is no key. The message names the key nearest by edit distance if the two
- * are similar, else the pages of `cleave help`. */
+ * are similar (words_are_similar), else the pages of `cleave help`. */
 static status help_unknown(const char *path)
 {
     const struct key *nearest = &keys[0];

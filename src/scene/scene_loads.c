@@ -32,7 +32,7 @@ static status read_profile(struct reader *r, const struct yaml_node *n, struct p
 /* ---- boundary conditions ----------------------------------------------------------------------------------------- */
 
 /* Reads the name of an axis, x, y or z, from `text` into *axis as its number 0, 1 or 2. n: YAML node of the text, for
- * messages. Returns REFUSED for axes that the space does not have. */
+ * messages. Returns REFUSED, with a message, for axes that the space does not have. */
 static status read_axis(struct reader *r, const struct yaml_node *n, const char *text, int *axis)
 {
     *axis = word_index_in_list("x|y|z", text);

@@ -32,7 +32,8 @@ static status read_strength(struct reader *r, const struct yaml_node *n, struct 
 }
 
 /* Returns REFUSED, with a message, if the material m is given a Poisson's ratio that bonds cannot have: bond-based
- * peridynamics has one elastic constant, an isotropic solid two. n: YAML node of the material. */
+ * peridynamics has one elastic constant, an isotropic solid two. Returns OK for method mpm, space line and state-based
+ * models, which have no such limit. n: YAML node of the material. */
 static status check_poisson(struct reader *r, const struct yaml_node *n, const struct material *m)
 {
     const struct scene *s = r->scene;

@@ -75,8 +75,8 @@ const struct quantity *variable_value(struct reader *r, const char *name, char *
 
 static bool is_letter(char c) { return isalnum((unsigned char)c) || c == '_'; }
 
-/* Returns REFUSED, with a message, if the key of YAML node n cannot name a variable: it is no name, is too long, or
- * has a meaning in expressions. */
+/* Returns REFUSED, with a message, if the key of YAML node n cannot name a variable: it is not made of letters, digits
+ * and _ with a letter first, is longer than NAME_LONGEST, or has a meaning in expressions. */
 static status check_variable_name(struct reader *r, const struct yaml_node *n)
 {
     size_t length = 0;

@@ -205,8 +205,9 @@ static status read_pulse(struct reader *r, const struct yaml_node *n, struct sce
     return read_polarisation(r, yaml_node_find(n, "polarisation"), &initial->pulse);
 }
 
-/* Reads a rigid rotation w x (X - centre) of an initial state as its velocity gradient [1/s]. map: YAML node of the
- * initial state. Returns REFUSED, with a message, if velocity_gradient or centre is given too, and for invalid keys. */
+/* Reads a rigid rotation w x (X - centre) of an initial state as its velocity gradient [1/s]. Does nothing without the
+ * key `rotation`. map: YAML node of the initial state. Returns REFUSED, with a message, if velocity_gradient or centre
+ * is given too, and for invalid keys. */
 static status read_initial_rotation(struct reader *r, const struct yaml_node *map, struct scene_initial *initial)
 {
     const struct yaml_node *n = yaml_node_find(map, "rotation"), *gradient = yaml_node_find(map, "velocity_gradient"),

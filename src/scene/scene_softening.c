@@ -99,9 +99,9 @@ static status read_rate_table(struct reader *r, const struct yaml_node *n, struc
     return OK;
 }
 
-/* Reads how the tensile strength of material m grows with the strain rate. Call after m->onset_stretch is set. n: YAML
- * node of the material. Returns REFUSED, with a message, where rates have no meaning, and for a strength that bonds of
- * this horizon do not reach. */
+/* Reads how the tensile strength of material m grows with the strain rate. Call after m->onset_stretch is set. Does
+ * nothing without the key `rate`. n: YAML node of the material. Returns REFUSED, with a message, where rates have no
+ * meaning, and for a strength that bonds of this horizon do not reach. */
 static status read_rate(struct reader *r, const struct yaml_node *n, struct material *m)
 {
     const struct scene *s = r->scene;

@@ -44,7 +44,9 @@ static status check_fraction(struct reader *r, const struct yaml_node *n, const 
 }
 
 /* Sets m->surface, the strength surface of material m, from the strength that the key `key` gives. n: YAML node of the
- * key. Returns REFUSED, with a message, for a strength that does not suit the tensile strength. */
+ * key. Returns REFUSED, with a message, for a compressive strength below the tensile strength, a hydrostatic strength
+ * of at most a third of it, a biaxial strength not between half of it and all of it, or a strength above a tenth of
+ * Young's modulus. */
 static status surface_from(struct reader *r, const struct yaml_node *n, const char *key, struct material *m)
 {
     const real tension = m->tensile_strength;

@@ -126,7 +126,7 @@ static status read_choice(struct reader *r, const struct key *k, const struct ya
 }
 
 /* Returns the word of `words`, a text a|b|c, most similar to `text`, in the arena of the reader r; NULL if none is
- * similar. */
+ * similar (words_are_similar). */
 static const char *word_near(struct reader *r, const char *words, const char *text)
 {
     const char *nearest = NULL;
@@ -336,8 +336,8 @@ status read_value_of_key(struct reader *r, const struct key *k, const struct yam
     }
 }
 
-/* Reads the default of key k (of input files) into `base`, the structure of its group. Returns REFUSED if k is
- * required and missing; where: YAML node whose location the message names. */
+/* Reads the default of key k (of input files) into `base`, the structure of its group. Returns REFUSED, with a message,
+ * if k is required and missing; where: YAML node whose location the message names. */
 static status read_fallback(struct reader *r, const struct yaml_node *where, const struct key *k, void *base)
 {
     struct yaml_node n = {.kind = NODE_SCALAR, .origin = -1, .line = where->line, .column = where->column};

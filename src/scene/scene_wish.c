@@ -97,10 +97,10 @@ static status provisional_read_any(struct reader *r, const char *text, size_t le
 }
 
 /* Reads the scene in text[length], which has `method: auto`, into s with a provisional method. If the input file
- * (scene) has no spacing (`given` is false), reads it with 1 m, computes from it a coarse spacing that resolves all
- * its lengths, and reads it again with that. *most: receives the largest spacing that suits the strengths of all
- * materials [m]; INFINITY without strengths or if the scene has a spacing. Returns REFUSED, with a message, if the
- * scene is invalid. */
+ * (scene) has no spacing (`given` is false), reads it with 1 m, computes from it a coarse spacing that resolves all its
+ * lengths, and reads it again with that. *most: receives the largest spacing at which bonds can have the tensile
+ * strengths of all materials [m]; INFINITY without strengths or if the scene has a spacing. Returns REFUSED, with a
+ * message, if the scene is invalid. */
 static status provisional_scene(struct reader *r, const char *text, size_t length, struct scene *s, bool given,
                                 real *most)
 {

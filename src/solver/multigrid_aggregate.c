@@ -21,8 +21,8 @@ static float entry_norm(const struct multigrid_level *l, int64_t q)
 }
 
 /* Returns the strength of the connection between two nodes for each matrix entry of level l, an array [l->first[l->n]].
- * It is the norm of the entry, but 0 if the norm is small compared with other entries of both nodes (WEAK), if it is a
- * diagonal entry, or if one of the nodes has no stiffness. The caller frees the array. */
+ * It is the norm of the entry, but 0 if the norm is below WEAK times the geometric mean of the largest norms of both
+ * nodes, if it is a diagonal entry, or if one of the nodes has no stiffness. The caller frees the array. */
 static float *strengths_make(const struct multigrid_level *l)
 {
     float *strength = BARE("multigrid.strength", l->first[l->n], float), *most = NEW("multigrid.strength", l->n, float);

@@ -262,7 +262,8 @@ static void duration_text(char *text, size_t size, double seconds)
 }
 
 /* Prints the progress line of run e on stderr if PROGRESS_SECONDS (in a file PROGRESS_SECONDS_FILE) have passed since
- * the previous line. last: true after the last step, when the line is always printed on a terminal. */
+ * the previous line. Prints nothing in a quiet run. last: true after the last step, when the line is always printed on
+ * a terminal. */
 static void progress(struct run *e, bool last)
 {
     if (e->report->quiet) return;

@@ -26,9 +26,10 @@ enum { PRINTED_MOST = 24 };
 /* ---- sensitivity of a result ------------------------------------------------------------------------------------- */
 
 /* Returns by how much a result (a number in summary.json) of the study s changes if the time step is 10 % longer: b
- * log(1.1), with the slope b of the result over log(time step). The slope is fitted by least squares to all runs,
- * after the mean of the spacing level (runs with one particle spacing) is subtracted from each result. c: means of the
- * levels; value[k]: result of run k. Returns NAN if all runs have the same time step or the scene is not dynamic. */
+ * log(1.1), with the slope b of the result over log(time step). The slope is fitted by least squares to the runs of all
+ * spacing levels (runs with one particle spacing) with two runs or more, after the mean of the level is subtracted from
+ * each result. c: means of the levels; value[k]: result of run k. Returns NAN if all runs have the same time step or
+ * the scene is not dynamic. */
 static double step_moves(const struct convergence_study *s, const struct convergence *c, const double *value)
 {
     double xx = 0, xy = 0;
@@ -121,8 +122,8 @@ static bool figure_moves(const struct scalar_result_study *f)
 /* ---- choice ------------------------------------------------------------------------------------------------------ */
 
 /* Returns true if a study s that requests no particular numbers reports the number of summary.json called `name`.
- * Excluded are technical numbers such as run times, numbers of single crack tips, since runs differ in how many tips
- * they have, and angles in 1D. */
+ * Excluded are technical numbers such as run times, counts of equal positions (`tied`), numbers of single crack tips,
+ * since runs differ in how many tips they have, and angles in 1D. */
 static bool is_of_interest(const struct convergence_study *s, const char *name)
 {
     const char *dot = strrchr(name, '.');

@@ -244,8 +244,8 @@ static bool levels_plan(struct convergence_study *s, const struct convergence_re
 }
 
 /* Chooses spacing levels (runs with one particle spacing each) and numbers of runs with which the study fits into its
- * budget. Levels are coarsened until the finest one is not too expensive. w: request; jobs: number of runs at a time.
- * Returns REFUSED, with a message, if no plan fits. s: the study. */
+ * budget. Levels are coarsened until the predicted time fits. w: request; jobs: number of runs at a time. Returns
+ * REFUSED, with a message, if no plan fits. s: the study. */
 static status plan_fit(struct convergence_study *s, const struct convergence_request *w, int jobs)
 {
     static const int finer_first[] = {-2, -1, 0, 1, 2, 3, 4, 5, 6}, own_first[] = {0, -1, -2, 1, 2, 3, 4, 5, 6};

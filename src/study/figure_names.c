@@ -61,7 +61,8 @@ static const struct figure_group {
     " stress_zx" end " damage" end
 
 /* Names of the numbers that each kind of probe writes to summary.json, without the name of the probe, separated by
- * blanks. */
+ * blanks. READINGS(e): quantities of a point, each name with the ending e; tied: number of equally long tips or
+ * simultaneous breaks, among which the position is arbitrary; speed_rest: mean speed of the other part. */
 static const char *const probe_leaves[PROBES] = {
     [PROBE_TIP] = "x y z tied start_time arrest_time length_end angle_deg speed_max speed_mean",
     [PROBE_BREAK] = "x y z tied first_step first_time bonds",

@@ -206,7 +206,8 @@ static status search_failed(const struct pilot_search *p)
 
 /* Prints the chosen method *best of the search p (for the method of `method: auto`) and its spacing, and stores the
  * overrides for them in *to. best: NULL if no method has a prediction. Returns REFUSED, with a message, if `best` is
- * NULL or not accurate enough within the budget, or if two methods converge to different values. */
+ * NULL, if its run would take longer than PILOT_LONGEST times the budget or need a spacing less than 1/FARTHEST of the
+ * finest one tried, or if two methods converge to different values. */
 static status search_end(struct pilot *to, const struct pilot_search *p, const struct pilot_candidate *best)
 {
     if (!best || best->seconds > PILOT_LONGEST * p->wish.budget || best->finest > FARTHEST * best->spacing)

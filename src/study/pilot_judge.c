@@ -45,10 +45,10 @@ static double pilot_run_figure(const struct convergence_study *s, const char *na
 }
 
 /* Finds the spacing that a method requires for the requested accuracy of the result f (a scalar result). It is the
- * spacing of the coarsest level, at most the largest allowed spacing, whose run is accurate enough. If there is none,
- * it is extrapolated from the finest level, with the smallest order of convergence that the means allow. Stores
- * spacing, accuracy and duration of the run in *c; c->spacing remains 0 if neither is possible. p: requested accuracy
- * and spacing; s: convergence study of the method. */
+ * spacing of the coarsest level, at most the largest allowed spacing, whose run has an error of at most the requested
+ * one (p->wish.within). If there is none, it is extrapolated from the finest level, with the smallest order of
+ * convergence that the means allow. Stores spacing, accuracy and duration of the run in *c; c->spacing remains 0 if
+ * neither is possible. p: requested accuracy and spacing; s: convergence study of the method. */
 static void spacing_find(struct pilot_search *p, struct pilot_candidate *c, const struct convergence_study *s,
                          const struct scalar_result_study *f)
 {
