@@ -162,11 +162,11 @@ static ALWAYS_INLINE void ends_moment(struct particles *p, const int32_t *row, i
     }
 }
 
-/* Corrects the states *k (pressure, spring stiffness, rotation) of those of the eight particles of row block g that
- * are material points: adds the mean strain of the point's mesh cell to the pressure, and replaces the rotation by
- * that of the cell. Stores the reactions of the bonds on the cells in p->end_pull and p->end_moment. f: moduli and
- * weighted volumes of the eight neighbourhoods; sum: sums over their bonds; model: state-based model, a compile-time
- * constant. */
+/* For the bonds b, corrects the states *k (pressure, spring stiffness, rotation) of those of the eight particles of row
+ * block g that are material points: adds the mean strain of the point's mesh cell to the pressure, and replaces the
+ * rotation by that of the cell. Stores the reactions of the bonds on the cells in p->end_pull and p->end_moment. f:
+ * moduli and weighted volumes of the eight neighbourhoods; sum: sums over their bonds; model: state-based model, a
+ * compile-time constant. */
 static __attribute__((noinline)) void ends_update(struct bonds *b, struct particles *p, int64_t g,
                                                   const struct own_family *f, const struct family_sums *sum,
                                                   struct family_state *k, const int dim, const enum pd_model model)

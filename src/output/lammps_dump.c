@@ -149,7 +149,8 @@ status lammps_list_step_numbers(const char *path, int *step_count, int64_t **ste
 
 /* ---- particles --------------------------------------------------------------------------------------------------- */
 
-/* Allocates the arrays of the output frame f for the number of particles in the header h. */
+/* Allocates the arrays of the output frame f for the number of particles in the header h. Release them with
+ * lammps_frame_free. */
 static void lammps_frame_make(struct lammps_frame *f, const struct dump_head *h)
 {
     f->n = h->n, f->step = h->step;

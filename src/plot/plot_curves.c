@@ -214,9 +214,10 @@ static void write_energy(FILE *to, const struct energies *e, int k)
     if (e->shift[k] > 0) fprintf(to, "-%.12g", e->shift[k] / e->joule.factor);
 }
 
-/* Plots all selected energies, and as a dashed line their sum without the external work. The external work, which the
- * sum covers where the energy balance closes, is a broad band below all other curves. A kinetic energy from which the
- * start is subtracted is named so in the key (legend), and its start is missing in the sum, too. */
+/* Writes to gnuplot the command that plots all energies selected in e, and as a dashed line their sum without the
+ * external work. The external work, which the sum covers where the energy balance closes, is a broad band below all
+ * other curves. A kinetic energy from which the start is subtracted is named so in the key (legend), and its start is
+ * missing in the sum, too. */
 static void plot_energies(FILE *to, const struct energies *e)
 {
     fputs("plot ", to);

@@ -39,7 +39,7 @@ status run_read_frame(struct output_frame *f, const char *folder, int frame_numb
 }
 
 /* Selects at most `panels` of the output frames r->list to be shown, evenly spread from the first to the last. If
- * panels is 1, selects the last frame. Allocates r->show. */
+ * panels is 1, selects the last frame. Allocates r->show. Release it with run_frames_free. */
 static void spread_frames(struct run_frames *r, int panels)
 {
     r->shown = r->listed < panels ? r->listed : panels;
@@ -49,7 +49,8 @@ static void spread_frames(struct run_frames *r, int panels)
 }
 
 /* Selects in r for each of time[times] [s] the output frame that is nearest to it. An infinite time selects the last
- * frame. A frame that is nearest to several consecutive times is selected once. */
+ * frame. Allocates r->show, which run_frames_free releases. A frame that is nearest to several consecutive times is
+ * selected once. */
 static void nearest_frames(struct run_frames *r, const double *time, int times)
 {
     r->show = NEW("plot.show", times, struct listed_frame);

@@ -125,7 +125,7 @@ static void faces_complete(const struct faces *f, double x[2][2], bool is[2], do
 /* Returns the length [pixel] of which LINE_HALF and GAP_SEEN are fractions, in an image of width x height [pixel]. */
 static double line_scale(int width, int height) { return fmin(width, FLAT * height); }
 
-/* Returns half the width [pixel] of a line in an image of the given size [pixel]. */
+/* Returns half the width [pixel] of a line in an image of width x height [pixel], at least LINE_LEAST. */
 static double line_half(int width, int height) { return fmax(LINE_HALF * line_scale(width, height), LINE_LEAST); }
 
 /* Paints the pixels of pixel[height][width] within half a line width of the line between the points a[2] and b[2]
@@ -176,7 +176,8 @@ static void faces_paint(struct colour *pixel, int width, int height, const struc
 }
 
 /* Initialises *f as the two faces of the straight pre-crack `crack`, without displacements. Each face is divided into
- * equal sections, at most `section` long [m]. Allocates their arrays. */
+ * equal sections, at most `section` long [m]. Allocates the arrays of displacements and weights, which the caller
+ * frees. */
 static void faces_make(struct faces *f, const struct crack *crack, double section)
 {
     *f = (struct faces){.from = {crack->corner[0][0], crack->corner[0][1]}};

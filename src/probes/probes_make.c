@@ -85,8 +85,8 @@ static void columns_add(struct probes *s, struct probe *q, const struct particle
 
 /* ---- binding to particles ---------------------------------------------------------------------------------------- */
 
-/* Makes the particle of run o nearest to the point of probe q of kind POINT (one particle) its only particle. Returns
- * REFUSED, with a message, if the point is outside the bodies. */
+/* Makes the particle of run o nearest to the point of probe q of kind POINT (one particle) its only particle, in
+ * q->list, which probes_free releases. Returns REFUSED, with a message, if the point is outside the bodies. */
 static status bind_point(struct probe *q, const struct observed_run *o)
 {
     q->list = NEW("probes.list", 1, int32_t);
@@ -99,9 +99,9 @@ static status bind_point(struct probe *q, const struct observed_run *o)
                       particles_extent_text(o->part).text);
 }
 
-/* Makes the particles of run o nearest to the stations of probe q of kind LINE (points along a line) its particles, -1
- * for stations outside the bodies. Stations are equidistant points from one end of the line to the other. Returns
- * REFUSED, with a message, if all are outside. */
+/* Makes the particles of run o nearest to the stations of probe q of kind LINE (points along a line) its particles, in
+ * q->list (probes_free releases it), -1 for stations outside the bodies. Stations are equidistant points from one end
+ * of the line to the other. Returns REFUSED, with a message, if all are outside. */
 static status bind_line(struct probe *q, const struct observed_run *o)
 {
     int dim = o->part->dim, inside = 0;
@@ -122,8 +122,9 @@ static status bind_line(struct probe *q, const struct observed_run *o)
         q->request.name, particles_extent_text(o->part).text);
 }
 
-/* Makes the particles of run o in the region of probe q (a requested measurement) its particles; those on the surface
- * of the region, up to round-off, are included. Returns REFUSED, with a message, if there is none. */
+/* Makes the particles of run o in the region of probe q (a requested measurement) its particles, in q->list
+ * (probes_free releases it); those on the surface of the region, up to round-off, are included. Returns REFUSED, with a
+ * message, if there is none. */
 static status bind_region(struct probe *q, const struct observed_run *o)
 {
     const struct particles *p = o->part;

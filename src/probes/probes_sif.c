@@ -111,7 +111,7 @@ static status find_tip(struct sif_tracked *w, const struct probe_request *r, con
 
 /* Lists in w->crack the cracks across which particles must not contribute to each other's gradients: the pre-cracks of
  * run o and, unless one of them ends at the tip, a straight crack behind the tip. Sets w->tip.face, the crack face to
- * which particles exactly on the crack belong. */
+ * which particles exactly on the crack belong. sif_probe_free releases the list. */
 static void make_cracks(struct sif_tracked *w, const struct observed_run *o)
 {
     const struct sif_tip *t = &w->tip;

@@ -214,10 +214,10 @@ static status step_by_opening(struct run *e)
 
 /* ---- the loop ---------------------------------------------------------------------------------------------------- */
 
-/* Prepares a load step such that its results depend only on data of the checkpoint: a resumed run must compute the same
- * bits. Recomputes the free rigid motions of the unconstrained fragments from their present positions. Discards a
- * preconditioner that a resumed run could not rebuild: one made before bonds broke, or one with the stiffness of
- * contact, which depends on the positions at that time.
+/* Prepares a load step of run e such that its results depend only on data of the checkpoint: a resumed run must compute
+ * the same bits. Recomputes the free rigid motions of the unconstrained fragments from their present positions.
+ * Discards a preconditioner that a resumed run could not rebuild: one made before bonds broke, or one with the
+ * stiffness of contact, which depends on the positions at that time.
  *
  * Converts the material points that rigid bodies come near until pseudo-time t [s] before these bodies move: they act
  * on peridynamic particles only, and would else pass into the body without work. Then finds the equilibrium with these

@@ -111,7 +111,8 @@ static void unknowns_number(struct search *s)
         s->node[mesh->grid.mirror_node[k].node] = s->node[mesh->grid.mirror_node[k].image];
 }
 
-/* Allocates the arrays of s, a search for unconstrained fragments, and stores the present positions of the nodes. */
+/* Allocates the arrays of s, a search for unconstrained fragments, and stores the present positions of the nodes.
+ * Release them with unconstrained_search_end. */
 static void unconstrained_search_begin(struct search *s)
 {
     const int64_t n = s->statics->balance.n;
@@ -398,7 +399,8 @@ static void fragment_motions(const struct search *s, struct unconstrained_fragme
 }
 
 /* Numbers the connected components of s, the fragments, in the order of their first nodes, stores the number for each
- * node in s->fragment, and computes centres and radii of the fragments. */
+ * node in s->fragment, and computes centres and radii of the fragments in s->candidate, which unconstrained_search_end
+ * releases. */
 static void fragment_candidates_find(struct search *s)
 {
     const int64_t nodes = s->statics->balance.n;

@@ -182,7 +182,7 @@ void image_compute_displacement_signs(const struct particles *p, const struct lo
 /* ---- loads and supports ------------------------------------------------------------------------------------------ */
 
 /* Computes the forces that `loads` apply at pseudo_time [s] and stores them in s->applied[dim][particles] [N].
- * Allocates these arrays on the first call. p: all particles. */
+ * Allocates these arrays on the first call; statics_free releases them. p: all particles. */
 void applied_forces_compute(struct statics *s, const struct particles *p, const struct loads *loads, real pseudo_time)
 {
     for (int d = 0; d < p->dim; d++) {

@@ -290,8 +290,8 @@ bool rigid_compute_shown_box(const struct region *shape, int dim, real *low, rea
     return bounded;
 }
 
-/* Makes the surfaces of all rigid bodies in rigid->surface on the first call; later calls do nothing. Unbounded bodies
- * are cut to a box around the particles `part`. */
+/* Makes the surfaces of all rigid bodies in rigid->surface on the first call; later calls do nothing.
+ * rigid_surface_free releases each. Unbounded bodies are cut to a box around the particles `part`. */
 static void rigid_surfaces_make(struct rigid_set *rigid, const struct particles *part)
 {
     if (rigid->surface) return;

@@ -89,8 +89,9 @@ static status table_read(hid_t file, const char *path, const char *name, struct 
                       path, name);
 }
 
-/* Copies column k of the table t, converted to SI units, to a new array of the list l. column: quantity in the list
- * (COLUMN_*); path: name of the file, for messages. Returns REFUSED, with a message, for an invalid value. */
+/* Copies column k of the table t, converted to SI units, to a new array of the list l, which particle_list_free
+ * releases. column: quantity in the list (COLUMN_*); path: name of the file, for messages. Returns REFUSED, with a
+ * message, for an invalid value. */
 static status table_take(struct particle_list *l, int column, const struct table *t, int k, const char *path)
 {
     real *array = NEW("list.column", l->n, real);

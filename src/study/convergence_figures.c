@@ -321,8 +321,8 @@ static struct scalar_result_study figure_in_printed_unit(const struct scalar_res
     return p;
 }
 
-/* Prints the means of a scalar result at all spacings, how it converges, and its value with its 95 % interval. own:
- * index of the level with the spacing of the scene, -1 if there is none; metre: unit of the spacings. */
+/* Prints the means of the scalar result `figure` at all spacings, how it converges, and its value with its 95 %
+ * interval. own: index of the level with the spacing of the scene, -1 if there is none; metre: unit of the spacings. */
 static void figure_print(const struct scalar_result_study *figure, int own, const struct unit *metre)
 {
     const struct scalar_result_study shown = figure_in_printed_unit(figure), *f = &shown;

@@ -56,7 +56,7 @@ static bool boundary_acts(const struct boundary *b, int dim)
     return acts && b->kind != BOUNDARY_MIRROR && b->kind != BOUNDARY_ABSORBING;
 }
 
-/* Returns true if something moves or loads the bodies of a scene: loads, driven supports, gravity, initial states,
+/* Returns true if something moves or loads the bodies of the scene s: loads, driven supports, gravity, initial states,
  * growing cracks, or bodies with a velocity or force. */
 static bool scene_acts(const struct scene *s)
 {

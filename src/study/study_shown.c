@@ -183,8 +183,8 @@ static void key_words(char *text, size_t capacity, const char *key, int componen
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
-/* Initialises *k, the varied key `key` (a key of the input file that a study varies) as pictures show it: its words
- * and its values without common parts. s: scene of the study, NULL if it cannot be read. */
+/* Initialises *k, the varied key `key` (a key of the input file that a study varies) as pictures show it: its words and
+ * its values without common parts. shown_keys_free releases it. s: scene of the study, NULL if it cannot be read. */
 static void shown_key_make(struct shown_key *k, const struct varied_key *key, const struct scene *s)
 {
     const int n = key->values;
