@@ -392,9 +392,9 @@ status output_write_text(const struct output *o, const char *file_name, const ch
 
 /* ---- restart ----------------------------------------------------------------------------------------------------- */
 
-/* Saves the list of output frames of series s (number, times, sizes) and the number and hash of its last particles
- * file to the archive a if a->saving is true, else restores them. A series is the frames of the whole run or of one
- * region. Returns FAILED if the restored lists do not match. */
+/* Saves the list of output frames of series s (number, times, sizes) and the number and hash of its last particles file
+ * to the archive a if a->saving is true, else restores them. A series is the frames of the whole run or of one region.
+ * Returns FAILED, with a message, if the restored lists do not match. */
 static status series_archive(struct frame_series *s, struct archive *a)
 {
     char frames_name[100], entry_name[100], number_name[100], content_name[100];

@@ -199,7 +199,8 @@ static void plot_bar_panel(FILE *to, int q, const struct listed_frame *show, int
 }
 
 /* Draws all panels of a bar with its closed-form solution on the picture `sheet` with the title `title`. h[frames]:
- * profiles of the output frames show[frames]. Returns FAILED, with a message, if gnuplot fails. */
+ * profiles of the output frames show[frames]. Returns FAILED, with a message, if gnuplot fails. The last panel, damage,
+ * is left out if damage is 0 everywhere. */
 static status plot_bar_draw(struct sheet sheet, const char *title, const struct history *h,
                             const struct listed_frame *show, int frames)
 {

@@ -79,8 +79,9 @@ static int leaves_cube(const struct camera *eye, const struct cube *b, const dou
     return enters < leaves ? face : -1;
 }
 
-/* Computes the deformed cube by which the picture shows particle i of c, and stores it in *b. A cube smaller than a
- * pixel of the canvas v is enlarged to one pixel. */
+/* Computes the cube by which the picture shows particle i of c, deformed by the particle's deformation gradient, and
+ * stores it in *b. A cube smaller than a pixel of the canvas v is enlarged to one pixel. Without a gradient, or if it
+ * cannot be inverted, the cube is undeformed. */
 static void cube_of(const struct scene_canvas *v, const struct plotted_particles *c, int64_t i, struct cube *b)
 {
     const double *axis[3] = {c->camera.right, c->camera.up, c->camera.towards};

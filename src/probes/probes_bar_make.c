@@ -45,7 +45,7 @@ static void find_order(struct bar *b, const struct particles *p)
 
 /* Finds the particles of run o that form the bar of probe q (kind EXACT: comparison with a closed-form solution),
  * allocates its arrays, and stores its ends and material constants. Returns REFUSED, with a message, unless the scene
- * is one row of particles in 1D, of one material and without a gap. */
+ * is one row of at least three particles in 1D, of one material, and without a gap above 2.5 spacings. */
 static status find_bar(struct probe *q, const struct observed_run *o)
 {
     const struct particles *p = o->part;

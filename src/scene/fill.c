@@ -353,8 +353,8 @@ static status check_distances(const struct particles *p, const struct particle_d
 }
 
 /* Creates the particles p from d, the list of particles to be created, applies the initial states, checks values and
- * distances, and sorts the particles. optional: optional arrays to create (WITH_*). Returns REFUSED, with a message,
- * for invalid values, lists or positions. */
+ * distances, and sorts the particles. Joined bodies become one. optional: optional arrays to create (WITH_*). Returns
+ * REFUSED, with a message, for invalid values, lists or positions. */
 static status fill_made(struct particles *p, const struct particle_draft *d, int optional)
 {
     const struct scene *s = d->scene;

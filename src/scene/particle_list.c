@@ -199,8 +199,9 @@ static int list_format(const char *path)
 bool path_has_particle_list_extension(const char *path) { return list_format(path) != NO_LIST; }
 
 /* Reads a particle list of any format from the file `path` into l. form: unit and columns that the input file (scene)
- * gives, or NULL if it gives none; dim: coordinates per position; head: true to read only the column names (CSV
- * files). Returns REFUSED, with a message and l released, if the file is missing or invalid. */
+ * gives, or NULL if it gives none; dim: coordinates per position; head: true to read only the column names (CSV files).
+ * Returns REFUSED, with a message and l released, if the file is missing or invalid, or if the scene gives columns for
+ * a file other than CSV. */
 static status list_read(struct particle_list *l, const char *path, const struct particle_list_form *form, int dim,
                         bool head)
 {

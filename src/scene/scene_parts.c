@@ -83,9 +83,9 @@ static status check_rigid_body(struct reader *r, const struct yaml_node *n, cons
     return OK;
 }
 
-/* Reads the body of YAML node n into b. number: index of the body; the names of bodies with smaller indices must
- * differ from its name. Returns REFUSED, with a message, for invalid keys, and if the body has neither shape nor
- * particles, or both. */
+/* Reads the body of YAML node n into b. number: index of the body; the names of bodies with smaller indices must differ
+ * from its name. Returns REFUSED, with a message, for invalid keys, if the body has neither shape nor particles, or
+ * both, if it leaves open which of several materials it has, and if its name is in use. */
 static status scene_parts_read_body(struct reader *r, const struct yaml_node *n, struct scene_body *b, int number)
 {
     const struct yaml_node *shape = yaml_node_find(n, "shape"), *file = yaml_node_find(n, "particles");

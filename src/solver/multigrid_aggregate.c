@@ -130,9 +130,9 @@ static real column_dot(const real *v, const int32_t *member, int64_t n, int w, i
     return sum;
 }
 
-/* Makes the m columns of the matrix v over the n nodes in `member` orthonormal, in place (Gram-Schmidt, twice).
- * Columns that depend linearly on others become 0. w: rows of v for each node; r[m][m]: must be 0, receives the
- * factors such that the old v is the new v times r. */
+/* Makes the m columns of the matrix v over the n nodes in `member` orthonormal, in place (Gram-Schmidt, twice). Columns
+ * that depend linearly on others, of which a part of at most DROPPED remains, become 0. w: rows of v for each node;
+ * r[m][m]: must be 0, receives the factors such that the old v is the new v times r. */
 static void columns_orthonormal(real *v, const int32_t *member, int64_t n, int w, int m, real *r)
 {
     for (int c = 0; c < m; c++) {

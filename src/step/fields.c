@@ -35,7 +35,8 @@ static void gradient_add(struct gradient_sum *s, const struct particles *p, int6
 }
 
 /* Computes the displacement gradient of particle i, H = M K^-1, from the sums s over its neighbours, and stores it in
- * H[dim dim][i]. H becomes 0 if the neighbours do not span the space. s->K is overwritten in the axes beyond dim. */
+ * H[dim dim][i]. H becomes 0 if the neighbours do not span the space: if the determinant of K is at most SHAPE_LEAST
+ * times the cube of its mean eigenvalue. s->K is overwritten in the axes beyond dim. */
 static void gradient_fit(struct gradient_sum *s, int dim, int64_t i, real *const *H)
 {
     real mean = 0, C[3][3];

@@ -256,8 +256,8 @@ static void sample_energies(struct run *e)
 }
 
 /* Completes a sample of run e with the quantities that require velocities after the step, and writes it as a line of
- * history.csv. now: time of these velocities and factor on them; kinetic, work: kinetic energy and external work of
- * the sample [J]. */
+ * history.csv. now: time of these velocities and factor on them; kinetic, work: kinetic energy and external work of the
+ * sample [J]. If an energy is not finite, writes no line and sets e->stability->lost. */
 static void sample_write(struct run *e, const struct velocity_time *now, real kinetic, real work)
 {
     struct sampling *sampling = &e->report->sampling;

@@ -404,8 +404,9 @@ static void warn_of_stretched(const struct scene *s, real strain, real t, const 
     warnings_add_and_print(to, text);
 }
 
-/* Warns of the first elastic point of p on the grid with a strain above STRETCH_MOST, unless the scene s silences this
- * warning. t: present time [s]; to: list of warnings. Returns true if there is such a point. */
+/* Warns of the first elastic point of p on the grid with a strain (largest principal stress divided by Young's modulus)
+ * above STRETCH_MOST, unless the scene s silences this warning. t: present time [s]; to: list of warnings. Returns true
+ * if there is such a point. */
 static bool say_stretched(const struct particles *p, const struct scene *s, real t, struct warnings *to)
 {
     const int n = symmetric_component_count(p->dim);
@@ -474,7 +475,8 @@ static bool say_turned(const struct particles *p, const struct scene *s, real t,
 
 /* Returns FAILED, with a message and a remedy, if the energy shows that the run is unstable although no particle is
  * faster than waves: a body that gains energy, e.g. by breaking all its bonds, or whose velocities change sign in every
- * step. Tested at samples and at the end. Bodies whose energy is round-off are not tested. */
+ * step; also if an energy is not finite. Warns of large strains, of parted material points and of large motions. Tested
+ * at samples and at the end. Bodies whose energy is round-off are not tested. */
 status energy_check_last_sample(struct run *e)
 {
     if (e->stability->lost)

@@ -211,9 +211,10 @@ static real lightest_share(const struct scene *s, const struct particles *p)
     return least;
 }
 
-/* Computes the critical time step, the time step and the number of steps of the run e, in e->clock. The limits of all
- * methods of the scene apply from the start, because particles convert later. Returns REFUSED, with a message, if the
- * prescribed step is too large for coarse cells, or the steps are too many. */
+/* Computes the critical time step, the time step and the number of steps of the run e, in e->clock. In load steps,
+ * their number is that of the scene. The limits of all methods of the scene apply from the start, because particles
+ * convert later. Returns REFUSED, with a message, if the prescribed step is too large for coarse cells, or the steps
+ * are too many. */
 status time_step_choose_and_count_steps(struct run *e)
 {
     const struct scene *s = e->scene;

@@ -38,9 +38,10 @@ static void place_add(struct places *p, double distance, double spacing)
     p->place[p->n++].half = off > 0.5 - MEETS;
 }
 
-/* Appends to *p the distances of all faces and cracks of each body of the scene s from the body's lower corner, if they
- * fit the lattice of the scene: n or n + 1/2 spacings, with a whole number n. Other spacings of a study should fit
- * these distances as well. */
+/* Appends to *p the distances from the lower corner of each body of the scene s to its upper corner and to the faces of
+ * its axis-parallel boxes, and from that of the first body also to the corners of all cracks, if they fit the lattice
+ * of the scene: n or n + 1/2 spacings, with a whole number n. Other spacings of a study should fit these distances as
+ * well. */
 static void places_find(struct places *p, const struct scene *s)
 {
     real low[DIM_MAX], high[DIM_MAX];
