@@ -189,8 +189,8 @@ static status crowd_judge(const struct crowd *c, const struct verdict *v)
                            v->apart, spacing, v->apart, unit_guess(spacing / v->apart, NAN));
     if (!(v->filled < VOLUME_MOST && v->filled > 1 / VOLUME_MOST))
         return refuse_list(c,
-                           "volumes of its particles are %.3g times the space up to their neighbours, which are %.4g m "
-                           "apart%s; give volumes in m^3%s",
+                           "volumes of its particles are %.3g times those expected from the distance of neighbours, "
+                           "%.4g m%s; give volumes in m^3%s",
                            v->filled, v->apart,
                            c->s->dim == 1   ? ", times the section"
                            : c->s->dim == 2 ? ", times the thickness"

@@ -54,9 +54,10 @@ static status table_check(const struct table *t, const char *path, const char *n
 {
     struct stat about;
     if (stat(path, &about) != 0 || t->rows / ROWS_PER_BYTE_MOST > about.st_size)
-        return status_set(REFUSED,
-                          "%s: %s claims %lld entries, more than a file of its size can contain; it is damaged", path,
-                          name, (long long)t->rows);
+        return status_set(
+            REFUSED,
+            "%s: %s claims %lld entries, more than a file of its size can contain, so it is damaged; write it again",
+            path, name, (long long)t->rows);
     return particle_list_check_memory(path, t->rows);
 }
 

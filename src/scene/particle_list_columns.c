@@ -97,7 +97,9 @@ status particle_list_check_memory(const char *path, int64_t particle_count)
 {
     const real bytes = (real)particle_count * PARTICLE_NUMBERS * sizeof(real);
     if (machine_memory_size() <= 0 || bytes <= (real)machine_memory_size()) return OK;
-    return status_set(REFUSED, "%s: %.3g particles need more than %.2g GB of memory, but %.2g GB are available (%s)",
+    return status_set(REFUSED,
+                      "%s: %.3g particles need more than %.2g GB of memory, but %.2g GB are available (%s); use a "
+                      "shorter list, or a machine with more memory",
                       path, (real)particle_count, 1e-9 * bytes, 1e-9 * (real)machine_memory_size(),
                       machine_memory_limit_name());
 }

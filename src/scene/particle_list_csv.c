@@ -271,7 +271,8 @@ static status csv_header(struct csv *c, struct particle_list *l)
     while (comment) {
         TRY(csv_read_line(&c->in, &more, &comment));
         if (!more)
-            return status_set(REFUSED, "%s: empty; begin with a line that names the columns, such as x,y,z,volume",
+            return status_set(REFUSED,
+                              "%s: the file is empty; begin with a line that names the columns, such as x,y,z,volume",
                               c->in.path);
         if (!comment || *names) continue;
         header_bare(c->in.text);
@@ -283,8 +284,9 @@ static status csv_header(struct csv *c, struct particle_list *l)
         return header_elsewhere(c, l, mesh, c->in.line);
     }
     if (line_of_numbers(c->in.text))
-        return csv_report_fault(&c->in, c->in.text,
-                                "numbers, but no line before them names the columns; add one, such as x,y,volume");
+        return csv_report_fault(
+            &c->in, c->in.text,
+            "this line has numbers, but no line before it names the columns; add such a line, such as x,y,volume");
     header_bare(c->in.text);
     return strchr(c->in.text, '\t') && line_of_blanks(c->in.text) ? header_of_tabs(c, l) : header_read(c, l);
 }
@@ -297,7 +299,7 @@ static status csv_header_given(struct csv *c, struct particle_list *l)
     char entry[CSV_LINE_LENGTH];
     bool more;
     TRY(csv_read_data_line(&c->in, &more));
-    if (!more) return status_set(REFUSED, "%s: empty; give one line for each particle", c->in.path);
+    if (!more) return status_set(REFUSED, "%s: the file is empty; give one line for each particle", c->in.path);
     strcpy(entry, c->in.text);
     snprintf(c->in.text, sizeof c->in.text, "%s", l->form.columns);
     TRY(header_read(c, l));

@@ -24,7 +24,7 @@ static status read_space(struct reader *r, const struct yaml_node *root)
 status scene_read_keys_of_tree(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
-    TRY(expect_node_kind(r, root, NODE_MAP, "a scene (a mapping of keys to values)"));
+    TRY(expect_node_kind(r, root, NODE_MAP, "give a scene, which is a mapping of keys to values"));
     r->root = root;
     TRY(check_all_keys_known(r, root));
     TRY(read_space(r, root));
@@ -58,7 +58,7 @@ status scene_parse_tree(struct reader *r, const char *text, size_t length, struc
 {
     TRY(foreign_file_refuse(r, text, length));
     TRY(tree_parse_yaml(r, text, length, -1, root));
-    if (!*root) return fault_at_location(r, -1, 1, 1, "empty; begin with keys such as space and duration");
+    if (!*root) return fault_at_location(r, -1, 1, 1, "the scene is empty; begin with keys such as space and duration");
     TRY(tree_rename_old_keys(r, *root));
     TRY(tree_merge_included_files(r, *root));
     TRY(tree_apply_all_overrides(r, *root));

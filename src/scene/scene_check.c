@@ -347,7 +347,7 @@ const char *scene_why_reference_frame_not_chosen_by_auto(const struct scene *s, 
     if (s->bodies > 1) return "bodies have contact only on the grid of the current frame";
     if (s->body[body].file) return "it needs particles on a regular lattice, which particles from a list may not have";
     if (!scene_has_load_steps(s) && body_yields(s, body))
-        return "materials that yield may strain more than the reference frame, whose strains are small, allows";
+        return "materials that yield may exceed the small strains for which the reference frame is valid";
     return NULL;
 }
 
@@ -363,9 +363,9 @@ const char *scene_why_reference_frame_is_no_remedy(const struct scene *s)
  * input file (scene) gives no such key. */
 static const char *current_frame_key(const struct scene *s)
 {
-    if (s->has_shape) return "the scene gives mpm.shape, which the reference frame does not have";
-    if (s->has_transfer) return "the scene gives mpm.transfer, which the reference frame does not have";
-    if (s->has_interface_damping) return "the scene gives interface_damping, which the reference frame does not have";
+    if (s->has_shape) return "the scene gives mpm.shape, a key for the current frame only";
+    if (s->has_transfer) return "the scene gives mpm.transfer, a key for the current frame only";
+    if (s->has_interface_damping) return "the scene gives interface_damping, a key for the current frame only";
     return NULL;
 }
 

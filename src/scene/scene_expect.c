@@ -38,12 +38,13 @@ status fault_report_missing_key(struct reader *r, const struct yaml_node *map, c
                              helps ? example : "");
 }
 
-status expect_node_kind(struct reader *r, const struct yaml_node *n, enum node_kind kind, const char *expected)
+status expect_node_kind(struct reader *r, const struct yaml_node *n, enum node_kind kind, const char *advice)
 {
     const bool top = n->key && n->parent && !n->parent->key;
-    const char *advice = top ? foreign_value_advice(n->key, n->text) : NULL;
+    const char *foreign = top ? foreign_value_advice(n->key, n->text) : NULL;
     if (n->kind == kind) return OK;
-    return fault(r, n, "%s is not %s%s%s", node_text(r, n), expected, advice ? "; " : "", advice ? advice : "");
+    return fault(r, n, "%s is not allowed here; %s%s%s", node_text(r, n), advice, foreign ? "; " : "",
+                 foreign ? foreign : "");
 }
 
 /* Returns REFUSED, with a message and an example of a value of key k (of input files), if YAML node n is not of the
@@ -53,7 +54,7 @@ static status expect_kind_of_key(struct reader *r, const struct key *k, const st
 {
     char example[EXAMPLE_LENGTH], form[EXAMPLE_LENGTH + 40];
     key_write_example(k, r->dim, n->kind == NODE_MAP && n->first ? n->first->key : NULL, example, sizeof example);
-    snprintf(form, sizeof form, "%s such as %s", expected, example);
+    snprintf(form, sizeof form, "give %s such as %s", expected, example);
     return expect_node_kind(r, n, kind, form);
 }
 

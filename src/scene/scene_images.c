@@ -76,7 +76,7 @@ status read_grey_materials(struct reader *r, const struct yaml_node *materials_n
         return fault(r, materials_node,
                      "is only for an image that is the shape of a body; here give values, such as 100-255");
     TRY(expect_node_kind(r, materials_node, NODE_MAP,
-                         "a mapping of grey values to materials, such as {0: void, 1-255: rock}"));
+                         "give a mapping of grey values to materials, such as {0: void, 1-255: rock}"));
     bool *in = NEW("grey values", GREY_MAX + 1, bool);
     status s = OK;
     p->ranges = 0;

@@ -431,9 +431,10 @@ status check_all_keys_known(const struct reader *r, const struct yaml_node *root
  * in the table. r: reader of the input file. */
 status expect_mapping(struct reader *r, const struct yaml_node *n, const char *group_path);
 
-/* Returns REFUSED if node n is not of the kind `kind`, with a message of the form "... is not WHAT" with WHAT =
- * `expected`; else OK. r: reader of the input file. */
-status expect_node_kind(struct reader *r, const struct yaml_node *n, enum node_kind kind, const char *expected);
+/* Returns REFUSED if node n is not of the kind `kind`, with a message of the form "... is not allowed here; ADVICE";
+ * else OK. advice: what to give instead, such as "give a list". r: reader of the
+ * input file. */
+status expect_node_kind(struct reader *r, const struct yaml_node *n, enum node_kind kind, const char *advice);
 
 /* Reads all keys of the group `group_path` that need no function of their own into the structure `group_values`.
  * mapping: mapping with the keys, or NULL to store the defaults only; location_node: node at whose location missing

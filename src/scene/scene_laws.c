@@ -49,7 +49,7 @@ static status read_curve(struct reader *r, const struct yaml_node *n, struct flo
                                .type = KEY_REAL,
                                .unit = UNIT_PRESSURE,
                                .range = {0, INFINITY, true, true}};
-    TRY(expect_node_kind(r, n, NODE_LIST, "a list of points [plastic strain, stress]"));
+    TRY(expect_node_kind(r, n, NODE_LIST, "give a list of points [plastic strain, stress]"));
     if (n->n < 2 || n->n > FLOW_POINTS) return fault(r, n, "has %d points; give 2 to %d", n->n, FLOW_POINTS);
     for (const struct yaml_node *point = n->first; point; point = point->next, c->points++) {
         if (point->kind != NODE_LIST || point->n != 2)

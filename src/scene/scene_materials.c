@@ -93,8 +93,8 @@ static status read_scatter(struct reader *r, const struct yaml_node *n, struct m
                      "critical_stretch or toughness");
     if (material_yields(m) && r->scene->method == METHOD_MPM)
         return fault(r, n,
-                     "material points of method mpm do not break, and a yield stress does not scatter; set method: pd, "
-                     "or remove scatter");
+                     "scatter varies the strength of bonds, but method: mpm has no bonds, and yield stresses do not "
+                     "scatter; set method: pd, or remove scatter");
     if (material_yields(m) && r->scene->method == METHOD_ADAPTIVE)
         return fault(r, n,
                      "scatter and yield_stress cannot be combined with material points, whose stress after yield does "

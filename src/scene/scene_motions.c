@@ -63,7 +63,7 @@ static status read_mirror_image(struct reader *r, const struct yaml_node *n, str
 
 static status read_pattern(struct reader *r, const struct yaml_node *n, struct solid_motion *m)
 {
-    TRY(expect_node_kind(r, n, NODE_MAP, "a pattern such as grid: {count: [..], step: [..]}"));
+    TRY(expect_node_kind(r, n, NODE_MAP, "give a pattern such as grid: {count: [..], step: [..]}"));
     TRY(check_keys_known(r, n, "solid.pattern"));
     if (n->n != 1) return fault(r, n, "has %d keys; give one, grid or ring", n->n);
     const struct yaml_node *form = n->first;

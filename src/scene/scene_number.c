@@ -135,12 +135,12 @@ status read_variables(struct reader *r, const struct yaml_node *root)
     char what[256];
     r->variables = 0;
     if (!map || (map->kind == NODE_SCALAR && *map->text == '\0')) return OK;
-    TRY(expect_node_kind(r, map, NODE_MAP, "a mapping such as {a: 3 mm, b: 2*a}"));
+    TRY(expect_node_kind(r, map, NODE_MAP, "give a mapping such as {a: 3 mm, b: 2*a}"));
     if (map->n > k->range.most) return fault(r, map, "has %d variables; give at most %g", map->n, k->range.most);
     r->variable = arena_new(r, (size_t)(map->n + 1) * sizeof *r->variable);
     for (const struct yaml_node *n = map->first; n; n = n->next) {
         TRY(check_variable_name(r, n));
-        TRY(expect_node_kind(r, n, NODE_SCALAR, "a number or an expression"));
+        TRY(expect_node_kind(r, n, NODE_SCALAR, "give a number or an expression"));
         TRY(check_key_given_once(r, map, n));
         r->variable[r->variables++] = (struct variable){.n = n};
     }

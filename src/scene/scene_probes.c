@@ -22,7 +22,7 @@ static status kind_of_probe(struct reader *r, const struct yaml_node *n, enum pr
         word.key = n->text, word.next = NULL;
         TRY(check_keys_known(r, &list, "probes"));
     } else {
-        TRY(expect_node_kind(r, n, NODE_MAP, "a probe, such as tip (of the crack) or point: {at: [..]}"));
+        TRY(expect_node_kind(r, n, NODE_MAP, "give a probe, such as tip (of the crack) or point: {at: [..]}"));
         TRY(check_keys_known(r, n, "probes"));
         if (n->n != 1)
             return fault(r, n, "has %d keys; give one, the kind of the probe, such as point: {at: [..]}", n->n);

@@ -186,10 +186,10 @@ status refuse_flow_law_without_mpm(struct reader *r, const struct yaml_node *law
     const int bonds = row_of_method(s, s->method, linear & ~(unsigned)HAS_RATIO);
     const bool ratio = has & HAS_RATIO;
     if (bonds < 0)
-        return fault(r, law_node, "is a key for material points; use %s",
+        return fault(r, law_node, "works for material points only; use %s",
                      points ? points : "`method: mpm` without rigid bodies and tensile_strength");
     return fault(r, law_node,
-                 "is a key for material points; use %s%syield_stress with linear hardening by yield_hardening, which "
+                 "works for material points only; use %s%syield_stress with linear hardening by yield_hardening, which "
                  "bonds%s have%s%s",
                  points ? points : "", points ? ", or " : "", s->model == MODEL_BOND ? "" : " (`model: bond`)",
                  ratio ? " at a Poisson's ratio of " : "", ratio ? ratio_of_bonds(s) : "");

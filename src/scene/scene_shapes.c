@@ -194,7 +194,7 @@ static status refuse_set(struct reader *r, const struct yaml_node *n, const char
         strcat(names, g->set[k].name);
     }
     if (several > 0) return fault(r, n, "the file has %d sets %s; give one of %s", several, name, names);
-    return fault(r, n, "the file has no set %s; it has %s", name, g->sets ? names : "none");
+    return fault(r, n, "the file has no set %s; give one of its sets (%s)", name, g->sets ? names : "none");
 }
 
 #define AT_NODE 0.01 /* largest distance of a particle from a node of the list in which it was [spacings] */

@@ -80,7 +80,7 @@ static status read_rate_table(struct reader *r, const struct yaml_node *n, struc
         .path = "material.rate.table", .type = KEY_REAL, .unit = UNIT_RATE, .range = {0, INFINITY, true, true}};
     const struct key factors = {
         .path = "material.rate.table", .type = KEY_REAL, .unit = UNIT_NONE, .range = {1, 100, false, true}};
-    TRY(expect_node_kind(r, n, NODE_LIST, "a list of points [strain rate, factor]"));
+    TRY(expect_node_kind(r, n, NODE_LIST, "give a list of points [strain rate, factor]"));
     if (n->n < 1 || n->n > RATE_POINTS) return fault(r, n, "has %d points; give 1 to %d", n->n, RATE_POINTS);
     for (const struct yaml_node *point = n->first; point; point = point->next) {
         const int k = rate->points++;

@@ -158,7 +158,7 @@ static status region_called(struct reader *r, const struct yaml_node *n, const s
     const struct yaml_node *nearest = NULL, *map = r->dim == r->scene->dim ? r->regions : r->sections;
     const char *word = r->dim == r->scene->dim ? "region" : "section";
     if (n->kind != NODE_SCALAR)
-        return fault(r, n, "%s is not a name; give the name of one of the key %ss", node_text(r, n), word);
+        return fault(r, n, "%s is not a name; give one of the names defined by the key %ss", node_text(r, n), word);
     if (!map)
         return fault(
             r, n, "%s is not a kind of solid, and the scene has no %s of this name; define it by %ss: {%s: {box: ..}}",
@@ -223,7 +223,7 @@ static status names_find(struct reader *r, const struct yaml_node *root, const c
 {
     *map = yaml_node_find(root, key);
     if (!*map) return OK;
-    TRY(expect_node_kind(r, *map, NODE_MAP, "a mapping of names to solids, such as {grip: {box: ..}}"));
+    TRY(expect_node_kind(r, *map, NODE_MAP, "give a mapping of names to solids, such as {grip: {box: ..}}"));
     return (*map)->n > 0 ? OK : fault(r, *map, "has no region; give a name and its solids, such as {grip: {box: ..}}");
 }
 
@@ -289,7 +289,7 @@ static status read_solid(struct reader *r, const struct yaml_node *n, struct sol
     const struct yaml_node *child = NULL;
     const struct solid_word *word = NULL;
     int solids = 0;
-    TRY(expect_node_kind(r, n, NODE_MAP, "a solid such as box: {from: [..], to: [..]}"));
+    TRY(expect_node_kind(r, n, NODE_MAP, "give a solid such as box: {from: [..], to: [..]}"));
     TRY(check_keys_known(r, n, "solid"));
     for (const struct yaml_node *c = n->first; c; c = c->next)
         if (!node_is_motion_key_of_solid(c)) child = c, solids++;
@@ -403,7 +403,7 @@ static status read_crack_place(struct reader *r, const struct yaml_node *n, stru
 {
     static const char *const first[] = {"at", "from", "polygon"}, *const form[] = {"at", "from and to", "polygon"};
     const char *word = first[r->dim - 1];
-    TRY(expect_node_kind(r, n, NODE_MAP, "a crack such as {from: [..], to: [..]}"));
+    TRY(expect_node_kind(r, n, NODE_MAP, "give a crack such as {from: [..], to: [..]}"));
     TRY(check_keys_known(r, n, "cracks"));
     for (const struct yaml_node *k = n->first; k; k = k->next)
         if (strcmp(k->key, word) != 0 && strcmp(k->key, "width") != 0 && (r->dim != 2 || strcmp(k->key, "to") != 0))

@@ -98,7 +98,8 @@ static status time_columns_find(struct time_columns *c, const char *wanted)
     char *rest = c->in.text;
     c->time = c->value = -1;
     TRY(csv_read_data_line(&c->in, &more));
-    if (!more) return status_set(REFUSED, "%s: empty; begin with a header such as time [us], value", c->in.path);
+    if (!more)
+        return status_set(REFUSED, "%s: the file is empty; begin with a header such as time [us], value", c->in.path);
     csv_detect_separator(&c->in);
     for (char *name; (name = csv_cut_field(&c->in, &rest)) != NULL; k++) TRY(column_take(c, k, name, wanted));
     c->all = k;

@@ -259,7 +259,7 @@ static const char *trap(const char *c, size_t length)
     const char *rest = c + length;
     if (*rest == '_') return "digits cannot be grouped by _; write 1000 or 1e3";
     if (*rest == ',') return "the decimal sign is a point; write "; /* then the number */
-    if (*rest == ':') return "base 60 is not read; write a decimal number";
+    if (*rest == ':') return "numbers with colons (base 60) are not read; write a decimal number";
     if ((*rest == 'x' || *rest == 'X' || *rest == 'o' || *rest == 'b') && length <= 2 && *digits == '0')
         return "hexadecimal, octal and binary numbers are not read; write a decimal number";
     if (digits[0] == '0' && isdigit((unsigned char)digits[1]))
@@ -378,7 +378,7 @@ static bool in_bounds(struct complaint c, real value, enum unit unit)
     if (!isfinite(value)) return complain(c, "is not finite", unit);
     if (fabs(value) > NUMBER_MOST) return complain(c, "is above 1e30 in SI units", unit);
     if (fabs(value) < NUMBER_LEAST && fabs(value) > 0)
-        return complain(c, "is not 0, but smaller than 1e-30 in SI units", unit);
+        return complain(c, "is not 0 but below 1e-30 in SI units, too small to be meant", unit);
     return true;
 }
 

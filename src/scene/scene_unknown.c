@@ -42,8 +42,7 @@ static void describe_unknown_key(const struct yaml_node *n, const char *group, c
     else if (nearest && words_are_similar(leaf, n->key))
         snprintf(text, capacity, "unknown key; did you mean %s?", leaf);
     else if (owner && others > 1)
-        snprintf(text, capacity, "this key does not belong here, but into %s: %s: {%s: ..}", owner->key, owner->key,
-                 n->key);
+        snprintf(text, capacity, "this key belongs inside %s; write %s: {%s: ..}", owner->key, owner->key, n->key);
     else if (other && !strchr(other->path, '.'))
         snprintf(text, capacity, "this key does not belong here; put %s at the left margin", n->key);
     else if (others == 1)

@@ -90,7 +90,7 @@ a=$(column "$work/copper_steps" point.plastic_strain 1) hot=$(column "$work/copp
 near "slow copper: stress [MPa]" "$(stress copper_steps 1)" "$(compute "(90 + 292*exp(0.31*log($a)))*(1 - ($hot - 294)/1062)")" 1e-6
 near "slow copper: heat" "$(compute "($hot - 294)*8960*383*0.002")" "$(compute "0.9*$(f copper_steps energy.plastic)")" 1e-6
 near "slow copper: temperature [K]" "$hot" "$(compute "1356 - 1062*exp(-0.9*(90e6*$a + 292e6/1.31*exp(1.31*log($a)))/(8960*383*1062))")" 1e-6
-warned "slow copper that melts at 324 K" "$work/copper_melts" 'yield stress falls, by .* % within load step 10 .*remove specific_heat' "$work/steps.yaml" \
+warned "slow copper that melts at 324 K" "$work/copper_melts" 'lowers the yield stress by .* % within load step 10 .*remove specific_heat' "$work/steps.yaml" \
     -s "$copper" -s material.johnson_cook.T_melt=324 -s 'boundary[0].displacement=["0.5*x"]' -s steps.number=10
 near "slow copper that melts at 324 K: temperature [K]" "$(column "$work/copper_melts" point.temperature 1)" \
     "$(a=$(column "$work/copper_melts" point.plastic_strain 1); compute "324 - 30*exp(-0.9*(90e6*$a + 292e6/1.31*exp(1.31*log($a)))/(8960*383*30))")" 1e-6
@@ -298,7 +298,7 @@ refused "coarse cells" "$work/no" 'materials that yield need mpm.levels: 0 (one 
 refused "constants of a lattice" "$work/no" 'mpm.constants: isotropic' "$work/beam.yaml" -s mpm.constants=lattice -s material.poisson=1/3
 refused "conversion" "$work/no" 'materials that yield need method: mpm in the reference frame' "$work/beam.yaml" -s method=adaptive \
     -s "material={young: 200 GPa, density: 7850, yield_stress: 200 MPa}"
-refused "bonds" "$work/no" 'is a key for material points; use `method: mpm`' "$work/beam.yaml" -s method=pd -s material.poisson=1/3
+refused "bonds" "$work/no" 'works for material points only; use `method: mpm`' "$work/beam.yaml" -s method=pd -s material.poisson=1/3
 refused "one equilibrium" "$work/no" 'material material yields; set solver: static (load steps), or explicit' "$work/beam.yaml" -s mpm.frame=current -s solver=relaxation
 refused "softening" "$work/no" 'tensile_strength: cannot be combined with johnson_cook' "$work/beam.yaml" \
     -s 'material={young: 200 GPa, density: 7850, tensile_strength: 1 GPa, energy_release_rate: 100, johnson_cook: {A: 90 MPa, B: 292 MPa, n: 0.3, C: 0, T_melt: 900}}'

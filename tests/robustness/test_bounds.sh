@@ -21,8 +21,8 @@ END
 
 # ---- numbers ---------------------------------------------------------------------------------------------------
 
-refused "nothing thick" "$work/r" "thickness: 1e-300 is not 0, but smaller than 1e-30 in SI units" $small -s thickness=1e-300
-refused "nothing stiff" "$work/r" "young: 1e-300 is not 0, but smaller than 1e-30" $small -s material.young=1e-300 -s material.density=1e30
+refused "nothing thick" "$work/r" "thickness: 1e-300 is not 0 but below 1e-30 in SI units, too small to be meant" $small -s thickness=1e-300
+refused "nothing stiff" "$work/r" "young: 1e-300 is not 0 but below 1e-30" $small -s material.young=1e-300 -s material.density=1e30
 refused "too dense" "$work/r" "density: 1e31 is above 1e30" $small -s material.density=1e31
 stopped "as stiff as can be read" "$work/a" "unstable" $small -s material.young=1e-30 -s material.density=1e30 --overwrite
 refused "a grid far away" "$work/r" "1e+20 m is more than 1e7 spacings from the origin" $small -s mpm.origin=[1e20,0]

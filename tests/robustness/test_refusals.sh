@@ -130,7 +130,7 @@ done <<'END'
 2|space: axisymmetric|2:1|has no axial symmetry; nearest: solid
 5|method: adaptive^model: pmb|6:1|give bond, ospd or mospd; the bond-based model (peri/pmb of LAMMPS) is bond
 5|method: adaptive^model: lps|6:1|the ordinary state-based model (peri/lps of LAMMPS) is ospd
-5|method: adaptive^steps: 100|6:1|is not a mapping such as {number: 100}; 100 load steps are steps: {number: 100}; the number of time steps follows
+5|method: adaptive^steps: 100|6:1|is not allowed here; give a mapping such as {number: 100}; 100 load steps are steps: {number: 100}; the number of time steps follows
 16|    traction: -12 MPa|16:5|give 2 components in space plane stress, such as [-12 MPa, 0]; a load along the normal is `pressure`
 1|*HEADING|1:1|this is an input file of Abaqus or LS-DYNA, not a scene
 1|# peri^^units si^atom_style peri|3:1|this is an input script of LAMMPS, not a scene
@@ -207,7 +207,7 @@ done <<'END'
 6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa], [0.1, 0.9 GPa]]}}|6:75|the yield stress falls
 6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa], [0.1, 1.1 GPa], [0.2, 1.3 GPa]]}}|6:91|the slope of the curve increases
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {table: [[0, 1 GPa], [0.1, 2 GPa]]}}|6:64|remove one of the two
-6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {linear: {modulus: 1 GPa}}}|6:64|is a key for material points; use `method: mpm`
+6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {linear: {modulus: 1 GPa}}}|6:64|works for material points only; use `method: mpm`
 6|material: {young: 190 GPa, density: 7800, kinematic: {modulus: 1 GPa}}|6:43|add yield_stress
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, kinematic: {recall: 3}}|6:64|modulus: missing
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, johnson_cook: {A: 90 MPa, B: 292 MPa, n: 0.3, C: 0.025, T_melt: 1356}}|6:64|remove one of the two
@@ -221,7 +221,7 @@ done <<'END'
 6|material: {young: 190 GPa, density: 7800, johnson_cook: {A: 90 MPa, B: 292 MPa, n: 0.3, C: 0.025, T_melt: 1356}, specific_heat: 0.4 kJ/m}|6:114|give a specific heat
 6|material: {young: 190 GPa, density: 7800, specific_heat: 383 J}|6:43|give a specific heat
 6|material: {young: 190 GPa, density: 7800, taylor_quinney: 0.9}|6:43|no effect without specific_heat
-6|material: steel|6:1|not a mapping
+6|material: steel|6:1|not allowed here; give a mapping
 8|  - box: {from: [0, 0], to: [20 mm, 10 mm, 1]}|8:25|3 components
 8|  - box: {from: [0, 0], to: [-20 mm, 10 mm]}|8:5|from is not below to
 8|  - box: {from: [0, 0], to: [inf, 10 mm]}|8:30|not finite
@@ -288,10 +288,10 @@ done <<'END'
 20|probes: [{reaction: {boundary: push}}]|20:22|no boundary named push
 20|probes: [{line: {from: [0, 0], to: [1, 1], points: 1}}]|20:44|out of range
 20|probes: {tip}|20:1|list
-20|probes: tip|20:1|tip is not a list such as [{tip: {at: [0.5 mm, 0]}}]
-20|initial: {velocity: [1, 0]}|20:1|a mapping is not a list such as [{velocity: [22 m/s, 0]}]
-20|growth: {at: [1 mm, 0]}|20:1|a mapping is not a list such as [{at: [0.5 mm, 0]}]
-10|particles: 1 mm|10:1|1 mm is not a mapping such as {spacing: 0.5 mm}
+20|probes: tip|20:1|tip is not allowed here; give a list such as [{tip: {at: [0.5 mm, 0]}}]
+20|initial: {velocity: [1, 0]}|20:1|a mapping is not allowed here; give a list such as [{velocity: [22 m/s, 0]}]
+20|growth: {at: [1 mm, 0]}|20:1|a mapping is not allowed here; give a list such as [{at: [0.5 mm, 0]}]
+10|particles: 1 mm|10:1|1 mm is not allowed here; give a mapping such as {spacing: 0.5 mm}
 20|gravity: 9.81|20:1|is not a list; give 2 components in space plane stress, such as [-9.81 m/s^2, 0]
 20|---^name: second|20:1|second document
 END

@@ -103,14 +103,14 @@ refused "no method has all of rigid bodies and a Poisson's ratio that bonds do n
     -s material.poisson=0.2 $yields
 remedied -s material.yield_stress=
 remedied -s material.poisson= -s model=
-refused 'is a key for material points; use `method: mpm`, or yield_stress with linear hardening by yield_hardening, which bonds have' "$plate" $cook
+refused 'works for material points only; use `method: mpm`, or yield_stress with linear hardening by yield_hardening, which bonds have' "$plate" $cook
 remedied -s method=mpm
 remedied -s material.johnson_cook= $yields -s material.yield_hardening=1GPa
 refused '`method: mpm` without the key model, or yield_stress with linear hardening by yield_hardening, which bonds (`model: bond`) have at' \
     "$plate" -s model=ospd -s material.poisson=0.2 -s material.yield_stress=100MPa -s material.hardening.voce.saturation=1MPa -s material.hardening.voce.rate=1
 remedied -s method=mpm -s model=
 remedied -s material.hardening= -s model=bond -s material.poisson=1/3 -s material.yield_hardening=1GPa
-refused 'is a key for material points; use yield_stress with linear hardening by yield_hardening, which bonds have' "$wall" $cook
+refused 'works for material points only; use yield_stress with linear hardening by yield_hardening, which bonds have' "$wall" $cook
 remedied -s material.johnson_cook= $yields -s material.yield_hardening=1GPa
 refused 'material m yields; set solver: static (load steps), or explicit' "$plate" $yields -s solver=cg
 remedied -s solver=explicit

@@ -75,7 +75,7 @@ bad "nothing that breaks" "bonds of this material never break" material.critical
 bad "a length of time" "length" 'material.scatter.length=2 us'
 refused "yield" "$work/no" "scatter and yield_stress cannot be combined with material points" "$work/ring.yaml" -s method=adaptive -s material.yield_stress=100MPa
 # Material points do not break, and their yield stress does not scatter: with the position of the key.
-refused "yielding points" "$work/no" "ring.yaml:6:58: scatter: material points of method mpm do not break" "$work/ring.yaml" -s method=mpm -s material.yield_stress=100MPa
-refused "points with a flow law" "$work/no" "and a yield stress does not scatter" "$work/ring.yaml" -s method=mpm \
+refused "yielding points" "$work/no" "ring.yaml:6:58: scatter: scatter varies the strength of bonds, but method: mpm has no bonds" "$work/ring.yaml" -s method=mpm -s material.yield_stress=100MPa
+refused "points with a flow law" "$work/no" "and yield stresses do not scatter" "$work/ring.yaml" -s method=mpm \
     -s material.hardening='{table: [[0, 100 MPa], [0.1, 200 MPa]]}'
 finish

@@ -35,7 +35,7 @@ cmp -s results/gear/history.csv elsewhere/again/history.csv && pass || fail "the
 sed -i 's/^1, 6.0000/1, 6.1000/' gear.inp
 refused "the file has changed" check results/gear/scene.yaml
 refused "" run gear.yaml -q -s duration=15us -s output.frames=1 --resume
-refused "the file has no set tooth; it has" check gear.yaml -s regions.teeth.mesh.set=tooth
+refused "the file has no set tooth; give one of its sets (" check gear.yaml -s regions.teeth.mesh.set=tooth
 refused "spacing: 1 MPa is a stress; give a length" check gear.yaml -s particles.spacing='1 MPa'
 refused "unit is missing" check gear.yaml -s body='{mesh: {file: gear.inp}}'
 refused "is not a unit of length" check gear.yaml -s body='{mesh: {file: gear.inp, unit: inch}}'

@@ -141,8 +141,10 @@ static void faults_name_the_file(void **state)
         {"include: inner.yaml\n", "a: &b 1\n",
          "sub/inner.yaml:1:4: an anchor (&) is not allowed in a scene; write the value "
          "out where it is used"},
-        {"include: inner.yaml\n", "- 1\n", "sub/inner.yaml:1:1: a list is not a scene (a mapping of keys to values)"},
-        {"include: inner.yaml\n", "", "sub/inner.yaml:1:1: empty; begin with keys such as space and duration"},
+        {"include: inner.yaml\n", "- 1\n",
+         "sub/inner.yaml:1:1: a list is not allowed here; give a scene, which is a mapping of keys to values"},
+        {"include: inner.yaml\n", "",
+         "sub/inner.yaml:1:1: the scene is empty; begin with keys such as space and duration"},
         {"include: inner.yaml\n", "include: outer.yaml\n",
          "sub/inner.yaml:1:1: include: outer.yaml includes itself, or the scene that includes it; remove one of these "
          "includes"},

@@ -79,8 +79,8 @@ static void bodies_share_a_list(void **state)
 static const struct {
     const char *text, *message;
 } bad_list[] = {
-    {"", "bad.csv: empty"},
-    {"# nothing\n\n", "bad.csv: empty"},
+    {"", "bad.csv: the file is empty"},
+    {"# nothing\n\n", "bad.csv: the file is empty"},
     {"x,y,volume\n", "body plate: has no particle in its list"},
     {"x,y,weight,volume\n",
      "bad.csv:1:5: the column weight may be a mass or a volume; give its unit, such as weight [kg]"},
@@ -113,8 +113,8 @@ static const struct {
     {"\"x,y,volume\n", "names without quotes or in double quotes"},
     {"x;y;volume\n0,5;0;1\n", "bad.csv:2:1: x: '0,5' is not a number; correct it (the decimal sign "
                               "is a point, not a comma)"},
-    {"# x and places\n0 0 0 1\n", "bad.csv:2:1: numbers, but no line before them names the columns"},
-    {"0,0,0,1,1\n", "bad.csv:1:1: numbers, but no line before them names the columns"},
+    {"# x and places\n0 0 0 1\n", "bad.csv:2:1: this line has numbers, but no line before it names the columns"},
+    {"0,0,0,1,1\n", "bad.csv:1:1: this line has numbers, but no line before it names the columns"},
     {"0 0 0 3 1.0\n",
      "bad.csv:1:7: the scene has no material of block_id 3 (numbered from 1 in the order of the scene); give one"},
     {"0 0 0 0 1\n", "bad.csv:1:7: block_id: 0 must be a whole number from 1 to 256; correct it"},
@@ -364,14 +364,14 @@ static const struct {
      PD,
      1,
      {5, 1, 0, 0, 1, 1e9},
-     "volumes of its particles are 1e+09 times the space up to their neighbours, which are 1 m "
-     "apart; give volumes in m^3 (are they in mm^3?)"},
+     "volumes of its particles are 1e+09 times those expected from the distance of neighbours, 1 m; "
+     "give volumes in m^3 (are they in mm^3?)"},
     {SPACE_PLANE_STRESS,
      MPM,
      1,
      {10, 1, 0, 0, 1, 1e-3},
-     "volumes of its particles are 0.001 times the space up to their neighbours, "
-     "which are 1 m apart, times the thickness; give volumes in m^3"},
+     "volumes of its particles are 0.001 times those expected from the distance of neighbours, "
+     "1 m, times the thickness; give volumes in m^3"},
     /* Valid lists. */
     {SPACE_SOLID, PD, 1, {5, 1, 0, 0, 1, 50}, NULL}, /* heavy knots of a net */
     {SPACE_PLANE_STRESS, PD, 1, {10, 1, 0, 0, 1, 0}, NULL},

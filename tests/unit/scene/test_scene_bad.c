@@ -60,7 +60,7 @@ static const struct {
     {"  - name: plate\n", "  - name: plate\n    parts: [{region: {all: true}, material: glass}]\n",
      "13:35: material: there is no material glass; did you mean material?"},
     {"  - name: plate\n", "  - name: plate\n    parts: {region: {all: true}}\n",
-     "13:5: parts: a mapping is not a list such as [{region: {box: {from: [..], to: [..]}}}]"},
+     "13:5: parts: a mapping is not allowed here; give a list such as [{region: {box: {from: [..], to: [..]}}}]"},
     {"  - name: plate\n",
      "  - {rigid: true, shape: {box: {from: [0, 0], to: [1, 1]}}, parts: [{region: {all: true}, "
      "material: material}]}\n  - name: plate\n",
@@ -79,7 +79,8 @@ static const struct {
     {"190 GPa", "0x1F",
      "7:3: young: 0x1F is not a number here: hexadecimal, octal and binary numbers are not read; "
      "write a decimal number"},
-    {"190 GPa", "1:30", "7:3: young: 1:30 is not a number here: base 60 is not read; write a decimal number"},
+    {"190 GPa", "1:30",
+     "7:3: young: 1:30 is not a number here: numbers with colons (base 60) are not read; write a decimal number"},
     {"190 GPa", "0777",
      "7:3: young: 0777 is not a number here: a leading 0 means octal elsewhere; write the decimal "
      "number without it"},
@@ -242,7 +243,7 @@ static const struct {
      "36:16: boundary: there is no boundary named impct; give the name of one of the 2 in the scene (most similar: "
      "impact)"},
     {"  - tip\n", "  - {name: a, point: [0, 0]}\n",
-     "34:6: name: this key does not belong here, but into point: point: {name: ..}"},
+     "34:6: name: this key belongs inside point; write point: {name: ..}"},
     {"  - tip\n", "  - tip\n  - tip\n", "35:5: probes[1]: tip is already the name of another probe; give each its own"},
     {"  - tip\n", "  - sif: {inner: 20 mm, contours: [10 mm, 15 mm]}\n",
      "34:11: inner: the inner radius 20 mm is not smaller than the outer radius, 0.015 m; use about half the outer "
@@ -267,7 +268,7 @@ static const struct {
     {"  - tip\n", "  - exact: rod\n", "34:5: form: rod is unknown; give step bar, plastic bar, pulse or manufactured"},
     {"frames: 20", "frames: 20, times: [1 us]", "32:22: times: is given together with frames; remove one of the two"},
     {"frames: 20", "times: []", "32:10: times: has 0 items; give 1 to 100000"},
-    {"frames: 20", "times: 5 us", "32:10: times: 5 us is not a list such as [20 us]"},
+    {"frames: 20", "times: 5 us", "32:10: times: 5 us is not allowed here; give a list such as [20 us]"},
     {"frames: 20", "times: [2 us, 2 us]",
      "32:24: times[1]: 2 us is not larger than the previous value; give values in ascending order"},
     {"frames: 20", "times: [0, 2 us]", "32:18: times[0]: 0 is out of range; give a time above 0, such as 20 us"},
@@ -283,7 +284,7 @@ static const struct {
     {"frames: 20", "frames: 99999999999999999999",
      "32:10: frames: 99999999999999999999 is out of range; give a whole number from 0 to 100000"},
     {"frames: 20", "compress: on", "32:10: compress: on is neither true nor false; write true or false"},
-    {"output: {frames: 20}", "output: 20", "32:1: output: 20 is not a mapping such as {frames: 20}"},
+    {"output: {frames: 20}", "output: 20", "32:1: output: 20 is not allowed here; give a mapping such as {frames: 20}"},
     {"name: plate\nspace", "name: &p plate\nspace",
      "1:7: an anchor (&) is not allowed in a scene; write the value out where it is used"},
     {"name: plate\nspace", "name: *p\nspace", "1:7: an alias (*) is not allowed in a scene; write the value out"},
@@ -361,9 +362,9 @@ static void test_bytes(void **state)
     char *text = replaced("name: plate\nspace", "name: pla\0te\nspace", 18, &length);
     check_refused(text, length, "1:10: contains a NUL byte, but a scene is UTF-8 text; remove it");
     test_free(text);
-    check_refused("", 0, "1:1: empty; begin with keys such as space and duration");
-    check_refused("# nothing\n", 10, "1:1: empty; begin with keys such as space and duration");
-    check_refused("- a\n", 4, "1:1: a list is not a scene (a mapping of keys to values)");
+    check_refused("", 0, "1:1: the scene is empty; begin with keys such as space and duration");
+    check_refused("# nothing\n", 10, "1:1: the scene is empty; begin with keys such as space and duration");
+    check_refused("- a\n", 4, "1:1: a list is not allowed here; give a scene, which is a mapping of keys to values");
     char *many = test_malloc(4000000); /* five events precede the first item */
     memcpy(many, "a: [", 4);
     for (int k = 0; k < 1000000; k++) memcpy(many + 4 + 2 * k, "1,", 2);
@@ -384,7 +385,8 @@ static const struct {
      "-s materials[0].young=70e9: materials: is not a list in this scene, so [0] cannot be used; remove it"},
     {{"body", "{}"}, "-s body={}: body: is given together with bodies; remove one of the two"},
     {{"materiel.young", "1"}, "-s materiel.young=1: materiel: unknown key; did you mean material?"},
-    {{"material", "steel"}, "-s material=steel: material: steel is not a mapping such as {young: 190 GPa}"},
+    {{"material", "steel"},
+     "-s material=steel: material: steel is not allowed here; give a mapping such as {young: 190 GPa}"},
     {{"boundary.velocity", "[1, 0]"},
      "-s boundary.velocity=[1, 0]: boundary: has 2 items, and velocity is not the name of one; name an item by its "
      "number (from 0) or by name (impact, pull)"},

@@ -251,7 +251,7 @@ static void test_refusals(void **state)
         {2, "regions: {a: {box: {from: [0, 0], to: [-1, 1]}}}\n", "a", "from is not below to"},
         {2, "regions: {a: {box: {from: [0, 0], to: [1, 1]}}, a: {all: true}}\n", "a", "given twice"},
         {2, "regions: {'a b': {box: {from: [0, 0], to: [1, 1]}}}\n", "a b", "is not a name"},
-        {2, "regions: 3\n", "a", "is not a mapping"},
+        {2, "regions: 3\n", "a", "is not allowed here; give a mapping"},
         {2, "sections: {a: {box: {from: [0, 0], to: [1, 1]}}}\n", "{box: {from: [0, 0], to: [1, 1]}}",
          "cannot be used in space plane stress; use the key regions there"},
         {3, "regions: {a: {ball: {centre: [0, 0, 0], radius: 1}}}\n", "{extrude: {shape: a, from: 0, to: 1}}",

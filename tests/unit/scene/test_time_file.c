@@ -73,7 +73,7 @@ static void bad_files_are_refused(void **state)
     static const struct {
         const char *csv, *message;
     } c[] = {
-        {"", "blast.csv: empty"},
+        {"", "blast.csv: the file is empty"},
         {"time, value\n", "blast.csv: no line below the header has a time and a value; add some"},
         {"0, 1\n1, 2\n", "blast.csv:1:1: no column is named time; begin with a header such as time [us], value"},
         {"value, time\n1\n", "blast.csv:2:1: this line has 1 values, but column 2 is needed"},

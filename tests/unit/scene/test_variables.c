@@ -118,7 +118,7 @@ static const struct {
      "4:3: a-b: cannot be the name of a variable; use up to 40 letters, digits and _, and begin with a letter"},
     {"a: 3 mm\n  2a: 3",
      "4:3: 2a: cannot be the name of a variable; use up to 40 letters, digits and _, and begin with a letter"},
-    {"a: 3 mm\n  d: [1]", "4:3: d: a list is not a number or an expression"},
+    {"a: 3 mm\n  d: [1]", "4:3: d: a list is not allowed here; give a number or an expression"},
     {"a: 3 mm\n  d: x", "4:3: d: x contains x, on which this key cannot depend; remove it"},
     {"a: 3 mm\n  d: red", "4:3: d: red has an unknown name red; did you mean the variable rho?"},
     {"a: 1/0*1 mm", "2:3: b: 2*a + 4 mm needs a, which divides by 0 (character 2); change the divisor"},
@@ -146,7 +146,8 @@ static void wrong_ones_are_refused(void **state)
          "-s particles.seed=-n: seed: -n is not a seed; give a whole number from 0 to 18446744073709551615"},
         {{"variables.aa", "3 mm"},
          "-s variables.aa=3 mm: aa: no value of the scene uses this variable; did you mean a?"},
-        {{"variables", "3 mm"}, "-s variables=3 mm: variables: 3 mm is not a mapping such as {a: 3 mm, b: 2*a}"},
+        {{"variables", "3 mm"},
+         "-s variables=3 mm: variables: 3 mm is not allowed here; give a mapping such as {a: 3 mm, b: 2*a}"},
         {{"variables.a", "t*m/s"},
          "v.yaml:2:3: b: 2*a + 4 mm needs a, which contains t, on which this key cannot depend; remove it"},
     };
