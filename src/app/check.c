@@ -87,7 +87,8 @@ static void say_contact_cost(const struct run *e, const struct cost *c)
     const struct run_clock *clock = &e->clock;
     const double shorter = clock->dt / (e->scene->safety * clock->dt_critical);
     if (scene_has_load_steps(e->scene) || !(c->contact > 0) || e->contact->rows == 0) return;
-    printf("contact        %lld of %lld particles are near a face; about %.1f %% of the time of the first steps",
+    printf("contact        %lld of %lld particles are near a face and checked for contact, which takes about %.1f %% "
+           "of the time of the first steps",
            (long long)e->contact->rows, (long long)e->part.n, 1e2 * fmin(1, c->contact));
     if (e->scene->time_step == 0 && shorter < 0.999)
         printf("; the time step is %.2f times that without contact", shorter);
@@ -102,8 +103,8 @@ static void say_contact(const struct run *e)
         on_grid += e->scene->method != METHOD_PD && !e->frame->choice[b].reference;
     if (on_grid < 2) return;
     if (e->grid->fields < 2)
-        printf("contact        bodies that touch on the grid move with its velocity, so they stick together until a "
-               "gap of two cells opens\n");
+        printf("contact        material points of touching bodies share grid nodes, so the bodies stick together until "
+               "a gap of two cells opens\n");
     else {
         printf("contact        of the material points of ");
         say_names(e->scene, 0, e->scene->bodies);
@@ -135,8 +136,8 @@ static void say_time_step(const struct run *e)
         printf("solver         static equilibrium to a residual of %.3g of the load, in at most %lld iterations\n",
                e->scene->solver_tolerance, (long long)e->clock.steps);
     else
-        printf("time step      %.4g s%s, %.2f of the critical %.4g s; %lld steps to %.4g s\n", e->clock.dt,
-               e->scene->time_step > 0 ? " (time.step, regardless of time.safety)" : "",
+        printf("time step      %.4g s%s, %.2f times the critical time step of %.4g s; %lld steps to t = %.4g s\n",
+               e->clock.dt, e->scene->time_step > 0 ? " (time.step, regardless of time.safety)" : "",
                e->clock.dt / e->clock.dt_critical, e->clock.dt_critical, (long long)e->clock.steps, e->scene->duration);
 }
 
@@ -168,8 +169,8 @@ static void say_basis(const struct scene *scene, const struct cost *c)
 static void say_cost_at_rest(const struct run *e, const struct cost *c, int threads)
 {
     const double thousand = 1e3 * c->step;
-    printf("run time       about %.2g s for 1000 steps (%.2g to %.2g s), up to %.2g s for all %lld that it may take, "
-           "on %d thread%s",
+    printf("run time       about %.2g s for 1000 steps (%.2g to %.2g s), up to %.2g s for the largest number of steps, "
+           "%lld, on %d thread%s",
            thousand, thousand / REST_BELOW, thousand * REST_ABOVE, c->step * REST_ABOVE * (double)e->clock.steps,
            (long long)e->clock.steps, threads, threads > 1 ? "s" : "");
 }
@@ -225,7 +226,7 @@ static void say_interfaces(const struct scene *s)
     for (int k = 0; k < s->interfaces; k++) {
         const struct scene_interface *i = &s->interface[k];
         if (i->critical_stretch > 0)
-            printf("interface      %s and %s: bonds break at a stretch of %.4g (%.4g J/m^2)\n",
+            printf("interface      %s and %s: bonds break at a stretch of %.4g (energy release rate %.4g J/m^2)\n",
                    s->body[i->body[0]].name, s->body[i->body[1]].name, i->critical_stretch, i->energy_release_rate);
     }
 }

@@ -139,8 +139,8 @@ static void advise_features(const struct run *e, FILE *out)
                      size = layers * s->spacing;
         if (!isfinite(layers)) continue;
         fprintf(out,
-                "accuracy       body %s: a part of %.4g m is %.3g horizons (%.3g spacings) thick; below %d horizons "
-                "most particles lack neighbours beyond a face; use a spacing of %s",
+                "accuracy       body %s: a part is %.4g m thick, which is %.3g horizons (%.3g spacings); below %d "
+                "horizons most particles lack neighbours beyond a face; use a spacing of %s",
                 s->body[b].name, size, size / horizon_of(s), layers, FEATURE,
                 length_text_with_unit(two_digits_down(size / (FEATURE * s->horizon)), 2, s->spacing).text);
         if (s->method == METHOD_PD) advise_thin(s, layers, out);
@@ -260,8 +260,9 @@ static void advise_shocks(const struct scene *s, FILE *out)
     const struct shock shock = scene_most_severe_collision(s);
     if (shock.share > 0)
         fprintf(out,
-                "accuracy       bodies collide at %.3g m/s, %.3g times the speed at which the front of the wave breaks "
-                "or yields one. Behind the front stress oscillates by 10 to 30 %%, so %s too early: %s\n",
+                "accuracy       bodies collide at %.3g m/s, %.3g times the speed at which the stress of the wave front "
+                "reaches the strength or yield stress of a body. Behind the front stress oscillates by 10 to 30 %%, so "
+                "%s too early: %s\n",
                 shock.speed, shock.share, s->method == METHOD_MPM ? "points may yield" : "bonds may break",
                 shock.remedy);
 }
@@ -330,13 +331,13 @@ static void advise_pulled_metal(const struct scene *s, real stretch, FILE *out)
     if (weak && stretch > weak->stretch)
         fprintf(out,
                 "accuracy       metal is pulled to %.3g times its length: with mpm.shape: %s it carries %s %% too "
-                "little; set mpm.shape: cpgimp\n",
+                "little stress; set mpm.shape: cpgimp\n",
                 stretch, weak->word, weak->too_little);
     if (stretch > PARTS_AT_GRIP)
         fprintf(out,
-                "accuracy       metal is pulled to %.3g times its length: from about %.2g times on it tears beside its "
-                "supports, where only an error of material points parts it; pull it by wider parts that do not "
-                "yield%s\n",
+                "accuracy       metal is pulled to %.3g times its length: from about %.2g times on, the material "
+                "points beside its supports separate, which is a numerical error and no fracture; pull it by wider "
+                "parts that do not yield%s\n",
                 stretch, PARTS_AT_GRIP, s->shape == SHAPE_CPGIMP ? "" : "; use mpm.shape: cpgimp");
 }
 
@@ -425,8 +426,8 @@ static void hint_frame(const struct run *e, struct warnings *to)
         if (!reference_frame_is_possible(e->frame, &e->part, e->scene, e->grid)) continue;
         if (strain < LITTLE) snprintf(text, sizeof text, ", and waves strain it by at most %.2g", strain);
         warnings_add_if_new(to,
-                            "body %s touches no other body%s%s: set mpm.frame: %s in place of current, for a tenth to "
-                            "a thirtieth of the time for its material points",
+                            "body %s touches no other body%s%s: set mpm.frame: %s in place of current, which reduces "
+                            "the computing time of its material points to a tenth to a thirtieth",
                             e->scene->body[b].name, e->scene->rigids > 0 ? " except rigid ones" : "", text,
                             e->scene->current_frame_key ? "reference" : "auto");
     }

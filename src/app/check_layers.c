@@ -221,12 +221,12 @@ void print_advice_on_held_layers(const struct run *e, FILE *out)
         const real length = high - low + s->spacing;
         const real shorter = (floor(s->horizon) + layer_shortening[s->dim]) * s->spacing, left = 1 - shorter / length;
         if (!(left > 0) || 1 - left < SHORTENED || s->horizon < 2) continue;
-        fprintf(out,
-                "accuracy       boundary %s: the layer behind its face, a horizon deep, moves as one, so the body of "
-                "%.4g m acts as if it were %.3g m shorter along %c. Its stiffness is off by %+.2g %% in tension, %+.2g "
-                "%% in "
-                "bending; set depth: %s, use a smaller spacing, or make the body longer by that length\n",
-                l->boundary->name, length, shorter, "xyz"[axis], 100 * (1 / left - 1), 100 * (pow(left, -3) - 1),
-                length_text_with_unit(s->spacing, 3, s->spacing).text);
+        fprintf(
+            out,
+            "accuracy       boundary %s: the layer behind its face, a horizon deep, moves as a rigid layer, so the "
+            "body of %.4g m acts as if it were %.3g m shorter along %c. Its stiffness is off by %+.2g %% in tension, "
+            "%+.2g %% in bending; set depth: %s, use a smaller spacing, or make the body longer by that length\n",
+            l->boundary->name, length, shorter, "xyz"[axis], 100 * (1 / left - 1), 100 * (pow(left, -3) - 1),
+            length_text_with_unit(s->spacing, 3, s->spacing).text);
     }
 }

@@ -73,7 +73,7 @@ void print_coarse_cells_saving(const struct run *e, const struct cost *c)
         printf("levels         %s particles would fill the body; coarse cells reduce them to %s at the start",
                many((double)e->part.n_body, millions, all), many((double)e->part.n, millions, made));
     else
-        printf("levels         %s of %s particles are in coarse cells, of which there are %s",
+        printf("levels         %s of %s particles are in %s coarse cells",
                many(points_in_coarse_cells(l, e->part.dim), millions, few), many((double)e->part.n_body, millions, all),
                many(cells, false, made));
     printf("; memory %s", much_memory(c->bytes, memory));

@@ -75,8 +75,9 @@ static void print_weight_advice(const struct scene *s, FILE *out)
     for (int b = 0; b < s->bodies && s->shells == SHELLS_ISOTROPIC; b++) {
         if (!s->body[b].file || s->body[b].list.lattice || s->body[b].joined != b) continue;
         fprintf(out,
-                "accuracy       body %s: its list is not a lattice along the axes, as pd.weights: isotropic assumes (a "
-                "lattice turned by 45 degrees is 4.7 %% too soft, with uniform 2.3 %%); set pd.weights: uniform\n",
+                "accuracy       body %s: the particles of its list are not on a lattice along the axes, which "
+                "pd.weights: isotropic assumes (a lattice turned by 45 degrees is 4.7 %% too soft, with pd.weights: "
+                "uniform only 2.3 %%); set pd.weights: uniform\n",
                 s->body[b].name);
     }
 }

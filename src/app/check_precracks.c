@@ -123,6 +123,9 @@ void print_smallest_precrack_length(const struct run *e)
         least = real_min(least, length);
     }
     if (!isfinite(least)) return;
-    printf("pre-cracks     the smallest is %.3g m long, %.2g horizons%s\n", least, least / e->source.family.horizon,
-           least < HORIZONS_LEAST * e->source.family.horizon ? "; below 3 its load depends on the horizon" : "");
+    printf("pre-cracks     the shortest is %.3g m long, which is %.2g horizons%s\n", least,
+           least / e->source.family.horizon,
+           least < HORIZONS_LEAST * e->source.family.horizon
+               ? "; below 3 horizons its critical load depends on the horizon"
+               : "");
 }

@@ -117,8 +117,8 @@ static void print_missed_peak(const struct scene *s, real t, FILE *out)
         if (fabs(step - round(step)) < 1e-6 * number) break;
     }
     fprintf(out,
-            "accuracy       the loads peak at t = %.4g s, between two of the %d load steps, so the peak is missed; set "
-            "steps.number: %d, with which a step ends there\n",
+            "accuracy       the loads peak at t = %.4g s, between two of the %d load steps, so no load step reaches "
+            "the peak; set steps.number: %d, so that a load step ends at the peak\n",
             t, s->steps.number, number);
 }
 
@@ -207,8 +207,8 @@ static void advise_supports(const struct run *e, FILE *out)
             const bool turns_it = by->components & ~(1 << across); /* another component is held */
             if (!turns_it || columns <= PIN_MOST || columns > GRIP_LEAST) continue;
             fprintf(out,
-                    "accuracy       boundary %s holds particles over %d spacings along %c, so the body cannot turn on "
-                    "it; make a pin or roller one or two particles wide, a grip wider than %d\n",
+                    "accuracy       boundary %s holds particles over %d spacings along %c, so the body cannot rotate "
+                    "there; make a pin or roller one or two particles wide, and a grip wider than %d particles\n",
                     by->name, columns, "xyz"[across], GRIP_LEAST);
         }
     }

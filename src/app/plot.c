@@ -264,9 +264,9 @@ static status words_together(const struct plot_words *w)
         return status_set(
             REFUSED, "plot: --scene draws a scene before it runs; remove the folder, --field, --times and --slice");
     if (w->times && w->frames)
-        return status_set(REFUSED,
-                          "plot: --times %s and --frames (or --times) %s exclude each other: remove one of the two",
-                          printable_name(w->times).text, printable_name(w->frames).text);
+        return status_set(
+            REFUSED, "plot: --times %s and %s (from --frames or --times) both select frames: remove one of the two",
+            printable_name(w->times).text, printable_name(w->frames).text);
     if (r->panels > PANELS_MAX && !picture_is_film(r->format))
         return status_set(REFUSED,
                           "plot: --frames %d: a picture has at most %d panels; give fewer frames, or make a film "

@@ -89,9 +89,10 @@ static status sweep_words(struct sweep_arguments *a, int argc, char **argv)
         return status_set(REFUSED,
                           "--list runs nothing, and --collect only reads finished runs; remove one of the two");
     if (a->keys == 0)
-        return status_set(
-            REFUSED, "no key has several values, so nothing varies; give some, such as -s KEY=1,2; usage: cleave %s",
-            usage);
+        return status_set(REFUSED,
+                          "no key has several values, so all runs would be the same; give a key several values, such "
+                          "as -s KEY=1,2; usage: cleave %s",
+                          usage);
     return OK;
 }
 

@@ -80,7 +80,9 @@ static void paragraph(FILE *out, const char *text, int indent)
 
 status help_print_guarantees_of_runs(FILE *out)
 {
-    fputs("What a run promises, and the tests in tests/ that hold it to that (long_*: make test-long):\n\n", out);
+    fputs("What a run promises, and the tests in tests/ that check each promise (those named long_* run by `make "
+          "test-long`):\n\n",
+          out);
     for (const struct promise *p = promises; p < promises + COUNT_OF(promises); p++) {
         paragraph(out, p->what, 2);
         paragraph(out, p->tests, 6);

@@ -14,7 +14,7 @@ static const char *rows_fault(const struct bonds *b)
     }
     for (int64_t row = b->rows; row < b->row_blocks * LANES; row++)
         if (b->rows > 0 && b->particle[row] != b->particle[b->rows - 1])
-            return "padding rows do not repeat the last particle";
+            return "the rows that pad the last block of eight do not repeat the last particle";
     return NULL;
 }
 
@@ -23,7 +23,7 @@ static const char *rows_fault(const struct bonds *b)
  * none. */
 static const char *implicit_fault(const struct bonds *b, int64_t g)
 {
-    if (!b->stencil[g]) return "a block of eight rows stores no columns and has no stencil";
+    if (!b->stencil[g]) return "a block of eight rows has neither stored bonds nor a stencil";
     if (b->stencil[g]->columns != b->column_count[g])
         return "a block of eight rows and its stencil have different numbers of columns";
     for (int l = 0; l < LANES && b->broken; l++)
@@ -36,12 +36,15 @@ static const char *implicit_fault(const struct bonds *b, int64_t g)
 static const char *column_fault(const struct bonds *b, int64_t column)
 {
     const struct bond_column *common = &b->common[column];
-    if (common->first != b->first[column]) return "the first neighbour of a column differs from its common value";
+    if (common->first != b->first[column])
+        return "the first neighbour of a column of eight bonds differs from the value stored for the column";
     for (int l = 0; l < LANES; l++) {
         const int64_t q = column * LANES + l;
         const bool there = b->inverse_length[q] != 0, intact = b->w[q] != 0;
-        if (intact && !(b->inverse_length[q] > 0)) return "a broken or unused bond has a weight other than 0";
-        if (intact != (common->intact >> l & 1)) return "the marks of intact bonds differ from their weights";
+        if (intact && !(b->inverse_length[q] > 0))
+            return "a bond with a weight other than 0, thus intact, has no length";
+        if (intact != (common->intact >> l & 1))
+            return "a bond is marked as intact but has weight 0, or is not marked and has another weight";
         if (there && b->first[column] >= 0 && b->nbr[q] != b->first[column] + l)
             return "neighbours are not consecutive";
     }
@@ -56,7 +59,7 @@ static const char *reach_fault(const struct bonds *b, int64_t row)
         const int64_t to = b->row_of[it.bond.nbr];
         const int64_t away = to < 0 ? 0 : to / LANES - row / LANES;
         if (it.bond.w != 0 && (away > b->reach || -away > b->reach))
-            return "a bond reaches more blocks of eight rows than allowed";
+            return "a bond joins rows that are more blocks of eight rows apart than allowed";
     }
     return NULL;
 }

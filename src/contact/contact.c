@@ -252,8 +252,8 @@ static status contact_check(const struct contact *c, const struct particles *p)
     for (int64_t k = 0; k < c->rows; k++) good = good && c->first[k] <= c->first[k + 1] && c->particle[k] < p->n;
     for (int64_t q = 0; q < c->pairs; q++) good = good && c->other[q] >= 0 && c->other[q] < c->n;
     return good ? OK
-                : status_set(FAILED, "cannot resume: the checkpoint lists pairs in contact that this body does not "
-                                     "contain; it is damaged, start again with --overwrite");
+                : status_set(FAILED, "cannot resume: the checkpoint lists contact pairs of particles that do not exist "
+                                     "in this run; it is damaged, start again with --overwrite");
 }
 
 /* Saves the state of contact c to the archive a if a->saving, else restores it. The list of pairs, which determines

@@ -317,8 +317,8 @@ status contact_rigid_save_or_load(struct contact *c, struct archive *a)
         TRY(contact_array_save_or_load(a, name, (void **)&near->balance, near->n, sizeof *near->balance));
         for (int64_t q = 0; q < near->n; q++)
             if (near->row[q] < 0 || near->row[q] >= c->rows)
-                return status_set(FAILED, "cannot resume: the checkpoint lists particles near a rigid body that it "
-                                          "does not contain; it is damaged, start again with --overwrite");
+                return status_set(FAILED, "cannot resume: the checkpoint lists, near a rigid body, particles that do "
+                                          "not exist in this run; it is damaged, start again with --overwrite");
     }
     return OK;
 }

@@ -124,11 +124,11 @@ static void warn_of_touch(const struct run *e, struct warnings *to)
     memory_free(touch);
     if (names.all > 0)
         warnings_add_if_new(
-            to, "bodies touch at the start (%s), but no bond joins them%s; to join them, use the key interfaces",
+            to, "bodies touch at the start (%s), but no bond joins them, so %s; to join them, use the key interfaces",
             names.text,
             s->method == METHOD_PD || e->grid->fields > 1
-                ? ""
-                : ", and on the grid of mpm.frame: current they stick together until a gap of two cells opens");
+                ? "they separate freely"
+                : "on the grid of mpm.frame: current they stick together only until a gap of two cells opens");
 }
 
 void warn_of_bodies_that_pass_or_stick(const struct run *e, struct warnings *warning_list)

@@ -155,12 +155,12 @@ static const char *notch_obstacle(const struct crack *c, const struct particles 
                                   real radius)
 {
     const struct crack_edges zone = crack_edges_of(c, p, s, radius);
-    if (p->dim == 1) return "in space line a cut divides the body";
+    if (p->dim == 1) return "in space line any crack divides the body in two";
     if (c->n > EDGES_MAX) return "its polygon has more than 64 corners";
-    if (zone.edges == 0) return "neither of its ends is inside the body, so it may cut the body in two";
+    if (zone.edges == 0) return "neither end of the crack is inside the body, so a slit may cut the body in two";
     const struct flanks f = flanks_of(&zone, p, s);
-    if (f.particles == 0) return "it is so short that the peridynamic zones around its ends contain all of it";
-    if (f.elsewhere > 0) return "particles beside it are not material points in the reference frame";
+    if (f.particles == 0) return "the crack is so short that it is inside the peridynamic zones around its ends";
+    if (f.elsewhere > 0) return "some particles beside the crack are not material points in the reference frame";
     return NULL;
 }
 

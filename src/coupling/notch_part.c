@@ -13,9 +13,9 @@
 static const char *scene_obstacle(const struct scene *s)
 {
     if (s->conversion.notch == NOTCH_BONDS) return "the scene sets this";
-    if (s->growths > 0) return "the key growth weakens the bonds along cracks";
+    if (s->growths > 0) return "the key growth weakens bonds along cracks, and a slit has no bonds";
     for (int k = 0; k < s->probes; k++)
-        if (s->probe[k].kind == PROBE_SIF) return "a sif probe needs the bonds of its crack";
+        if (s->probe[k].kind == PROBE_SIF) return "a sif probe needs bonds along its crack, and a slit has no bonds";
     if (s->contact_between == CONTACT_ALL && !s->contact_convert)
         return "with contact.convert: false the faces of a slit would pass through each other";
     return NULL;
@@ -27,7 +27,7 @@ static const char *scene_obstacle(const struct scene *s)
 static const char *obstacle_of(const struct scene *s, const struct reference_frame *r, const struct grid *g)
 {
     const char *why = scene_obstacle(s);
-    if (!why && !reference_frame_is_in_use(r)) why = "no material points are in the reference frame";
+    if (!why && !reference_frame_is_in_use(r)) why = "the scene has no material points in the reference frame";
     if (!why && grid_has_mirror_plane_between_nodes(g, s)) why = "a mirror plane is between two nodes of the mesh";
     return why;
 }

@@ -24,17 +24,20 @@ status reversion_check_scene_allows_reversion(const struct scene *s)
     const char *why = NULL;
     if (!s->conversion.reverts || s->method != METHOD_ADAPTIVE) return OK;
     if (!(s->conversion.criteria & CONVERT_ON_STRESS))
-        why = "stress in conversion.criteria, because low_stress is a share of the stress at which points convert; add "
-              "it, or set reversion: false";
+        why = "low_stress is a share of the stress at which points convert, so conversion.criteria must contain "
+              "stress; add it, or set reversion: false";
     if (s->coupling != COUPLING_PARTIAL_STRESS && s->coupling != COUPLING_HANDSHAKE)
-        why = "coupling: partial stress or handshake; set one of them, or reversion: false";
+        why = "this coupling cannot turn particles back into material points; set coupling: partial stress or "
+              "handshake, or reversion: false";
     if (s->growths > 0)
-        why = "a scene without the key growth, which weakens bonds; remove growth, or set reversion: false";
-    if (scene_is_single_equilibrium(s)) why = "solver: explicit; set it, or reversion: false";
+        why = "the key growth weakens bonds, whose particles cannot revert; remove growth, or set reversion: false";
+    if (scene_is_single_equilibrium(s))
+        why = "a single equilibrium has no later steps in which particles revert; set solver: explicit, or reversion: "
+              "false";
     for (int m = 0; m < s->materials; m++)
         if (material_yields(&s->material[m]))
-            why = "materials that do not yield; remove their yield stress, or set reversion: false";
-    return why ? status_set(REFUSED, "conversion.reversion: true needs %s", why) : OK;
+            why = "a material of the scene yields; remove its yield_stress, or set reversion: false";
+    return why ? status_set(REFUSED, "conversion.reversion: true is impossible: %s", why) : OK;
 }
 
 /* Returns the sum of the elastic and kinetic energies of the bodies of run e at the present positions [J], those of

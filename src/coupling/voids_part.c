@@ -131,8 +131,8 @@ void warn_of_voids_treated_as_closed(const struct run *e, bool reference_possibl
     if (plane.n > 0)
         warnings_add_if_new(warning_list,
                             "body %s: the gap between this body and a plane of symmetry is too narrow for the grid at "
-                            "(%s) m, where the plane holds %lld material points that do not touch it; use method: pd, "
-                            "method: adaptive or a smaller particles.spacing",
+                            "(%s) m, where the plane acts on %lld material points that do not touch it; use method: "
+                            "pd, method: adaptive or a smaller particles.spacing",
                             s->body[e->part.body[plane.first]].name,
                             particle_position_text(&e->part, plane.first, 4).text, (long long)plane.n);
     for (int b = 0; b < s->bodies && s->dim > 1; b++) {
@@ -140,9 +140,9 @@ void warn_of_voids_treated_as_closed(const struct run *e, bool reference_possibl
         const struct closed gap = closed_in_lattice(s, &e->part, &e->cells, b, reach);
         if (gap.n == 0) continue;
         warnings_add_if_new(warning_list,
-                            "body %s has a void one or two particles wide at (%s) m, beside %lld particles in all: a "
-                            "list or image defines no faces, so %s join both sides of the void; define the faces by "
-                            "the key cracks, or use a smaller particles.spacing",
+                            "body %s has a void one or two particles wide, for instance at (%s) m (%lld particles are "
+                            "beside such voids). A particle list or image defines no surfaces, so %s join both sides "
+                            "of the void; define its surfaces by the key cracks, or use a smaller particles.spacing",
                             s->body[b].name, particle_position_text(&e->part, gap.first, 4).text, (long long)gap.n,
                             s->method == METHOD_MPM  ? "cells"
                             : s->method == METHOD_PD ? "bonds"

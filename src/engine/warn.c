@@ -51,8 +51,8 @@ static void warn_of_coupling(const struct scene *s, enum coupling kind, struct w
     if (coupling_moves_by_grid(kind) && !scene_silences_warning(s, ACCEPT_COUPLING))
         warnings_add_if_new(
             to,
-            "coupling: %s has no potential energy (as published), so a long run may gain energy; watch "
-            "energy.balance_error, or set coupling: partial stress; if this is intended, add accept: [coupling]",
+            "coupling: %s, as published, has forces that do not derive from an energy, so a long run may gain energy; "
+            "watch energy.balance_error, or set coupling: partial stress; if this is intended, add accept: [coupling]",
             coupling_name[kind]);
 }
 
@@ -67,8 +67,8 @@ static void warn_of_cells(const struct scene *s, bool on_grid, struct warnings *
     if (driven && on_grid && (s->shape == SHAPE_QUADRATIC || s->shape == SHAPE_CUBIC))
         warnings_add_if_new(
             to,
-            "mpm.shape: %s makes stress up to a third too large beside fixed and driven particles, and displacements 2 "
-            "to 3 %%; hold the face by a boundary `mirror`, or set mpm.shape: linear or gimp",
+            "mpm.shape: %s makes stress beside fixed and driven particles up to a third too large, and displacements "
+            "there 2 to 3 %%; hold the face by a boundary `mirror`, or set mpm.shape: linear or gimp",
             s->shape == SHAPE_CUBIC ? "cubic" : "quadratic");
     if (s->method != METHOD_PD && s->cell < 1.5 && !scene_silences_warning(s, ACCEPT_CELL))
         warnings_add_if_new(

@@ -46,8 +46,8 @@ static void warn_of_flow_without_heat(const struct scene *s, struct warnings *to
         const struct material *a = &s->material[m];
         if (!a->law.given || law_heats_material(&a->law)) continue;
         warnings_add_if_new(to,
-                            "material %s yields but is not heated, so its temperature stays at %.5g K: give it "
-                            "johnson_cook with specific_heat if its heat matters",
+                            "material %s yields but is not heated, so its temperature stays at %.5g K: if heating by "
+                            "plastic work matters, give it johnson_cook with specific_heat",
                             a->name, scene_initial_temperature(s, a));
     }
 }

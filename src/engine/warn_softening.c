@@ -31,8 +31,7 @@ void engine_warn_of_wide_strength_means(const struct scene *s, const struct part
         warnings_add_if_new(warnings,
                             "material %s: its strength surface averages strains over %.3g m, but body %s is only %.3g "
                             "m thick: the mean of a bending strain is nearly 0, so the body carries too much load in "
-                            "bending; "
-                            "use a strength_radius below %.3g m, or remove the key of the surface",
+                            "bending; use a strength_radius below %.3g m, or remove the strength surface",
                             m->name, radius, s->body[b].name, side, RADIUS_MOST * side);
     }
 }

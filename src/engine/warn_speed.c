@@ -121,9 +121,9 @@ void engine_warn_of_fast_supports(const struct scene *s, const struct loads *loa
                 s->boundary[b].name, speed, limit);
         else
             warnings_add_if_new(warnings,
-                                "boundary %s: it moves its particles up to %.3g m/s faster than they are at t = 0; "
-                                "from %.3g m/s on (critical stretch x wave speed) bonds beside it break; use a lower "
-                                "velocity; if an impact is intended, add accept: [speed]",
+                                "boundary %s: at t = 0 its velocity differs by up to %.3g m/s from that of its "
+                                "particles; from %.3g m/s on (critical stretch x wave speed) bonds beside it break; "
+                                "use a lower velocity; if an impact is intended, add accept: [speed]",
                                 s->boundary[b].name, jump, limit);
     }
     memory_free(body);

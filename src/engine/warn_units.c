@@ -241,8 +241,8 @@ static void units_of_times(const struct scene *s, real dt, struct warnings *to)
         if (scene_is_dynamic(s) && end < EARLY * dt && !scene_silences_warning(s, ACCEPT_TIMES))
             warnings_add_if_new(
                 to,
-                "%s: its time function ends at %.3g s, long before the first time step of %.3g s, so "
-                "%s: check the units of its times (s if none is written); if this is intended, add accept: [times]",
+                "%s: its time function ends at %.3g s, long before the end of the first time step, %.3g s, so %s: "
+                "check the units of its times (s if none is written); if this is intended, add accept: [times]",
                 subject, end, dt, early[f->kind]);
     }
     for (int b = s->bodies; b < s->bodies + s->rigids; b++) {

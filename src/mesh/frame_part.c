@@ -58,9 +58,9 @@ static const char *frame_obstacle(const struct particles *p, const struct scene 
                                   const struct cells_without_particles *hollow)
 {
     if (plane_with_fit(p, s, 0, hollow->absent, PLANE_MISFIT))
-        return "a plane of symmetry is not at half a spacing from its outermost layer of particles";
+        return "a plane of symmetry is not half a spacing away from the outermost layer of particles";
     if (scene_is_dynamic(s) && plane_with_fit(p, s, 0, hollow->absent, PLANE_APART))
-        return "it starts away from a plane of symmetry, but may reach it";
+        return "at the start it does not touch a plane of symmetry, but may reach it later";
     const int64_t pieces = mesh_count_connected_parts(p, &mpm->field[0].grid, hollow);
     if (pieces == 0)
         return "mpm.origin or a mirror shifts the grid nodes, so that grid cells do not contain two particles in each "
@@ -147,10 +147,10 @@ status body_frames_choose_mesh_or_grid(struct reference_frame *r, struct grid_me
         const enum grid_frame said = s->body[b].frame;
         const char *why = scene_why_reference_frame_unsupported(s, b);
         if (why && said == FRAME_REFERENCE)
-            return status_set(
-                REFUSED,
-                "mpm.frame: body %s cannot be in the reference frame: %s; set mpm.frame: current, or change this",
-                s->body[b].name, why);
+            return status_set(REFUSED,
+                              "mpm.frame: body %s cannot be in the reference frame: %s; set mpm.frame: current, or "
+                              "remove this obstacle",
+                              s->body[b].name, why);
         take_frame(&r->choice[b], said != FRAME_CURRENT,
                    said == FRAME_REFERENCE ? "the scene sets this" : s->body[b].frame_reason);
     }
@@ -159,8 +159,8 @@ status body_frames_choose_mesh_or_grid(struct reference_frame *r, struct grid_me
         const char *why = frame_obstacle(p, s, mpm, &r->hollow);
         take_frame(&r->choice[0], !why,
                    why             ? why
-                   : s->rigids > 0 ? "it keeps its neighbours and has contact with rigid bodies only"
-                                   : "it keeps its neighbours and has contact with no other body");
+                   : s->rigids > 0 ? "its points keep their neighbours and have contact with rigid bodies only"
+                                   : "its points keep their neighbours and have no contact with other bodies");
         if (why) background_grids_make(mpm, s, p, reference_frame_is_in_use(r));
     }
     if (s->method != METHOD_PD) TRY(planes_check(r, p, s));

@@ -37,14 +37,15 @@ const char *scene_why_all_particles_needed(const struct scene *s)
     if (s->method == METHOD_ADAPTIVE && s->conversion.reverts)
         return "peridynamic particles may become material points again";
     if (s->method == METHOD_ADAPTIVE && s->surface == SURFACE_MOMENTS)
-        return "pd.surface: moments needs the particles at all faces";
+        return "pd.surface: moments needs all particles near the faces of the body";
     if (s->contact_friction > 0) return "faces slide with friction";
     for (int b = 0; b < s->boundaries; b++)
-        if (s->boundary[b].kind == BOUNDARY_PRESSURE) return "a pressure needs the particles at all faces";
+        if (s->boundary[b].kind == BOUNDARY_PRESSURE)
+            return "a boundary with a pressure needs all particles near the faces of the body";
     for (int k = 0; k < s->probes; k++) {
         const enum probe_kind kind = s->probe[k].kind;
         const bool moves = kind == PROBE_SIF && isfinite(s->material[0].critical_stretch);
-        if (moves) return "the ring of a sif probe may move with the crack tip";
+        if (moves) return "the ring of a sif probe may move with the crack tip to cells without particles";
         if (kind != PROBE_SIF && kind != PROBE_TIP && kind != PROBE_BREAK && kind != PROBE_REACTION &&
             kind != PROBE_POINT)
             return "a probe measures many particles";

@@ -196,11 +196,10 @@ static void want_text(const struct levels_choice *c, int edge, int edges, char *
     if (c->rise.pulse)
         snprintf(text, capacity, "require waves at least %g spacings long", 4 * RISES * edge);
     else
-        snprintf(
-            text, capacity,
-            "require loads that rise over at least %g spacings (time times wave speed), or a body at least %d spacings "
-            "thick (this one: %.3g)",
-            RISES * edge, edges * edge, c->across);
+        snprintf(text, capacity,
+                 "require loads that rise so slowly that a wave meanwhile travels at least %g spacings, or a body at "
+                 "least %d spacings thick (this one: %.3g)",
+                 RISES * edge, edges * edge, c->across);
 }
 
 /* Writes to text[capacity] the reason for the number of coarsening levels of cells that was chosen automatically for
@@ -246,9 +245,9 @@ static void automatic_text(const struct levels_choice *c, const struct scene *s,
                  load);
     else
         snprintf(text, capacity,
-                 "coarse cells of up to %d spacings, the largest that resolve the waves (%s) or fit into the body, "
-                 "which is %.3g spacings thick, at least %d times",
-                 edge, load, c->across, ACROSS);
+                 "coarse cells of up to %d spacings, the largest that resolve the waves (%s) or of which at least %d "
+                 "fit into the thickness of the body, %.3g spacings",
+                 edge, load, ACROSS, c->across);
 }
 
 void mesh_levels_describe_level_count(const struct levels_choice *c, const struct scene *s, char *text, size_t capacity)

@@ -54,8 +54,8 @@ static status points_place(struct mesh *mesh, const struct particles *p)
         const int64_t place = mesh_packed_cell_and_point_of_particle(mesh, p, i);
         if (place < 0)
             return meshed_body(p, i,
-                               "is not one of two particles per grid cell and direction, which require a lattice, "
-                               "mpm.cell: 2 and an mpm.origin midway between particles");
+                               "is not at its place in a grid cell of two particles in each direction, which needs a "
+                               "regular lattice, mpm.cell: 2 and an mpm.origin midway between particles");
         if (mesh->point[place] >= 0)
             return meshed_body(p, i, "shares its position in the grid cell with another particle");
         if (mesh->points == 0) mesh->volume = p->volume0[i];

@@ -71,7 +71,7 @@ says "a step after the end" "$late 0, below 0.1" "$glass" -s "$(factor 'step: {f
 silent "a step that lasts" "$late" "$glass" -s "$(factor 'step: {until: 1 s}')"
 says "a table in ms" "$late 0.04, below 0.1" "$glass" -s "$(factor 'table: [[0, 0], [1 ms, 1], [2 ms, 0]]')"
 silent "a table whose peak is before the end" "$late" "$glass" -s "$(factor 'table: [[0, 0], [20 us, 1], [1 s, 0]]')"
-says "a ramp in ps" "$early 4e-11 s, long before the first time step of 1.43e-07 s, so the load acts in full at once: check" "$glass" \
+says "a ramp in ps" "$early 4e-11 s, long before the end of the first time step, 1.43e-07 s, so the load acts in full at once: check" "$glass" \
     -s "$(factor 'ramp: {until: 0.04 ns}')"
 says "a pulse in ps" "$early 4e-11 s, .*, so it never acts: check" "$glass" -s "$(factor 'pulse: {until: 0.04 ns}')"
 says "a table in ps" "$early 4e-11 s, .*, so the load has its last value at once: check" "$glass" -s "$(factor 'table: [[0, 0], [0.04 ns, 1]]')"

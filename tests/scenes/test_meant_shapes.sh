@@ -114,10 +114,10 @@ strain() { folder=$1; shift; "$cleave" run "$bar" -q -o "$work/$folder" "$@" >/d
 whole=$(strain whole -s bodies= -s "$box")
 near "a lattice as a list" "$(strain list)" "$whole" 1e-9
 near "a lattice as a list in decimals" "$(strain decimals -s bodies.p.particles="$work/decimals.csv" -s "$third")" "$whole" 1e-6
-says "a lattice as a list" '^accuracy  *body p: a part of 0.005 m is 1.66 horizons' "$bar"
+says "a lattice as a list" '^accuracy  *body p: a part is 0.005 m thick, which is 1.66 horizons' "$bar"
 says "a list that is none" '^accuracy  *body p: parts of it (from a particle list) are only 5 layers of particles thick, so with pd.surface: volume .* 39 % in bending and tension, 50 % in twisting; with pd.surface: moments by about 3 % in bending and tension, 15 %' "$bar" \
     -s bodies.p.particles="$work/shaken.csv"
-weights='its list is not a lattice along the axes, as pd.weights: isotropic assumes'
+weights='the particles of its list are not on a lattice along the axes, which pd.weights: isotropic assumes'
 says "weights of a list that is no lattice" "^accuracy  *body p: $weights" "$bar" -s bodies.p.particles="$work/shaken.csv"
 silent "weights of a lattice" "$weights" "$bar"
 silent "equal weights" "$weights" "$bar" -s bodies.p.particles="$work/shaken.csv" -s pd.weights=uniform

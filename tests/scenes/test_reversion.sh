@@ -101,7 +101,7 @@ refused()
 refused tips "out of range" -s conversion.tips=-1
 refused dwell "out of range" -s conversion.hold_time=0.5
 refused share "out of range" -s conversion.low_stress=0.95
-refused criteria "needs stress in conversion.criteria" -s "conversion.criteria=[bond]"
+refused criteria "conversion.criteria must contain stress" -s "conversion.criteria=[bond]"
 refused coupling "partial stress or handshake" -s coupling=pm
 refused yields "do not yield" -s material.yield_stress=300MPa
 finish

@@ -122,7 +122,7 @@ between "bar: energy" "$(figure "$work/bar" energy.balance_error)" -6e-3 6e-3
 "$cleave" check "$work/notch.yaml" --no-trial >"$work/said" 2>&1
 holds "check" grep -q 'cracks  *grow where bonds soften; in each load step they dissipate steps.energy' "$work/said"
 holds "check: faces" grep -q 'with pd.surface: volume .* carries 9.5 % more with 10 layers, 3.5 % with 20$' "$work/said"
-holds "check: pre-crack" grep -q 'pre-cracks  *the smallest is 0.001 m long, 3.3 horizons$' "$work/said"
+holds "check: pre-crack" grep -q 'pre-cracks  *the shortest is 0.001 m long, which is 3.3 horizons$' "$work/said"
 
 bad() { what=$1 words=$2; shift 2; refused "$what" "$work/no" "$words" "$work/notch.yaml" "$@"; }
 bad "opening" "control: energy or load" -s 'steps={control: opening, from: [0, 0], to: [0, 1mm], opening: 1um}'

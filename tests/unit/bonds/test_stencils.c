@@ -228,20 +228,23 @@ static void test_fault(void **state)
     bond_fade(b, &c.p, b->row_blocks / 2 * LANES + 4, q, 0.5);
     assert_null(bonds_describe_first_inconsistency(b));
     b->inverse_length[q] *= -1;
-    assert_string_equal(bonds_describe_first_inconsistency(b), "a broken or unused bond has a weight other than 0");
+    assert_string_equal(bonds_describe_first_inconsistency(b),
+                        "a bond with a weight other than 0, thus intact, has no length");
     b->inverse_length[q] *= -1;
     b->common[column].intact ^= 1;
-    assert_string_equal(bonds_describe_first_inconsistency(b), "the marks of intact bonds differ from their weights");
+    assert_string_equal(bonds_describe_first_inconsistency(b),
+                        "a bond is marked as intact but has weight 0, or is not marked and has another weight");
     b->common[column].intact ^= 1;
     b->nbr[q]++;
     assert_string_equal(bonds_describe_first_inconsistency(b), "neighbours are not consecutive");
     b->nbr[q]--;
     b->common[column].first++;
     assert_string_equal(bonds_describe_first_inconsistency(b),
-                        "the first neighbour of a column differs from its common value");
+                        "the first neighbour of a column of eight bonds differs from the value stored for the column");
     b->common[column].first--;
     b->reach = 0;
-    assert_string_equal(bonds_describe_first_inconsistency(b), "a bond reaches more blocks of eight rows than allowed");
+    assert_string_equal(bonds_describe_first_inconsistency(b),
+                        "a bond joins rows that are more blocks of eight rows apart than allowed");
     b->row_of[b->particle[9]] = 3;
     assert_string_equal(bonds_describe_first_inconsistency(b), "row_of is not the inverse of `particle`");
     particle_cloud_free(&c);

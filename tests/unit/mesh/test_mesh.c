@@ -333,7 +333,7 @@ static void test_refused(void **state)
     block_make(&b, SPACE_PLANE_STRESS, false, false);
     struct mesh other;
     struct grid like = {.dim = 2, .h = 2 * CLOUD_SPACING, .anchor = {0.3 * CLOUD_SPACING, 0}};
-    assert_refused(mesh_make(&other, &b.c.p, &like, &b.source), "is not one of two particles per grid cell");
+    assert_refused(mesh_make(&other, &b.c.p, &like, &b.source), "is not at its place in a grid cell of two particles");
     mesh_free(&other);
     like = b.mesh.grid, like.n = 0;
     b.c.p.volume0[7] *= 1.01;
