@@ -50,8 +50,8 @@ static status carries_materials(const struct scene *s, bool bond_style)
         return lammps_refuse(
             s, "peri/lps joins two materials by other rules than Cleave; use one material, or model: bond");
     if (stretches_differ(s) && !bond_style)
-        return lammps_refuse(s, "several critical stretches: peri/pmb breaks bonds by the largest one of a particle "
-                                "(lammps issue 984); give all materials the same, or use --style bpm");
+        return lammps_refuse(s, "several critical stretches: peri/pmb applies to each bond the largest one of its "
+                                "particle (lammps issue 984); give all materials the same, or use --style bpm");
     if (s->rigids > 0)
         return lammps_refuse(
             s, "rigid bodies cannot be exported to LAMMPS; use a body of particles that a boundary drives");
@@ -79,7 +79,7 @@ static void settings_add(struct lammps_settings *to, bool differs, const char *k
 static void contact_settings(struct lammps_settings *to, const struct scene *s, bool own)
 {
     static const char *const effect =
-        "fragments that touch repel each other by the rule of LAMMPS for pairs of particles";
+        "fragments that touch repel each other by LAMMPS' law for pairs of particles, not by that of Cleave";
     if (s->contact_between == CONTACT_NONE) return;
     if (!own) {
         settings_add(to, true, "contact.between", "none", "fragments that touch pass through each other");

@@ -48,7 +48,7 @@ void lammps_write_run_time_estimate(FILE *file, const struct exported *x)
             "Break-even: %.0f ranks of LAMMPS with perfect parallel efficiency are as fast as Cleave on %d core%s.\n",
             ceil(cores * there / t.here), cores, cores == 1 ? "" : "s");
     fputs("Not in LAMMPS: material points and conversion (all particles have bonds from start to end), the balance "
-          "of\nenergy, stress, crack tips and their speed, stress-intensity factors, probes, fragments, the same bits "
-          "on\nany number of ranks.\n",
+          "of\nenergy, stress, crack tips and their speed, stress-intensity factors, probes, fragments, bitwise "
+          "identical\nresults on any number of ranks.\n",
           file);
 }

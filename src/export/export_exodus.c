@@ -101,8 +101,8 @@ static status frame_check(const struct exodus_export *x, const struct output_fra
         same = p->id[i] >= 0 && p->id[i] < f->n && f->id[p->id[i]] == p->id[i];
     if (same) return OK;
     return status_set(REFUSED,
-                      "%s: at %.6g s the run has %lld particles, but its body has %lld, and an Exodus file has one "
-                      "list for all times; run the scene again with -s mpm.fill=all -s mpm.levels=0",
+                      "%s: at %.6g s the run has %lld of the %lld particles of its body, but an Exodus file needs the "
+                      "same particles at all times; run the scene again with -s mpm.fill=all -s mpm.levels=0",
                       printable_name(x->folder).text, f->t, (long long)f->n, (long long)x->mesh.n);
 }
 

@@ -87,18 +87,15 @@ static void readme_write(FILE *to, const struct exported *x)
 {
     const char *style = x->bond_style ? "bond_style bpm/peri" : x->s->model == MODEL_BOND ? "peri/pmb" : "peri/lps";
     const long long steps = (long long)lammps_reference_step_count(x);
-    fprintf(
-        to,
-        "%s for LAMMPS (%s), exported by Cleave %s\n\n"
-        "    lmp -in in.lammps                       # or: mpirun -np 16 lmp -in in.lammps\n"
-        "    cleave compare RESULTS_OF_CLEAVE .      # displacement, velocity, damage; and the check of %lld steps\n\n"
-        "in.lammps   the commands; their last lines are a test for a machine without Cleave\n"
-        "plate.data  particles%s\n"
-        "scene.yaml  the scene as exported: `cleave run scene.yaml` is the same run in Cleave\n"
-        "check.csv   where Cleave has the particles after %lld steps; damage, of the bonds there were (as LAMMPS "
-        "counts it), and\n"
-        "            damage at the start, by pre-cracks: in all d = start + (1 - start) damage\n\n",
-        x->s->name, style, CLEAVE_VERSION, steps, x->bond_style ? " and bonds" : "", steps);
+    fprintf(to,
+            "%s for LAMMPS (%s), exported by Cleave %s\n\n    lmp -in in.lammps                       # or: mpirun -np "
+            "16 lmp -in in.lammps\n    cleave compare RESULTS_OF_CLEAVE .      # displacement, velocity, damage; and "
+            "the check of %lld steps\n\nin.lammps   the commands; their last lines are a test for a machine without "
+            "Cleave\nplate.data  particles%s\nscene.yaml  the scene as exported: `cleave run scene.yaml` is the same "
+            "run in Cleave\ncheck.csv   positions of the particles in Cleave after %lld steps; their damage, the share "
+            "of broken bonds among those\n            intact at the start (as in LAMMPS), and their damage `start` by "
+            "pre-cracks; total: start + (1 - start) damage\n\n",
+            x->s->name, style, CLEAVE_VERSION, steps, x->bond_style ? " and bonds" : "", steps);
     lammps_write_run_time_estimate(to, x);
     left_out_write(to, x->s);
     fprintf(to, "\nThe method is `pd`: the whole body has bonds, also where `adaptive` would take material points.\n");

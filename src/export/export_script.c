@@ -105,8 +105,8 @@ static void settings_write(FILE *to, const struct exported *x)
     if (x->s->dim == 2) fputs("processors * * 1\n", to);
     if (x->bond_style) fputs("newton on off\nspecial_bonds lj 0.0 1.0 1.0 coul 1.0 1.0 1.0\n", to);
     fprintf(to,
-            "neighbor %.17g bin\nneigh_modify delay 0 every 1 check yes\ncomm_modify cutoff %.17g\n"
-            "# its constant is the width of the ramp of volumes at the horizon, and scales contact\nlattice sc %.17g\n",
+            "neighbor %.17g bin\nneigh_modify delay 0 every 1 check yes\ncomm_modify cutoff %.17g\n# lattice constant: "
+            "the width of the volume ramp at the horizon, and the length scale of contact\nlattice sc %.17g\n",
             SKIN * h, x->cutoff * (1 + stretch) + (1 + SKIN) * h, x->lattice);
 }
 

@@ -122,8 +122,8 @@ status lammps_types_assign_to_particles(struct lammps_types *types, struct expor
                        "tables of LAMMPS; use straight cracks along the lattice",
                        printable_name(x->s->path).text, (long long)touched.n, COLOURS_MOST);
     if (s == OK && colours > 0 && !(pair = particle_colours_find_bonded_pairs(colour, colours, &touched)))
-        s = status_set(FAILED, "export: the cracks cut bonds that types of LAMMPS particles cannot separate from uncut "
-                               "ones; use straight cracks");
+        s = status_set(FAILED, "export: the cracks cut bonds that the atom types of LAMMPS cannot distinguish from "
+                               "uncut ones; use straight cracks");
     if (s == OK) s = types_give(types, x, &touched, colour, colours, pair);
     memory_free(pair);
     memory_free(colour);

@@ -290,8 +290,8 @@ status abaqus_read(struct element_mesh *m, struct source *s)
     status result = keywords_read(&d);
     if (result == OK) result = scope_end(&d);
     if (result == OK && m->nodes == 0)
-        result = source_report_fault(
-            s, "has no *NODE, so this is not a mesh in the format of Abaqus; give one, or a file of another kind");
+        result = source_report_fault(s, "has no *NODE, so this is not a mesh in the format of Abaqus; give an Abaqus "
+                                        "input file with nodes and elements");
     for (int k = 0; k < d.scopes; k++) {
         label_map_free(&d.scope[k].node_of);
         label_map_free(&d.scope[k].element_of);

@@ -166,7 +166,8 @@ static status set_join_nodes_of(struct deck *d, int set, const struct scope *par
     const int other = set_index(d, part, name, false);
     struct label_map of;
     if (other < 0)
-        return source_report_fault(d->s, "there is no element set %.40s before this line; give that set before", name);
+        return source_report_fault(
+            d->s, "no element set %.40s is defined before this line; define it earlier in the file", name);
     TRY(generated_add(d, (ELEMENT_CORNERS_MAX + ELEMENT_MIDDLES_MAX) * d->m->set[other].n));
     label_map_make(&of, d->m->element_label + first, first, d->m->elements - first);
     for (int64_t k = 0; k < d->m->set[other].n; k++) {

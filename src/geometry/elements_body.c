@@ -252,7 +252,8 @@ static bool named_by_elements(const struct element_mesh *m, const struct element
 /* Returns why the set `set` of a mesh cannot be used, as the end of a sentence, or NULL if it can. */
 static const char *set_fault(const struct element_set *set)
 {
-    if (set->n == 0) return "is empty, or has only elements that are not read, such as beams or springs";
+    if (set->n == 0)
+        return "is empty, or has only elements that are not read, such as beams or springs; use another set";
     return set->mixed ? "is the name of two physical groups of different dimension; give each its own name" : NULL;
 }
 

@@ -243,8 +243,9 @@ status exodus_read_block_header(const struct exodus_file *f, int64_t block_numbe
     struct exodus_array a;
     name_numbered(called, "connect", block_number);
     if (!array_find(f, called, &a) || a.type == EXODUS_CHAR)
-        return exodus_report_fault(f, "block %lld has no list of nodes %s; remove it, or give its elements nodes",
-                                   (long long)block_number, called);
+        return exodus_report_fault(
+            f, "block %lld lacks the array %s, the nodes of its elements; add the array, or remove the block",
+            (long long)block_number, called);
     if (!a.elements[0])
         return exodus_report_fault(
             f, "block %lld does not name the type of its elements; add the attribute elem_type to the variable %s",

@@ -112,7 +112,8 @@ static status format_read(struct gmsh *g)
     TRY(source_read_integer(g->s, "kind of file", &bytes));
     TRY(source_read_integer(g->s, "size of numbers", &size));
     if (size != 8)
-        return source_report_fault(g->s, "numbers have %lld bytes each; save the mesh with 8", (long long)size);
+        return source_report_fault(
+            g->s, "numbers have %lld bytes each, but need 8 (double precision); save the mesh with 8", (long long)size);
     g->bytes = bytes != 0;
     if (!g->bytes) return OK;
     source_skip_to_next_line(g->s);

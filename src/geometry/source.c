@@ -94,8 +94,7 @@ static status text_real(struct source *s, const char *what, real *value)
 static status bytes_take(struct source *s, const char *what, void *value, int64_t size)
 {
     if (s->length - s->at < size)
-        return source_report_fault(s, "the file is cut off, because it ends where %s is expected; write it again",
-                                   what);
+        return source_report_fault(s, "the file ends where %s is expected, so it is cut off; write it again", what);
     array_copy(value, s->text + s->at, size, 1);
     s->at += size;
     return OK;

@@ -191,8 +191,8 @@ status checkpoint_read(const struct output *o, const char *scene_text, archive_a
     const char *older_fault = file_describe_damage(previous.text);
     if (older_fault)
         return status_set(FAILED,
-                          "cannot resume: in the folder %s %s %s and %s %s; restore one of the two from a copy, or "
-                          "start again with --overwrite",
+                          "cannot resume from the folder %s: the file %s %s, and the previous one, %s, %s; restore one "
+                          "of the two from a copy, or start again with --overwrite",
                           o->folder, newest_name, fault, previous_name, older_fault);
     fprintf(stderr, "%s %s: resuming from %s\n", printable_name(newest.text).text, fault, previous_name);
     TRY(state_read(previous.text, scene_text, save_or_load_all, context));

@@ -356,7 +356,7 @@ status file_read_whole(const char *path, char **text, size_t *length)
     if (fd < 0) return status_set(FAILED, "cannot read %s: %s", path, strerror(errno));
     if (fstat(fd, &s) != 0 || !S_ISREG(s.st_mode)) {
         close(fd);
-        return status_set(FAILED, "cannot read %s: it is not a regular file", path);
+        return status_set(FAILED, "cannot read %s, which is not a regular file; give another one", path);
     }
     *text = NEW("output.text", s.st_size + 1, char);
     int64_t have = output_files_read_all(fd, *text, (size_t)s.st_size);

@@ -390,7 +390,7 @@ static bool frame_is_lost(const char *path, const struct frame_entry *e, const s
     if (!frame_read_marks(path, &time, &content)) return false;
     if (!reals_are_bitwise_equal(time, e->time)) return snprintf(text, capacity, "belongs to another time") > 0;
     if (!particles->known || content == particles->content) return false;
-    return snprintf(text, capacity, "and %s, to which it links, belong to different runs", particles->name) > 0;
+    return snprintf(text, capacity, "links to %s, which belongs to another run", particles->name) > 0;
 }
 
 /* Marks the frames (output files) of the series s of the output o that are lost (damaged or missing) and adds their

@@ -118,7 +118,7 @@ status folder_check_lock(const struct folder_lock *l, const char *folder)
     if (l->fd < 0 || is_still_there(l->fd, path_join(folder, lock_name).text)) return OK;
     return status_set(FAILED,
                       "the folder %s was moved, removed or replaced while this run wrote to it, so the run ends and "
-                      "leaves alone the folder that now has this name; start the run again",
+                      "does not change the folder that now has this name; start the run again",
                       folder);
 }
 

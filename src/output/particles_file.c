@@ -161,5 +161,6 @@ status particles_file_check_file_linked_by_frame(struct hdf *frame, const char *
     const char *fault = particles_file_describe_damage(file.text, &found);
     if (!fault && found != content) fault = "belongs to another run";
     if (!fault) return OK;
-    return status_set(FAILED, "cannot read %s: %s beside it, to which it links, %s", path, name, fault);
+    return status_set(FAILED, "cannot read %s: the file %s in the same folder, to which it links, %s", path, name,
+                      fault);
 }

@@ -125,7 +125,8 @@ static status draw_outside(const struct plot_request *r, const struct run_frames
                                        : report_picture_not_drawn(surface.text, "nothing happens in this run"));
     if (!has.cracks) return report_picture_not_drawn(cracks.text, "no particle is damaged enough");
     if (has.cracked > 0.5)
-        return report_picture_not_drawn(cracks.text, "most particles are damaged, not only those of cracks");
+        return report_picture_not_drawn(cracks.text,
+                                        "most particles are damaged, so cracks cannot be distinguished from the rest");
     return draw_map(r, cracks.text, MAP_CRACKS, &view, cloud, frames->shown);
 }
 

@@ -280,7 +280,8 @@ static status draw_energy(struct sheet sheet, const char *title, const struct se
     int balance = history_find_column(s->h, "balance_error");
     const double percent = 0.01;
     if (s->equilibrium)
-        return report_picture_not_drawn(sheet.path, "the run has one equilibrium; summary.json has its energies");
+        return report_picture_not_drawn(sheet.path,
+                                        "a single equilibrium has no curves over time; summary.json has its energies");
     choose_energies(&e, s->h);
     if (e.n == 0) return report_picture_not_drawn(sheet.path, "all energies are 0");
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, balance >= 0 ? 760 : 600));
@@ -320,7 +321,8 @@ static status draw_curves(const struct plot_request *r, const char *title, const
     TRY(draw_energy((struct sheet){energy.text, r->format}, title, s));
     TRY(sif_curves_draw(title, s));
     TRY(crack_paths_draw(r->folder, title, s));
-    TRY(s->equilibrium ? report_picture_not_drawn(load.text, "the run has one equilibrium; history.csv has its forces")
+    TRY(s->equilibrium ? report_picture_not_drawn(
+                             load.text, "a single equilibrium has no curves over time; history.csv has its forces")
                        : load_displacement_draw((struct sheet){load.text, r->format}, title, s->h, s->spacing));
     return in_steps ? r_curve_draw((struct sheet){r_curve.text, r->format}, r->folder, title, s->h) : OK;
 }

@@ -103,7 +103,8 @@ status sif_curves_draw(const char *title, const struct series *series)
     const struct path path = picture_path(series->pictures, DRAWN_SIF, picture_ending[series->format]);
     if (f.n == 0) return OK;
     if (series->equilibrium)
-        return report_picture_not_drawn(path.text, "the run has one equilibrium; summary.json has its K_I and K_II");
+        return report_picture_not_drawn(
+            path.text, "a single equilibrium has no curves over time; summary.json has its K_I and K_II");
     double spread = 0;
     for (int k = 0; k < f.n; k++) spread = fmax(spread, history_largest_magnitude(series->h, f.spread[k]));
     TRY(gnuplot_open(&g, path.text, series->format, 1000, spread > 0 ? 760 : 600));

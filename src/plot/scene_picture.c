@@ -405,7 +405,8 @@ status scene_draw_picture(const char *path, const struct scene_override *overrid
     TRY(scene_read_or_list_pilot_requirements(&s, &wish, path, override, overrides));
     if (wish.wanted) {
         s = wish.provisional;
-        printf("%s: method: auto: drawn at a spacing of %.4g m; cleave run chooses method and spacing\n",
+        printf("%s: with method: auto the scene has no spacing yet, so it is drawn at %.4g m; `cleave run` chooses "
+               "method and spacing\n",
                printable_name(path).text, s.spacing);
     }
     const status result = draw_made(&e, &s, r);

@@ -78,9 +78,10 @@ static status own_growth(const struct sif_tracked *w, const struct probe_request
     for (int k = 0; k < o->growths; k++) {
         const struct growth_rule *g = o->growth[k].rule;
         if (strcmp(g->probe, r->name) == 0 && k != w->growth)
-            return status_set(
-                REFUSED, "probe \"%s\" controls %s, but measures the tip at (%.6g, %.6g) m; set at: [%.6g m, %.6g m]",
-                r->name, g->name, w->tip.place[0], w->tip.place[1], g->at[0], g->at[1]);
+            return status_set(REFUSED,
+                              "probe \"%s\" controls the growth rule %s, but measures another tip, at (%.6g, %.6g) m; "
+                              "set at: [%.6g m, %.6g m]",
+                              r->name, g->name, w->tip.place[0], w->tip.place[1], g->at[0], g->at[1]);
     }
     return OK;
 }
@@ -440,11 +441,11 @@ static void describe_meaningless_factors(const struct probe *q, real t, char *te
     char why[200] = "its ring leaves the body";
     if (!isnan(q->memory.factors[0]))
         snprintf(why, sizeof why,
-                 "values of its contours differ by %.3g %% (contour_spread), more than %.3g %%, as happens if the "
-                 "crack branches or kinks within them or K is near 0",
+                 "values on its contours differ by %.3g %% (contour_spread, at most %.3g %%), as happens if the crack "
+                 "branches or kinks within them or K is near 0",
                  100 * q->memory.factors[SIF_FIGURES - 1], 100 * SPREAD_MOST);
     snprintf(text, size,
-             "probe %s: K_I, K_II and J have no value at t = %.4g s, nor later in the same case: %s; use a smaller "
+             "probe %s: K_I, K_II and J have no value at t = %.4g s, nor whenever this recurs: %s; use a smaller "
              "probes.sif.outer (now %.3g m)",
              q->request.name, t, why, q->sif->contour[0].outer);
 }

@@ -139,11 +139,10 @@ void flow_turn_warn_of_inexact_stress(const struct flow_turn *turn, int dim, str
 void flow_turn_warn_of_softening(const struct flow_softening *softening, int dim, struct warnings *warnings)
 {
     char text[400];
-    snprintf(
-        text, sizeof text,
-        "plastic work heats a material so much that its yield stress falls, by %.2g %% within load step %lld near "
-        "(%s) m: flow gathers in one row of cells, and plastic strains depend on the spacing; slow loads leave heat "
-        "time to spread: remove specific_heat, or use solver: explicit",
-        100 * softening->share, (long long)softening->step, position_text(softening->position, dim, 4).text);
+    snprintf(text, sizeof text,
+             "heat of plastic work lowers the yield stress by %.2g %% within load step %lld near (%s) m, so plastic "
+             "flow localises in one row of cells, and plastic strains depend on the spacing. Under slow loads heat "
+             "would spread: remove specific_heat; for fast loads use solver: explicit",
+             100 * softening->share, (long long)softening->step, position_text(softening->position, dim, 4).text);
     if (softening->share > SOFTENING_MOST) warnings_add_and_print(warnings, text);
 }

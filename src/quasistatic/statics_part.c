@@ -30,9 +30,9 @@ static void warn_of_yielding_bonds(const struct scene *s, const struct family *f
                    elastic = family_crack_energy_per_area(family, own);
         if (dissipated < (1 - ROUNDING) * elastic)
             warnings_add_if_new(to,
-                                "bonds of material %s yield before they break, so a crack dissipates %.3g J/m^2, "
-                                "elastic bonds of the same critical stretch %.3g J/m^2; if this is too little, raise "
-                                "energy_release_rate or critical_stretch",
+                                "bonds of material %s yield before they break, so a crack dissipates %.3g J/m^2, less "
+                                "than the %.3g J/m^2 of elastic bonds of the same critical stretch; to dissipate more, "
+                                "raise energy_release_rate or critical_stretch",
                                 own->name, dissipated, elastic);
     }
 }
@@ -78,8 +78,9 @@ static void warn_of_solver(const struct run *e, struct warnings *to)
                                 "solver: explicit",
                                 s->body[b].name);
     if (s->bodies > 1 && !scene_silences_warning(s, ACCEPT_CONTACT))
-        warnings_add_if_new(to, "bodies have no contact in a static equilibrium: they pass through each other where "
-                                "gaps close; if none closes, add accept: [contact]");
+        warnings_add_if_new(
+            to, "bodies have no contact in a static equilibrium: they pass through each other where gaps close; for "
+                "contact use load steps (solver: static); if no gap closes, add accept: [contact]");
     if (e->solver->applied == 0 && field_largest_component(&e->solver->driven, s->dim, e->part.n) == 0)
         warnings_add_if_new(
             to,

@@ -140,9 +140,10 @@ static void write_scene(struct page *p, const char *folder, const struct scene *
     json_write_integer(&p->json, "dim", s->dim);
     write_pre_cracks(p, s);
     write_names(p, s);
-    const status drawn = particles > PICTURE_PARTICLES
-                             ? status_set(REFUSED, "the scene has more than two million particles")
-                             : write_picture(p, path_join(folder, "scene.yaml").text, path);
+    const status drawn =
+        particles > PICTURE_PARTICLES
+            ? status_set(REFUSED, "the scene has more than two million particles, too many for a picture")
+            : write_picture(p, path_join(folder, "scene.yaml").text, path);
     if (drawn != OK) json_write_text(&p->json, "picture_missing", status_message());
 }
 

@@ -132,7 +132,8 @@ static status include_file(struct reader *r, const struct yaml_node *n, const st
     const status read = tree_parse_yaml(r, text, length, origin, root);
     memory_free(text);
     TRY(read);
-    if (!*root) return fault_at_location(r, origin, 1, 1, "empty; begin with keys such as space and duration");
+    if (!*root)
+        return fault_at_location(r, origin, 1, 1, "the scene is empty; begin with keys such as space and duration");
     TRY(expect_node_kind(r, *root, NODE_MAP, "give a scene, which is a mapping of keys to values"));
     TRY(tree_rename_old_keys(r, *root));
     struct yaml_node *name = yaml_node_find(*root, "name");

@@ -88,8 +88,8 @@ void large_motion_warn_of_passing_parts(struct large_motion *m, const struct par
     if (count == 0) return;
     snprintf(text, sizeof text,
              "parts of body %.60s pass through each other: at t = %.3g s %lld particles are nearer than half a spacing "
-             "to one that no bond joins to them, the first at (%s) m, because contact is %s; set contact.between: all; "
-             "if this is intended, add accept: [contact]",
+             "to a particle to which no bond joins them, the first at (%s) m, because contact is %s; set "
+             "contact.between: all; if this is intended, add accept: [contact]",
              s->body[p->body[first]].name, t, (long long)count, particle_position_text(p, first, 4).text,
              s->contact_between == CONTACT_NONE ? "none" : "between bodies only");
     warnings_add_and_print(warning_list, text);

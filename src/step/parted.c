@@ -199,16 +199,16 @@ static void warn_of_parted(const struct scene *s, const struct pair_counts *c, i
     char text[640], what[400];
     if (w)
         snprintf(what, sizeof what,
-                 "metal is pulled too far for mpm.shape: %s, which carries %s %% too little stress where neighbouring "
-                 "points are %.3g times as far apart as at the start: at t = %.3g s %lld of %lld pairs are, the "
-                 "farthest ones %.2g times, near (%s) m",
+                 "metal is pulled too far for mpm.shape: %s, which carries %s %% too little stress where the distance "
+                 "of neighbouring points is above %.3g times the initial one. At t = %.3g s this holds for %lld of "
+                 "%lld pairs; the largest distance is %.2g times the initial one, near (%s) m",
                  w->word, w->too_little, w->pulled, t, (long long)c->pulled, (long long)n, c->farthest.stretch,
                  at.text);
     else
         snprintf(what, sizeof what,
-                 "metal has separated without fracture at t = %.3g s: between %lld of %lld pairs of neighbouring "
-                 "points the cells of the grid are empty, so little or nothing holds them together; near (%s) m they "
-                 "are %.2g times as far apart as at the start",
+                 "metal has separated by a numerical error, without fracture, at t = %.3g s: between %lld of %lld "
+                 "pairs of neighbouring points the cells of the grid are empty and transfer little or no force; near "
+                 "(%s) m their distance is %.2g times the initial one",
                  t, (long long)c->parted, (long long)n, at.text, c->farthest.stretch);
     snprintf(
         text, sizeof text,

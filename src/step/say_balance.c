@@ -72,9 +72,9 @@ static bool say_flight(const struct particles *p, const struct diagnostics *w, s
     if (p->n_free == 0 || fabs(error) > ENERGY_DOUBTFUL || fabs(error) < FLIGHT_LEAST) return false;
     if (!(amount > ENERGY_DOUBTFUL * w->internal_scale)) return false;
     snprintf(text, sizeof text,
-             "%.2g J, %.2g %% of the energy without that of free flight, %s (energy.balance_error %.2g), because "
-             "stresses of material points that fly through cells of the grid are wrong; let bodies start close to each "
-             "other, halve the time step (time.safety), or use mpm.frame: reference",
+             "energy of %.2g J, which is %.2g %% of all energy except that of free flight, %s (energy.balance_error "
+             "%.2g), because the stress of material points is wrong while they fly through cells of the grid; let "
+             "bodies start close to each other, halve the time step (time.safety), or use mpm.frame: reference",
              amount, 100 * amount / w->internal_scale, error < 0 ? "is lost" : "has been gained without work of loads",
              error);
     warnings_add_and_print(to, text);
@@ -134,9 +134,9 @@ static bool shock_text(const struct scene *s, const struct diagnostics *w, char 
         scene_silences_warning(s, ACCEPT_SHOCK))
         return false;
     snprintf(text, capacity,
-             "the first bond broke at %.4g s, in a collision at %.3g m/s, %.3g times the speed at which the front of "
-             "the wave breaks or yields a body. Behind the front stress oscillates by 10 to 30 %%, so bonds may break "
-             "too early: %s; if this is intended, add accept: [shock]",
+             "the first bond broke at %.4g s, in a collision at %.3g m/s, %.3g times the speed at which the stress of "
+             "the wave front reaches the strength or yield stress of a body. Behind the front stress oscillates by 10 "
+             "to 30 %%, so bonds may break too early: %s; if this is intended, add accept: [shock]",
              w->break_time, shock.speed, shock.share, shock.remedy);
     return true;
 }
@@ -182,8 +182,8 @@ static void say_flow_error(const struct particles *p, const struct scene *s, rea
     else
         snprintf(text, sizeof text,
                  "%.2g %% of the energy is %s (energy.balance_error %.2g): transfers between the grid and points that "
-                 "yield have errors that grow with the time step; half of it (time.step: %.2g s, or time.safety) gives "
-                 "about 0.6 times as much or less",
+                 "yield have errors that grow with the time step; half the time step (time.step: %.2g s, or a smaller "
+                 "time.safety) reduces the error to about 0.6 times or less",
                  100 * fabs(error), error < 0 ? "lost" : "gained without work of loads", error, 0.5 * dt);
     warnings_add_and_print(to, text);
 }
@@ -196,8 +196,8 @@ static void say_work_error(real error, struct warnings *to)
 {
     char text[320];
     snprintf(text, sizeof text,
-             "%.2g %% of the energy %s (energy.balance_error %.2g): the work of loads in a load step is wrong "
-             "where much yields in one step; use more load steps (steps.number)",
+             "%.2g %% of the energy %s (energy.balance_error %.2g): the work of loads is wrong if a large part of the "
+             "body yields in a single load step; use more load steps (steps.number)",
              100 * fabs(error), error < 0 ? "is lost" : "has been gained without work of loads", error);
     warnings_add_and_print(to, text);
 }

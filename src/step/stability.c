@@ -266,8 +266,8 @@ void stability_describe_remedy(const struct run *e, const struct growth_samples 
     }
     snprintf(text, capacity,
              "the energy error took %s%.0f steps to grow tenfold; with an unstable time step it takes fewer than %d, "
-             "so a smaller time step (now %.2f of the critical %.3g s) may not help; a method of this scene gains "
-             "energy: try %s, and please report the scene",
+             "so a smaller time step (now %.2f of the critical %.3g s) may not help; one of the methods in this scene "
+             "gains energy: try %s, and please report the scene",
              isfinite(steps) ? "" : "more than ", isfinite(steps) ? steps : (real)RISE_STEPS, RISE_STEPS,
              e->clock.dt / e->clock.dt_critical, e->clock.dt_critical, others);
 }

@@ -180,8 +180,8 @@ status scalar_results_determine_convergence(const struct convergence_study *s, c
     for (int f = 0; f < s->table.figures && wanted_count == 0; f++)
         if (is_of_interest(s, s->table.figure[f]) && is_one_of_several(s, s->table.figure[f]))
             fprintf(stderr,
-                    "figure %s is left out, because a run has the same value at several positions and reports only one "
-                    "of them; --of %s includes it\n",
+                    "figure %s is left out: in some run the event occurred at several positions at once, and the run "
+                    "reports only one of them; --of %s includes it\n",
                     s->table.figure[f], s->table.figure[f]);
     for (int part = 0; part < 3; part++)
         for (int f = 0; f < s->table.figures; f++)
@@ -356,8 +356,8 @@ void scalar_results_print(const struct convergence_study *s, const struct scalar
     const int shown = figures < PRINTED_MOST ? figures : PRINTED_MOST;
     const struct unit metre = convergence_spacing_unit(s);
     int lost = 0;
-    printf("for each figure of summary.json: its mean at each spacing, and how it converges with the spacing; below, "
-           "its value at %.4g %s +- the distance within which the true value is with a probability of 95 %%\n",
+    printf("for each figure of summary.json: its mean at each spacing and its convergence with the spacing; below, its "
+           "value at %.4g %s +- the error bar within which the true value is with 95 %% probability\n",
            s->spacings.at[0][0] / metre.factor, metre.name);
     for (int f = 0; f < shown; f++) figure_print(&figure[f], s->own, &metre);
     for (int f = 0; f < figures; f++) lost += figure[f].c.verdict == VERDICT_DIVERGES;

@@ -267,8 +267,8 @@ static status plan_fit(struct convergence_study *s, const struct convergence_req
     }
     if (!planned)
         return status_set(REFUSED,
-                          "fewer than %d spacings at and above that of the scene are possible: use fewer --levels, or "
-                          "a smaller particles.spacing",
+                          "--levels: fewer than %d different spacings, equal to that of the scene or larger, are "
+                          "possible: use fewer --levels, or a smaller particles.spacing",
                           w->levels);
     return status_set(
         REFUSED,

@@ -170,7 +170,7 @@ static const char *clock_lacks(const struct scene *s, const char *leaf)
     const char *end = strrchr(leaf, '_');
     const bool step = end && !strcmp(end, "_step"), time = end && !strcmp(end, "_time"), speed = strstr(leaf, "speed_");
     if (step && !scene_has_load_steps(s)) return "`solver: static`";
-    return (time || speed) && scene_has_load_steps(s) ? "a solver in time: load steps have no speed" : NULL;
+    return (time || speed) && scene_has_load_steps(s) ? "`solver: explicit`: load steps have a pseudo-time only" : NULL;
 }
 
 /* Returns a phrase for a message that says what the scene s must have so that its runs write the number called `name`

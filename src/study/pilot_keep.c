@@ -84,7 +84,10 @@ status pilot_store_choice(const struct pilot *choice, const struct pilot_search 
 {
     char *asked = question_text(p), *text = NULL;
     size_t length = 0;
-    if (!asked) return status_set(FAILED, "%s cannot be read again; remove it and repeat the command", p->scene);
+    if (!asked)
+        return status_set(FAILED,
+                          "%s can no longer be read, or memory is exhausted; restore the scene and repeat the command",
+                          p->scene);
     status put = bars_keep(choice, p, chosen_method);
     FILE *out = put == OK ? memory_stream_open(&text, &length) : NULL;
     if (out) {

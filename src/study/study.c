@@ -371,7 +371,8 @@ void study_print_equal_scene_count(const struct study *s, FILE *out)
         if (s->at[k].state == CASE_SAME) one = &s->at[k], same++;
     if (same > 0)
         fprintf(out,
-                "warning: %d of %d combinations are the same scene as others (%s as %s), so each scene is run once\n",
+                "warning: %d of %d combinations are the same scene as another one (for instance %s and %s), so each "
+                "scene is run once\n",
                 same, s->n, one->name, s->at[one->same].name);
 }
 

@@ -167,7 +167,7 @@ rm "$work/lone/frames/particles_000000.h5"
 "$cleave" plot "$work/lone" --size 90mmx70mm >"$work/out" 2>"$work/err"
 is "frames without what they share: exit status" $? 1
 is "frames without what they share: lines" "$(wc -l <"$work/err")" 1
-holds "frames without what they share: $(cat "$work/err")" grep -q "particles_000000.h5 beside it, to which it links, is missing" "$work/err"
+holds "frames without what they share: $(cat "$work/err")" grep -q "particles_000000.h5 in the same folder, to which it links, is missing" "$work/err"
 printf 'x' | dd of="$work/bent/frames/particles_000000.h5" bs=1 seek=4000 conv=notrunc 2>/dev/null
 cp -r "$work/lone" "$work/alien"
 calm "$work/other" $small -s particles.spacing=5mm -s output.frames=6

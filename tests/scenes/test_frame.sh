@@ -43,7 +43,7 @@ for poisson in 0.3 0.45; do
 done
 calm "$work/flight1" "$work/flight.yaml" -t 3
 same "flight on 3 threads" "$work/flight0.45" "$work/flight1"
-warned "flight, linear shapes" "$work/linear" "of the energy without that of free flight, has been gained" "$work/flight.yaml" \
+warned "flight, linear shapes" "$work/linear" "of all energy except that of free flight, has been gained" "$work/flight.yaml" \
     -s mpm.shape=linear -s material.poisson=0.3 -s duration=20us
 
 # The same block at rest in the reference frame, stretched beyond yield: what flows in the first step is at the stress of the start, and the
@@ -87,17 +87,17 @@ sed '/add:/d; s/to: \[20 mm, 6 mm\]/to: [32 mm, 6 mm]/; s/shape: cpgimp/shape: g
 "$cleave" run $metal -q -o "$work/whole" 2>"$work/whole.err" || fail "metal: $(cat "$work/whole.err")"
 is "metal: nothing is said" "$(cat "$work/whole.err")" ""
 "$cleave" run $metal -q -o "$work/weak" -s mpm.shape=linear 2>"$work/weak.err"
-holds "metal: linear shapes are said to be weak" grep -q 'metal is pulled too far for mpm.shape: linear, .* at t = .* pairs' "$work/weak.err"
+holds "metal: linear shapes are said to be weak" grep -q 'metal is pulled too far for mpm.shape: linear, .* At t = .* pairs' "$work/weak.err"
 "$cleave" run $metal -q -o "$work/short" -s mpm.shape=gimp 2>"$work/short.err"
-holds "metal: gimp is said to be weak" grep -q 'metal is pulled too far for mpm.shape: gimp, which carries 6 to 10 % too little .*1.4 times .* at t = .* pairs .*cpgimp' "$work/short.err"
+holds "metal: gimp is said to be weak" grep -q 'metal is pulled too far for mpm.shape: gimp, which carries 6 to 10 % too little .*1.4 times .* At t = .* pairs; .*cpgimp' "$work/short.err"
 "$cleave" run $metal -q -o "$work/little" -s mpm.shape=gimp -s duration=0.5ms 2>"$work/little.err" # a stretch of 1.25
 is "metal: of little stretch nothing is said" "$(cat "$work/little.err")" ""
 calm "$work/foot" tests/scenes/claims/short_bar.yaml -s time.safety=0.5 -s output.samples=400 # the foot of a bar spreads, and is not pulled
 sed '/intersect:/d; /name: left/d; /name: front/d' inputs/taylor_bar.yaml >"$work/whole_taylor.yaml" # hoops of its foot are stretched by 2.4
 calm "$work/hoops" "$work/whole_taylor.yaml" -s output.frames=0 -s duration=40us
 "$cleave" run "$work/bar.yaml" -q -o "$work/apart" 2>"$work/apart.err"
-holds "metal: that it has come apart is said" grep -q 'metal has separated without fracture at t = .* pairs .* near (0.03.*, 0.0.*) m they are .*; use mpm.shape: cpgimp' "$work/apart.err"
-is "metal: said once" "$(grep -c 'has separated without fracture' "$work/apart.err")" 1
+holds "metal: that it has come apart is said" grep -q 'metal has separated by a numerical error, without fracture, at t = .* pairs .* near (0.03.*, 0.0.*) m their distance is .*; use mpm.shape: cpgimp' "$work/apart.err"
+is "metal: said once" "$(grep -c 'has separated by a numerical error' "$work/apart.err")" 1
 "$cleave" run "$work/bar.yaml" -q -o "$work/meant" -s accept=[strain] 2>"$work/meant.err"
 is "metal: accepted" "$(cat "$work/meant.err")" ""
 holds "metal: check says that gimp is weak" grep -q 'accuracy .*metal is pulled to 1.6.* times its length: with mpm.shape: gimp .*cpgimp' <<END
@@ -288,7 +288,7 @@ chooses()
 # The default is auto. Keys without meaning in the reference frame select the current frame.
 crack=inputs/plate_crack.yaml
 few="-s particles.spacing=1mm -s duration=1us"
-chooses reference "keeps its neighbours" $crack $few
+chooses reference "keep their neighbours" $crack $few
 chooses current "mpm.shape" $crack $few -s mpm.shape=gimp
 chooses current "mpm.transfer" $crack $few -s mpm.frame=auto -s mpm.transfer=flip
 chooses current "interface_damping" $crack $few -s interface_damping=0
@@ -297,7 +297,7 @@ chooses current "couplings pm" $crack $few -s coupling=pgg
 chooses current "regular lattice" $crack $few -s particles.irregularity=0.1
 chooses current "yield" $crack $few -s "material.yield_stress=1 GPa"
 chooses current "shifts the grid nodes" $crack $few -s "mpm.origin=[0.1 mm, 0]"
-chooses reference "keeps its neighbours" $crack $few -s "mpm.origin=[1 mm, 0]"
+chooses reference "keep their neighbours" $crack $few -s "mpm.origin=[1 mm, 0]"
 chooses current "static solvers" inputs/edge_crack_k1.yaml -s method=adaptive -s solver=relaxation -s particles.spacing=0.5mm -s probes=
 chooses current "bodies have contact only" inputs/hopkinson_bar.yaml
 chooses reference "the scene sets this" $crack $few -s mpm.frame=reference -s mpm.transfer=flip
@@ -318,7 +318,7 @@ END
 sed 's/FROM/26/' "$work/halves.yaml" >"$work/apart.yaml"
 sed 's/FROM/21/' "$work/halves.yaml" >"$work/together.yaml"
 chooses current "in separate parts" "$work/apart.yaml"
-chooses reference "keeps its neighbours" "$work/together.yaml"
+chooses reference "keep their neighbours" "$work/together.yaml"
 printf 'x,y,volume\n0.5e-3,0.5e-3,1e-9\n1.5e-3,0.5e-3,1e-9\n' >"$work/list.csv"
 sed 's/^body: .*/bodies: [{particles: list.csv}]/' "$work/halves.yaml" >"$work/list.yaml"
 chooses current "list" "$work/list.yaml"

@@ -389,7 +389,7 @@ for words, contents in (("is cut short", whole[:-9]), ("is cut short", whole[:30
             file.write(contents)
     for read in (lambda: frame["id"], lambda: frame["stress"], lambda: frame.reference, lambda: frame.scene, lambda: len(frame)):
         message = refused("a particles file that " + words, None, read)
-        holds(message, "particles_000000.h5 beside it, to which it links, " in message and words in message)
+        holds(message, "particles_000000.h5 in the same folder, to which it links, " in message and words in message)
 with open(beside, "wb") as file:
     file.write(whole)
 holds("the particles file as it was", (np.diff(frame["id"]) > 0).all() and len(frame) == 400)

@@ -103,5 +103,5 @@ refused dwell "out of range" -s conversion.hold_time=0.5
 refused share "out of range" -s conversion.low_stress=0.95
 refused criteria "conversion.criteria must contain stress" -s "conversion.criteria=[bond]"
 refused coupling "partial stress or handshake" -s coupling=pm
-refused yields "do not yield" -s material.yield_stress=300MPa
+refused yields "a material of the scene yields" -s material.yield_stress=300MPa
 finish

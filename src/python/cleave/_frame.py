@@ -49,7 +49,7 @@ def _particles_fault(frame: Any, path: str) -> str:
     if not beside:
         return ""
     file = os.path.abspath(os.path.join(os.path.dirname(path), beside))
-    told = "%s beside it, to which it links, " % beside
+    told = "%s in the same folder, to which it links, " % beside
     try:
         state = os.stat(file)
     except OSError:

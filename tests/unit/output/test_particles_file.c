@@ -168,14 +168,15 @@ static void frames_alone_are_refused(void **state)
     assert_int_equal(frame_read(&f, frame), OK);
     frame_free(&f);
     flip(file, 3000);
-    assert_failed(frame_read(&f, frame), "particles_000000.h5 beside it, to which it links, is damaged");
+    assert_failed(frame_read(&f, frame), "particles_000000.h5 in the same folder, to which it links, is damaged");
     flip(file, 3000);
     assert_int_equal(rename("another/frames/particles_000000.h5", file), 0);
     assert_failed(frame_read(&f, frame), "belongs to another run");
     assert_int_equal(unlink(file), 0);
     assert_failed(frame_read(&f, frame), "is missing");
     assert_int_equal(link(frame, file), 0);
-    assert_failed(frame_read(&f, frame), "particles_000000.h5 beside it, to which it links, belongs to another run");
+    assert_failed(frame_read(&f, frame),
+                  "particles_000000.h5 in the same folder, to which it links, belongs to another run");
 }
 
 /* Checks that a restart beside the particles file of another run leaves out the frames that link to it, names the file,

@@ -249,7 +249,7 @@ static void tip_in_motion(void **state)
     assert_true(isnan(sif_probe_result(contours_differ, 0)) && sif_probe_result(contours_differ, 3) == 0.21);
     assert_int_equal(said.n, 2);
     assert_non_null(strstr(said.text[0], "its ring leaves the body"));
-    assert_non_null(strstr(said.text[1], "its contours differ by 21 % (contour_spread), more than 20 %"));
+    assert_non_null(strstr(said.text[1], "on its contours differ by 21 % (contour_spread, at most 20 %)"));
     warnings_free(&said);
     probes_free(&again);
     probes_free(&s);

@@ -211,11 +211,11 @@ static void figures_fit_their_scene(void **state)
     } figure[] = {
         {"energy.kinetic", NULL, NULL},
         {"crack.angle_deg", "needs cracks or bonds that break", NULL},
-        {"crack.start_time", "needs cracks", "load steps have no speed"},
+        {"crack.start_time", "needs cracks", "load steps have a pseudo-time only"},
         {"crack.start_step", "needs cracks", NULL},
         {"crack.tips.0.x", "needs cracks", NULL},
         {"crack.tips.1.origin_z", "needs cracks", "needs a solid"},
-        {"crack.tip_speed_max", "needs cracks", "load steps have no speed"},
+        {"crack.tip_speed_max", "needs cracks", "load steps have a pseudo-time only"},
         {"load_steps.release_rate", "needs `solver: static`", NULL},
         {"solver.residual", "needs `solver: relaxation`", "needs `solver: relaxation`"},
         {"contact.overlap_max", "needs bodies in contact", NULL},
@@ -233,7 +233,7 @@ static void figures_fit_their_scene(void **state)
         {"probes.along.stress_zx_min", "needs a solid", "needs a solid"},
         {"probes.pull.force_max_step", "needs `solver: static`", NULL},
         {"probes.pull.K_I", "no such figure", "no such figure"},
-        {"probes.tip.speed_max", "no such figure", "load steps have no speed"},
+        {"probes.tip.speed_max", "no such figure", "load steps have a pseudo-time only"},
         {"probes.none.x", "no such figure", "no such figure"},
     };
     for (size_t k = 0; k < COUNT_OF(figure); k++)
