@@ -432,8 +432,7 @@ status check_all_keys_known(const struct reader *r, const struct yaml_node *root
 status expect_mapping(struct reader *r, const struct yaml_node *n, const char *group_path);
 
 /* Returns REFUSED if node n is not of the kind `kind`, with a message of the form "... is not allowed here; ADVICE";
- * else OK. advice: what to give instead, such as "give a list". r: reader of the
- * input file. */
+ * else OK. advice: what to give instead, such as "give a list". r: reader of the input file. */
 status expect_node_kind(struct reader *r, const struct yaml_node *n, enum node_kind kind, const char *advice);
 
 /* Reads all keys of the group `group_path` that need no function of their own into the structure `group_values`.
