@@ -2,8 +2,8 @@
  * particles) that have a bond beyond its onset of softening. Before the next computation of forces the bonds between
  * marked blocks are examined, while all positions are of one time, so that both rows of a bond give the same answer. A
  * bond begins one step late, at the stretch s_1 after s_0: a leap-frog step in which it falls from stiffness 1 to 1 - d
- * takes s_0 s_1 d/2 of its energy, over stiffness, weight and length. What the closed form of its dissipation lacks of
- * this counts as fracture energy.
+ * takes s_0 s_1 d/2 of its energy, over stiffness, weight and length. What a step from the onset to s_1 lacks of this
+ * counts as fracture energy.
  *
  * Lateral bonds of a compressed body are stretched, though no stress pulls at them. A bond from i to j of direction n
  * may therefore begin only where n . sigma . n > 0.5 G s: 0.2 E s in solids and plane strain, 0.19 E s in plane stress
@@ -236,9 +236,9 @@ static bool is_beyond_at_rate(const struct bonds *b, const struct particles *p, 
 }
 
 /* Starts the softening of the bond with index q in the bond arrays, of row `row` (bonds of one particle), which
- * candidate *c describes. By beginning late, in steps, it loses at once some energy that the closed form of its
- * dissipation does not include; half of it is added to the fracture energy of the row, except in load steps and
- * state-based models. dt: time step [s]. b, p: all bonds and particles. */
+ * candidate *c describes. It loses some energy at once, which is not counted with the steps beyond its onset; half of
+ * it is added to the fracture energy of the row, except in load steps and state-based models. dt: time step [s]. b, p:
+ * all bonds and particles. */
 static void bond_begin(struct bonds *b, const struct particles *p, int64_t row, int64_t q, const struct candidate *c,
                        real dt)
 {
@@ -248,11 +248,10 @@ static void bond_begin(struct bonds *b, const struct particles *p, int64_t row, 
     if (b->soft.settled || b->soft.whole) return;
     const real before = bond_stretch_at_earlier_time(p, b->inverse_length[q], c->i, c->j, dt);
     const real kept = bond_remaining_stiffness_fraction(b, row / LANES, q, c->stretch);
-    const real closed = /* what will be counted for the bond from now on */
-        c->stretch > range.end
-            ? softening_energy_to_end(b->soft.curve, range.onset, range.end, before, c->stretch)
-            : softening_normalised_dissipated_energy(b->soft.curve, range.onset, range.end, c->stretch);
-    const real lost = 0.5 * before * c->stretch * (1 - kept) - closed;
+    const real counted = /* what will be counted for the bond from the onset to its stretch */
+        c->stretch > range.end ? softening_energy_to_end(b->soft.curve, range.onset, range.end, before, c->stretch)
+                               : 0.5 * range.onset * c->stretch * (1 - kept);
+    const real lost = 0.5 * before * c->stretch * (1 - kept) - counted;
     b->fracture_energy[row] += 0.5 * b->stiffness * b->w[q] * lost / b->inverse_length[q];
 }
 

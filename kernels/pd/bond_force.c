@@ -22,9 +22,10 @@
 /* Sums over the bonds of a block of eight rows (bonds of eight particles, stored column by column). x0, x1, x2:
  * positions of the eight particles [m]; f0, f1, f2: forces on them, divided by the stiffness; stretch, press: largest
  * and smallest stretch of their bonds [1]. Where bonds soften, `stretch` is the largest excess over the end of
- * softening, of bonds beyond `trigger`, the least limit of each row. */
+ * softening, of bonds beyond `trigger`, the least limit of each row, and `lost` sums what they lose at kinks of their
+ * softening curve, divided by the stiffness [m] (bonds_loss_at_kinks). */
 struct bond_sums {
-    lanes x0, x1, x2, f0, f1, f2, stretch, press, trigger;
+    lanes x0, x1, x2, f0, f1, f2, stretch, press, trigger, lost;
 };
 
 /* Adds the forces of eight bonds to `sum`, the sums of their eight particles, updates the largest and smallest stretch
@@ -42,6 +43,8 @@ static ALWAYS_INLINE struct bond_sums bond_force_column(struct bond_sums sum, co
     if (dim > 2) distance2 += d2 * d2;
     const lanes inverse = lanes_inverse_square_root(distance2), w = column_weight(s);
     const lanes stretch = STRETCH_OF(distance2 * inverse, column_inverse_length(s));
+    if (model == PD_BOND_SOFT)
+        sum.lost += bonds_loss_at_kinks(s.b, s.number * LANES, stretch, w, column_inverse_length(s));
     const lanes force = bonds_normalised_force(model, s.b, s.number * LANES, stretch, w) * (w * inverse);
     if (model != PD_BOND_SOFT)
         sum.stretch = column_max_of_intact_bonds(s, sum.stretch, stretch);
@@ -76,13 +79,15 @@ static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct par
                             zero,
                             lanes_broadcast(-1),
                             zero,
-                            lanes_load(b->trigger + g * LANES)};
+                            lanes_load(b->trigger + g * LANES),
+                            zero};
 #define VISIT(COLUMN) sum = bond_force_column(sum, p, COLUMN, dim, model)
     FOR_COLUMNS(b, g, VISIT);
 #undef VISIT
     bond_row_block_store_values(p->f[0], row, rows, aligned, sum.f0 * b->stiffness);
     if (dim > 1) bond_row_block_store_values(p->f[1], row, rows, aligned, sum.f1 * b->stiffness);
     if (dim > 2) bond_row_block_store_values(p->f[2], row, rows, aligned, sum.f2 * b->stiffness);
+    if (model == PD_BOND_SOFT) bond_row_block_add_loss_at_kinks(b, g, sum.lost);
     *pressed = lanes_mask_any(sum.press < CORE_FROM - 1);
     if (b->soft.near && model != PD_BOND_SOFT && lanes_mask_any(sum.stretch > b->soft.gate)) b->soft.near[g] = 1;
     return lanes_mask_any(sum.stretch > (model == PD_BOND_SOFT ? zero : sum.trigger));

@@ -64,6 +64,41 @@ static ALWAYS_INLINE lanes bonds_update_softened_stretch(const struct bonds *b, 
     return bonds_softened_stretch(b, first_bond, stretch, most);
 }
 
+/* Returns the energies, divided by the stiffness [m], by which the eight bonds with indices `first_bond` to
+ * `first_bond`
+ * + 7 in the arrays of b dissipate more in this leap-frog step than the closed form of dissipation says. A step does
+ * the work of the mean of the forces at both its ends. On a straight piece of the softening curve this is the area
+ * below the curve; where the largest stretch grows from k_0 to k_1 past a kink at k_m, at which the slope grows by a,
+ * it is larger by a (k_1 - k_m) (k_m - k_0)/2 times weight and length. Returns 0 for bonds beyond their end, whose
+ * energy is computed elsewhere (half_energy_of_softening_to_end), and in load steps. stretch: stretches after the step
+ * [1]; w: weights, 0 for broken bonds [1]; inverse_length: inverse reference lengths [1/m]. Call this function before
+ * bonds_update_softened_stretch. */
+static ALWAYS_INLINE lanes bonds_loss_at_kinks(const struct bonds *b, int64_t first_bond, lanes stretch, lanes w,
+                                               lanes inverse_length)
+{
+    const struct softening_curve *c = b->soft.curve;
+    const lanes zero = lanes_broadcast(0), most = lanes_load_floats(b->soft.most + first_bond);
+    lanes sum = zero;
+    if (c->pieces == 1 || b->soft.settled || !b->common[first_bond / LANES].begun || !lanes_any_less(most, stretch))
+        return zero;
+    const lanes onset = lanes_load_floats(b->soft.onset + first_bond);
+    const lanes end = lanes_load_floats(b->soft.end + first_bond), span = end - onset;
+    for (int k = 1; k < c->pieces; k++) {
+        const lanes kink = onset + c->from[k] * span;
+        sum += (c->slope[k - 1] - c->slope[k]) * (lanes_max(stretch - kink, zero) * lanes_max(kink - most, zero));
+    }
+    return lanes_choose((w > 0.0) & (onset < SOFTENING_NEVER) & (stretch <= end),
+                        0.5 * w * sum * onset / (span * inverse_length), zero);
+}
+
+/* Adds the energies `lost` of bonds_loss_at_kinks, summed for each of the eight rows of block g (the bonds of eight
+ * particles), to the fracture energies of these rows: one half, because each bond is in two rows. */
+static ALWAYS_INLINE void bond_row_block_add_loss_at_kinks(const struct bonds *b, int64_t g, lanes lost)
+{
+    real *energy = b->fracture_energy + g * LANES;
+    if (b->soft.curve->pieces > 1) lanes_store(energy, lanes_load(energy) + 0.5 * b->stiffness * lost);
+}
+
 /* Returns the normalised force [1] of the eight bonds with indices `first_bond` to `first_bond` + 7 in the arrays of b,
  * i.e. their force divided by stiffness and weight, by the law of `model`. It equals the stretch (Silling & Askari
  * 2005; Zeng et al. 2022, eqs. 17, 29), its elastic part where bonds yield, and stretch times remaining stiffness

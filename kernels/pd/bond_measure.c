@@ -103,13 +103,16 @@ static ALWAYS_INLINE void bond_stress_row_block(const struct bonds *b, struct pa
 
 /* Raises the largest stretches so far of eight softening bonds, column s of a block of eight rows (one bond of each of
  * eight particles), to their present stretches where these are larger. x[dim]: positions of the eight particles [m].
- * p: all particles. */
-static ALWAYS_INLINE void bond_soften_column(const struct column s, const struct particles *p, const lanes *x,
-                                             const int dim)
+ * p: all particles. Returns what the bonds lose at kinks of their softening curve, divided by the stiffness [m]
+ * (bonds_loss_at_kinks). */
+static ALWAYS_INLINE lanes bond_soften_column(const struct column s, const struct particles *p, const lanes *x,
+                                              const int dim)
 {
     lanes y[DIM_MAX], stretch;
     bond_measure_store(s, p, x, y, &stretch, dim);
+    const lanes lost = bonds_loss_at_kinks(s.b, s.number * LANES, stretch, column_weight(s), column_inverse_length(s));
     bonds_update_softened_stretch(s.b, s.number * LANES, stretch);
+    return lost;
 }
 
 /* Raises the largest stretches so far of the bonds of row block g (the bonds of eight particles, stored together) to
@@ -119,11 +122,12 @@ static ALWAYS_INLINE void bond_soften_row_block(const struct bonds *b, const str
                                                 const int dim)
 {
     const int32_t *row = b->particle + g * LANES;
-    lanes x[DIM_MAX];
+    lanes x[DIM_MAX], lost = lanes_broadcast(0);
     for (int d = 0; d < dim; d++) x[d] = lanes_load_or_gather(p->x[d], b->aligned[g] ? row[0] : -1, row);
-#define VISIT(COLUMN) bond_soften_column(COLUMN, p, x, dim)
+#define VISIT(COLUMN) lost += bond_soften_column(COLUMN, p, x, dim)
     FOR_COLUMNS(b, g, VISIT);
 #undef VISIT
+    bond_row_block_add_loss_at_kinks(b, g, lost);
 }
 
 void bonds_update_softening(struct bonds *b, const struct particles *p)

@@ -18,6 +18,7 @@ start near "$work/strip.yaml" -s time.safety=0.9
 start near_coarse "$work/strip.yaml" -s time.safety=0.9 -s particles.spacing=0.2mm; wait
 start bilinear "$work/strip.yaml" -s 'materials.0.softening=bilinear'
 start exponential "$work/strip.yaml" -s 'materials.0.softening=exponential'; wait
+start exponential_half "$work/strip.yaml" -s 'materials.0.softening=exponential' -s time.safety=0.25
 start scatter "$work/strip.yaml" -s 'materials.0.scatter={modulus: 20, seed: 3}'
 start pressed "$work/strip.yaml" -s variables.start='-1*strain' -s variables.rate='-4*strain/40 us' -s duration=40us; wait
 start adaptive "$work/strip.yaml" -s method=adaptive -s particles.spacing=0.2mm
@@ -40,7 +41,9 @@ between "energy, kappa 1.1" "$(error coarse)" -5e-4 5e-4
 for run in near near_coarse; do between "energy near the critical step: $run" "$(error $run)" -3e-3 3e-3; done
 between "it breaks" "$(last one fracture)" 1e-4 1
 
-for run in bilinear exponential; do between "energy, $run" "$(error $run)" -7.5e-3 7.5e-3; done # second order: a quarter at half the step
+# Curves with kinks: what a step past a kink dissipates is counted. What is left, of second order, are bonds whose stiffness jumps as they close.
+for run in bilinear exponential; do between "energy, $run" "$(error $run)" -3e-3 3e-3; done
+between "energy, exponential, half the step" "$(error exponential_half)" -7.5e-4 7.5e-4
 
 # Frames, stresses of probes and a material that no body consists of change nothing.
 for run in coarse watched; do cut -d, -f1-8 "$work/$run/history.csv" >"$work/$run.csv"; done

@@ -14,7 +14,7 @@ struct soften_reference {
     real *most, *onset, *critical; /* largest stretch, 0: not begun; s_0 and s_c of each bond [1] */
     bool *ended;
     bool *due;   /* [row_blocks] a bond was beyond its onset in the last step, or was not allowed to begin */
-    real jumped; /* energy lost at once by bonds that began late [J] */
+    real jumped; /* energy lost beside the closed form, by bonds that began late and in steps across a kink [J] */
     real broken; /* energy of ended bonds [J] */
 };
 
@@ -79,6 +79,17 @@ static inline real soften_reference_kept(const struct soften_reference *r, int64
     const real k = fmax(r->most[q], s);
     if (s <= 0 || r->most[q] == 0) return 1;
     return soften_reference_peak(r->law, r->onset[q], r->critical[q], k) / k;
+}
+
+/* Returns the energy that the bond with the index q dissipates in one leap-frog step from its largest stretch k so far
+ * to the stretch s > k, minus the growth of the closed form, divided by the stiffness and the length of the bond [1].
+ * The step dissipates s k/2 times the lost fraction of the stiffness. 0 for linear softening. */
+static inline real soften_reference_excess(const struct soften_reference *r, int64_t q, real s)
+{
+    const real k = r->most[q];
+    return 0.5 * s * k * (soften_reference_kept(r, q, k) - soften_reference_kept(r, q, s)) -
+           soften_reference_spent(r->law, r->onset[q], r->critical[q], s) +
+           soften_reference_spent(r->law, r->onset[q], r->critical[q], k);
 }
 
 /* Solves the symmetric system A x = b of n <= 6 unknowns by Cholesky's decomposition and stores x in b. Returns false,
@@ -155,9 +166,11 @@ static inline void soften_reference_begin(struct soften_reference *r, const stru
                 continue;
             }
             r->most[q] = r->onset[q];
-            r->jumped += 0.5 * stiffness * w[q] * bond.length *
-                         (0.5 * bond.stretch * bond.stretch * (1 - soften_reference_kept(r, q, bond.stretch)) -
-                          soften_reference_spent(r->law, r->onset[q], r->critical[q], bond.stretch));
+            const real scale = 0.5 * stiffness * w[q] * bond.length, s = bond.stretch;
+            const real step = fmin(s, soften_reference_end(r->law, r->onset[q], r->critical[q]));
+            r->jumped += scale * (0.5 * s * s * (1 - soften_reference_kept(r, q, s)) -
+                                  soften_reference_spent(r->law, r->onset[q], r->critical[q], step)) -
+                         (step < s ? 0 : scale * soften_reference_excess(r, q, s));
         }
     memory_free(dilatation);
     memory_free(r->due);
@@ -166,8 +179,9 @@ static inline void soften_reference_begin(struct soften_reference *r, const stru
 
 /* Computes force and energy of all particles and stores them in row[n] (the stress remains 0). Ends bonds that have
  * begun to soften and whose stretch is beyond the end of the softening curve, marks the blocks of eight rows (the bonds
- * of eight particles) of bonds beyond their onset as due, and updates the largest stretches. w, stiffness, block: as
- * for soften_reference_begin, which must have been called before. */
+ * of eight particles) of bonds beyond their onset as due, updates the largest stretches, and adds to r->jumped what
+ * bonds lose in this step beside the closed form. w, stiffness, block: as for soften_reference_begin, which must have
+ * been called before. */
 static inline void soften_reference_step(struct soften_reference *r, const struct particles *p, const real *w,
                                          real stiffness, const int64_t *block, struct reference_row *row)
 {
@@ -185,6 +199,7 @@ static inline void soften_reference_step(struct soften_reference *r, const struc
                 r->ended[q] = true;
                 continue;
             }
+            if (r->most[q] > 0 && s > r->most[q]) r->jumped += 0.5 * scale * soften_reference_excess(r, q, s);
             if (r->most[q] > 0) r->most[q] = fmax(r->most[q], s);
             const real force = stiffness * w[q] * s * soften_reference_kept(r, q, s);
             row[i].energy += 0.5 * (0.5 * force * s * bond.length);
