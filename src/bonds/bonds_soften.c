@@ -4,7 +4,13 @@
 
 #include "base/memory.h"
 #include "base/team.h"
+#include "bonds/struts.h"
 #include "bonds_parts.h"
+
+/* Least shares of a neighbourhood that have parted, and that press, where bonds count as struts, and the least stretch
+ * of those that press, divided by the onset of softening [1]: five times the tensile strength, a judgement. */
+#define STRUT_SHARE 0.1
+#define STRUT_STRETCH 5
 
 /* Allocates b->soft.near if a material has a strength surface (failure criterion in stress): a mark for each block of
  * eight rows (the bonds of eight particles) in which a particle of p may be near its strength surface. Sets
@@ -210,4 +216,33 @@ real bonds_row_softening_damage(const struct bonds *b, const struct particles *p
                p->volume0[it.bond.nbr];
     }
     return sum / b->family_volume[row];
+}
+
+/* Returns true if bonds of row `row` of b (all bonds of one particle) act as struts (bonds_act_as_struts): the volumes
+ * of the neighbours to which bonds have ended and are parted, and of those to which bonds press, are both at least
+ * STRUT_SHARE of the volume of all neighbours. */
+static bool row_has_struts(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
+                           int64_t row)
+{
+    const int32_t i = b->particle[row];
+    real parted = 0, pressed = 0;
+    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
+        const struct bond *bond = &it.bond;
+        const int pair = p->material[i] * limit->materials + p->material[bond->nbr];
+        real length2 = 0;
+        for (int d = 0; d < p->dim; d++) length2 += square(p->x[d][bond->nbr] - p->x[d][i]);
+        const real stretch = sqrt(length2) * fabs(bond->inverse_length) - 1;
+        if (bond->w != 0 && stretch < -STRUT_STRETCH * limit->softening[pair].onset) pressed += p->volume0[bond->nbr];
+        if (bond->w == 0 && bond_is_softening(b, row / LANES, bond->entry) && stretch > b->soft.end[bond->entry])
+            parted += p->volume0[bond->nbr];
+    }
+    return real_min(parted, pressed) >= STRUT_SHARE * b->family_volume[row];
+}
+
+bool bonds_act_as_struts(const struct bonds *b, const struct particles *p, const struct bond_limit *limit)
+{
+    bool found = false;
+    for (int64_t row = 0; limit->softening && row < b->rows && !found; row++)
+        found = b->soft.begun[row / LANES] && b->broken[row] > 0 && row_has_struts(b, p, limit, row);
+    return found;
 }

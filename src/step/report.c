@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "base/memory.h"
+#include "bonds/struts.h"
 #include "fracture/fragments.h"
 #include "rigid/rigid_surface.h"
 #include "output/output_files.h"
@@ -299,6 +300,19 @@ real particles_at_rest_fraction(const struct bonds *b, const struct mesh *mesh, 
     return at_rest / (real)p->n;
 }
 
+/* Adds to `to` and prints, once in a run, the warning that softening bonds of b act as struts under pressure at a
+ * particle of p (bonds/struts.h), if they do. limit: onsets of softening. */
+static void say_struts(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
+                       struct warnings *to)
+{
+    if (!bonds_act_as_struts(b, p, limit)) return;
+    warnings_add_and_print(
+        to,
+        "beside bonds that have softened and ended, others press with more than five times the tensile strength: bonds "
+        "do not fail under pressure, so a crack that is sheared under pressure does not slide, and columns between "
+        "cracks do not crush; do not trust larger loads at later times (inputs/strength_surface.md)");
+}
+
 status report_finished_step(struct run *e)
 {
     struct run_report *r = e->report;
@@ -315,6 +329,7 @@ status report_finished_step(struct run *e)
     if (last) warn_of_unconserved_quantities(e);
     if (last) warn_of_tips_above_rayleigh_speed(&e->fracture->tips, e->scene, &e->warnings);
     if (last || in_steps) warn_of_bond_yielding(r, &e->bonds, e->scene, &e->warnings);
+    if (last || in_steps || r->sampling.due) say_struts(&e->bonds, &e->part, &e->source.limit, &e->warnings);
     if (r->out) {
         const unsigned due = report_bits_of_frame_series_due(r->out, e->scene, &e->clock, e->clock.step);
         if (due) TRY(write_frames(e, due));

@@ -67,6 +67,32 @@ same one echo
 is "compression: dissipated" "$(last pressed fracture)" 0
 between "compression: stress over strength" "$(compute "$(last pressed reaction.force_y) / 5e-6 / 40e6")" -5.2 -4.8
 
+# A block in plane strain that is sheared at constant height between grips: half of the bonds end, the others are struts in pressure, and shear
+# stress grows on. The run says so; one that is torn or only pressed does not.
+cat >"$work/sheared.yaml" <<'END'
+space: plane strain
+thickness: 1 mm
+duration: 15 us
+method: pd
+damping: 1e6
+variables: {shear: 30*40/70000}
+materials:
+  - {name: glass, young: 70 GPa, density: 2440, energy_release_rate: 10, tensile_strength: 40 MPa}
+  - {name: grip, young: 70 GPa, density: 2440}
+body: {box: {from: [-1 mm, -1 mm], to: [1 mm, 1 mm]}}
+parts: [{region: [{box: {from: [-1 mm, 0.7 mm], to: [1 mm, 1 mm]}}, {box: {from: [-1 mm, -1 mm], to: [1 mm, -0.7 mm]}}], material: grip}]
+particles: {spacing: 0.1 mm}
+boundary:
+  - {name: top, region: {box: {from: [-1 mm, 0.7 mm], to: [1 mm, 1 mm]}}, displacement: ['shear*y*ramp(t/(15 us))', 0]}
+  - {name: bottom, region: {box: {from: [-1 mm, -1 mm], to: [1 mm, -0.7 mm]}}, displacement: ['shear*y*ramp(t/(15 us))', 0]}
+contact: {between: none}
+probes: [{reaction: {boundary: top}}]
+output: {frames: 1, samples: 60}
+END
+start sheared "$work/sheared.yaml"; wait
+holds "sheared under pressure: said" grep -q '^warning: beside bonds that have softened and ended, others press with more than five times the tensile strength' "$work/sheared.err"
+for run in one near pressed; do is "$run: struts" "$(grep -c 'others press with more than' "$work/$run.err")" 0; done
+
 # Material points convert below the onset, and the strength is that of bonds.
 is "adaptive" "$(f adaptive status)" done
 between "adaptive: strength" "$(strength adaptive)" 0.90 1.04
