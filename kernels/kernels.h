@@ -252,15 +252,17 @@ KERNEL(bool, particles_diverged, (const struct particles *p, const int32_t *list
  * points sorted by cell, step sizes, partial stress. */
 typedef void p2g_fn(struct grid *g, const struct particles *p, const struct transfer_data *transfer);
 
-/* Remapping of MUSL (modified update stress last; Zeng et al. 2022, steps 4 and 6), for FLIP only. Interpolates the
- * change of nodal velocities to the points of p, v_p += sum N (f/m dt), and adds the new momentum m v_p N of the points
- * to the nodes of g; called the second map in other comments (the first map is p2g). transfer: points sorted by cell,
- * step sizes. */
+/* Remaps momentum in the scheme MUSL (modified update stress last; Zeng et al. 2022, steps 4 and 6), for FLIP only.
+ * Interpolates the change dv of the nodal velocities in this step (f dt/m, which g->force then contains [m/s]) to the
+ * points of p, v_p += sum N dv with the shape function N of a node. Then adds the new momentum m_p v_p N of the points
+ * to the nodal momentum of g, which grid_advance has set to 0. Called the second map in other comments (the first map
+ * is p2g). transfer: points sorted by cell, step sizes. */
 typedef void musl_remap_fn(struct grid *g, struct particles *p, const struct transfer_data *transfer);
 
-/* First half of the grid-to-particle-to-grid remapping of MUSL for points in rotating groups (data/turning.h). Adds the
- * change of the nodal velocities of g to the points of p, v_p += sum N (f/m dt), and stores in transfer->turn the
- * angular momentum [kg m^2/s] that each point loses in this interpolation, for its group. 2D and 3D. */
+/* First half of the grid-to-particle-to-grid remapping of MUSL for points in rotating groups (data/turning.h).
+ * Interpolates the change dv of the nodal velocities in this step (in g->force [m/s]) to the points of p, v_p += sum N
+ * dv, and stores in transfer->turn the angular momentum [kg m^2/s] that each point loses in this interpolation, for its
+ * group. 2D and 3D. */
 typedef void rotating_remap_gather_fn(const struct grid *g, struct particles *p, const struct transfer_data *transfer);
 
 /* Second half of the remapping of MUSL for points in rotating groups (data/turning.h). Adds the momentum m N (v_p + w x

@@ -376,10 +376,12 @@ static inline void softening_mark_point_for_conversion(struct bonds *b, struct p
  * bond_column_update_after_bond_change. */
 void bond_column_update_common_properties(const struct bonds *b, int64_t column_number);
 
-/* Recomputes the common properties of the column of b that contains bond number `bond` after its weight (factor on its
- * stiffness) or the sign of its inverse length has changed. A column has one bond of each of eight particles, which
- * form a block of eight rows. row_number: row of the bond, i.e. the bonds of one particle; its block no longer follows
- * a stencil, the pattern that blocks share. */
+/* Updates all data that b derives from a bond, after the weight of the bond (factor on its stiffness) or the sign of
+ * its inverse length has changed. bond: index of the bond in the bond arrays, from bond_index_for_writing; row_number:
+ * number of its row, i.e. of the list of bonds of one particle. Recomputes which properties the bond has in common with
+ * those of the other seven particles stored beside it in its column (struct bond_column: intact, equal weights,
+ * tabulated length), marks its block of eight rows as changed and as following no stencil (pattern of bonds shared by
+ * many blocks) any more, and marks the copies of weights in b->clamped as out of date. */
 void bond_column_update_after_bond_change(struct bonds *b, int64_t row_number, int64_t bond);
 
 /* Initialises the stored softening state of all bonds of block `row_block` of eight rows of b (the bonds of eight
@@ -392,11 +394,12 @@ void bond_row_block_initialise_softening(struct bonds *b, const struct particles
  * nothing if the columns are already written. May be called by several threads at once. */
 void bond_row_block_write_columns_from_stencil(struct bonds *b, int64_t row_block);
 
-/* Returns the index, in the bond arrays of b (nbr, inverse_length, w ..), of bond `bond_number` of the particle in lane
- * `lane` (0 to 7) of block `row_block` of eight rows (the bonds of eight particles), so that the caller may write to
- * this entry. If the block only follows a stencil (a pattern of bonds shared by many blocks), its bonds are written to
- * the arrays first. After a change of w or of the sign of inverse_length the caller calls
- * bond_column_update_after_bond_change. */
+/* Returns the index in the bond arrays of b (nbr: neighbours, inverse_length, w: weights, i.e. factors on the
+ * stiffness, and others) of bond number `bond_number`, from 0, of one particle, so that the caller may write to this
+ * entry. The particle is that of lane `lane` (0 to 7) of block `row_block` of eight rows (the bonds of eight
+ * particles). If the block has no entries yet, because it follows a stencil (a pattern of bonds shared by many blocks),
+ * its bonds are first copied from the stencil to the arrays. After a change of w or of the sign of inverse_length the
+ * caller must call bond_column_update_after_bond_change. */
 static inline int64_t bond_index_for_writing(struct bonds *b, int64_t row_block, int64_t bond_number, int lane)
 {
     if (__atomic_load_n(&b->implicit[row_block], __ATOMIC_ACQUIRE))

@@ -236,9 +236,8 @@ void face_visit_surface_particles(const struct boundary *b, const struct particl
                                   real spacing, face_particle_fn *visit, void *context);
 
 /* Finds the particles of p with a free face on which the pressure boundary[boundary_number] acts, and stores them in l
- * with the areas of these faces. boundary[boundaries]: all boundary conditions of the scene, because mirrors may cover
- * a face. spacing: lattice spacing [m]. Returns REFUSED, with a message, if the region has no particles or no free
- * face. */
+ * with the areas of these faces. boundary[boundaries]: all boundaries of the scene, since mirrors may cover a face.
+ * spacing: lattice spacing [m]. Returns REFUSED, with a message, if the region has no particles or no free face. */
 status load_find_pressure_faces(struct load *l, const struct boundary *boundary, int boundaries, int boundary_number,
                                 struct particles *p, real spacing);
 
@@ -318,7 +317,7 @@ void loads_shares_free(struct loads *l);
  * of the velocity update [s], to l->impulse. Part of loads_apply_to_particle_forces. */
 void loads_add_applied_forces(struct loads *l, struct particles *p, real t, real dt_velocity);
 
-/* Adds the work of applied forces in the step of size dt about t [s] to l->work [J], after the particles have moved. */
+/* Adds the work of applied forces from t - dt/2 to t + dt/2 [s] to l->work [J], after the particles have moved. */
 void loads_add_work_of_applied_forces(struct loads *l, struct particles *p, real t, real dt);
 
 /* ---- absorbing faces (loads_absorbing.c) ------------------------------------------------------------------------- */
@@ -392,8 +391,8 @@ struct prescribed_motion {
  * evaluation at many positions by prescribed_velocity_at. dim: dimension of the body; b: kept by reference. */
 struct prescribed_motion prescribed_motion_make(const struct boundary *b, int dim, real t, real dt);
 
-/* Returns the motion that boundary number `boundary_number` of l prescribes in the step of size dt about t [s], as
- * prescribed_motion_make. After the last step of a run (l->ended), a prescribed displacement has the velocity of the
+/* Returns the motion that boundary number `boundary_number` of l prescribes in the step from t - dt/2 to t + dt/2 [s],
+ * as prescribed_motion_make. After the last step of a run (l->ended), a prescribed displacement has the velocity of the
  * step before, since no step follows in which a change of velocity would do work. */
 struct prescribed_motion loads_prescribed_motion(const struct loads *l, int boundary_number, int dim, real t, real dt);
 
@@ -448,12 +447,12 @@ void loads_clear_forces_of_loaded_particles(struct loads *l, struct particles *p
  * symmetry). t: middle of the step of size dt, end of the velocity update of duration dt_velocity [s]. */
 void loads_apply_to_particle_forces(struct loads *l, struct particles *p, real t, real dt, real dt_velocity);
 
-/* Stores in g->wall the velocities that l prescribes for nodes of grid g in the step of size dt about t [s]. These are
- * nodes in the region of a prescribed motion, nodes on a mirror plane, and nodes at least half of whose mass belongs to
- * points of p with prescribed motion. Nodes beyond a mirror plane move as mirror images if the plane is on a node or
- * midway between two, else they are constrained like nodes on the plane. driven_nodes: constrained nodes of this grid,
- * kept between calls, zeroed at first. kernels: maps between points and nodes; half_width: half the reference edge of a
- * particle [m]. Must be called after the first particle-to-grid map. */
+/* Stores in g->wall the velocities that l prescribes for nodes of grid g in the step from t - dt/2 to t + dt/2 [s].
+ * These are nodes in the region of a prescribed motion, nodes on a mirror plane, and nodes at least half of whose mass
+ * belongs to points of p with prescribed motion. Nodes beyond a mirror plane move as mirror images if the plane is on a
+ * node or midway between two, else they are constrained like nodes on the plane. driven_nodes: constrained nodes of
+ * this grid, kept between calls, zeroed at first. kernels: maps between points and nodes; half_width: half the
+ * reference edge of a particle [m]. Must be called after the first particle-to-grid map. */
 void loads_prescribe_grid_velocities(struct loads *l, struct constrained_set *driven_nodes, struct grid *g,
                                      const struct particles *p, const struct kernels *kernels, real half_width, real t,
                                      real dt);
@@ -463,7 +462,7 @@ void loads_prescribe_grid_velocities(struct loads *l, struct constrained_set *dr
 void loads_find_driven_mesh_nodes(struct loads *l, struct mesh *mesh, const struct particles *p);
 
 /* Stores in mesh->grid.wall the velocities that l prescribes for the nodes found by loads_find_driven_mesh_nodes, for
- * the step of size dt about t [s]. */
+ * the step from t - dt/2 to t + dt/2 [s]. */
 void loads_prescribe_mesh_velocities(const struct loads *l, struct mesh *mesh, real t, real dt);
 
 /* Finds the nodes of g, the grid of a mesh of coarse cells, whose motion l prescribes, by their positions: nodes in
@@ -472,13 +471,14 @@ void loads_find_driven_coarse_nodes(const struct loads *l, struct constrained_se
                                     const struct particles *p);
 
 /* Stores in g->wall the velocities that l prescribes for the nodes in `driven_nodes`, found by
- * loads_find_driven_coarse_nodes, of grid g of a mesh of coarse cells, for the step of size dt about t [s]. */
+ * loads_find_driven_coarse_nodes, of grid g of a mesh of coarse cells, for the step from t - dt/2 to t + dt/2 [s]. */
 void loads_prescribe_coarse_velocities(const struct loads *l, const struct constrained_set *driven_nodes,
                                        struct grid *g, real t, real dt);
 
-/* Imposes prescribed motion after the grid-to-particle transfer of the step of size dt about t [s]. Sets the velocity
- * of material points of p, and the position of particles with prescribed displacement, to the prescribed values. Adds
- * the work of applied forces to l->work. Returns true if the position of a point on a grid was changed. */
+/* Imposes the motion that l prescribes in the step from t - dt/2 to t + dt/2 [s] on particles p, after the
+ * grid-to-particle transfer: sets velocities of material points on a background grid, and positions of these and of
+ * peridynamic particles with prescribed displacement. Adds impulse and work of supports to l->impulse and
+ * l->constraint_work, the work of applied forces to l->work. Returns true if a material point was moved. */
 bool loads_impose_prescribed_motion(struct loads *l, struct particles *p, real t, real dt);
 
 /* Adds the reactions of the prescribed nodes, mirror nodes and dashpots of grid g (or of the grid of a mesh) to the
@@ -499,9 +499,9 @@ void static_boundaries_make_from_dynamic(struct boundary *static_boundary, const
 void loads_compute_static_displacements(struct loads *l, const struct particles *p, real ramp_time,
                                         real *const *displacement, uint8_t *driven_components);
 
-/* Adds the inertia forces of a rigid rotation to the applied forces l of a free body of particles p in 2D (inertia
- * relief), so that loads with a moment have an equilibrium, for example loads on scattered particles of an irregular
- * lattice. Returns the moment of the loads divided by the largest moment that forces of this size could have [1]. */
+/* Adds the inertia forces of a rigid rotation (inertia relief) to the applied forces l of a free body of particles p in
+ * 2D, so that loads with a moment have an equilibrium, for example loads on particles of an irregular lattice. Returns
+ * the moment of the loads divided by the largest moment that forces of this size could have [1]. */
 real loads_add_inertia_relief(struct loads *l, const struct particles *p);
 
 /* Adds the applied forces l of a static problem at full load, with those of loads_add_inertia_relief, to p->f [N]. */

@@ -15,18 +15,21 @@ void conversion_stress_reduce_to_weakest_particle(struct elastic *elastic, const
  * has no absorbing boundary or is static. source: bond law. */
 struct impedance *absorbing_boundary_impedances(const struct scene *s, const struct bond_source *source);
 
-/* Lists in tables->voids the shapes of bodies of scene s that may contain voids (narrow slots or gaps), and in
- * tables->void_mirror the planes of the mirror boundaries. Bodies made from particle lists or images are left out.
- * loads: boundary conditions. Returns true if at least one shape was listed. */
+/* Lists in tables->voids the shapes of those bodies of scene s (the input file) that may contain voids (narrow slots or
+ * gaps, across which no bonds are made) and of all bodies joined to these, and in tables->void_mirror the planes of all
+ * mirror boundaries. Bodies are left out if they or bodies joined to them are made from particle lists or images.
+ * loads: state on which side of each mirror plane the body is. Shapes are kept by reference to s; the lists are
+ * released with `tables` at the end of the run. Returns true if at least one shape was listed. */
 bool run_list_shapes_with_voids(struct material_tables *tables, const struct scene *s, const struct loads *loads);
 
 /* Returns the largest distance across which particles interact [m], through bonds, which are shorter than `cutoff` [m],
  * or through common cells of the mesh. s: scene. Voids narrower than this distance must be handled explicitly. */
 real voids_interaction_distance(const struct scene *s, real cutoff);
 
-/* Returns true if solids define the surfaces of a body and of all bodies that interfaces join to it, i.e. if none of
- * these bodies is made from a particle list or an image. first_body: index, in the scene s, of the first of the joined
- * bodies. */
+/* Returns true if solids (geometric shapes, also surfaces read from files) of the input file define the surfaces of all
+ * bodies of a group that interfaces join to one another, i.e. if none of them is made from a particle list or a voxel
+ * image. s: scene (the input file); first_body: lowest index of the bodies of the group, s->body[].joined of each; a
+ * body without such interfaces is a group of its own. */
 bool joined_bodies_are_all_defined_by_solids(const struct scene *s, int first_body);
 
 /* Computes factors on the weights (themselves factors on the forces) of bonds near free surfaces into w, by moments of

@@ -14,8 +14,9 @@ struct microbench_lattice;
 /* Creates the data of the lattice benchmark: about 80,000 particles on a lattice in `dim` dimensions, with bonds to all
  * neighbours within 3.015 spacings. Release with microbench_lattice_free. */
 KERNEL(struct microbench_lattice *, microbench_lattice_make, (int dim));
-/* Computes the forces of all bonds of the lattice s once, at each of the two particles of a bond. Returns the time [s]
- * divided by the number of bonds counted at both particles. */
+/* Computes once the force on every particle of the lattice s as the sum over its bonds. Each bond is thus evaluated
+ * twice, once for each of the two particles that it joins. Returns the elapsed time [s] divided by the number of
+ * evaluations. */
 KERNEL(double, microbench_lattice_run, (struct microbench_lattice *s));
 
 /* Releases s, the data of the lattice benchmark. */

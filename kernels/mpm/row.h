@@ -170,7 +170,8 @@ static ALWAYS_INLINE bool points_are_the_same(const int32_t *point, const int di
     return dim > 1 && point[0] == point[POINTS - 1];
 }
 
-/* Returns the entries from[point[k]] of an array for points in pairs of consecutive numbers, one per lane. */
+/* Returns a vector whose lane k, 0 <= k < POINTS, is from[point[k]], for points in pairs of consecutive indices:
+ * point[k + 1] = point[k] + 1 for even k. */
 static ALWAYS_INLINE row_of_points points_load_pairs(const real *from, const int32_t *point)
 {
 #if POINTS_LANES == 2
@@ -186,8 +187,9 @@ static ALWAYS_INLINE row_of_points points_load_pairs(const real *from, const int
 #endif
 }
 
-/* Returns the entries from[point[k]] of an array for the listed points, one per lane. point: numbers of POINTS points
- * (in 1D of two, which are repeated), from points_list. */
+/* Returns a vector whose lane k, 0 <= k < POINTS, is from[point[k]], the value of a point in the particle array `from`.
+ * point: as set by points_list, the indices of the points (in 1D of at most two, which further lanes repeat), then in
+ * point[PAIRED] not 0 if they are pairs of consecutive indices, which are loaded together. */
 static ALWAYS_INLINE row_of_points points_load(const real *from, const int32_t *point, const int dim)
 {
     if (dim > 1 && point[PAIRED]) return points_load_pairs(from, point);
@@ -202,8 +204,9 @@ static ALWAYS_INLINE row_of_points points_load(const real *from, const int32_t *
 #endif
 }
 
-/* Stores lane k of a in to[point[k]] for all lanes k. point: indices of POINTS points, from points_list; lanes that
- * hold the same point must have equal values. */
+/* Stores lane k of the vector a in to[point[k]], 0 <= k < POINTS. to: particle array; point: as set by points_list, the
+ * indices of the points, then in point[PAIRED] not 0 if they are pairs of consecutive indices. Lanes that hold the same
+ * point must have equal values. */
 static ALWAYS_INLINE void points_store(real *to, const int32_t *point, row_of_points a, const int dim)
 {
     if (dim > 1 && point[PAIRED]) {

@@ -61,8 +61,8 @@ static inline void stress_rotate_3d(real *stress, real wxy, real wyz, real wzx)
 }
 
 /* Computes the first-order change of the stress by a rotation, increment = W s - s W with the stress s = `stress`, for
- * a few points (one per lane). stress: symmetric components [Pa]; spin: the components W_xy, in 3D also W_yz and W_zx,
- * of the antisymmetric matrix W [rad]. */
+ * a few points (one per lane). stress, increment: components xx, yy, xy in 2D, xx, yy, zz, xy, yz, zx in 3D [Pa]; spin:
+ * the components W_xy, in 3D also W_yz and W_zx, of the antisymmetric matrix W [rad]. */
 static ALWAYS_INLINE void stress_rotation_increment(const row_of_points *stress, const row_of_points *spin,
                                                     row_of_points *increment, const int dim)
 {
@@ -78,9 +78,12 @@ static ALWAYS_INLINE void stress_rotation_increment(const row_of_points *stress,
     increment[5] = spin[2] * (stress[0] - stress[2]) + spin[0] * stress[4] - spin[1] * stress[3];
 }
 
-/* Computes in `increment` the change of the stress s = `stress` of a few points by an exact rotation, each by its own
- * angle up to SPIN_SERIES. spin: components of the antisymmetric matrix W [rad]; angle2: square of the angle a [rad^2].
- * With A s = W s - s W, whose eigenvalues are 0, +-i a and +-2i a at the angle a,
+/* Computes the change of the stress s = `stress` of a few points (one per lane) by an exact rotation: increment = R s
+ * R^T - s, R = exp(W), with its own rotation angle a for each point. The power series used here are exact to round-off
+ * up to a = SPIN_SERIES [rad]; for larger angles the result is not valid. stress, increment: components xx, yy, xy in
+ * 2D, xx, yy, zz, xy, yz, zx in 3D; spin: components W_xy, in 3D also W_yz and W_zx, of the antisymmetric matrix W
+ * [rad]; angle2: a^2, the sum of the squares of these components [rad^2]. With A s = W s - s W, whose eigenvalues are
+ * 0, +-i a and +-2i a,
  *     R s R^T = s + c1 A s + c2 A^2 s + c3 A^3 s + c4 A^4 s,
  *     c1 = (8 sin a - sin 2a)/6a, c2 = (15 - 16 cos a + cos 2a)/12a^2,
  *     c3 = (2 sin a - sin 2a)/6a^3, c4 = (3 - 4 cos a + cos 2a)/12a^4. */
@@ -102,9 +105,9 @@ static ALWAYS_INLINE void stress_exact_rotation_increment(const row_of_points *s
     stress_rotation_increment(sum, spin, increment, dim);
 }
 
-/* Rotates the stresses stress[components] [Pa] of a few points (one per lane), each by its own antisymmetric matrix W
- * with the components `spin` [rad]: to first order for angles below SPIN_NONE, exactly above SPIN_SMALL, to second
- * order between. */
+/* Rotates the stresses of a few points (one per lane), each by the rotation exp(W) with its own antisymmetric matrix W:
+ * to first order for angles below SPIN_NONE, exactly above SPIN_SMALL, to second order between. stress: components xx,
+ * yy, xy in 2D, xx, yy, zz, xy, yz, zx in 3D [Pa]; spin: components W_xy, in 3D also W_yz and W_zx [rad]. */
 static ALWAYS_INLINE void stress_rotate(row_of_points *stress, const row_of_points *spin, const int dim)
 {
     const int n = dim * (dim + 1) / 2;

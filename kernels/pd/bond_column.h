@@ -98,8 +98,9 @@ static ALWAYS_INLINE struct column column_from_stencil(const struct bonds *b, in
             FOR_COLUMNS(B, ROW_BLOCK, VISIT_BRITTLE);                                                                  \
     } while (0)
 
-/* Returns the values of the particle array `from` for eight particles: the neighbours to which the bonds of `column`
- * (one bond of each of eight particles) lead. */
+/* Returns, one per lane, the values from[j] for the eight particles j to which the bonds of `column` lead (one bond of
+ * each of eight particles). from: array with a value for each particle and mirror image. If the column has another kind
+ * than COLUMN_FREE, the indices j are consecutive and the values are loaded as one vector, else they are gathered. */
 static ALWAYS_INLINE lanes column_gather_neighbours(const struct column column, const real *from)
 {
     return column.kind ? lanes_load(from + column.first)

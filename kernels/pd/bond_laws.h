@@ -197,8 +197,10 @@ static inline real bond_energy_of(const struct bonds *b, const struct particles 
     return b->stiffness * bond->w * energy / bond->inverse_length;
 }
 
-/* Returns the plastic work [J] of `bond`, a bond in b, so far; 0 if the bond is broken. The work has a closed form,
- * since hardening is linear and the plastic path only grows. Only in models whose bonds yield. */
+/* Returns the plastic work [J] that `bond`, a bond in b, has dissipated so far; 0 if the bond is broken or has not
+ * yielded. The closed form holds since hardening is linear and the plastic path (accumulated absolute plastic stretch,
+ * b->plastic_path at the index bond->entry) never decreases. Call only if b->plastic_path is not NULL, i.e. in models
+ * whose bonds yield. */
 static inline real bond_plastic_work_of(const struct bonds *b, const struct bond *bond)
 {
     const int64_t q = bond->entry;

@@ -93,11 +93,11 @@ static inline void state_blend_row(struct bonds *b, const struct particles *p, c
     blend_with_value_without_breaking(&b->state.spring[i], spring, left.share);
 }
 
-/* Prepares the states of the neighbourhoods (pressure: force by dilatation, spring stiffness: force by extension,
- * rotation) of the eight particles of block number `row_block` of eight rows of b for a step in which bonds break.
- * Copies them to b->state.before, which breaking bonds use. Then replaces them in b->state by weighted means of the
- * values with and without the breaking bonds, which the remaining bonds use. limit: breaking stretches. Only for blocks
- * in which a bond of a particle of p exceeds its limit. */
+/* Prepares the states of the neighbourhoods (pressure, from which the part of bond forces that is due to dilatation
+ * follows; spring stiffness, force per extension; rotation) of the eight particles of block number `row_block` of eight
+ * rows of b for a step in which bonds break. Copies them to b->state.before, which breaking bonds use. Then replaces
+ * them in b->state by weighted means of the values with and without the breaking bonds, which the remaining bonds use.
+ * limit: breaking stretches. Only for blocks in which a bond of a particle of p exceeds its limit. */
 static inline void state_blend_breaking_rows(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                                              int64_t row_block)
 {
@@ -112,10 +112,13 @@ static inline void state_blend_breaking_rows(struct bonds *b, const struct parti
 
 /* ---- force of a breaking bond ------------------------------------------------------------------------------------ */
 
-/* Returns one number of the state in b that particle i of p had before its bonds broke in this step. component: 0
- * pressure (force by dilatation), 1 spring stiffness (force by extension), from 2 on the stored rotation
- * (rotation_encode). For a mirror image, returns the state of its source particle, with the rotation reflected: the
- * bond from this particle to the image of the other particle breaks in the same step and must use equal numbers. */
+/* Returns one component of the state of the neighbourhood (all bonds) of particle i of p, as it was before bonds broke
+ * in this step (b->state.before), or the present one if no bond near the particle breaks. component: 0 for the
+ * pressure, from which the part of bond forces that is due to dilatation follows [N/m^2]; 1 for the spring stiffness,
+ * force per extension of a bond [N/m]; 2 + c for entry c of the stored rotation (rotation_encode). If i is a mirror
+ * image (a copy beyond a plane of symmetry), returns the component of its source particle, for rotations with the sign
+ * that the reflection gives it: a bond to an image and the reflected bond break in the same step and must use equal
+ * numbers. Returns 0 if i is an image in a clamped plane (at which all motion is prevented). */
 static inline real state_component_before_breaking(const struct bonds *b, const struct particles *p, int component,
                                                    int64_t i)
 {

@@ -36,9 +36,10 @@ status option_read_count(int *count, const char *option, const char *text, int s
                : status_set(REFUSED, "%s %s: give a number from %d to %d", option, text, smallest, largest);
 }
 
-/* Reads the width or height of a picture at the beginning of *text into *pixels [pixel] and advances *text behind it.
- * *factor: receives how many pixels a unit of the number is: those of a millimetre for the unit mm, 1 without unit.
- * Returns false if *text does not begin with a length. */
+/* Reads the width or height of a picture, a number without unit (pixels) or with the unit mm, at the beginning of
+ * *text. *pixels: receives the length [pixel]; *factor: receives the number of pixels in one unit of the text:
+ * PICTURE_DPI/25.4 for mm, 1 for pixels; *text is advanced behind the length. Returns false if *text does not begin
+ * with a number; the results are then meaningless. */
 static bool picture_length_read(double *pixels, double *factor, const char **text)
 {
     char *end;

@@ -90,8 +90,10 @@ static bool key_is_named_before(const struct scene *s, size_t row, const char *k
     return named;
 }
 
-/* Appends to text[capacity] the keys in row number `row` of idle_keys that scene s gives, and why they have no effect.
- * Appends nothing if the scene gives none of them. used: present length of the text. Returns the new length. */
+/* Appends to text[capacity] the keys in row number `row` of idle_keys (table of keys without effect in some scenes)
+ * that scene s gives, without those that an earlier row has reported, and why they have no effect. Appends nothing if
+ * no key remains. Keys are left out once only 300 characters of the text are free. used: present length of the text.
+ * Returns the new length. */
 static size_t idle_row_append(const struct scene *s, size_t row, char *text, size_t capacity, size_t used)
 {
     const size_t before = used;

@@ -346,8 +346,9 @@ static bool is_single_body(const struct scene *s, const struct particles *p)
     return is_single;
 }
 
-/* Returns true if a support, a plane of symmetry or an absorbing face in `loads` resists motion of the body along axis
- * d. */
+/* Returns true if a boundary in `loads` resists motion of the body along axis d (0, 1 or 2 for x, y or z): an absorbing
+ * face, a plane of symmetry normal to the axis, a clamped plane, or a prescribed motion that rotates the body or has a
+ * component along the axis. */
 static bool is_held_along(const struct loads *loads, int d)
 {
     bool held = false;

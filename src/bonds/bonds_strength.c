@@ -473,9 +473,11 @@ real bonds_largest_stress_to_strength_ratio(const struct bonds *b, const struct 
     return most;
 }
 
-/* Marks in touched[row_blocks] by 1 the block of eight rows (the bonds of eight particles) of row `row`, whose particle
- * is on its strength surface, and the blocks of all neighbours to which the bonds of this row lead. e: the bonds.
- * Several threads may mark one block. */
+/* Marks the blocks of eight rows in which bonds may begin to soften because the particle of row `row` (the list of its
+ * bonds) has reached its strength surface, a failure criterion in stress. Sets touched[block] to 1 for the block that
+ * contains the row, and for those that contain the rows of the neighbours to which its bonds lead, or of their sources
+ * if they are mirror images; neighbours without a row are skipped. e: bonds and particles. May be called by several
+ * threads at once. */
 static void mark_touched(const struct evaluation *e, int64_t row, uint8_t *touched)
 {
     __atomic_store_n(&touched[row / LANES], 1, __ATOMIC_RELAXED);

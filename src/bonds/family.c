@@ -104,8 +104,9 @@ static void sum_point(const struct family *f, const real *xi, int dim, struct la
     s->mixed[class] += dim > 1 ? weight * (1 - fourth) / (dim * (dim - 1)) : 0;
 }
 
-/* Returns the sums over all lattice points within the cutoff of a particle inside a body, on which the constants of the
- * neighbourhood f depend. */
+/* Returns the sums of volume, bond length, weight and direction (struct lattice_sums) over all lattice points within
+ * the cutoff of a particle inside a body. The constants of the neighbourhood f follow from these sums: volume f->full,
+ * weighted volume f->weighted and the factors f->shell_weight. f: spacing, cutoff and influence function. */
 static struct lattice_sums lattice_sums(const struct family *f)
 {
     struct lattice_sums s = {0};

@@ -381,7 +381,8 @@ static int neighbours(const struct near_faces *b, int64_t t)
     return n;
 }
 
-/* Returns true if bonds between any two materials have a finite critical stretch in `limit`, so that they may break. */
+/* Returns true if at least one pair of materials has a finite critical stretch in `limit`, so that bonds between these
+ * materials may break. */
 static bool may_break(const struct bond_limit *limit)
 {
     bool breaks = false;

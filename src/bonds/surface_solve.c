@@ -148,11 +148,13 @@ static void all_back(struct descent *d, const uint8_t *changes, const real *x)
     }
 }
 
-/* Computes the vector to[classes, moments] = Q^-1 by - sum m x, plus the targets of the moments if `goals`. For each
- * class (particles with equal surroundings) the sum is over its bonds: m are the moments of a bond, x[sets] has a
- * number for each set of bonds that share a factor, Q is the quadratic form of the class. d: the problem; by[classes,
- * moments]: a vector; changes[classes, offsets/2]: pairs of opposite bonds with the mark 0 are skipped, since their x
- * is 0; NULL if none is. */
+/* Computes to = Q^-1 by - sum m x, plus the goals if `goals`, for each class (particles with equal surroundings) in the
+ * least-squares fit d->fit of the factors on the weights of bonds near faces. `to` and `by` are vectors [classes,
+ * d->width] with a number for each moment of a class. The sum is over the bonds of the class: m are the moments of a
+ * bond (components of tensors of rank 3 and 4 formed of its direction), and x[groups] has a number for each group of
+ * bonds that share a factor, the factor itself or its change. Q is the quadratic form by which the fit weighs
+ * deviations of the moments from their goals, the moments that the bonds should have. changes[classes, offsets/2]:
+ * pairs of opposite bonds with the mark 0 are skipped, since their x is 0; NULL if none is. */
 static void all_sum(const struct descent *d, const uint8_t *changes, const real *by, const real *x, bool goals,
                     real *to)
 {

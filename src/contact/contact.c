@@ -127,10 +127,11 @@ static void found_join(struct contact_found *all, const struct contact_found *ow
     all->touching = touching;
 }
 
-/* Evaluates contact in parallel for all rows of the contact list c (particles near faces, which may come into contact).
- * With a law of the form `pair`, adds the contact forces to p->f. With the form `surface`, only computes the gaps, from
- * which faces_force computes forces afterwards. dt: time step [s]. all: receives the number of contacts, the largest
- * overlap and its particle. */
+/* Evaluates contact in parallel for all rows of the contact list of c (a row: a particle near a free surface, with the
+ * particles that it may touch). With a law of the form `pair` (between pairs of particles), adds the contact forces to
+ * p->f. With the form `surface` (between smooth faces), only computes the gaps, from which faces_force computes forces
+ * afterwards. dt: time step, used by the form `surface` [s]. all: the number of contacts found is added, and the
+ * largest overlap [m] and its particle are updated; unchanged if no particles are in contact. */
 static void rows_sweep(struct contact *c, struct particles *p, real dt, struct contact_found *all)
 {
     const bool faces = c->law.form == CONTACT_SURFACE;

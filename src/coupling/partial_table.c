@@ -170,9 +170,10 @@ static void crossings_of(struct partial_table *t, int64_t k, int64_t *next, bool
             }
 }
 
-/* Lists in t->crossing how each possible bond on the lattice crosses the cell at the centre of the table: its vector,
- * and the fraction of its length inside the cell. The list is sorted by the site at which the bond starts;
- * t->start[site] is the first entry of a site. Call it after vectors_make. */
+/* Lists in t->crossing how each possible bond on the lattice crosses the lattice cell at the centre of the table: the
+ * number of its bond vector (numbering of vectors_make) and the fraction of its length inside the cell. The list is
+ * sorted by the number of the lattice site at which the bond starts, one of the (2 reach + 1)^dim sites of the table;
+ * the entries of a site are t->start[site] .. t->start[site + 1] - 1. Call it after vectors_make. */
 static void crossings_make(struct partial_table *t)
 {
     const int64_t places = partial_table_places_of(t);
@@ -188,10 +189,12 @@ static void crossings_make(struct partial_table *t)
     memory_free(next);
 }
 
-/* Computes t->tensor: the stiffness T (see partial_tensor_add_bond_contribution) that a single bond from the centre of
- * a cell adds to this cell if the bond is inside it over its full length. There is one T for each direction of bonds
- * and each part of the bond's response to strain (struct response), with this part equal to 1 and the others to 0. s:
- * states whether the bonds rotate with the material. */
+/* Computes t->tensor[directions][parts][size]: for each direction of bonds and each part of the response of a bond to
+ * strain, the tensor T by which a bond inside a cell over its full length reduces the stiffness of the cell. T_abcd = l
+ * e_b dF_a/deps_cd, with the length l of the bond, its unit vector e and its force F
+ * (partial_tensor_add_bond_contribution). Parts, of which one is 1 and the other 0: 0, the force due to the deformation
+ * of the bond itself, along the bond or, if s->rotates (models with particle rotations), in any direction; 1, the force
+ * due to the dilatation of the neighbourhood, in state-based models only (struct response). */
 static void tensors_make(struct partial_table *t, const struct bond_source *s)
 {
     t->tensor = NEW("partial.tensor", (int64_t)t->directions * t->parts * t->size, real);

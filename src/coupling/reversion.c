@@ -214,11 +214,12 @@ struct crossing {
     real stress[SYM_MAX], T[SYM_MAX * SYM_MAX], X[DIM_MAX], half;
 };
 
-/* Adds half of the contribution of one bond of b to the stress in *to, the cubic cell of a material point, and to the
+/* Adds half of the contribution of one bond to the stress in *to, the cubic cell of a material point, and to the
  * derivative of this stress by a uniform strain, both times the volume of the cell. A bond contributes in proportion to
  * the fraction of its length inside the cell; a bond outside the cell adds nothing. The other half is added when the
- * bond is found in the list of bonds of its other particle. bond: the bond, as stored for the particle r->root of p; j:
- * that particle or a mirror image of it; r: reflection that maps r->root to j. */
+ * bond is found in the list of bonds of its other particle. bond: the bond, as stored for the particle r->root of p; b:
+ * bonds, of which the stiffness constant is used; j: index of the particle r->root itself, or of one of its mirror
+ * images (copies beyond planes of symmetry); r: the reflection that maps this particle, and the bond, to j. */
 static void crossing_add(struct crossing *to, const struct bonds *b, const struct particles *p,
                          const struct reflection *r, int64_t j, const struct bond *bond)
 {

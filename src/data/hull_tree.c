@@ -111,9 +111,10 @@ struct angle_sum {
     int turns;
 };
 
-/* Adds the angle of the complex number x + i y, which need not be normalised, to *sum (a product of such numbers, with
- * the number of full turns). The angle of 0 is 0. The code has no branches, which would be slow for signs that
- * alternate. */
+/* Adds the angle arg(x + i y) of a complex number of any magnitude to *sum: multiplies the product sum->x + i sum->y of
+ * the numbers so far by it, and adds 1 to sum->turns if the angle of the product passes half a turn forwards, -1 if
+ * backwards. Adds nothing if x and y are 0. Products that become very large or small are scaled. Signs are compared
+ * without branches, which would be slow where they alternate. */
 static inline void angle_sum_add(struct angle_sum *sum, real x, real y)
 {
     const real a = sum->x, b = sum->y, u = a * x - b * y, v = a * y + b * x, size = fabs(u) + fabs(v);

@@ -19,9 +19,11 @@ static void curve_through(struct softening_curve *c, int pieces, const real *x, 
     c->from[pieces] = 1;
 }
 
-/* Computes x[SOFTENING_PIECES + 1] and y[SOFTENING_PIECES + 1], the points of the exponential softening curve. They are
- * denser where the curve is more curved, as the square root of its curvature, so that all chords deviate from the curve
- * equally. */
+/* Computes the points (x[k], y[k]), k = 0 .. SOFTENING_PIECES, of a curve of straight lines that replaces the
+ * exponential softening curve y = (exp(-DECAY x) - exp(-DECAY))/(1 - exp(-DECAY)), from (0, 1) to (1, 0). y: force of a
+ * bond divided by the force at the onset of softening; x: (s - s_0)/(s_f - s_0) with the stretch s of the bond, the
+ * onset s_0 and the breaking stretch s_f. The points are denser where the curve is more curved, as the square root of
+ * its curvature, so that all lines deviate from the curve equally. */
 static void exponential_points(real *x, real *y)
 {
     const real last = exp(-DECAY), whole = 1 - exp(-0.5 * DECAY);

@@ -123,8 +123,9 @@ static real half_space_support(const struct solid *s, const real *along, int dim
 
 /* ---- bodies of revolution ---------------------------------------------------------------------------------------- */
 
-/* Returns the cylindrical coordinates of X[3] relative to the middle of the axis s->from .. s->to: position along the
- * axis and distance from it [m], and the unit vectors of both directions. */
+/* Returns the position of X[3] [m] relative to the axis s->from .. s->to of a body of revolution: its coordinate along
+ * the axis, from the middle, and its distance from the axis [m], the unit vectors along the axis and from the axis to
+ * X, and the length of the axis [m]. If X is on the axis, the second vector is an arbitrary one normal to the axis. */
 static struct axis_place axis_place_of(const struct solid *s, const real *X)
 {
     struct axis_place p = {0};

@@ -144,8 +144,11 @@ void engine_warn_of_useless_solids(const struct scene *s, struct warnings *warni
  * or are inside one another, so that a part of the body is enclosed twice. */
 void engine_warn_of_shells_in_shells(const struct scene *s, struct warnings *warnings);
 
-/* Adds warnings to *warnings about bodies of scene s (the input file) that move at the start and meet no other body
- * within the duration. p: particles. */
+/* Adds a warning to *warnings about each body of scene s (the input file) that moves in one direction from the start
+ * and meets no other body, rigid bodies included, within the duration. This is judged by the bounding boxes of the
+ * bodies, moved with the extreme initial velocities of their particles in p: boxes that come within one spacing meet.
+ * Adds none if forces, gravity, prescribed motion or planes of symmetry may change the flight, or if a box is not
+ * known. */
 void engine_warn_of_bodies_that_never_meet(const struct scene *s, const struct particles *p, struct warnings *warnings);
 
 /* Adds a warning to *warnings about each pair of bodies of scene s (the input file) that overlap at the start. p:

@@ -29,9 +29,11 @@ static bool mirror_at_end(const struct scene *s, const struct supported *a)
     return any;
 }
 
-/* Describes in *a the end of a body that the load l supports, along the axis a->axis, which the caller has set. Returns
- * false if the load drives particles other than material points, more than one layer of points along the axis, or not
- * exactly one end of its body. s: scene, with planes of symmetry; p: particles. */
+/* Finds the end of a body at which the load l acts, along the axis a->axis, which the caller has set. Sets all other
+ * members of *a: the body, the ranges of the driven points and of the body along the axis, the side (lower or upper
+ * end), and the positions of the end and of the nodes half a cell before it. Returns false, with these members partly
+ * set or invalid, if the load drives no particle, particles other than material points, more than one layer of points
+ * normal to the axis, or not exactly one end of the body. s: scene, with the particle spacing; p: particles. */
 static bool supported_end_find(const struct scene *s, const struct load *l, const struct particles *p,
                                struct supported *a)
 {

@@ -458,8 +458,8 @@ static void units_of_time(const struct scene *s, const struct run_clock *clock, 
         units_judge(s, ACCEPT_STEPS, "time", (real)clock->steps, note, to);
 }
 
-/* Adds a warning to *to if the body in the box low[dim] .. high[dim] [m] has fewer particles along an axis than
- * rule[ACCEPT_PARTICLES] allows. s: scene; name: name of the body. */
+/* Adds a warning to *to if the body in the box low[dim] .. high[dim] [m] has fewer particles along an axis than the 8
+ * that the table of plausible ranges, rule[ACCEPT_PARTICLES], requires. s: scene; name: name of the body. */
 static void units_of_body(const struct scene *s, const char *name, const real *low, const real *high,
                           struct warnings *to)
 {
@@ -474,8 +474,8 @@ static void units_of_body(const struct scene *s, const char *name, const real *l
 }
 
 /* Adds warnings to *to about bodies of scene s (particles p) with a pre-crack if they have fewer particles along an
- * axis than rule[ACCEPT_PARTICLES] allows. Joined bodies count as one. Does nothing if some particles are not created
- * (p->n < p->n_body). */
+ * axis than the 8 that the table of plausible ranges, rule[ACCEPT_PARTICLES], requires. Joined bodies count as one.
+ * Does nothing if some particles are not created (p->n < p->n_body). */
 static void units_of_particles(const struct scene *s, const struct particles *p, struct warnings *to)
 {
     for (int b = 0; b < s->bodies && s->cracks > 0 && p->n == p->n_body; b++) {
@@ -488,8 +488,9 @@ static void units_of_particles(const struct scene *s, const struct particles *p,
     }
 }
 
-/* Adds a warning to *to if scene s is a plate in plane stress whose thickness divided by its longest edge exceeds
- * rule[ACCEPT_THICKNESS].most. longest: longest edge of the box around all particles [m]. */
+/* Adds a warning to *to if scene s is a plate in plane stress whose thickness divided by its longest edge exceeds 2,
+ * the upper end of the plausible range in the table `rule`, which suggests a mistake in the units, unless the scene
+ * accepts this value. longest: longest edge of the box around all particles [m]. */
 static void units_of_thickness(const struct scene *s, real longest, struct warnings *to)
 {
     char note[80];

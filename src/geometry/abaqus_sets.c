@@ -144,8 +144,10 @@ void abaqus_resolve_sets(struct deck *d, const struct scope *scope)
     }
 }
 
-/* Adds the nodes of element number k of the mesh of deck d to set number `set`, each by a call add(d, set, node), where
- * `node` is a label if the part of the element is still being read, else an index. Does nothing for k < 0. */
+/* Adds the corners and middle nodes of element k to set number `set`: calls add(d, set, node) for each of them. d:
+ * input file, with the mesh d->m; k: index of the element in d->m->element, or < 0, for which nothing is added. node:
+ * index of the node in the mesh, or its label in the file while the part (Abaqus keyword *PART) that contains the
+ * element is still being read. */
 static void nodes_of_element_add(struct deck *d, int set, int64_t k, void (*add)(struct deck *, int, int64_t))
 {
     const struct element *e = k < 0 ? NULL : &d->m->element[k];

@@ -242,8 +242,9 @@ static status element_of(const struct exodus *x, int set, int64_t label, int64_t
     return OK;
 }
 
-/* Reads side set number `number` (from 1) of the file of x: creates a set of elements and adds an element for each
- * side. An empty side set has no arrays. Returns REFUSED for unknown elements or sides. */
+/* Reads side set `number` (from 1) of the file of x and adds it to the mesh x->m, as a set of elements: for each side
+ * of an element (a face or edge) a new element is added to the mesh. The file has no arrays for an empty set. Returns
+ * REFUSED, with a message, if the set has an element or a side of an element that does not exist. */
 static status side_set_add(struct exodus *x, int64_t number)
 {
     const int64_t n = exodus_read_dimension_length(&x->file, "num_side_ss", number);
@@ -262,8 +263,9 @@ static status side_set_add(struct exodus *x, int64_t number)
     return s;
 }
 
-/* Reads node set `number` (from 1) of the file x into a set of nodes. An empty node set has no array. Returns REFUSED,
- * with a message, for unknown nodes. */
+/* Reads node set `number` (from 1) of the file of x and adds it to the mesh x->m, as a set of node indices with the
+ * name in the file. The file has no array of nodes for an empty set. Returns REFUSED, with a message, if the set has a
+ * node that is not in the mesh. */
 static status node_set_add(struct exodus *x, int64_t number)
 {
     const int64_t n = exodus_read_dimension_length(&x->file, "num_nod_ns", number);
@@ -283,8 +285,9 @@ static status node_set_add(struct exodus *x, int64_t number)
     return s;
 }
 
-/* Reads element set `number` (from 1) of the file x into a set of elements. An empty element set has no array. Returns
- * REFUSED, with a message, for unknown elements. */
+/* Reads element set `number` (from 1) of the file of x and adds it to the mesh x->m, as a set of element indices with
+ * the name in the file; elements that were skipped are left out. The file has no array of elements for an empty set.
+ * Returns REFUSED, with a message, if the set has an element that is not in the file. */
 static status element_set_add(struct exodus *x, int64_t number)
 {
     const int64_t n = exodus_read_dimension_length(&x->file, "num_ele_els", number);

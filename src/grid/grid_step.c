@@ -137,7 +137,8 @@ static struct transfer_data field_data(const struct grid_method *mpm, int k)
     return own;
 }
 
-/* Returns true if a particle of `part` moves with a background grid, as a material point or coupled to the grid. */
+/* Returns true if at least one of the particles `part` moves with a background grid: as a material point, or as a
+ * peridynamic particle that the grid also moves (coupled to the grid). */
 static bool grid_holds(const struct particles *part) { return part->n_free + part->n_grid_coupled > 0; }
 
 /* Maps mass, momentum and force of all particles p on the grids of mpm to the nodes, which are cleared first. kernels:
@@ -191,12 +192,15 @@ static void grids_move(struct run *e, const struct grid_contact_side *side, real
 /* Largest such flight, by which weights reach beyond a cell [node distances]: those of GIMP are exact up to here. */
 #define AHEAD_MOST 0.25
 
-/* Sets f->grid.ahead [node distances], the displacement by which the points of f are mapped ahead of their positions
- * (kernels/mpm/remap_turn.h). It is the common motion of these points in half a step, from the momentum of t, the
- * groups of points that rotate together. It is 0 if supports or planes of symmetry act on the points, because nodes
- * there do not move along; for bodies with grids of their own, which may meet; and for linear and cubic shape functions
- * (`shape`): the slopes of linear ones jump between cells, and cubic ones would need a fifth node. dt: time step
- * [s]. */
+/* Sets f->grid.ahead, a displacement that is added to the positions of the points of the grid f where their weights are
+ * computed in the second map of momentum from points to nodes and in the update of their stress [node distances].
+ * Without it, a stretched body that moves through the grid gains energy (kernels/mpm/remap_turn.h). The displacement is
+ * the common motion of the points in half a step of size dt [s], i.e. dt/2 times the momentum of t, the groups of
+ * points that rotate together, divided by their mass. It is 0 if supports, planes of symmetry or absorbing faces act on
+ * the points, because nodes there do not move along; for a grid of one body among several that may collide; for linear
+ * shape functions, whose slopes jump between cells, and cubic ones, whose weights would reach one more node; and if it
+ * is below AHEAD_LEAST or above AHEAD_MOST. If it is not 0, sets the nodal masses to 0, since the second map adds those
+ * of the displaced points. */
 static void field_set_flight(struct grid_field *f, const struct rotation_groups *t, enum shape shape, real dt)
 {
     struct grid *g = &f->grid;

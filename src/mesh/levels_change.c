@@ -170,8 +170,11 @@ static void merged_correct(struct mesh_levels *l, int level, int64_t J, const in
     }
 }
 
-/* Corrects the momenta of all coarse cells of l that have been merged from finer cells (merged_correct). before: levels
- * that the cells of level 0 (the finest) had before the change. */
+/* Corrects the nodal momenta of all coarse cells of l that have just been merged from finer cells. The nodes of such a
+ * cell have the velocities of the finest nodes at their positions (nodes_sample), which changes the momentum of the
+ * region; the difference is added to its corners (merged_correct), so that the cell has the momentum of the finest
+ * cells that it replaces. before: coarsening level that each cell of level 0 (the finest) had before the change of
+ * levels. */
 static void merged_cells_correct(struct mesh_levels *l, const uint8_t *before)
 {
     for (int level = 1; level <= l->n; level++) {

@@ -93,10 +93,13 @@ int64_t mesh_packed_cell_and_point_of_particle(const struct mesh *mesh, const st
  * their mass. */
 void mesh_node_update_mass(struct mesh *mesh, const struct particles *p, int64_t node);
 
-/* Recomputes kinds of cells, runs (rows of consecutive whole cells), partial cells and nodal masses of the mesh after
- * mesh->level, the coarsening level of each cell, has changed in some cells. p: particles; source: material constants,
- * and the parts of stresses that bonds carry; level_has_changed: [mesh->grid.n + LANES] not 0 for cells whose level has
- * changed. */
+/* Rebuilds the cells of the finest mesh `mesh` after mesh->level, the coarsening level of each cell, has changed in
+ * some cells; cells of a level above 0 are parts of larger cells, which belong to a coarser mesh. Determines the kind
+ * of each changed cell: whole (all points, of one material, none with partial stress, i.e. a share of its stress that
+ * bonds carry), partial (points, but not all of these properties), empty, or part of a larger cell. Then lists whole
+ * cells in runs (rows of consecutive cells of one material) and partial cells with their stiffness, and recomputes
+ * nodal masses. p: particles; source: elastic constants and partial stresses; level_has_changed[mesh->grid.n + LANES]:
+ * not 0 for cells whose level has changed. */
 void mesh_rebuild_cells_after_level_change(struct mesh *mesh, const struct particles *p,
                                            const struct mesh_source *source, const uint8_t *level_has_changed);
 

@@ -125,7 +125,7 @@ static bool beside_slit(const struct mesh *mesh, int64_t I)
 
 /* Returns the product of row I of the mass matrix of m with the nodal values `from`, for a node I beside a slit (a gap
  * for a pre-crack). The product is summed point by point, since corners of the cells around I may be extra nodes, which
- * slits add. Returns 0 for nodes whose values are not unknowns of the projection. dim: dimensions. */
+ * slits add. Returns 0 for nodes whose values the projection m does not compute. dim: dimensions. */
 static ALWAYS_INLINE real slit_product(const struct projection *m, int64_t I, const real *from, const int dim)
 {
     real sum = 0;
@@ -144,8 +144,8 @@ static ALWAYS_INLINE real slit_product(const struct projection *m, int64_t I, co
 
 /* Computes to[I] for all nodes I of the mesh of m. If `value` is not NULL, to[I] is the right side of the projection,
  * the sum of m_p N_I value_p over the points p (m_p: mass, N_I: shape function). Else it is the product of the mass
- * matrix with the nodal values `from`. to[I] is 0 for nodes whose values are not unknowns. Each node is written by one
- * thread. dim: dimensions. */
+ * matrix with the nodal values `from`. to[I] is 0 for nodes whose values the projection does not compute. Each node is
+ * written by one thread. dim: dimensions. */
 static ALWAYS_INLINE void nodes_gather(const struct projection *m, const real *value, const real *from, real *to,
                                        const int dim)
 {
@@ -181,9 +181,10 @@ static void gather(const struct projection *m, const real *value, const real *fr
     }
 }
 
-/* Returns the mass of each point around node I of the mesh of m [kg] if all of them exist and have the same mass.
- * Returns 0 if not, if a slit (a gap for a pre-crack) is near, or if the value at the node is not an unknown of the
- * projection. */
+/* Returns the mass [kg] of each of the 4^dim points in the 2^dim cells around node I of the mesh of m if all of them
+ * exist and have the same mass, so that a row of the mass matrix is a constant times this mass. Returns 0 if not, if a
+ * slit (a pre-crack as a gap in the mesh) is beside the node, or if the projection m from points to nodes does not
+ * compute the value at the node. */
 static real mass_around(const struct projection *m, int64_t I)
 {
     const int dim = m->p->dim;
@@ -253,9 +254,11 @@ static real mesh_project_largest_of(const real *a, int64_t n)
     return most;
 }
 
-/* Computes x[nodes], nodal values that fit value[particles], the values at the points. Solves with the consistent mass
- * matrix of m by conjugate gradients, with the lumped matrix as preconditioner. Starts from the lumped projection if
- * all nodes are unknown, else from x. */
+/* Computes x[nodes], the nodal values whose interpolation fits value[particles], the values at the points, by least
+ * squares weighted with mass. Solves with the consistent mass matrix of m by conjugate gradients, with the lumped
+ * matrix as preconditioner, until the largest residual is TOLERANCE times the largest entry of the right side or
+ * ITERATIONS_MOST is reached, which is not reported. Starts from the lumped projection if m->node is NULL, i.e. if the
+ * values at all nodes with mass are computed, else from x; x does not change at nodes that are not computed. */
 static void project(const struct projection *m, const real *value, real *x)
 {
     const int64_t n = m->mesh->grid.n;

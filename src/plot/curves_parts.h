@@ -141,15 +141,18 @@ status r_curve_draw(struct sheet sheet, const char *folder, const char *title, c
  * picture. Returns FAILED if history.csv cannot be read or gnuplot fails. */
 status history_curves_draw(const struct plot_request *request, const char *title);
 
-/* Draws velocity, stress and damage over the position along a one-dimensional bar, one curve for each of
- * frame[frame_count], output frames of a run, to the picture file `sheet`. title: heading of the picture; projection:
- * tells whether the frames belong to load steps (static equilibria) or to times. Returns FAILED if gnuplot fails. */
+/* Draws velocity, stress and damage over the position along a one-dimensional bar to the picture file `sheet`, one
+ * curve for each of the output frames frame[frame_count] of a run (states at one time or load step). title: heading of
+ * the picture; projection: options of the picture, of which only one is used: whether the frames belong to load steps
+ * (static equilibria) or to times. Returns FAILED if gnuplot fails. */
 status bar_profiles_draw(struct sheet sheet, const char *title, const struct projection *projection,
                          const struct output_frame *frame, int frame_count);
 
-/* Draws the field projection->field over the position along a one-dimensional bar, one curve for each of
- * frame[frame_count], output frames of a run, to the picture file `sheet`. title: heading of the picture;
- * value_of_frame[k]: values of the field at the particles of frame k. Returns FAILED if gnuplot fails. */
+/* Draws the field projection->field over the position along a one-dimensional bar to the picture file `sheet`, one
+ * curve for each of the output frames frame[frame_count] of a run (states at one time or load step). title: heading of
+ * the picture; projection: options of the picture, of which the field is used, and whether the frames belong to load
+ * steps (static equilibria) or to times; value_of_frame[k][i]: value of the field at particle i of frame k. Returns
+ * FAILED if gnuplot fails. */
 status field_profiles_draw(struct sheet sheet, const char *title, const struct projection *projection,
                            float *const *value_of_frame, const struct output_frame *frame, int frame_count);
 

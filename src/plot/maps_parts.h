@@ -105,8 +105,9 @@ void box_write_margins(FILE *gnuplot, const struct layout *layout, double left_e
  * distances of the upper left corner of the panel from the left and upper edge of the picture [pixel]. */
 void panel_write_margins(FILE *gnuplot, const struct layout *layout, double left_edge, double upper_edge);
 
-/* Returns the unit of length of the axes of panels. It is chosen such that the longer edge of the rectangle of `view`
- * has a convenient length, regardless of the coordinates of the body. */
+/* Returns the unit of length of the axes of all panels (one for each output frame) of a picture. It is chosen by the
+ * longer edge of the rectangle that `view` shows, regardless of the coordinates of the body: millimetres from 0.5 mm to
+ * 1 m, else metres with the SI prefix that gives one to three digits. */
 struct unit panel_axis_unit(const struct view *view);
 
 /* Returns the width [pixel] of the longest number at the tics of the horizontal axis of a panel. view: rectangle of the

@@ -10,11 +10,12 @@
  * equilibrium is found; INTERRUPTED if the run is to stop. */
 status equilibrium_find_at_time(struct run *e, real pseudo_time);
 
-/* Solves for the equilibrium of run e at the pseudo-time `pseudo_time` [s], starting from the present equilibrium.
- * `pseudo_time` becomes the present pseudo-time. Does not update work, energy losses and reactions.
+/* Solves for the equilibrium of run e at the pseudo-time `pseudo_time` [s], starting from the present equilibrium, and
+ * makes `pseudo_time` the present pseudo-time. Does not update work, energy losses and reactions.
  * present_applied_forces[dim]: applied forces of the present equilibrium, a value for each particle [N]; they must not
  * be the arrays e->statics->applied. Returns FAILED, with the position of the largest residual in the message, if no
- * equilibrium is found; INTERRUPTED if the run is to stop. */
+ * equilibrium is found: `pseudo_time` is then set, and the displacements are those of the last iteration. Before
+ * anything is changed, returns INTERRUPTED if the run is to stop, and FAILED if the formula of a load is not finite. */
 status equilibrium_solve_without_work_account(struct run *e, real pseudo_time, real *const *present_applied_forces);
 
 /* Converts those material points of run e that lost bonds or have a high stress to peridynamic particles and finds the

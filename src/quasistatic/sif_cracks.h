@@ -46,7 +46,8 @@ real sif_plane_crack_area(const struct sif_plane *plane, const struct particles 
                           const real *segment_end);
 
 /* Returns true if the segment between the points `segment_start` and `segment_end` of `plane` (the plane in which crack
- * tips move), two coordinates each [m], lies on a plane of symmetry. */
+ * tips move), two coordinates each [m], lies on a plane of symmetry: if both points are within 1e-3 particle spacings
+ * of one of the planes plane->mirror. */
 bool sif_plane_segment_is_on_mirror(const struct sif_plane *plane, const real *segment_start, const real *segment_end);
 
 /* Computes the point ahead = start + distance * direction. start: point of the plane in which crack tips move [m];
@@ -65,8 +66,10 @@ static inline real sif_plane_point_distance(const real *point, const real *other
 
 /* ---- tips (sif_cracks.c) ----------------------------------------------------------------------------------------- */
 
-/* Returns true if the straight crack segment that ends at the tip `tip` lies on a plane of symmetry of the body, so
- * that only half of its crack area belongs to the modelled body. */
+/* Returns true if the straight segment of the crack path that ends at the tip `tip` lies on a plane of symmetry, so
+ * that only half of its crack area belongs to the modelled body. This is tested for the tip and the point one particle
+ * spacing ahead of it on the line of the segment: both must be within 1e-3 spacings of one plane in plane->mirror.
+ * plane: the plane in which crack tips move, with its particle spacing and the planes of symmetry. */
 bool sif_tip_segment_is_on_mirror(const struct sif_plane *plane, const struct sif_crack_tip *tip);
 
 /* Computes the stress-intensity factors K_I and K_II of a tip and stores them in K[] [Pa m^(1/2)]. They follow from a
