@@ -57,7 +57,7 @@ static inline void blend_with_value_without_breaking(real *value, real without_b
 
 /* Replaces the rotation of the neighbourhood of particle i, stored in t, by S R + (1 - S) R', with its rotation R over
  * all bonds, its rotation R' without the breaking bonds, and the share S = left->share of the force of the breaking
- * bonds that acts in this step. left: sums over the remaining bonds; spring: spring stiffness (force by extension) of
+ * bonds that acts in this step. left: sums over the remaining bonds; spring: spring stiffness (force per extension) of
  * the neighbourhood without the breaking bonds [N/m]; dim: dimensions. */
 static inline void rotation_blend(struct state *t, int32_t i, const struct family_left *left, real spring, int dim)
 {
@@ -72,11 +72,12 @@ static inline void rotation_blend(struct state *t, int32_t i, const struct famil
         blend_with_value_without_breaking(&t->rotation[c][i], sign * kept[c][0], left->share);
 }
 
-/* Replaces pressure (force by dilatation), spring stiffness (force by extension) and rotation of the neighbourhood of
- * one particle in b->state by S a + (1 - S) a', if bonds of this particle break in this step: a is the value with these
- * bonds, a' the value without them, and S the share of their force that acts in this step (bond_break_moment_of), as a
- * mean over these bonds. row: row of b that holds the bonds of the particle (of p); limit: breaking stretches, and the
- * rule for the share. Does nothing for material points, to whose state their cells contribute. */
+/* Replaces pressure (from which the part of bond forces that is due to dilatation follows), spring stiffness (force per
+ * extension) and rotation of the neighbourhood of one particle in b->state by S a + (1 - S) a', if bonds of this
+ * particle break in this step: a is the value with these bonds, a' the value without them, and S the share of their
+ * force that acts in this step (bond_break_moment_of), as a mean over these bonds. row: row of b that holds the bonds
+ * of the particle (of p); limit: breaking stretches, and the rule for the share. Does nothing for material points, to
+ * whose state their cells contribute. */
 static inline void state_blend_row(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                                    int64_t row)
 {

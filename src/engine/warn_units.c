@@ -170,9 +170,9 @@ static void units_of_materials(const struct scene *s, struct warnings *to)
 }
 
 /* Adds warnings to *to about rigid bodies of scene s with an implausible density, which is mass divided by volume. The
- * plausible range is that of matter, rule[ACCEPT_MASS]. If the density of a material is outside that range, because the
- * scene uses other units, the range extends instead from the smallest density of a material divided by UNLIKE (30) to
- * the largest one times UNLIKE. Bodies without mass or with an infinite shape are skipped. */
+ * plausible range is that of matter, 50 to 25,000 kg/m^3 (rule[ACCEPT_MASS]). If the density of a material is outside
+ * that range, because the scene uses other units, the range extends instead from the smallest density of a material
+ * divided by UNLIKE (30) to the largest one times UNLIKE. Bodies without mass or with an infinite shape are skipped. */
 static void units_of_rigids(const struct scene *s, struct warnings *to)
 {
     char subject[NAME_MAX_LENGTH + 16], note[80];
@@ -349,10 +349,10 @@ static real least_strength(const struct scene *s)
 }
 
 /* Adds a warning to *to if the largest stress of the run is too small to make a crack grow: if the following ratio is
- * below rule[ACCEPT_GROWTH].least. In Griffith's plate (1921) a crack as long as the longest edge a of the body would
- * have the energy release rate pi sigma^2 a/E, which is divided by the smallest one of a material. As bending is not
- * computed, sigma is the stress times the slenderness of the body. Checks nothing if no material has an energy release
- * rate, or with interfaces. p: particles; stress: stress of the loads [Pa]. */
+ * below 0.1 (rule[ACCEPT_GROWTH].least). In Griffith's plate (1921) a crack as long as the longest edge a of the body
+ * would have the energy release rate pi sigma^2 a/E, which is divided by the smallest one of a material. As bending is
+ * not computed, sigma is the stress times the slenderness of the body. Checks nothing if no material has an energy
+ * release rate, or with interfaces. p: particles; stress: stress of the loads [Pa]. */
 static void units_of_growth(const struct scene *s, const struct particles *p, real stress, struct warnings *to)
 {
     real rate = INFINITY, young = INFINITY, longest = 0, least = INFINITY, low, high;
@@ -372,11 +372,11 @@ static void units_of_growth(const struct scene *s, const struct particles *p, re
 }
 
 /* Adds a warning to *to if nothing loads the bodies, or if the largest stress of the run divided by the strength is
- * outside the range rule[ACCEPT_STRESS]. Then judges whether a crack can grow (units_of_growth). The stress of `loads`
- * on p is estimated from tractions, as rho c v from speeds v, and as E u/L from displacements u of bodies of length L
- * (rho: density, c: wave speed, E: Young's modulus). Displacements in dynamic runs are not reported as too large, since
- * they may grow after the first bonds have broken. Checks nothing for method mpm, if no bond can break, and with cracks
- * of prescribed growth. */
+ * outside the plausible range 0.01 to 1000 (rule[ACCEPT_STRESS]). Then judges whether a crack can grow
+ * (units_of_growth). The stress of `loads` on p is estimated from tractions, as rho c v from speeds v, and as E u/L
+ * from displacements u of bodies of length L (rho: density, c: wave speed, E: Young's modulus). Displacements in
+ * dynamic runs are not reported as too large, since they may grow after the first bonds have broken. Checks nothing for
+ * method mpm, if no bond can break, and with cracks of prescribed growth. */
 static void units_of_loads(const struct scene *s, const struct particles *p, const struct loads *loads,
                            struct warnings *to)
 {
@@ -413,8 +413,9 @@ static void units_of_loads(const struct scene *s, const struct particles *p, con
     if (stress >= enough) units_of_growth(s, p, largest, to);
 }
 
-/* Adds a warning to *to if the largest traction or pressure of the boundaries exceeds rule[ACCEPT_STRAIN].most times
- * the smallest Young's modulus of the materials. The warning counts the other boundaries of which this is true. */
+/* Adds a warning to *to if the largest traction or pressure of the boundaries exceeds 0.05 (rule[ACCEPT_STRAIN].most)
+ * times the smallest Young's modulus of the materials. The warning counts the other boundaries of which this is
+ * true. */
 static void units_of_tractions(const struct scene *s, struct warnings *to)
 {
     char subject[NAME_MAX_LENGTH + 16], note[120];

@@ -103,9 +103,9 @@ void mesh_node_update_mass(struct mesh *mesh, const struct particles *p, int64_t
 void mesh_rebuild_cells_after_level_change(struct mesh *mesh, const struct particles *p,
                                            const struct mesh_source *source, const uint8_t *level_has_changed);
 
-/* Groups the cells of a mesh without points (a coarse level) into rows of consecutive cells of equal material, the runs
- * of the mesh. Finds the span of nodes with mass in each row of nodes, and the active blocks of nodes (eight nodes
- * each, included in computations). Input: kinds and materials of the cells and masses of the nodes. */
+/* Groups the cells of `mesh`, a mesh of coarse cells without points, into rows of consecutive cells of equal material,
+ * the runs of the mesh. Finds the span of nodes with mass in each row of nodes, and the active blocks of nodes (eight
+ * nodes each, included in computations). Input: kinds and materials of the cells and masses of the nodes. */
 void mesh_make_cell_rows_and_node_spans(struct mesh *mesh);
 
 /* Finds in each row of nodes of `mesh` along the first axis the span of nodes with mass, to which loops over nodes are

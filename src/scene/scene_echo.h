@@ -28,7 +28,7 @@ void writer_begin_list_item(struct writer *w);
 void yaml_write_real(struct writer *w, real value);
 
 /* Writes the string `text` in double quotes to the YAML text of the writer w. Quotes and backslashes in it are escaped,
- * and all characters but printable ASCII, such as line breaks, are written as \U escapes. */
+ * and all characters but printable ASCII, such as line breaks or accented letters, are written as \U escapes. */
 void yaml_write_quoted_text(struct writer *w, const char *text);
 
 /* Writes the numbers value[count] to the YAML text of the writer w as a list in brackets. */
