@@ -73,8 +73,7 @@ static ALWAYS_INLINE void points_update_stress(struct particles *p, const struct
         const int32_t i = point[k];
         if (near >> k & 1 && stress_converts(&t->elastic[p->material[i]], p, i, own, dim)) p->flag[i] |= FLAG_STRESSED;
     }
-    if (flows && at_once)
-        flow_points_map(p, t, point, points, (const lanes *)L, (lanes *)stress, *(const lanes *)&after, dim);
+    if (flows && at_once) flow_points_map(p, t, point, (const lanes *)L, (lanes *)stress, *(const lanes *)&after, dim);
 }
 
 /* Multiplies the rotations of a few material points with bonds (p->end_rotation), one point per lane, by the rotation

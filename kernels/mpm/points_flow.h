@@ -5,6 +5,10 @@
 #include "kernels/laws/law_update.h"
 #include "stress.h"
 
+/* Length of an array with the numbers of eight points, which ends with the entry PAIRED of points_list; 0 where there
+ * are not eight points at once. */
+enum { FLOW_NUMBERS = LANES + 1 };
+
 /* List of n points of materials that yield, which wait for their return mapping, with the input data of the mapping.
  * FLOW_ROOM: capacity. Points are collected from several cells until they fill a vector, since a cell has fewer points
  * than a vector has lanes. */
@@ -46,20 +50,26 @@ static ALWAYS_INLINE void flow_motion_of(struct flow_motion *m, const lanes *L, 
     m->trace = m->strain[0] + m->strain[1] + m->strain[2];
 }
 
-/* Returns a vector whose lane l is from[point[l]]. Eight loads take half the time of a gather instruction. */
+/* Returns a vector whose lane l is from[point[l]]. Eight loads take half the time of a gather instruction. point: with
+ * FLOW_NUMBERS entries. */
 static ALWAYS_INLINE lanes flow_gather_points(const real *from, const int32_t *point)
 {
+#if POINTS_LANES == 8
+    if (point[PAIRED]) return (lanes)points_load_pairs(from, point);
+#endif
     return (lanes){from[point[0]], from[point[1]], from[point[2]], from[point[3]],
                    from[point[4]], from[point[5]], from[point[6]], from[point[7]]};
 }
 
-/* Stores lane l of a in to[point[l]] for l = 0 .. n - 1. */
-static ALWAYS_INLINE void flow_scatter_points(real *to, const int32_t *point, lanes a, int n)
+/* Stores lane l of a in to[point[l]]. Lanes that hold the same point must have equal values. point: with FLOW_NUMBERS
+ * entries. */
+static ALWAYS_INLINE void flow_scatter_points(real *to, const int32_t *point, lanes a)
 {
-    if (n == LANES)
-        for (int l = 0; l < LANES; l++) to[point[l]] = a[l];
-    else
-        for (int l = 0; l < n; l++) to[point[l]] = a[l];
+#if POINTS_LANES == 8
+    points_store(to, point, (row_of_points)a, DIM_MAX);
+#else
+    for (int l = 0; l < LANES; l++) to[point[l]] = a[l];
+#endif
 }
 
 /* Returns the lanes l to l + POINTS - 1 of the vector *a as a vector of POINTS entries. */
@@ -147,17 +157,17 @@ static NEVER_INLINE void flow_store_normal_stress_or_volume(struct particles *p,
             p->volume[point[l]] = e->volume[l] * p->volume0[point[l]];
 }
 
-/* Stores in p the state e of the n points point[n] of material m after the return mapping. flowed: bit l is set if
- * point[l] has yielded; all other points keep their stress. stress[components] [Pa]: receives the stresses of the
- * points that have yielded. */
+/* Stores in p the state e of eight points of material m after the return mapping. flowed: bit l is set if point[l] has
+ * yielded; all other points keep their stress. stress[components] [Pa]: receives the stresses of the points that have
+ * yielded. */
 static ALWAYS_INLINE void flow_store_points(struct particles *p, const struct elastic *m, const struct law_points *e,
-                                            unsigned flowed, const int32_t *point, int n, lanes *stress, const int dim)
+                                            unsigned flowed, const int32_t *point, lanes *stress, const int dim)
 {
     const lanes_mask own = lanes_mask_from_bits((uint8_t)flowed);
     for (int c = 0; c < dim * (dim + 1) / 2; c++) stress[c] = lanes_choose(own, e->s[law_place[dim][c]], stress[c]);
     if (m->space != SPACE_SOLID) flow_store_normal_stress_or_volume(p, m, e, flowed, point);
-    flow_scatter_points(p->plastic_strain, point, e->a, n), flow_scatter_points(p->plastic_work, point, e->work, n);
-    if (p->temperature) flow_scatter_points(p->temperature, point, e->temperature, n);
+    flow_scatter_points(p->plastic_strain, point, e->a), flow_scatter_points(p->plastic_work, point, e->work);
+    if (p->temperature) flow_scatter_points(p->temperature, point, e->temperature);
     flow_clear_conversion_flags(p, m, e, flowed, point, dim);
 }
 
@@ -186,32 +196,43 @@ static ALWAYS_INLINE void flow_points_remove_first(struct flow_points *due, int 
     *(points_anywhere *)due->volume = *(const points_anywhere *)(due->volume + n);
 }
 
-/* Return mapping: maps the trial stresses of n points of p (n <= LANES) back to their yield surfaces if their materials
- * yield, stores stress, plastic strain, plastic work, back stress and temperature, and clears FLAG_STRESSED of those
- * that yield if the resulting stress does not exceed the conversion stress (at which points become peridynamic). Their
- * volumes must have been stored in p. point: numbers of the points, filled up to LANES; L: velocity gradients [1/s];
- * stress[components], volume: trial stresses [Pa], which are changed, and volumes [m^3]; t: time step and constants of
- * the materials. Points of several materials are mapped material by material. */
+/* Return mapping: maps the trial stresses of eight points of p back to their yield surfaces if their materials yield,
+ * stores stress, plastic strain, plastic work, back stress and temperature, and clears FLAG_STRESSED of those that
+ * yield if the resulting stress does not exceed the conversion stress (at which points become peridynamic). Their
+ * volumes must have been stored in p. point[FLOW_NUMBERS]: numbers of the points; lanes may repeat a point with all its
+ * values. L: velocity gradients [1/s]; stress[components], volume: trial stresses [Pa], which are changed, and volumes
+ * [m^3]; t: time step and constants of the materials. Points of several materials are mapped material by material. */
 static NEVER_INLINE void flow_points_map(struct particles *p, const struct transfer_data *t, const int32_t *point,
-                                         int n, const lanes *L, lanes *stress, lanes volume, const int dim)
+                                         const lanes *L, lanes *stress, lanes volume, const int dim)
 {
     struct flow_motion motion;
     struct law_points e;
-    unsigned left = (1u << n) - 1;
+    unsigned left = (1u << LANES) - 1;
     flow_motion_of(&motion, L, t->dt, dim);
     while (left) {
         const struct elastic *m = &t->elastic[p->material[point[__builtin_ctz(left)]]];
         unsigned own = 0;
-        for (int l = 0; l < n; l++) own |= (unsigned)(left >> l & 1 && &t->elastic[p->material[point[l]]] == m) << l;
+        for (int l = 0; l < LANES; l++)
+            own |= (unsigned)(left >> l & 1 && &t->elastic[p->material[point[l]]] == m) << l;
         left &= ~own;
         if (!m->law) continue;
         flow_load_points(p, m, point, stress, volume, &motion, t->dt, &e, dim);
         e.active = lanes_mask_from_bits((uint8_t)own);
         const unsigned flowed = law_update(m->law, &e, m->space, LAW_EXPLICIT);
         if (p->back_stress[0]) flow_store_back_stress(p, &e, own, point, dim);
-        if (flowed) flow_store_points(p, m, &e, flowed, point, n, stress, dim);
+        if (flowed) flow_store_points(p, m, &e, flowed, point, stress, dim);
     }
-    for (int c = 0; c < dim * (dim + 1) / 2; c++) flow_scatter_points(p->stress[c], point, stress[c], n);
+    for (int c = 0; c < dim * (dim + 1) / 2; c++) flow_scatter_points(p->stress[c], point, stress[c]);
+}
+
+/* Fills the n < LANES points of the list `due` up to LANES by repeating the last one. */
+static NEVER_INLINE void flow_points_fill(struct flow_points *due, int n, const int dim)
+{
+    for (int l = n; l < LANES; l++) {
+        due->point[l] = due->point[n - 1], due->volume[l] = due->volume[n - 1];
+        for (int k = 0; k < dim * dim; k++) due->L[k][l] = due->L[k][n - 1];
+        for (int c = 0; c < dim * (dim + 1) / 2; c++) due->stress[c][l] = due->stress[c][n - 1];
+    }
 }
 
 /* Applies the return mapping (flow_points_map) to the first points in the list `due`, at most LANES, and removes them
@@ -220,12 +241,13 @@ static NEVER_INLINE void flow_points_return_mapping(struct particles *p, const s
                                                     struct flow_points *due, const int dim)
 {
     const int n = int_min(due->n, LANES);
-    int32_t point[LANES] __attribute__((aligned(LANES * sizeof(int32_t))));
+    int32_t point[FLOW_NUMBERS] __attribute__((aligned(LANES * sizeof(int32_t)))) = {0};
     lanes L[DIM_MAX * DIM_MAX], stress[SYM_MAX];
-    for (int l = 0; l < LANES; l++) point[l] = due->point[int_min(l, n - 1)];
+    if (n < LANES) flow_points_fill(due, n, dim);
+    for (int l = 0; l < LANES; l++) point[l] = due->point[l];
     for (int k = 0; k < dim * dim; k++) L[k] = lanes_load(due->L[k]);
     for (int c = 0; c < dim * (dim + 1) / 2; c++) stress[c] = lanes_load(due->stress[c]);
-    flow_points_map(p, t, point, n, L, stress, lanes_load(due->volume), dim);
+    flow_points_map(p, t, point, L, stress, lanes_load(due->volume), dim);
     flow_points_remove_first(due, n, dim);
 }
 
