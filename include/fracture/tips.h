@@ -10,8 +10,9 @@
  * that touch each other; of equally far ones in separate groups, as on two branches, one group is chosen
  * (fracture/places.h). Particles beside the last 2.5 spacings of the pre-crack do not count as growth. A crack that
  * started away from all others and is reached by another becomes part of it, unless both have grown by more than
- * three spacings, run in the same direction and touch behind both tips. In 3D every edge of a pre-crack inside the
- * body is one front, whose start is the whole edge. */
+ * three spacings, run in the same direction and touch behind both tips, or the longest crack would become shorter: it
+ * is measured from another start then. In 3D every edge of a pre-crack inside the body is one front, whose start is the
+ * whole edge. */
 #ifndef CLEAVE_TIPS
 #define CLEAVE_TIPS
 

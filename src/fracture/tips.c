@@ -114,18 +114,39 @@ static bool are_side_by_side(const struct flood *f, const struct crack_tip *a, c
            is_behind(f, b, j);
 }
 
+/* Returns true if the longest crack would become shorter if crack number `gone`, with all cracks that have become a
+ * part of it in this sample, became a part of crack number `keep`: one of them is longer than `keep`, and both its ends
+ * are nearer to the start of `keep` than to one another. f: assignment of damaged particles to cracks. */
+static bool merging_would_shorten(const struct flood *f, int keep, int gone)
+{
+    const struct crack_tip *whole = &f->t->tip[keep];
+    real offset[DIM_MAX];
+    for (int k = 0; k < f->t->n; k++) {
+        const struct crack_tip *part = &f->t->tip[k];
+        if (tips_root_of(f, k) != gone) continue;
+        real length = whole->growth;
+        for (int end = 0; end < 2; end++)
+            length =
+                real_max(length, segment_distance_and_offset_to_point(
+                                     whole->origin, whole->edge, end ? part->place : part->origin, f->t->dim, offset));
+        if (length < part->growth - TIP_EQUAL * f->t->spacing) return true;
+    }
+    return false;
+}
+
 /* Merges the cracks to which the touching particles i and j belong, in f, the assignment of damaged particles to
- * cracks. Two cracks that both start at ends of pre-cracks, or that run side by side, stay separate. Otherwise a crack
- * that starts at no pre-crack is merged into one that does, or, if neither starts at a pre-crack, the later crack into
- * the earlier one. */
+ * cracks. Two cracks that both start at ends of pre-cracks, that run side by side, or of which the longer one would
+ * become shorter, stay separate. Otherwise a crack that starts at no pre-crack is merged into one that does, or, if
+ * neither starts at a pre-crack, the later crack into the earlier one. */
 static void flood_join(struct flood *f, int32_t i, int32_t j)
 {
     const struct crack_tip *tip = f->t->tip;
     const int a = tips_root_of(f, f->t->label[i] - 1), b = tips_root_of(f, f->t->label[j] - 1);
     const bool a_fixed = tip[a].from_crack, b_fixed = tip[b].from_crack;
     if (a == b || (a_fixed && b_fixed) || are_side_by_side(f, &tip[a], &tip[b], i, j)) return;
-    const int keep = a_fixed || (!b_fixed && a < b) ? a : b;
-    f->into[keep == a ? b : a] = keep;
+    const int keep = a_fixed || (!b_fixed && a < b) ? a : b, gone = keep == a ? b : a;
+    if (merging_would_shorten(f, keep, gone)) return;
+    f->into[gone] = keep;
     f->grown_by[keep] = true;
 }
 

@@ -280,6 +280,26 @@ static void tips_that_touch_beside_are_two(void **state)
     notched_free(&b, &t);
 }
 
+/* Checks that a crack of 16 spacings that the crack of a pre-crack reaches in its middle stays as long as it is: from
+ * the end of the pre-crack it would extend by 9. */
+static void tips_that_meet_do_not_heal(void **state)
+{
+    (void)state;
+    struct body b;
+    struct crack_tips t;
+    notched_make(&b, &t, 3);
+    for (int k = 0; k <= 16; k++) hurt(&b, 14.5, 2.5 + k, 0);
+    tips_update_from_damage(&t, &b.p, &b.c, 0);
+    assert_near(tips_find_tip_with_largest_growth(&t)->growth, 16, ROUND_OFF);
+    for (int k = 0; k < 4; k++) {
+        hurt(&b, 10.5 + k, 10.5, 0);
+        tips_update_from_damage(&t, &b.p, &b.c, k + 1);
+        assert_near(tips_find_tip_with_largest_growth(&t)->growth, 16, ROUND_OFF);
+    }
+    assert_int_equal(t.n, 2);
+    notched_free(&b, &t);
+}
+
 /* Checks that a crack that only joins others after its first spacing has no mean speed. */
 static void tip_that_only_joins(void **state)
 {
@@ -428,6 +448,7 @@ int main(void)
         cmocka_unit_test(tip_growth_leaves_out),
         cmocka_unit_test(tip_joins_a_crack_ahead),
         cmocka_unit_test(tips_that_touch_beside_are_two),
+        cmocka_unit_test(tips_that_meet_do_not_heal),
         cmocka_unit_test(tip_that_only_joins),
         cmocka_unit_test(tip_of_a_front),
         cmocka_unit_test(tips_area_in_the_plane),
