@@ -8,13 +8,12 @@
 #include "base/memory.h"
 
 /* FILM_FRAMES_MOST: largest number of frames of a film. FRAMES_FEWER, FRAMES_FEWEST: numbers of frames of films that
- * would otherwise be too large. EVERY_MOST: largest stride with which particles are left out before damaged and yielded
- * particles are left out as well. */
-enum { FILM_FRAMES_MOST = 61, FRAMES_FEWER = 21, FRAMES_FEWEST = 11, EVERY_MOST = 32 };
+ * would otherwise be too large. */
+enum { FILM_FRAMES_MOST = 61, FRAMES_FEWER = 21, FRAMES_FEWEST = 11 };
 /* Largest values of stored 16-bit numbers, unsigned and signed. */
 enum { U16_MOST = 65535, I16_MOST = 32767 };
 
-/* Plastic strain above which a particle counts as yielded, and is shown as a particle of its own [1]. */
+/* Plastic strain above which a particle counts as yielded [1]. */
 static const float YIELDED = 1e-4f;
 
 /* ---- particle sets ----------------------------------------------------------------------------------------------- */
@@ -45,25 +44,23 @@ static void set_make(struct film_set *s, const struct output_frame *frame)
     if (frame->spacing) s->size = copy_of(frame->spacing, n, sizeof(float));
     s->material = copy_of(frame->material, n, sizeof(uint8_t));
     s->body = copy_of(frame->body, n, sizeof(uint8_t));
-    s->busy = NEW("report.busy", n, bool);
+    s->state = NEW("report.state", n, uint8_t);
     s->history = NEW("report.history", n, uint32_t);
     s->level = NEW("report.level", n, uint8_t);
     s->first = NEW("report.first", n + 1, int32_t);
     s->member = NEW("report.member", n, int32_t);
-    s->hidden = NEW("report.hidden", n, bool);
 }
 
 static void set_free(struct film_set *s)
 {
     for (int d = 0; d < DIM_MAX; d++) memory_free(s->X[d]);
-    memory_free(s->size), memory_free(s->material), memory_free(s->body), memory_free(s->busy);
+    memory_free(s->size), memory_free(s->material), memory_free(s->body), memory_free(s->state);
     memory_free(s->history), memory_free(s->level), memory_free(s->first), memory_free(s->member);
-    memory_free(s->hidden);
 }
 
-/* Sets s->busy[i] to true for each particle i of the particle set s (the particles that consecutive frames have in
- * common) that is damaged or has a plastic strain above YIELDED in `frame`. Also updates s->history[i], a hash of the
- * kinds and fragments of particle i in all output frames. path: file of the frame. */
+/* Updates s->state[i], the worst that particle i of the particle set s (the particles that consecutive frames have in
+ * common) suffers in any output frame, by its damage and plastic strain in `frame`. Also updates s->history[i], a hash
+ * of the kinds and fragments of particle i in all output frames. path: file of the frame. */
 static void set_mark(struct film_set *s, const struct output_frame *frame, const char *path)
 {
     int columns = 0;
@@ -71,7 +68,10 @@ static void set_mark(struct film_set *s, const struct output_frame *frame, const
     const bool yields = frame_field_read(frame, path, "plastic_strain", &columns, &strain) == OK && columns == 1;
     for (int64_t i = 0; i < s->n; i++) {
         const uint32_t fragment = frame->fragment ? (uint32_t)frame->fragment[i] + 2 : 0;
-        s->busy[i] |= frame->damage[i] > 0 || (yields && strain[i] > YIELDED);
+        if (frame->damage[i] > CRACK_DAMAGE)
+            s->state[i] = FILM_CRACKED;
+        else if (s->state[i] == FILM_INTACT && (frame->damage[i] > 0 || (yields && strain[i] > YIELDED)))
+            s->state[i] = FILM_DAMAGED;
         s->history[i] = (s->history[i] * 31 + frame->kind[i]) * 2654435761u + fragment;
     }
     if (columns > 0) memory_free(strain);
@@ -105,7 +105,7 @@ static int spread(int k, int n, int most) { return n <= most ? k : (int)lround((
 status film_read_frames_of_run(struct film *f, const char *folder, const struct scene *scene)
 {
     struct listed_frame *list = NULL;
-    *f = (struct film){.folder = folder, .scene = scene, .every = 1};
+    *f = (struct film){.folder = folder, .scene = scene};
     TRY(run_list_frames(folder, &f->listed, &list));
     f->frames = f->listed < FILM_FRAMES_MOST ? f->listed : FILM_FRAMES_MOST;
     f->frame = NEW("report.frames", f->frames, struct film_frame);
@@ -145,9 +145,8 @@ static void frames_use(struct film *f, int most)
 }
 
 /* Divides the particles of all particle sets of the film f (the frames of a run as the page shows them) into groups,
- * each of which is shown as one particle. A group is a single particle or a cubic cell of particles; f->levels limits
- * the size of the cells. If f->every > 1, only every f->every-th group is shown, except that groups with damaged or
- * yielded particles are all shown unless f->thins_busy is true. */
+ * each of which is shown as one particle. A group is a single particle or a cubic cell of particles; f->levels,
+ * f->levels_damaged and f->levels_all limit the size of the cells. */
 static void film_group(struct film *f)
 {
     for (int k = 0; k < f->sets; k++) film_particle_set_form_groups(&f->set[k], f);
@@ -159,8 +158,8 @@ static bool fits(const struct film *f, int64_t budget)
 {
     const int64_t each = 2 * f->dim + film_bytes_per_group_and_frame(f), once = 2 * f->dim + 6;
     int64_t bytes = 0;
-    for (int k = 0; k < f->sets; k++) bytes += once * f->set[k].shown;
-    for (int k = 0; k < f->frames; k++) bytes += f->frame[k].used ? each * f->set[f->frame[k].set].shown : 0;
+    for (int k = 0; k < f->sets; k++) bytes += once * f->set[k].groups;
+    for (int k = 0; k < f->frames; k++) bytes += f->frame[k].used ? each * f->set[f->frame[k].set].groups : 0;
     return bytes <= budget;
 }
 
@@ -188,64 +187,54 @@ void film_select_within_byte_budget(struct film *f, int64_t byte_budget)
     frames_use(f, FRAMES_FEWER);
     while (!fits(f, byte_budget) && f->levels < FILM_LEVELS) f->levels++, film_group(f);
     if (!fits(f, byte_budget)) frames_use(f, FRAMES_FEWEST);
-    while (!fits(f, byte_budget)) {
-        f->every *= 2;
-        f->thins_busy = f->every > EVERY_MOST;
-        film_group(f);
-    }
+    while (!fits(f, byte_budget) && f->levels_damaged < FILM_LEVELS_DAMAGED) f->levels_damaged++, film_group(f);
+    while (!fits(f, byte_budget) && f->levels_all < FILM_LEVELS_ALL) f->levels_all++, film_group(f);
     film_fill(f, byte_budget);
 }
 
 /* ---- second reading ---------------------------------------------------------------------------------------------- */
 
-/* Writes the coordinate along axis d of the reference positions of all shown groups (particles shown as one) of the
- * particle set s to the page p: the means over the particles of each group, as 16-bit numbers between the smallest and
- * the largest mean. */
-static void write_positions(struct page *p, const struct film_set *s, int d)
+/* Writes the coordinate along axis d of the reference positions of all groups (particles shown as one) of the particle
+ * set s of film f to the page p, as 16-bit numbers between the smallest and the largest one. */
+static void write_positions(struct page *p, const struct film *f, const struct film_set *s, int d)
 {
-    double *mean = NEW("report.mean", s->groups, double), low = INFINITY, high = -INFINITY;
-    uint16_t *stored = NEW("report.stored", s->shown, uint16_t);
-    int64_t n = 0;
+    double *centre = BARE("report.centre", s->groups, double), low = INFINITY, high = -INFINITY;
+    uint16_t *stored = BARE("report.stored", s->groups, uint16_t);
     for (int64_t g = 0; g < s->groups; g++) {
-        for (int32_t k = s->first[g]; k < s->first[g + 1]; k++) mean[g] += s->X[d][s->member[k]];
-        mean[g] /= s->first[g + 1] - s->first[g];
-        low = fmin(low, mean[g]), high = fmax(high, mean[g]);
+        centre[g] = film_centre_of_group(s, f, g, d);
+        low = fmin(low, centre[g]), high = fmax(high, centre[g]);
     }
     for (int64_t g = 0; g < s->groups; g++)
-        if (!s->hidden[g]) stored[n++] = (uint16_t)lround(high > low ? U16_MOST * (mean[g] - low) / (high - low) : 0);
+        stored[g] = (uint16_t)lround(high > low ? U16_MOST * (centre[g] - low) / (high - low) : 0);
     json_open(&p->json, NULL, '{');
     json_write_rounded(&p->json, "low", low, JSON_EXACT);
     json_write_rounded(&p->json, "high", high, JSON_EXACT);
-    page_add_array(p, "of", PAGE_U16, stored, n);
+    page_add_array(p, "of", PAGE_U16, stored, s->groups);
     json_close(&p->json, '}');
-    memory_free(stored), memory_free(mean);
+    memory_free(stored), memory_free(centre);
 }
 
-/* Writes the displacements of an output frame of film f along axis d for all shown groups (particles shown as one) of
+/* Writes the displacements of an output frame of film f along axis d for all groups (particles shown as one) of
  * the particle set s to the page p: the mean of u over the particles of each group, divided by the largest
  * displacement f->reach[d], as a signed 16-bit number. u[s->n]: displacements of the particles [m]. */
 static void write_displacements(struct page *p, const struct film *f, const struct film_set *s, const float *u, int d)
 {
-    int16_t *stored = NEW("report.stored", s->shown, int16_t);
-    int64_t n = 0;
+    int16_t *stored = BARE("report.stored", s->groups, int16_t);
     for (int64_t g = 0; g < s->groups; g++) {
         double sum = 0;
-        if (s->hidden[g]) continue;
         for (int32_t k = s->first[g]; k < s->first[g + 1]; k++) sum += (double)u[s->member[k]];
         const double share = sum / (s->first[g + 1] - s->first[g]) / f->reach[d];
-        stored[n++] = (int16_t)(isfinite(share) ? lround(I16_MOST * fmin(fmax(share, -1), 1)) : 0);
+        stored[g] = (int16_t)(isfinite(share) ? lround(I16_MOST * fmin(fmax(share, -1), 1)) : 0);
     }
-    page_add_array(p, NULL, PAGE_I16, stored, n);
+    page_add_array(p, NULL, PAGE_I16, stored, s->groups);
     memory_free(stored);
 }
 
 static void write_sizes(struct page *p, const struct film *f, const struct film_set *s)
 {
-    float *size = NEW("report.size", s->shown, float);
-    int64_t n = 0;
-    for (int64_t g = 0; g < s->groups; g++)
-        if (!s->hidden[g]) size[n++] = (float)film_edge_length_of_group(s, f, g);
-    if (s->size || f->levels > 0 || f->every > 1) page_add_array(p, "size", PAGE_F32, size, n);
+    float *size = BARE("report.size", s->groups, float);
+    for (int64_t g = 0; g < s->groups; g++) size[g] = (float)film_edge_length_of_group(s, f, g);
+    if (s->size || f->levels > 0) page_add_array(p, "size", PAGE_F32, size, s->groups);
     memory_free(size);
 }
 
@@ -257,9 +246,9 @@ static void write_film_set(struct page *p, const struct film *f, const struct fi
 {
     json_open(&p->json, NULL, '{');
     json_write_integer(&p->json, "particles", s->n);
-    json_write_integer(&p->json, "n", s->shown);
+    json_write_integer(&p->json, "n", s->groups);
     json_open(&p->json, "X", '[');
-    for (int d = 0; d < f->dim; d++) write_positions(p, s, d);
+    for (int d = 0; d < f->dim; d++) write_positions(p, f, s, d);
     json_close(&p->json, ']');
     write_sizes(p, f, s);
     json_open(&p->json, "fixed", '{');
@@ -342,7 +331,9 @@ status film_write(struct page *page, const struct film *f)
     json_write_rounded(&page->json, "spacing", f->spacing, JSON_TIMING);
     json_write_integer(&page->json, "listed", f->listed);
     json_write_integer(&page->json, "levels", f->levels);
-    json_write_integer(&page->json, "every", f->every);
+    json_write_integer(&page->json, "levels_damaged", f->levels_damaged);
+    json_write_integer(&page->json, "levels_all", f->levels_all);
+    json_write_integer(&page->json, "lacks_extra", f->lacks_extra);
     json_open(&page->json, "reach", '[');
     for (int d = 0; d < f->dim; d++) json_write_rounded(&page->json, NULL, f->reach[d], JSON_TIMING);
     json_close(&page->json, ']');

@@ -6,8 +6,13 @@
 #include "page.h"
 #include "plot/plot.h"
 
-/* Largest number of fields of a page; largest level of merged cells. */
-enum { FILM_FIELDS_MOST = 24, FILM_LEVELS = 3 };
+/* FILM_FIELDS_MOST: largest number of fields of a page. A cell of level L has 2^L particles along an edge; largest
+ * level of cells of intact particles, of cells with damaged ones, and of cells of any particles. */
+enum { FILM_FIELDS_MOST = 24, FILM_LEVELS = 3, FILM_LEVELS_DAMAGED = 2, FILM_LEVELS_ALL = 15 };
+
+/* What a particle suffers in the frames of a film: nothing; damage of at most CRACK_DAMAGE, or yielding; more damage,
+ * with which pictures show it as part of a crack. */
+enum film_state { FILM_INTACT, FILM_DAMAGED, FILM_CRACKED };
 
 /* A field of the frames as the page stores it, with 8 bits per particle (fragments: 16). */
 struct film_field {
@@ -28,12 +33,12 @@ struct film_set {
     real *X[DIM_MAX];         /* [n] reference positions [m] */
     float *size;              /* [n] spacing of each particle [m]; NULL: that of the film */
     uint8_t *material, *body; /* [n] index of the material, of the body */
-    bool *busy;               /* [n] true: damaged or yielded in at least one frame */
+    uint8_t *state;           /* [n] enum film_state: the worst of all frames */
     uint32_t *history;        /* [n] hash of kind and fragment in all frames */
     uint8_t *level;           /* [n] the cell of a merged particle has 2^level particles along an edge; 0: not merged */
-    int64_t groups, shown;    /* number of groups; number of groups that are shown */
+    double corner[DIM_MAX];   /* lower corner of the box of all particles, where cells begin [m] */
+    int64_t groups;           /* number of groups */
     int32_t *first, *member;  /* particles of group g: member[first[g]] .. member[first[g + 1] - 1] */
-    bool *hidden;             /* [groups] true: the group is not shown */
 };
 
 /* A frame (state of the run at one time) that was read for a page. used: the page shows the frame. */
@@ -58,10 +63,10 @@ struct film {
     struct film_field field[FILM_FIELDS_MOST]; /* [fields] fields that the page can show */
     int fields;
     double reach[DIM_MAX]; /* largest displacement along each axis [m] */
-    int levels;            /* largest level of merged cells */
-    int every;             /* every n-th group that is not busy is shown: n */
-    bool thins_busy;       /* only every n-th busy group is shown, too */
-    bool lacks_extra;      /* extra fields are left out, so that the page does not become too large */
+    /* largest level of cells of intact particles; of cells with damaged ones; level of the cells into which all
+     * particles are merged, also those of cracks and of cells that the body fills partly */
+    int levels, levels_damaged, levels_all;
+    bool lacks_extra; /* extra fields are left out, so that the page does not become too large */
 };
 
 /* Reads at most about sixty output frames (states) of the run in `folder` into f. Finds the sets of particles that
@@ -82,16 +87,20 @@ status film_write(struct page *page, const struct film *f);
 void film_free(struct film *f);
 
 /* Divides the particles of the set `particle_set` (particles that several output frames have in common) into groups,
- * each of which the page (the HTML report) shows as one particle. Particles that fill a cubic cell with up to
- * 2^f->levels particles along an edge become one group, if none of them is damaged or has yielded in any frame and all
- * have the same kind and fragment in every frame. Each other particle is a group. If f->every is above 1, marks the
- * groups that are not shown as hidden. */
+ * each of which the page (the HTML report) shows as one particle. Particles of one material and body that fill a cubic
+ * cell become one group. The cell has up to 2^f->levels particles along an edge if none of them is damaged or has
+ * yielded in any frame and all have the same kind and fragment in every frame, and up to 2^f->levels_damaged if none is
+ * part of a crack. If f->levels_all is above 0, all particles in a cell of this level become one group, whether they
+ * fill the cell or not. Each other particle is a group. */
 void film_particle_set_form_groups(struct film_set *particle_set, const struct film *f);
 
 /* Returns the edge [m] with which the page draws group number `group` of the set `particle_set`: the spacing of a
- * single particle or, for a group of merged particles, the edge of their cubic cell. The edge is enlarged if only one
- * of f->every groups is shown, so that the shown groups fill the body. */
+ * single particle or, for a group of merged particles, the edge of their cubic cell. */
 double film_edge_length_of_group(const struct film_set *particle_set, const struct film *f, int64_t group);
+
+/* Returns the coordinate along `axis` [m] of the centre of group number `group` of the set `particle_set` in the
+ * reference state: the mean of its particles, or the centre of a cell that they fill partly. */
+double film_centre_of_group(const struct film_set *particle_set, const struct film *f, int64_t group, int axis);
 
 /* Fills the table f->field with the fields (quantities stored for each particle) that a run in f->dim dimensions may
  * have, and sets f->fields, their number. */
@@ -115,7 +124,7 @@ int film_bytes_per_group_and_frame(const struct film *f);
 bool film_field_is_shown(const struct film *f, const struct film_field *field);
 
 /* Writes the values of one field in the output frame `frame` to the page p (HTML report) as an array with one value for
- * each shown group of `particle_set` (particles that are shown as one): the mean over the particles of the group. path:
+ * each group of `particle_set` (particles that are shown as one): the mean over the particles of the group. path:
  * file from which the frame was read. */
 void film_write_field_values_of_frame(struct page *p, const struct film_field *field,
                                       const struct film_set *particle_set, const struct output_frame *frame,

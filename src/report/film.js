@@ -216,7 +216,7 @@ function drawColourBar(context, width, height) {
     for (const value of list) {
         const y = top + 6 + tall * (1 - (value * unit.factor - view.low) / (view.high - view.low));
         context.fillRect(left + 15, y - 0.5, 4, 1);
-        context.fillText(tickText(value, list), left + 22, y + 4);
+        context.fillText(tickText(value, list), left + 22, y + 4, BAR - 36);
     }
 }
 
@@ -416,30 +416,6 @@ function particleText(i) {
             field.name.replace(/_/g, " ") + " " + (clipped || "") + quantity(value, field.unit, 3));
     if (damage && field.name !== "damage") parts.push("damage " + number(damage[i] / 254, 2));
     return parts.join(" · ");
-}
-
-// What the page leaves out of the frames.
-function thinnedText() {
-    const parts = [], set = film.sets[film.frames[film.frames.length - 1].set];
-    if (film.frames.length < film.listed) parts.push(film.frames.length + " of " + film.listed + " frames.");
-    if (film.levels > 0)
-        parts.push("Where nothing breaks or yields, cells of up to " +
-            Array(film.dim).fill(2 ** film.levels).join(" × ") +
-            " particles are drawn as one, with their mean values.");
-    if (film.every > 1) parts.push("Of the others one in " + film.every + " is drawn.");
-    if (set.n < set.particles)
-        parts.push(number(set.n) + " of " + number(set.particles) + " particles are drawn in the last frame.");
-    const cut = film.fields.filter((f) => f.scale !== "category" && f.axis === undefined &&
-            (f.most > f.high * 1.001 + 1e-12 || f.least < f.low - Math.abs(f.low) * 1e-3));
-    if (cut.length)
-        parts.push((film.dim === 1 ? "Values beyond the stored range are drawn at its ends (0.05 % at either end): " :
-                                     "Colours leave out the most extreme particles (0.05 % at either end): ") +
-            cut.map((f) => f.name.replace(/_/g, " ") + " reaches " +
-                       quantity(Math.abs(f.most) > Math.abs(f.least) ? f.most : f.least, f.unit, 3))
-                .join(", ") +
-            ".");
-    parts.push("Values have 8 bits, positions 16.");
-    return parts.join(" ");
 }
 
 // Share of the particles of the last frame that are part of cracks.

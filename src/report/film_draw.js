@@ -4,7 +4,7 @@
 const CRACK = 0.35;  // damage from which a particle is drawn as part of a crack, as in cleave plot
 const CRACK_CODE = CRACK * 254;
 const LOOSE_CODE = 0.6 * 254, LONGEST = 4;  // of rubble, from this damage; of drawn particles [spacings], as there
-const WIDER = 1.04;                         // cubes are drawn wider to close the gaps of a strained lattice, as there
+const WIDER = 0.04;  // cubes are drawn wider by this to close the gaps of a strained lattice [spacings]
 const INK = 0xff201a18, GHOST = 0xffe9e6e4;  // alpha, blue, green, red
 
 // Reads the reference state of a particle set once: positions, sizes, neighbours on the lattice.
@@ -163,8 +163,8 @@ function paintSpace(to, see, set, x, colour, shown, damage) {
     for (let i = 0; i < set.n; i++) {
         if (!shown(i)) continue;
         turned([0, 1, 2].map((d) => x[d][i] - see.centre[d]), see.scale, middle);
-        for (let k = 0, at = 9 * i; k < 3; k++, at += 3)
-            turned(cubes.edges.subarray(at, at + 3), WIDER * see.scale, edge[k]);
+        const zoom = see.scale * (1 + WIDER * film.spacing / set.size[i]);
+        for (let k = 0, at = 9 * i; k < 3; k++, at += 3) turned(cubes.edges.subarray(at, at + 3), zoom, edge[k]);
         for (let k = 0; k < 3; k++) {
             const [a, b] = [edge[(k + 1) % 3], edge[(k + 2) % 3]], towards = a[0] * b[1] - a[1] * b[0];
             const out = edge[k][0] * (a[1] * b[2] - a[2] * b[1]) + edge[k][1] * (a[2] * b[0] - a[0] * b[2]) +
@@ -178,10 +178,12 @@ function paintSpace(to, see, set, x, colour, shown, damage) {
     }
 }
 
-// Paints a parallelogram in space with its centre and the edges a and b, each x, y and depth [pixel].
+// Paints a parallelogram in space with its centre and the edges a and b, each x, y and depth [pixel]. Pixels beyond its
+// sides lie a pixel deeper, so that a face within the body does not show at the edge of the one that hides it.
 function paintFace(to, i, centre, a, b, colour) {
     paintCells(to, centre[0], centre[1], a[0], a[1], b[0], b[1], (at, s, t) => {
-        const depth = centre[2] + Math.min(Math.max(s, -0.5), 0.5) * a[2] + Math.min(Math.max(t, -0.5), 0.5) * b[2];
+        const [p, q] = [s, t].map((along) => Math.min(Math.max(along, -0.5), 0.5));
+        const depth = centre[2] + p * a[2] + q * b[2] - (p !== s || q !== t ? 1 : 0);
         if (to.depth[at] >= depth) return;
         to.depth[at] = depth;
         to.pixel[at] = colour;

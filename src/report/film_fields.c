@@ -128,14 +128,13 @@ void film_write_field_values_of_frame(struct page *p, const struct film_field *f
 {
     float *value = NULL;
     if (plot_field_read(&value, field->of, frame, path) != OK) value = NEW("report.field", frame->n, float);
-    uint16_t *wide = BARE("report.wide", particle_set->shown, uint16_t);
-    uint8_t *narrow = BARE("report.narrow", particle_set->shown, uint8_t);
-    int64_t n = 0;
-    for (int64_t g = 0; g < particle_set->groups; g++) {
-        if (particle_set->hidden[g]) continue;
+    const int64_t n = particle_set->groups;
+    uint16_t *wide = BARE("report.wide", n, uint16_t);
+    uint8_t *narrow = BARE("report.narrow", n, uint8_t);
+    for (int64_t g = 0; g < n; g++) {
         const unsigned stored = value_stored(field, particle_set, value, g);
-        wide[n] = (uint16_t)stored;
-        narrow[n++] = (uint8_t)stored;
+        wide[g] = (uint16_t)stored;
+        narrow[g] = (uint8_t)stored;
     }
     if (is_fragment(field))
         page_add_array(p, field->of->name, PAGE_U16, wide, n);

@@ -1,5 +1,5 @@
-/* Divides the particles of a film into groups. Full cells of the lattice with equal, undamaged particles are shown as
- * one particle of the same area, so that a picture of the body has no gaps. */
+/* Divides the particles of a film into groups. Cells of the lattice are shown as one particle of the same area, so that
+ * a picture of the body has no gaps. */
 #include <math.h>
 
 #include "base/arrays.h"
@@ -10,80 +10,102 @@
  * largest such index. */
 enum { KEY_BITS = 20, KEY_MOST = (1 << KEY_BITS) - 1 };
 
-/* A particle, and the number of the cell in which it is (cell_key). */
+/* Tolerance of the equality of sizes of particles [1]. */
+static const double EQUAL = 0.01;
+
+/* A particle, the number of the cell in which it is (cell_key), and a number of its material and body. */
 struct member {
     uint64_t key;
     int32_t index;
+    uint16_t part;
 };
 
 static int member_compare(const void *a, const void *b)
 {
     const struct member *x = a, *y = b;
     if (x->key != y->key) return x->key < y->key ? -1 : 1;
+    if (x->part != y->part) return x->part < y->part ? -1 : 1;
     return (x->index > y->index) - (x->index < y->index);
 }
 
-/* Returns a number that identifies the cubic cell of the lattice, with an edge of 2^level spacings of film f, that
- * contains particle i of the particle set s (the particles that consecutive output frames have in common). from[dim]:
- * lower corner of the lattice [m]. */
-static uint64_t cell_key(const struct film_set *s, const struct film *f, const double *from, int level, int64_t i)
+static bool are_in_one_cell(const struct member *x, const struct member *y)
+{
+    return x->key == y->key && x->part == y->part;
+}
+
+static double size_of_particle(const struct film_set *s, const struct film *f, int64_t i)
+{
+    return s->size ? s->size[i] : f->spacing;
+}
+
+static double cell_edge_length(const struct film *f, int level) { return ldexp(f->spacing, level); }
+
+/* Returns the index along axis d of the cubic cell of the lattice, with an edge of 2^level spacings of film f, that
+ * contains particle i of the particle set s (the particles that consecutive output frames have in common). */
+static uint64_t cell_index(const struct film_set *s, const struct film *f, int level, int64_t i, int d)
+{
+    const double along = floor((s->X[d][i] - s->corner[d]) / f->spacing);
+    return (uint64_t)fmin(fmax(along, 0), KEY_MOST) >> level;
+}
+
+/* Returns particle i of the particle set s of film f as a member of its cell of level `level`. */
+static struct member member_of_cell(const struct film_set *s, const struct film *f, int level, int64_t i)
 {
     uint64_t key = (uint64_t)level;
-    for (int d = 0; d < DIM_MAX; d++) {
-        const double along = d < f->dim ? floor((s->X[d][i] - from[d]) / f->spacing + 0.25) : 0;
-        key = key << KEY_BITS | ((uint64_t)fmin(fmax(along, 0), KEY_MOST) >> level);
-    }
-    return key;
+    for (int d = 0; d < DIM_MAX; d++) key = key << KEY_BITS | (d < f->dim ? cell_index(s, f, level, i, d) : 0);
+    return (struct member){key, (int32_t)i, (uint16_t)(s->material[i] << 8 | s->body[i])};
 }
 
-static bool particles_are_alike(const struct film_set *s, int64_t i, int64_t j)
+/* Returns true if particle i of the particle set s of film f may be merged with others into a cell of level `level` as
+ * far as its size and what it suffers in the frames allow. */
+static bool may_merge(const struct film_set *s, const struct film *f, int level, int64_t i)
 {
-    return s->history[i] == s->history[j] && s->material[i] == s->material[j] && s->body[i] == s->body[j];
-}
-
-/* Returns true if particle i of the particle set s (the particles that consecutive output frames have in common) may
- * be merged with others into a cubic cell of the lattice: it must be undamaged and elastic in all frames, and its
- * spacing must be that of the film f. */
-static bool is_of_lattice(const struct film_set *s, const struct film *f, int64_t i)
-{
-    return !s->busy[i] && (!s->size || fabs(s->size[i] / f->spacing - 1) < 0.01);
+    if (s->state[i] == FILM_CRACKED || (s->state[i] == FILM_DAMAGED && level > f->levels_damaged)) return false;
+    return fabs(size_of_particle(s, f, i) / f->spacing - 1) < EQUAL;
 }
 
 /* Merges particles of the particle set s (the particles that consecutive output frames have in common) into cubic
  * cells with an edge of 2^level spacings of film f: sets s->level to `level` for the particles of each cell that they
- * fill completely, if all of them have the same material and body, and the same kinds and fragments in all frames.
- * from[dim]: lower corner of the lattice [m]. */
-static void merge_cells(struct film_set *s, const struct film *f, const double *from, int level)
+ * fill completely, if all of them have the same material and body. Above f->levels_damaged they must also have the same
+ * kinds and fragments in all frames. */
+static void merge_cells(struct film_set *s, const struct film *f, int level)
 {
     struct member *m = BARE("report.members", s->n, struct member);
     int64_t n = 0;
     const int64_t full = (int64_t)1 << (level * f->dim);
     for (int64_t i = 0; i < s->n; i++)
-        if (s->level[i] == level - 1 && is_of_lattice(s, f, i))
-            m[n++] = (struct member){cell_key(s, f, from, level, i), (int32_t)i};
+        if (s->level[i] == level - 1 && may_merge(s, f, level, i)) m[n++] = member_of_cell(s, f, level, i);
     array_sort(m, n, sizeof *m, member_compare);
     for (int64_t k = 0, end; k < n; k = end) {
         bool alike = true;
-        for (end = k; end < n && m[end].key == m[k].key; end++)
-            alike &= particles_are_alike(s, m[k].index, m[end].index);
+        for (end = k; end < n && are_in_one_cell(&m[end], &m[k]); end++)
+            alike &= level <= f->levels_damaged || s->history[m[end].index] == s->history[m[k].index];
         if (!alike || end - k != full) continue;
         for (int64_t j = k; j < end; j++) s->level[m[j].index] = (uint8_t)level;
     }
     memory_free(m);
 }
 
-/* Sets the lists of particles of each group (particles shown as one) of the set s: s->groups, s->first and s->member.
- * Particles with s->level > 0 in the same cell of this level form a group. f: film, with the spacing; from[dim]: lower
- * corner of the lattice [m]. */
-static void film_groups_fill(struct film_set *s, const struct film *f, const double *from)
+/* Sets s->level, the levels of the cells into which the particles of the particle set s of film f are merged. */
+static void levels_set(struct film_set *s, const struct film *f)
+{
+    const double largest = (1 + EQUAL) * cell_edge_length(f, f->levels_all);
+    for (int64_t i = 0; i < s->n; i++)
+        s->level[i] = (uint8_t)(size_of_particle(s, f, i) <= largest ? f->levels_all : 0);
+    for (int level = f->levels_all + 1; level <= f->levels; level++) merge_cells(s, f, level);
+}
+
+/* Sets the lists of particles of each group (particles shown as one) of the set s of film f: s->groups, s->first and
+ * s->member. Particles with s->level > 0 in the same cell of this level, of one material and body, form a group. */
+static void film_groups_fill(struct film_set *s, const struct film *f)
 {
     struct member *m = BARE("report.members", s->n, struct member);
     for (int64_t i = 0; i < s->n; i++)
-        m[i] = (struct member){s->level[i] ? cell_key(s, f, from, s->level[i], i) : (uint64_t)i, (int32_t)i};
+        m[i] = s->level[i] ? member_of_cell(s, f, s->level[i], i) : (struct member){(uint64_t)i, (int32_t)i, 0};
     array_sort(m, s->n, sizeof *m, member_compare);
     s->groups = 0;
     for (int64_t k = 0; k < s->n; k++) {
-        if (k == 0 || m[k].key != m[k - 1].key) s->first[s->groups++] = (int32_t)k;
+        if (k == 0 || !are_in_one_cell(&m[k], &m[k - 1])) s->first[s->groups++] = (int32_t)k;
         s->member[k] = m[k].index;
     }
     s->first[s->groups] = (int32_t)s->n;
@@ -92,27 +114,31 @@ static void film_groups_fill(struct film_set *s, const struct film *f, const dou
 
 void film_particle_set_form_groups(struct film_set *particle_set, const struct film *f)
 {
-    double from[DIM_MAX] = {0};
+    struct film_set *s = particle_set;
     for (int d = 0; d < f->dim; d++) {
-        from[d] = INFINITY;
-        for (int64_t i = 0; i < particle_set->n; i++) from[d] = fmin(from[d], particle_set->X[d][i]);
+        s->corner[d] = INFINITY;
+        for (int64_t i = 0; i < s->n; i++)
+            s->corner[d] = fmin(s->corner[d], s->X[d][i] - size_of_particle(s, f, i) / 2);
     }
-    array_fill_bytes(particle_set->level, 0, particle_set->n, sizeof *particle_set->level);
-    for (int level = 1; level <= f->levels; level++) merge_cells(particle_set, f, from, level);
-    film_groups_fill(particle_set, f, from);
-    particle_set->shown = 0;
-    for (int64_t g = 0; g < particle_set->groups; g++) {
-        particle_set->hidden[g] =
-            g % f->every != 0 && (f->thins_busy || !particle_set->busy[particle_set->member[particle_set->first[g]]]);
-        particle_set->shown += !particle_set->hidden[g];
-    }
+    levels_set(s, f);
+    film_groups_fill(s, f);
 }
 
 double film_edge_length_of_group(const struct film_set *particle_set, const struct film *f, int64_t group)
 {
     const int32_t i = particle_set->member[particle_set->first[group]];
-    const bool thins = f->thins_busy || !particle_set->busy[i];
-    const double own = particle_set->size ? particle_set->size[i] : f->spacing,
-                 thinned = thins ? pow(f->every, 1.0 / f->dim) : 1;
-    return own * (1 << particle_set->level[i]) * thinned;
+    return particle_set->level[i] ? cell_edge_length(f, particle_set->level[i]) : size_of_particle(particle_set, f, i);
+}
+
+double film_centre_of_group(const struct film_set *particle_set, const struct film *f, int64_t group, int axis)
+{
+    const int32_t first = particle_set->first[group], n = particle_set->first[group + 1] - first;
+    const int32_t i = particle_set->member[first];
+    const int level = particle_set->level[i];
+    double sum = 0;
+    if (level > 0 && n < (int64_t)1 << (level * f->dim))
+        return particle_set->corner[axis] +
+               ((double)cell_index(particle_set, f, level, i, axis) + 0.5) * cell_edge_length(f, level);
+    for (int32_t k = 0; k < n; k++) sum += particle_set->X[axis][particle_set->member[first + k]];
+    return sum / n;
 }
