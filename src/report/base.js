@@ -37,7 +37,10 @@ function section(id) {
 
 // ---- numbers --------------------------------------------------------------------------------------------------------
 
-const prefixes = [[1e9, "G"], [1e6, "M"], [1e3, "k"], [1, ""], [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"], [1e-12, "p"]];
+const prefixes = [
+    [1e18, "E"], [1e15, "P"], [1e12, "T"], [1e9, "G"], [1e6, "M"], [1e3, "k"], [1, ""], [1e-3, "m"], [1e-6, "µ"],
+    [1e-9, "n"], [1e-12, "p"], [1e-15, "f"], [1e-18, "a"]
+];
 
 // Returns {factor, name}: the unit in which values up to `largest` have few digits before the point.
 function unitFor(largest, unit) {
@@ -52,7 +55,7 @@ function unitFor(largest, unit) {
         const [, factor, name] = squares.find(([least]) => size >= least);
         return {factor, name};
     }
-    if (!/^(s|m|Pa|J|N|m\/s|W|J\/m\^?[23²³]|N\/m)$/.test(unit) || !(size > 1e-15))
+    if (!/^(s|m|Pa|J|N|m\/s|W|J\/m\^?[23²³]|N\/m)$/.test(unit) || !(size > 1e-21))
         return {factor: 1, name: unitText(unit)};
     const [factor, prefix] = prefixes.find(([f]) => size >= f * 0.9995) || prefixes[prefixes.length - 1];
     return {factor, name: prefix + unitText(unit)};
@@ -64,14 +67,17 @@ const unitText = (unit) => (unit || "").replace(/\^([23])(?!\d)/g, (all, power) 
 const powerOfTen = (power) =>
     "10" + [...String(power)].map((c) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(c)]).join("");
 
+// Writes a number as a multiple of a power of ten, with `digits` significant digits, without zeros at the end.
+const exponential = (value, digits) => value.toExponential(digits - 1)
+                                           .replace(/\.?0+e/, "e")
+                                           .replace(/e\+?(.*)/, (all, power) => "·" + powerOfTen(power));
+
 // Writes a number with `digits` significant digits, without zeros at the end.
 function number(value, digits = 4) {
     if (value === null || value === undefined || Number.isNaN(value)) return "–";
     if (Number.isInteger(value) && Math.abs(value) < 1e15) return value.toLocaleString("en").replace(/,/g, "\u202f");
     const size = Math.abs(value);
-    if (size >= 1e6 || size < 1e-3)
-        return value.toExponential(digits - 1).replace(/\.?0+e/, "e").replace(/e\+?(.*)/,
-            (all, power) => "·" + powerOfTen(power));
+    if (size >= 1e6 || size < 1e-3) return exponential(value, digits);
     const text = value.toPrecision(digits);
     return text.includes(".") && !text.includes("e") ? text.replace(/\.?0+$/, "") : String(Number(text));
 }
@@ -92,13 +98,19 @@ function ticks(low, high, most) {
     return list;
 }
 
+// Tics with more characters than this are written with powers of ten where that is shorter.
+const LONGEST_TIC = 8;
+
 // Writes a number at an axis whose tics are at the numbers in `list`, with so many digits that they are distinct.
 const tickText = (value, list) => {
     const step = list.length > 1 ? Math.abs(list[1] - list[0]) : Math.abs(value) || 1;
     if (Math.abs(value) < 1e-9 * step) return "0";
     const power = (v) => Math.floor(Math.log10(v) + 1e-9), largest = Math.max(...list.map(Math.abs), Math.abs(value));
     const digits = Math.min(Math.max(power(largest) - power(step) + 2, 4), 12);
-    if (Math.abs(value) >= 1e5 || step < 1e-4) return String(Number(value.toPrecision(digits)));
+    const plain = (v) => String(Number(v.toPrecision(digits))), powers = (v) => exponential(v, digits);
+    const longest = (write) => Math.max(...list.map((v) => write(v).length));
+    if (largest >= 1e5 || step < 1e-4)
+        return (longest(plain) > LONGEST_TIC && longest(powers) < longest(plain) ? powers : plain)(value);
     return String(Number(value.toFixed(Math.max(0, Math.ceil(-Math.log10(step)) + 1))));
 };
 

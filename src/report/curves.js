@@ -1,5 +1,7 @@
 // Curves: axes, and the columns of history.csv, one panel for each unit.
 
+const TIC_ROOM = 42;  // height that a tic of a vertical axis takes [CSS pixel]
+
 // Returns a plot area with the maps x(value) and y(value) to pixels, and back. log: {x, y}, true for a logarithmic
 // axis.
 function axesOf(area, [x0, x1], [y0, y1], log = {}) {
@@ -23,9 +25,16 @@ function ticsOf(low, high, most, logarithmic) {
     return {list, text: logarithmic ? decadeText : (v) => tickText(v, list)};
 }
 
+// Returns the left end of a plot area, beside which the numbers at its vertical axis from low to high have room. tall:
+// height of the area [CSS pixel].
+function leftBeside(context, [low, high], unit, tall, logarithmic) {
+    const {list, text} = ticsOf(low / unit.factor, high / unit.factor, tall / TIC_ROOM, logarithmic);
+    return Math.max(76, 12 + Math.ceil(Math.max(0, ...list.map((v) => context.measureText(text(v)).width))));
+}
+
 function drawAxes(context, a, xUnit, yUnit, xLabel, yLabel) {
     const xs = a.tics || ticsOf(a.x0 / xUnit.factor, a.x1 / xUnit.factor, (a.right - a.left) / 90, a.log.x),
-          ys = ticsOf(a.y0 / yUnit.factor, a.y1 / yUnit.factor, (a.bottom - a.top) / 42, a.log.y);
+          ys = ticsOf(a.y0 / yUnit.factor, a.y1 / yUnit.factor, (a.bottom - a.top) / TIC_ROOM, a.log.y);
     context.lineWidth = 1;
     context.strokeStyle = "#e8eaee";
     context.fillStyle = "#5d6675";
@@ -169,14 +178,17 @@ function drawCurves() {
     context.fillRect(0, 0, width, height);
     for (const c of history_.columns)
         if (c.mark) c.mark.style.background = "";
+    for (const panel of panels) measurePanel(panel, over, zoom);
+    const left = Math.max(...panels.map((panel) => leftBeside(context, panel.range, panel.shownUnit, each - 12)));
     panels.forEach((panel, k) => drawPanel(context, panel, over, zoom, xUnit,
-                       {left: 76, right: width - 18, top: 28 + k * (each + 34), bottom: k * (each + 34) + each + 16},
+                       {left, right: width - 18, top: 28 + k * (each + 34), bottom: k * (each + 34) + each + 16},
                        k === panels.length - 1));
     history_.panels = panels;
     drawMarks(context, over);
 }
 
-function drawPanel(context, panel, over, zoom, xUnit, area, lowest) {
+// Sets the ends of the vertical axis of a panel, panel.range, and its unit.
+function measurePanel(panel, over, zoom) {
     let [low, high] = [Infinity, -Infinity];
     const inside = (k) => over.values[k] >= zoom[0] && over.values[k] <= zoom[1];
     for (const c of panel.columns)
@@ -184,8 +196,12 @@ function drawPanel(context, panel, over, zoom, xUnit, area, lowest) {
             if (inside(k) && Number.isFinite(c.values[k]))
                 low = Math.min(low, c.values[k] - c.shift), high = Math.max(high, c.values[k] - c.shift);
     if (!(high >= low)) low = 0, high = 1;
-    const unit = unitFor(Math.max(Math.abs(low), Math.abs(high)), panel.unit),
-          a = axesOf(area, zoom, padded(low, high));
+    panel.shownUnit = unitFor(Math.max(Math.abs(low), Math.abs(high)), panel.unit);
+    panel.range = padded(low, high);
+}
+
+function drawPanel(context, panel, over, zoom, xUnit, area, lowest) {
+    const unit = panel.shownUnit, a = axesOf(area, zoom, panel.range);
     const names = panel.columns.length === 1 ? curveName(panel.columns[0]) : "";
     drawAxes(context, a, xUnit, unit,
         lowest ? labelOf(over) + (xUnit.name ? " [" + xUnit.name + "]" : "") : "",
@@ -209,7 +225,6 @@ function drawPanel(context, panel, over, zoom, xUnit, area, lowest) {
     context.restore();
     if (panel.columns.length > 1) drawKey(context, panel, a);
     panel.axes = a;
-    panel.shownUnit = unit;
 }
 
 function drawKey(context, panel, a) {

@@ -14,8 +14,9 @@ function drawProfile(context, width, height, frame) {
     const x = view.x_of[0], order = Array.from(x.keys()).sort((a, b) => x[a] - x[b]), field = view.field;
     const metre = unitFor(film.box.high[0] - film.box.low[0], "m"),
           unit = unitFor(Math.max(Math.abs(view.low), Math.abs(view.high)), field.unit);
-    const axes = axesOf({left: 76, right: width - 20, top: 34, bottom: height - 44},
-        [view.box.low[0], view.box.high[0]], padded(view.low, view.high));
+    const area = {right: width - 20, top: 34, bottom: height - 44}, range = padded(view.low, view.high);
+    area.left = leftBeside(context, range, unit, area.bottom - area.top);
+    const axes = axesOf(area, [view.box.low[0], view.box.high[0]], range);
     drawAxes(context, axes, metre, unit, "x [" + metre.name + "]",
         field.name.replace(/_/g, " ") + (unit.name ? " [" + unit.name + "]" : ""));
     context.fillStyle = curveColours[0];

@@ -177,15 +177,16 @@ function ticsOfWords(words) {
     return {short, list: words.map((word, k) => k), text: (k) => (short ? words[k] : String(k))};
 }
 
-// Returns the axes of the curves in a canvas of width x height, for the points with a value.
-function axesOfStudy(points, width, height) {
+// Returns the axes of the curves in a canvas of width x height, for the points with a value. yUnit: unit of the figure.
+function axesOfStudy(context, points, width, height, yUnit) {
     const sweep = page.kind === "sweep", spread = (list) => [Math.min(...list), Math.max(...list)];
     const xs = points.map((p) => p.x), ys = points.flatMap((p) => [p.y - (p.error || 0), p.y + (p.error || 0)]);
     const log = {x: sweep && !study.words && overDecades(xs) && !evenlySpaced(xs), y: overDecades(ys)};
     const tics = study.words && ticsOfWords(study.words);
-    return axesOf({left: 84, right: width - 20, top: 40, bottom: height - 50, tics},
-        sweep ? padded(...spread(tics ? tics.list : xs), log.x) : [0, 1.05 * spread(xs)[1]],
-        padded(...spread(ys), log.y), log);
+    const area = {right: width - 20, top: 40, bottom: height - 50, tics}, range = padded(...spread(ys), log.y);
+    area.left = leftBeside(context, range, yUnit, area.bottom - area.top, log.y);
+    return axesOf(
+        area, sweep ? padded(...spread(tics ? tics.list : xs), log.x) : [0, 1.05 * spread(xs)[1]], range, log);
 }
 
 function drawStudy() {
@@ -197,8 +198,8 @@ function drawStudy() {
     byId("series").replaceChildren();
     if (points.length === 0) return context.fillStyle = "#5d6675", context.fillText("No run has this figure.", 20, 40);
     const unit = sweep ? study.units[study.figures[study.y]] || "" : at(study.rows[study.y], "unit"),
-          area = axesOfStudy(points, width, height), key = sweep ? study.keys[study.x] : "spacing";
-    const yUnit = unitFor(Math.max(...points.map((p) => Math.abs(p.y) + (p.error || 0))), unit),
+          yUnit = unitFor(Math.max(...points.map((p) => Math.abs(p.y) + (p.error || 0))), unit);
+    const area = axesOfStudy(context, points, width, height, yUnit), key = sweep ? study.keys[study.x] : "spacing",
           xUnit = sweep ? {factor: 1, name: study.words ? "" : unitOfKey(key)} : unitFor(area.x1, "m");
     const figure = sweep ? study.figures[study.y] : study.rows[study.y][0];
     drawAxes(context, area, xUnit, yUnit,

@@ -118,7 +118,11 @@ async function probe() {
     if (page.history) {
         seen.curves_first = history_.shown.map((c) => [c.name, c.unit, largestOf(c)]);
         seen.over = byId("over").selectedOptions[0].textContent;
-        seen.lengths = [quantity(4.17, "m"), quantity(0.417, "m"), quantity(2e4, "m"), unitFor(5, "J/m^2").name];
+        seen.lengths = [quantity(4.17, "m"), quantity(0.417, "m"), quantity(2e4, "m"), unitFor(5, "J/m^2").name,
+            quantity(1.67e17, "J"), quantity(9e-16, "J")];
+        // Long numbers at an axis have room beside it; of a hundred million only the digits that differ are written.
+        seen.room = leftBeside(byId("plot").getContext("2d"), [7e10, 7e10 + 2e3], {factor: 1}, 2 * TIC_ROOM);
+        seen.powers = tickText(1.5e8, [5e7, 1e8, 1.5e8]);
         seen.origin = byId("origin").textContent;
         seen.chips = [...document.querySelectorAll("#columns label")].map((l) => l.textContent);
         const sum = () => byId("plot").toDataURL().length, before = sum();

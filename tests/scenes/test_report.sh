@@ -63,7 +63,8 @@ if [ -n "$browser" ]; then
     says opened "s['curves_first'][-1][0] == 'crack_length' and s['curves_first'][0][0] != 'kinetic'"
     says opened "(lambda size: size == sorted(size, reverse=True))([c[2] for c in s['curves_first'][:-1]])"
     says opened "s['chips'][0] == s['curves_first'][0][0].replace('_', ' ') and s['chips'].index('crack growth') < s['chips'].index('momentum x')"
-    says opened "s['over'] == 'time' and s['lengths'] == ['4.17 m', '417 mm', '20 km', 'J/m²']"
+    says opened "s['over'] == 'time' and s['lengths'] == ['4.17 m', '417 mm', '20 km', 'J/m²', '167 PJ', '900 aJ']"
+    says opened "s['room'] > 76 and s['powers'] == '1.5·10⁸'"
     says opened "s['field'] == 'von_mises' and max(s['crack_von_mises']) < 100 and s['whole_von_mises'] != [226, 228, 231]"
     # The energy of a heavy hammer does not flatten the others.
     says opened "s['heavy'][0] == 'kinetic - 1 kJ' and abs(s['heavy'][1] - 1) < 0.01"
