@@ -9,14 +9,15 @@ function arrayOf(reference) {
         const text = atob(document.getElementById("array" + reference.array).textContent);
         const bytes = new Uint8Array(text.length);
         for (let k = 0; k < text.length; k++) bytes[k] = text.charCodeAt(k);
-        const types = {u8: Uint8Array, u16: Uint16Array, i16: Int16Array, f32: Float32Array, png: Uint8Array};
+        const types = {u8: Uint8Array, u16: Uint16Array, i16: Int16Array, f32: Float32Array};
         decoded.set(reference.array, new types[reference.type](bytes.buffer));
     }
     return decoded.get(reference.array);
 }
 
 function pictureOf(reference, name) {
-    const source = "data:image/png;base64," + document.getElementById("array" + reference.array).textContent;
+    const format = {png: "png", svg: "svg+xml"}[reference.type];
+    const source = "data:image/" + format + ";base64," + document.getElementById("array" + reference.array).textContent;
     return element("img", {src: source, alt: name});
 }
 

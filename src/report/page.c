@@ -16,7 +16,7 @@ static const struct {
     size_t size;
 } types[PAGE_TYPES] = {
     [PAGE_U8] = {"u8", 1},   [PAGE_U16] = {"u16", 2}, [PAGE_I16] = {"i16", 2},
-    [PAGE_F32] = {"f32", 4}, [PAGE_PNG] = {"png", 1},
+    [PAGE_F32] = {"f32", 4}, [PAGE_PNG] = {"png", 1}, [PAGE_SVG] = {"svg", 1},
 };
 
 status page_begin_in_memory(struct page *p)
@@ -58,12 +58,12 @@ void page_add_array(struct page *p, const char *key, enum page_type type, const 
     fputs("</script>\n", p->arrays);
 }
 
-status page_add_picture(struct page *p, const char *entry_name, const char *path)
+status page_add_picture(struct page *p, const char *entry_name, enum page_type format, const char *path)
 {
     char *bytes;
     size_t length;
     TRY(file_read_whole(path, &bytes, &length));
-    page_add_array(p, entry_name, PAGE_PNG, bytes, (int64_t)length);
+    page_add_array(p, entry_name, format, bytes, (int64_t)length);
     memory_free(bytes);
     return OK;
 }

@@ -7,8 +7,9 @@
 
 #include "output/json.h"
 
-/* Types of the elements of arrays in a page, all little-endian; PAGE_PNG: bytes of a PNG file. */
-enum page_type { PAGE_U8, PAGE_U16, PAGE_I16, PAGE_F32, PAGE_PNG, PAGE_TYPES };
+/* Types of the elements of arrays in a page, all little-endian; PAGE_PNG, PAGE_SVG: bytes of a file of
+ * this format. */
+enum page_type { PAGE_U8, PAGE_U16, PAGE_I16, PAGE_F32, PAGE_PNG, PAGE_SVG, PAGE_TYPES };
 
 /* A page of HTML while it is composed in memory: a JSON text that describes it, and arrays of numbers to which the JSON
  * refers. */
@@ -31,10 +32,10 @@ status page_begin_in_memory(struct page *p);
  * reference is an element of a list. */
 void page_add_array(struct page *p, const char *key, enum page_type type, const void *values, int64_t value_count);
 
-/* Adds the PNG picture in the file `path` to the page p (HTML report) as an array of bytes, and a reference to this
- * array to the JSON text. entry_name: name of the reference; NULL if it is an element of a list. Returns FAILED if the
- * file cannot be read. */
-status page_add_picture(struct page *p, const char *entry_name, const char *path);
+/* Adds the picture in the file `path` to the page p (HTML report) as an array of bytes, and a reference to this array
+ * to the JSON text. format: PAGE_PNG or PAGE_SVG; entry_name: name of the reference; NULL if it is an element of a
+ * list. Returns FAILED if the file cannot be read. */
+status page_add_picture(struct page *p, const char *entry_name, enum page_type format, const char *path);
 
 /* Adds the time `moment` to the JSON text of the page p (HTML report), in UTC to the minute. entry_name: name of the
  * entry. Adds nothing for a time that has no date in the calendar. */

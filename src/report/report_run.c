@@ -126,7 +126,7 @@ static status write_picture(struct page *p, const char *scene, const char *path)
     unlink(picture.text); /* a link of this name is not followed */
     interrupt_cleanup_register(LEAVING_FRAME, picture.text, 0);
     status s = scene_draw_picture(scene, NULL, 0, &r);
-    if (s == OK) s = page_add_picture(p, "picture", picture.text);
+    if (s == OK) s = page_add_picture(p, "picture", PAGE_PNG, picture.text);
     unlink(picture.text);
     interrupt_cleanup_register(LEAVING_FRAME, NULL, 0);
     return s;

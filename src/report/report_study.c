@@ -44,27 +44,48 @@ static void folder_names_free(char **name, int n)
     memory_free(name);
 }
 
-/* Adds the pictures that Cleave has drawn for the study in `folder` to the page p, at most PICTURES_MOST. */
+/* Returns the format in which a page can show the picture file called `name`: PAGE_PNG or PAGE_SVG; PAGE_TYPES for
+ * other files. */
+static enum page_type picture_format_of(const char *name)
+{
+    const char *ending = strrchr(name, '.');
+    if (ending && strcmp(ending, ".png") == 0) return PAGE_PNG;
+    return ending && strcmp(ending, ".svg") == 0 ? PAGE_SVG : PAGE_TYPES;
+}
+
+/* Adds the picture of a study in the file `path` to the page p as an element of a list. name: its name. */
+static void write_study_picture(struct page *p, const char *name, const char *path)
+{
+    json_open(&p->json, NULL, '{');
+    json_write_text(&p->json, "name", name);
+    (void)page_add_picture(p, "of", picture_format_of(name), path);
+    json_close(&p->json, '}');
+}
+
+/* Adds the pictures that Cleave has drawn for the study in `folder` to the page p, at most PICTURES_MOST, and the names
+ * of those that the page does not show. */
 static void write_pictures(struct page *p, const char *folder)
 {
     char **name;
     int added = 0;
     const struct path pictures = pictures_folder(folder);
     const int n = folder_names_read(&name, pictures.text);
+    bool *left = NEW("report.left", n, bool);
     json_open(&p->json, "pictures", '[');
-    for (int k = 0; k < n && added < PICTURES_MOST; k++) {
+    for (int k = 0; k < n; k++) {
         const struct path path = path_join(pictures.text, name[k]);
-        const char *ending = strrchr(name[k], '.');
-        if (!ending || strcmp(ending, ".png") != 0 || !path_is_file(path.text) ||
-            !picture_file_is_from_cleave(path.text))
-            continue;
-        json_open(&p->json, NULL, '{');
-        json_write_text(&p->json, "name", name[k]);
-        (void)page_add_picture(p, "of", path.text);
-        json_close(&p->json, '}');
+        if (!path_is_file(path.text) || !picture_file_is_from_cleave(path.text)) continue;
+        left[k] = picture_format_of(name[k]) == PAGE_TYPES || added == PICTURES_MOST;
+        if (left[k]) continue;
+        write_study_picture(p, name[k], path.text);
         added++;
     }
     json_close(&p->json, ']');
+    json_open(&p->json, "pictures_left_out", '[');
+    for (int k = 0; k < n; k++)
+        if (left[k]) json_write_text(&p->json, NULL, name[k]);
+    json_close(&p->json, ']');
+    memory_free(left);
     folder_names_free(name, n);
 }
 

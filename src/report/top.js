@@ -171,6 +171,11 @@ function showPictures() {
         section("picture").append(element("p", {className: "soft"}, "There is no picture: " + page.picture_missing));
     for (const {name, of} of page.pictures || [])
         if (of) section("pictures").append(element("h3", {}, name), pictureOf(of, name));
+    const left = page.pictures_left_out || [];
+    if (left.length > 0)
+        section("pictures").append(element("p", {className: "soft"},
+            "A page shows at most 12 pictures, as PNG or SVG. Not shown, in the folder pictures of the study: " +
+                left.join(", ") + ". For PNG, give the command of the study again with --format png."));
 }
 
 function redraw() {

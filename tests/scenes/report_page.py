@@ -3,7 +3,7 @@ reference, texts cannot be markup, nothing is fetched. With FOLDER, the run of t
 files, to the precision that the page states. Prints what is wrong, and at the end what was compared."""
 import base64, csv, json, re, sys
 
-SIZE = {"u8": 1, "u16": 2, "i16": 2, "f32": 4, "png": 1}
+SIZE = {"u8": 1, "u16": 2, "i16": 2, "f32": 4, "png": 1, "svg": 1}
 wrong = []
 
 
@@ -32,6 +32,7 @@ for r in references:
     raw = base64.b64decode(elements.get(r["array"], "!"), validate=True)
     bytes_of[r["array"]] = raw
     check(len(raw) == r["length"] * SIZE[r["type"]], "array %d has %d bytes, its reference says %d %s" % (r["array"], len(raw), r["length"], r["type"]))
+    check(r["type"] != "svg" or b"<svg" in raw, "array %d is no picture" % r["array"])
     check(r["type"] != "png" or raw[:8] == b"\x89PNG\r\n\x1a\n", "array %d is no picture" % r["array"])
 check(sorted(elements) == sorted(r["array"] for r in references), "arrays without reference, or with two")
 check(text.count("<script") == len(elements) + 2 == text.count("</script>"), "other scripts than data, JSON and code")

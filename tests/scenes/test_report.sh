@@ -226,7 +226,18 @@ if [ -n "$browser" ]; then
     says decades "s['problems'] == [] and s['series'] == 2 and s['axes']['x'] and s['tics'] == ['70000000000', '70000001000', '70000002000']"
 fi
 holds "a sweep's table" grep -q '"table": "run,state,particles.spacing,thickness,' sweep/report.html
-if command -v gnuplot >/dev/null; then holds "a sweep's pictures" grep -q '"name": "map.png"' sweep/report.html; fi
+if command -v gnuplot >/dev/null; then
+    holds "a sweep's pictures" grep -q '"name": "map.png"' sweep/report.html
+    # Of PDF a page says that it does not show it; SVG it shows.
+    for format in svg pdf; do
+        "$cleave" sweep plate.yaml -s particles.spacing=2mm,1mm -s thickness=1mm,2mm -o sweep -q --collect --format $format >out 2>err
+    done
+    rm sweep/pictures/*.png
+    "$cleave" report sweep -q
+    whole sweep/report.html
+    holds "a picture in SVG" grep -q '"name": "map.svg"' sweep/report.html
+    holds "names pictures in PDF" sh -c "tr -d ' \n' <sweep/report.html | grep -q '\"pictures_left_out\":\[\"map.pdf\",'"
+fi
 "$cleave" converge plate.yaml -s particles.spacing=2mm --runs 1 --levels 3 -o results/plate_converge -q >out 2>err
 "$cleave" report results/plate_converge -o study.html -q
 is "a convergence study: exit status" $? 0
