@@ -162,12 +162,17 @@ struct unit {
     char name[32];
 };
 
+/* SI prefixes with their factors, the largest first: those of all units in pictures and on report pages. */
+enum { UNIT_PREFIXES = 17 };
+extern const struct unit unit_prefix[UNIT_PREFIXES];
+
 /* Returns the unit with the SI prefix in which the value `largest_value` (in SI units) has one to three digits before
- * the decimal point. unit_name: unit without prefix; unit_for_largest_value(2e-5, "s") is microseconds. */
+ * the decimal point. unit_name: unit without prefix; unit_for_largest_value(2e-5, "s") is microseconds. A value below
+ * the least prefix, which is round-off, has the unit without prefix. */
 struct unit unit_for_largest_value(double largest_value, const char *unit_name);
 
-/* Returns a unit of length suitable for values up to `largest_length` [m]: millimetres between 0.5 mm and 1 m, else
- * metres with an SI prefix. */
+/* Returns a unit of length suitable for values up to `largest_length` [m]: millimetres between 0.5 mm and 1 m,
+ * kilometres from 1 km on, else metres with an SI prefix. */
 struct unit unit_for_length(double largest_length);
 
 /* Returns a unit of area suitable for values up to `largest_area` [m^2]: square millimetres between 0.01 mm^2 and
@@ -175,8 +180,8 @@ struct unit unit_for_length(double largest_length);
 struct unit unit_for_area(double largest_area);
 
 /* Returns a unit for values up to `largest_value` (in SI units). If `unit_name` is a unit that takes prefixes (s, m,
- * m^2, m/s, N, J, Pa, W), it has the prefix with which `largest_value` has one to three digits before the decimal
- * point; else it is the unit itself. unit_name: unit without prefix. */
+ * m^2, m/s, N, J, Pa, W, J/m², J/m³, Pa√m), it has the prefix with which `largest_value` has one to three digits
+ * before the decimal point; else it is the unit itself. unit_name: unit without prefix. */
 struct unit unit_for_largest_value_if_prefixable(const char *unit_name, double largest_value);
 
 /* ---- fields ------------------------------------------------------------------------------------------------------ */

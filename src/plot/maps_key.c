@@ -35,14 +35,14 @@ static struct bar_scale bar_scale_of(const struct view *view, enum map map)
     if (s.tics < 0.099) s.format = "%.9g";
     snprintf(s.label, sizeof s.label, "%s", map == MAP_KIND ? "peridynamic damage" : "damage");
     if (map != MAP_FIELD) return s;
-    const struct unit u = unit_for_largest_value(fmax(fabs(view->low), fabs(view->high)), view->field->unit);
-    const bool plain = !*view->field->unit;
-    s.low = view->low / (plain ? 1 : u.factor), s.high = view->high / (plain ? 1 : u.factor);
+    const struct unit u =
+        unit_for_largest_value_if_prefixable(view->field->unit, fmax(fabs(view->low), fabs(view->high)));
+    s.low = view->low / u.factor, s.high = view->high / u.factor;
     s.tics = tic_distance(s.high - s.low, 300, 50);
     s.format = "%.9g";
     plot_field_write_label(s.label, sizeof s.label, view->field);
     const size_t length = strlen(s.label);
-    if (!plain) snprintf(s.label + length, sizeof s.label - length, " [%s]", u.name);
+    if (*u.name) snprintf(s.label + length, sizeof s.label - length, " [%s]", u.name);
     return s;
 }
 

@@ -276,10 +276,10 @@ static status field_profile_draw(struct sheet sheet, const char *title, const st
     const struct value_range of = profiles_range(profile, profiles, 0, !moves),
                              x = profiles_axis(profile, profiles, spacing);
     const struct unit metre = unit_for_length(x.high - x.low),
-                      own = unit_for_largest_value(range_magnitude(of), field->unit);
-    const double factor[4] = {metre.factor, *field->unit ? own.factor : 1, 1, 1};
+                      own = unit_for_largest_value_if_prefixable(field->unit, range_magnitude(of));
+    const double factor[4] = {metre.factor, own.factor, 1, 1};
     plot_field_write_label(name, sizeof name, field);
-    snprintf(label, sizeof label, *field->unit ? "%.40s [%s]" : "%.40s", name, own.name);
+    snprintf(label, sizeof label, *own.name ? "%.40s [%s]" : "%.40s", name, own.name);
     title_compose_with_particles_outside(text, title, profiles_outside(profile, profiles, x, &of, 1));
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 560));
     profiles_send(g.to, profile, profiles, spacing, factor);

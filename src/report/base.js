@@ -38,10 +38,7 @@ function section(id) {
 
 // ---- numbers --------------------------------------------------------------------------------------------------------
 
-const prefixes = [
-    [1e18, "E"], [1e15, "P"], [1e12, "T"], [1e9, "G"], [1e6, "M"], [1e3, "k"], [1, ""], [1e-3, "m"], [1e-6, "µ"],
-    [1e-9, "n"], [1e-12, "p"], [1e-15, "f"], [1e-18, "a"]
-];
+const prefixes = page.prefixes; // [factor, name], the largest first
 
 // Returns {factor, name}: the unit in which values up to `largest` have few digits before the point.
 function unitFor(largest, unit) {
@@ -56,9 +53,8 @@ function unitFor(largest, unit) {
         const [, factor, name] = squares.find(([least]) => size >= least);
         return {factor, name};
     }
-    if (!/^(s|m|Pa|J|N|m\/s|W|J\/m\^?[23²³]|N\/m)$/.test(unit) || !(size > 1e-21))
-        return {factor: 1, name: unitText(unit)};
-    const [factor, prefix] = prefixes.find(([f]) => size >= f * 0.9995) || prefixes[prefixes.length - 1];
+    if (!/^(s|m|Pa|J|N|m\/s|W|J\/m\^?[23²³]|N\/m)$/.test(unit)) return {factor: 1, name: unitText(unit)};
+    const [factor, prefix] = prefixes.find(([f]) => size >= f * 0.9995) || [1, ""]; // 0, or round-off
     return {factor, name: prefix + unitText(unit)};
 }
 

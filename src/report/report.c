@@ -52,8 +52,21 @@ static status page_destination(struct path *path, const struct report_request *r
                       printable_name(path->text).text);
 }
 
-/* Writes the entries that all pages have to the page p: the folder of the request r, and the version, commit, processor
- * and time with which the page is made. */
+/* Adds the SI prefixes of units to the JSON text of the page p, as a list of factors and names. */
+static void write_prefixes(struct page *p)
+{
+    json_open(&p->json, "prefixes", '[');
+    for (int k = 0; k < UNIT_PREFIXES; k++) {
+        json_open(&p->json, NULL, '[');
+        json_write_real(&p->json, NULL, unit_prefix[k].factor);
+        json_write_text(&p->json, NULL, unit_prefix[k].name);
+        json_close(&p->json, ']');
+    }
+    json_close(&p->json, ']');
+}
+
+/* Writes the entries that all pages have to the page p: the folder of the request r, the version, commit, processor
+ * and time with which the page is made, and the prefixes of units. */
 static void write_origin(struct page *p, const struct report_request *r)
 {
     json_write_text(&p->json, "folder", r->folder);
@@ -61,6 +74,7 @@ static void write_origin(struct page *p, const struct report_request *r)
     json_write_text(&p->json, "commit", program_commit());
     json_write_text(&p->json, "machine", machine_processor_name());
     page_add_time(p, "made", time(NULL));
+    write_prefixes(p);
 }
 
 static status report_page(const struct report_request *r, const struct path *path)

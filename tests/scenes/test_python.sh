@@ -194,6 +194,18 @@ for table, own in (("diverging", _draw._DIVERGING), ("damage_stops", _draw._DAMA
     rows = re.findall(r"{([^{}]*)}", re.search(r"struct stop %s\[\] = {(.*?)\n};" % table, source, re.S).group(1))
     stops = [[float(number) for number in row.split(",")] for row in rows]
     holds("colours: " + table, [[at, *colour] for at, colour in own] == stops)
+from cleave._fields import PREFIXES, scale_of
+rows = re.findall(r'{([-0-9e]+), "([^"]*)"}', open(os.path.join(sys.argv[2], "src/plot/plot_units.c")).read().split("};")[0])
+holds("prefixes are those of the program", [(float(size), name) for size, name in rows] == list(PREFIXES))
+holds("units", [scale_of(*value)[1] for value in ((4e3, "m"), (4, "m"), (0.04, "m"), (4e-5, "m"), (4e-12, "s"), (2e15, "N"), (1500, "m/s"), (0, "J"))]
+      == ["km", "m", "mm", "µm", "ps", "PN", "km/s", "J"])
+class Layers:    # a column of four particles, of which the third has the largest stress
+    reference, spacing, dimension = np.array([[0.0, 0.0, z] for z in range(4)]), np.ones(4), 3
+    fields = {"von_mises": np.array([1.0, 2.0, 5.0, 1.0]), "damage": np.zeros(4)}
+    def __contains__(self, name): return name in self.fields
+    def __getitem__(self, name): return self.fields[name]
+    def unit(self, name): return ""
+holds("the section through the largest value", [_draw._layer(Layers(), 2, name) for name in ("von_mises", "damage")] == [2, 1])
 if shutil.which("gnuplot"):
     for field in ("damage", "von_mises", "stress_yy", "speed", "velocity_y", "pressure", "displacement"):
         said = cleave.call("plot", run.folder, "--field", field, "--times", "last", "--size", "300x226", "-o", work + "/colours.png")
@@ -279,8 +291,8 @@ except ImportError:
     matplotlib = None
 if matplotlib:
     plain("no particles", "no particles to draw", lambda: empty.plot("damage"))
-    plain("magnify='ten'", "magnify: a number from 0, not 'ten'", lambda: run.plot(magnify="ten"))
-    plain("magnify=-1", "magnify: a number from 0, not -1", lambda: run.plot(magnify=-1))
+    plain("magnify='ten'", "magnify: a number above 0, not 'ten'", lambda: run.plot(magnify="ten"))
+    plain("magnify=0", "magnify: a number above 0, not 0", lambda: run.plot(magnify=0))
     for limits in ((1, 0), (0, 0), (0, np.nan), (0,), 5e6, ("0 MPa", "5 MPa")):
         plain("limits", "limits: two numbers in the SI unit of the field, the lower one first", lambda: run.plot("damage", limits=limits))
     plain("a time that is no number", "time: a number", lambda: run.plot(time=float("nan")))
@@ -433,6 +445,8 @@ holds("the section of a sphere", len(outline) > 20 and np.allclose(np.hypot(outl
 holds("no rigid body", len(cleave._rigid.outlines_of(frame, 1, (0, 1), None)) == 0)
 if matplotlib:
     lines = pressed.plot().collections[1]
+    far_away = far.plot("speed")
+    holds("a body far away: whole numbers in the unit of its extent", (far_away.get_xlabel(), far_away.xaxis.get_major_formatter().get_useOffset()) == ("x [mm]", False))
     holds("it is drawn", type(lines).__name__ == "LineCollection" and lines.axes.get_ylim()[1] > 12.9)
     holds("the section that is found", "y = 1.5 mm" in ball.plot(slice={"y": 1.2e-3}).get_title())
     holds("the sphere is drawn", len(ball.plot(slice={"y": 2e-3}).collections) == 2 and len(run.plot().collections) == 1)

@@ -134,7 +134,7 @@ def _section(frame: Any, plane: Optional[Dict[str, float]]) -> Tuple[Any, Tuple[
     part = frame.slice(**{name: at})
     if len(part):
         at = float(part.reference[:, axis].mean())
-    factor, unit = scale_of(float(np.abs(reference).max()), "m")
+    factor, unit = scale_of(float(np.ptp(reference, axis=0).max()), "m")
     kept: List[int] = [k for k in range(3) if k != axis]
     return part, (kept[0], kept[1]), at, "%s = %.4g %s" % (name, at * factor, unit)
 
@@ -156,6 +156,7 @@ def _draw_line(frame: Any, name: str, ax: Any, magnify: float) -> Any:
         ax.plot(long * places[alone], factor * values[alone], "o", color=curve.get_color(), markersize=4)
     ax.set_xlabel("x [%s]" % metres)
     ax.set_ylabel(words + (" [%s]" % shown if shown else ""))
+    _tics(ax)
     return ax
 
 
@@ -164,7 +165,7 @@ def _when(frame: Any) -> str:
     if re.search(r"^solver: *static$", frame.scene, re.MULTILINE):
         return "load step %d" % frame.step
     factor, seconds = scale_of(frame.time, "s")
-    return "%.4g %s" % (frame.time * factor, seconds if frame.time > 0 else "s")
+    return "%.4g %s" % (frame.time * factor, seconds)
 
 
 def _title(ax: Any, words: List[str]) -> None:
@@ -174,11 +175,31 @@ def _title(ax: Any, words: List[str]) -> None:
     ax.set_title(line if len(line) <= letters else "\n".join(words), fontsize="medium")
 
 
+def _tics(ax: Any) -> None:
+    """Makes the numbers of both axes whole ones, without a common factor or offset, and those of the horizontal axis so few that they do not
+    touch."""
+    from matplotlib.ticker import MaxNLocator, ScalarFormatter
+    for axis in (ax.xaxis, ax.yaxis):
+        axis.set_major_formatter(ScalarFormatter(useOffset=False))
+        axis.get_major_formatter().set_scientific(False)
+    box = ax.get_window_extent()
+    low, high = np.sort(ax.get_xlim())
+    wide = 0.75 * 72 / ax.figure.dpi * box.width           # the colour bar takes a quarter
+    if ax.get_aspect() != "auto":
+        wide = min(wide, 72 / ax.figure.dpi * box.height * (high - low) / abs(np.diff(ax.get_ylim())[0]))
+    for count in range(9, 0, -1):
+        tics = [tic for tic in MaxNLocator(count, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high) if low <= tic <= high]
+        letters = max([len("%.9g" % tic) for tic in tics], default=1)
+        if len(tics) < 2 or (letters + 1.5) * 6 <= wide * (tics[1] - tics[0]) / (high - low):      # 6 points a letter
+            break
+    ax.xaxis.set_major_locator(MaxNLocator(count, steps=[1, 2, 2.5, 5, 10]))
+
+
 def _check(frame: Any, magnify: float, limits: Any, colours: Optional[str]) -> None:
     """Raises ValueError for a frame without particles, and for options that mean nothing."""
     if len(frame) == 0:
         raise ValueError("no particles to draw")
-    number_of(magnify, "magnify", "a number from 0", 0.0)
+    number_of(magnify, "magnify", "a number above 0", 5e-324)
     if limits is not None:
         try:
             low, high = (float(end) for end in limits)
@@ -244,18 +265,19 @@ def draw_frame(frame: Any, field: Optional[str], ax: Any = None, *, magnify: flo
     seen = _seen(corners.reshape(-1, 2), outlines.reshape(-1, 2))
     wide, high_up = np.ptp(seen, axis=0)
     ax = _axes_of(ax, high_up / wide)
-    long, metres = scale_of(float(max(wide, high_up)) / 4, "m")
+    long, metres = scale_of(float(max(wide, high_up)), "m")
     squares = PolyCollection(long * corners, array=factor * values, cmap=_colours_of(name, colours, low, high),
                              edgecolors="face", linewidths=0.3, antialiaseds=False, rasterized=len(values) > 5000)
     squares.set_clim(factor * low, factor * high)
     ax.add_collection(squares)
     if len(outlines):
         ax.add_collection(LineCollection(long * outlines, colors="0.35", linewidths=1.0), autolim=False)
-        ax.update_datalim(long * seen)
     for face in crack_faces(frame, magnify):
         ax.plot(*(long * face.T), color=_FACE if name == "damage" else "white", linewidth=1.0, scalex=False, scaley=False)
+    ax.update_datalim(long * seen)
     ax.autoscale_view()
     ax.set_aspect("equal")
+    _tics(ax)
     ax.set_xlabel("%s [%s]" % ("xyz"[axes[0]], metres))
     ax.set_ylabel("%s [%s]" % ("xyz"[axes[1]], metres))
     _title(ax, words)

@@ -37,17 +37,23 @@ DERIVED: Dict[str, Tuple[str, Callable[[np.ndarray], np.ndarray]]] = {
     "speed": ("velocity", lambda v: np.linalg.norm(v, axis=1)),
 }
 
-_PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
-_SCALED = ("m", "Pa", "s", "N", "J", "m/s")
+# The units are those of `cleave plot` (src/plot/plot_units.c).
+PREFIXES = ((1e24, "Y"), (1e21, "Z"), (1e18, "E"), (1e15, "P"), (1e12, "T"), (1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"),
+            (1e-6, "µ"), (1e-9, "n"), (1e-12, "p"), (1e-15, "f"), (1e-18, "a"), (1e-21, "z"), (1e-24, "y"))
+_SCALED = ("m", "Pa", "s", "N", "J", "m/s", "W", "J/m²", "J/m³", "Pa√m")
+_NEARLY_ONE = 0.9995                     # values from this share of a unit on are shown in it: they are rounded to 1
 
 
 def scale_of(largest: float, unit: str) -> Tuple[float, str]:
-    """Returns the factor and the unit in which values up to `largest` are shown: 1e-6 and MPa for 3e8 Pa."""
-    if unit not in _SCALED or not np.isfinite(largest) or largest <= 0 or (unit == "m/s" and largest < 1e4):
+    """Returns the factor and the unit in which values up to `largest` are shown: 1e-6 and MPa for 3e8 Pa. Lengths are in millimetres
+    between 0.5 mm and 1 m, and in kilometres from 1 km on."""
+    if unit not in _SCALED or not np.isfinite(largest):
         return 1.0, unit
-    for size, prefix in _PREFIXES:
-        if unit == "m" and size > 1:
-            continue
-        if largest >= size:
+    if unit == "m" and largest >= 1e3 * _NEARLY_ONE:
+        return 1e-3, "km"
+    if unit == "m" and 5e-4 < largest < _NEARLY_ONE:
+        return 1e3, "mm"
+    for size, prefix in PREFIXES:
+        if largest >= size * _NEARLY_ONE:
             return 1 / size, prefix + unit
-    return 1e9, "n" + unit
+    return 1.0, unit                     # 0, or round-off

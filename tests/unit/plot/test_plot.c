@@ -184,19 +184,20 @@ static void axes_have_prefixes(void **state)
     static const struct {
         double largest, factor;
         const char *name;
-    } axis[] = {{3.2e9, 1e9, "GPa"},   {7e6, 1e6, "MPa"},   {2.5e3, 1e3, "kPa"}, {40, 1, "Pa"},     {0.3, 1e-3, "mPa"},
-                {3.2e-5, 1e-6, "µPa"}, {4e-9, 1e-9, "nPa"}, {0, 1, "Pa"},        {-5e4, 1e3, "kPa"}};
+    } axis[] = {{3.2e9, 1e9, "GPa"},    {3.2e-5, 1e-6, "µPa"}, {0, 1, "Pa"},        {-5e4, 1e3, "kPa"},
+                {1.67e17, 1e15, "PPa"}, {9e-16, 1e-18, "aPa"}, {2e27, 1e24, "YPa"}, {INFINITY, 1, "Pa"}};
     for (size_t k = 0; k < COUNT_OF(axis); k++) {
         const struct unit u = unit_for_largest_value(axis[k].largest, "Pa");
         assert_true(fabs(u.factor / axis[k].factor - 1) < 1e-12);
         assert_string_equal(u.name, axis[k].name);
     }
     assert_true(unit_for_length(0.04).factor == 1e-3 && unit_for_length(6).factor == 1);
+    assert_true(unit_for_length(6.4e6).factor == 1e3 && unit_for_length(4e-5).factor == 1e-6);
     assert_string_equal(unit_for_largest_value_if_prefixable("s", 3e-5).name, "µs");
     assert_string_equal(unit_for_largest_value_if_prefixable("m", 0.02).name, "mm");
     assert_string_equal(unit_for_largest_value_if_prefixable("m^2", 3.5e-11).name, "µm²");
     assert_true(unit_for_area(1e-3).factor == 1e-6 && unit_for_area(3e6).factor == 1e6);
-    assert_true(unit_for_largest_value_if_prefixable("kg m/s", 3e-5).factor == 1);
+    assert_string_equal(unit_for_largest_value_if_prefixable("kg/m³", 2440).name, "kg/m³");
 }
 
 /* Checks that a distant particle changes neither rectangle nor range of colours, and is counted as outside. */
