@@ -96,6 +96,14 @@ void curves_write_tics(FILE *gnuplot, const char *vertical_axis, double low, dou
         fprintf(gnuplot, "set %stics %.9g\n", vertical_axis, tic_distance(high - low, panel_height, sizes_now()->tics));
 }
 
+void curves_write_horizontal_tics(FILE *to, const struct curves_layout *l, double low, double high)
+{
+    const double most = fmax(fabs(low), fabs(high));
+    const double letters = 2 + (low < 0) + fmax(floor(log10(most)), 0); /* of the longest number, with a space */
+    const double pixels = l->width - l->left - l->right;
+    fprintf(to, "set xtics %.9g\n", tic_distance(high - low, pixels, 12 + 11 * letters));
+}
+
 void title_compose_with_particles_outside(char *text, const char *title, int64_t outside)
 {
     int length = snprintf(text, TITLE_LENGTH, "%.*s", TITLE_LENGTH - 64, title);

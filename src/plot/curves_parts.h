@@ -92,6 +92,10 @@ double tic_distance(double value_extent, double axis_length, double least_distan
  * panel. low, high: values at the ends of the axis; panel_height: height of the panel [pixel]. */
 void curves_write_tics(FILE *gnuplot, const char *vertical_axis, double low, double high, double panel_height);
 
+/* Writes the gnuplot command for the tics of a horizontal axis from `low` to `high`, so far apart that their numbers do
+ * not touch. layout: layout of the picture. */
+void curves_write_horizontal_tics(FILE *gnuplot, const struct curves_layout *layout, double low, double high);
+
 /* PANEL_GAP: distance of panels one above another [pixel]; TIME_LETTERS: number of letters of a time in a key, as
  * `123.4 µs`. */
 enum { PANEL_GAP = 26, TIME_LETTERS = 9 };

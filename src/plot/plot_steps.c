@@ -1,27 +1,19 @@
-/* Pictures of load steps: load against displacement, and energy release rate against crack growth (R-curve). */
+/* Pictures of load against displacement. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "base/memory.h"
 #include "output/pictures.h"
-#include "output/summary_read.h"
 #include "curves_parts.h"
-#include "scene/scene_read.h"
 
 /* After the last force above this fraction of its largest value the broken body only moves apart. */
 #define FORCE_LEFT 0.01
-#define DRIVEN 0.02     /* least component of a displacement along which a body is driven, as a share of its length */
-#define ROUND_OFF 1e-9  /* displacements below this number of spacings are round-off */
-#define REST_SHOWN 3    /* motion without force is shown up to this multiple of that with force */
-#define LINE_WIDE 0.002 /* width of a line divided by the length of an axis [1] */
-enum {
-    REACTIONS_SHOWN = CURVE_COLOURS - 1,
-    TOUGHNESSES_SHOWN = 3,
-    POINTS_SHOWN = 200,
-    LABEL_ROOM = 256,
-    PEAK_ROOM = 128
-};
+#define DRIVEN 0.02      /* least component of a displacement along which a body is driven, as a share of its length */
+#define ROUND_OFF 1e-9   /* displacements below this number of spacings are round-off */
+#define REST_SHOWN 3     /* motion without force is shown up to this multiple of that with force */
+#define FORCE_SHOWN 5e-4 /* a smaller part of the largest force is not drawn: its curve coincides with the axis */
+#define LINE_WIDE 0.002  /* width of a line divided by the length of an axis [1] */
+enum { REACTIONS_SHOWN = CURVE_COLOURS - 1, POINTS_SHOWN = 200, LABEL_ROOM = 256, PEAK_ROOM = 128 };
 
 bool run_has_load_steps(const char *folder)
 {
@@ -30,16 +22,6 @@ bool run_has_load_steps(const char *folder)
     const bool in_steps = history_find_column(&h, "load_time") >= 0;
     history_free(&h);
     return in_steps;
-}
-
-/* Writes to gnuplot the command for the tics of a horizontal axis from `low` to `high`, so far apart that their numbers
- * do not touch. l: layout of the picture. */
-static void write_horizontal_tics(FILE *to, const struct curves_layout *l, double low, double high)
-{
-    const double most = fmax(fabs(low), fabs(high));
-    const double letters = 2 + (low < 0) + fmax(floor(log10(most)), 0); /* of the longest number, with a space */
-    const double pixels = l->width - l->left - l->right;
-    fprintf(to, "set xtics %.9g\n", tic_distance(high - low, pixels, 12 + 11 * letters));
 }
 
 /* ---- load over displacement -------------------------------------------------------------------------------------- */
@@ -148,7 +130,7 @@ static int probe_from(const struct history *h, int from, const char *quantity, c
 static void reaction_append(struct reactions *r, const struct history *h, const char *name, bool rigid,
                             const struct component *force, const struct component *displacement)
 {
-    if (r->n == REACTIONS_SHOWN) return;
+    if (r->n == REACTIONS_SHOWN || !(largest_of(h, force) > 0)) return;
     struct reaction *a = &r->of[r->n++];
     *a = (struct reaction){.rigid = rigid, .force = *force, .displacement = *displacement, .peak = peak_of(h, force)};
     snprintf(a->name, sizeof a->name, "%s", name);
@@ -179,18 +161,31 @@ static void reactions_add_body(struct reactions *r, const struct history *h, con
     }
 }
 
-/* Finds the first point probe in the history h that moves, stores its name in r->over, and makes the largest component
- * of its displacement that of all curves of r. Leaves r unchanged, with r->over empty, if there is no such probe. */
-static void reactions_use_point(struct reactions *r, const struct history *h)
+/* Finds the first point probe in the history h that moves by more than `still` [m], stores its name in r->over, and
+ * makes the largest component of its displacement that of all curves of r. Leaves r unchanged, with r->over empty, if
+ * there is no such probe. */
+static void reactions_use_point(struct reactions *r, const struct history *h, double still)
 {
     char name[NAME_MAX_LENGTH];
     for (int k = 0; (k = probe_from(h, k, ".displacement_x", name)) >= 0 && !r->over[0]; k++) {
         const struct components all = components_of(h, name, ".", "displacement_", false);
         const struct component displacement = main_component(h, &all);
-        if (!(largest_of(h, &displacement) > 0)) continue;
+        if (!(largest_of(h, &displacement) > still)) continue;
         memcpy(r->over, name, sizeof name);
         for (int m = 0; m < r->n; m++) r->of[m].displacement = displacement;
     }
+}
+
+/* Removes from r the curves whose largest force is below the share FORCE_SHOWN of the largest one of all. h: history
+ * with the values. */
+static void reactions_drop_small(struct reactions *r, const struct history *h)
+{
+    double largest = 0;
+    int kept = 0;
+    for (int m = 0; m < r->n; m++) largest = fmax(largest, largest_of(h, &r->of[m].force));
+    for (int m = 0; m < r->n; m++)
+        if (largest_of(h, &r->of[m].force) >= FORCE_SHOWN * largest) r->of[kept++] = r->of[m];
+    r->n = kept;
 }
 
 /* Returns true if all curves of r show components along one axis: of forces if `force` is true, else of
@@ -268,8 +263,9 @@ static void reactions_find(struct reactions *r, const struct history *h, double 
         for (int k = 0; (k = probe_from(h, k, ".force_x", name)) >= 0; k++)
             reactions_add_body(r, h, name, false, still, pass > 0);
     }
-    if (!r->moving) reactions_use_point(r, h);
+    if (!r->moving) reactions_use_point(r, h, still);
     if (!r->moving && !r->over[0]) return;
+    reactions_drop_small(r, h);
     reactions_choose_signs(r, h);
     reactions_set_ranges(r, h);
 }
@@ -372,8 +368,10 @@ static void reactions_plot(FILE *to, const struct history *h, const struct react
 static status say_missing_load(const char *path, const struct reactions *r)
 {
     if (r->n > 0)
-        return report_picture_not_drawn(path, "the boundary that carries the load does not move; add a point probe "
-                                              "where the body moves: probes: [{point: {at: [...]}}]");
+        return report_picture_not_drawn(path,
+                                        "the boundary that carries the load does not move, or only turns, so that "
+                                        "its mean displacement is 0; add a point probe where the body moves: "
+                                        "probes: [{point: {at: [...]}}]");
     return report_picture_not_drawn(
         path, "no force to draw: give a boundary a displacement or velocity, or add a rigid body");
 }
@@ -408,7 +406,7 @@ static void reactions_write_axes(FILE *to, const struct curves_layout *l, const 
     const double left = (u.low < 0 ? u.low - wide : 0) / metre.factor, right = (u.high + wide) / metre.factor,
                  bottom = (f.low < 0 ? f.low - tall : 0) / newton.factor, top = (f.high + tall) / newton.factor;
     char label[LABEL_ROOM];
-    write_horizontal_tics(to, l, left, right);
+    curves_write_horizontal_tics(to, l, left, right);
     curves_write_tics(to, "y", f.low / newton.factor, f.high / newton.factor, curves_layout_height_of_all_panels(l));
     fprintf(to,
             "set zeroaxis lt 1 lw 0.8 lc rgb '#999999'\nset xrange [%.9g:%.9g]\nset yrange [%.9g:%.9g]\nset ylabel ",
@@ -436,87 +434,9 @@ status load_displacement_draw(struct sheet sheet, const char *title, const struc
     reactions_send(g.to, history, &r, newton, metre);
     curves_write_title(&g, title, "load and displacement");
     const struct curves_layout l =
-        curves_layout_make(&g, 2 * r.n, longest_key_entry(history, &r, newton, metre), false);
+        curves_layout_make(&g, 2 * r.n, longest_key_entry(history, &r, newton, metre), false, 1);
     curves_write_margins_and_key(g.to, &l);
     reactions_write_axes(g.to, &l, &r, newton, metre);
     reactions_plot(g.to, history, &r, newton, metre);
-    return gnuplot_close(&g);
-}
-
-/* ---- R-curve ----------------------------------------------------------------------------------------------------- */
-
-/* Reads the critical energy release rates of the materials in the scene of the run in `folder` into value[] [J/m^2],
- * each value once. Returns their number; 0 if the scene cannot be read. */
-static int toughnesses_of(const char *folder, double value[TOUGHNESSES_SHOWN])
-{
-    struct scene s;
-    int n = 0;
-    if (scene_read(&s, path_join(folder, "scene.yaml").text, NULL, 0) != OK) return 0;
-    for (int m = 0; m < s.materials && n < TOUGHNESSES_SHOWN; m++) {
-        const double own = s.material[m].energy_release_rate;
-        bool known = !(own > 0) || !isfinite(own);
-        for (int k = 0; k < n; k++) known |= value[k] == own;
-        if (!known) value[n++] = own;
-    }
-    scene_free(&s);
-    return n;
-}
-
-/* Sends the data block $data to gnuplot: crack area and energy release rate of each load step in which the crack has
- * grown. area, rate: indices of their columns in the history h; square: unit of area; factor: unit of the rate
- * [J/m^2]. */
-static void release_send(FILE *to, const struct history *h, int area, int rate, struct unit square, double factor)
-{
-    double before = 0;
-    fputs("$data << EOD\n", to);
-    for (int64_t i = 0; i < h->rows; i++) {
-        const double now = history_value_at(h, i, area);
-        if (now > before && isfinite(history_value_at(h, i, rate)))
-            fprintf(to, "%.9g %.9g\n", now / square.factor, history_value_at(h, i, rate) / factor);
-        before = fmax(before, now);
-    }
-    fputs("EOD\n", to);
-}
-
-/* Writes to gnuplot the command that plots the energy release rate against the crack area. Also plots as horizontal
- * lines the mean rate `mean` [J/m^2] unless it is NAN, and the critical rates toughness[n] [J/m^2] of the materials.
- * rate: unit of the axis of rates. */
-static void release_plot(FILE *to, const double *toughness, int n, double mean, struct unit rate)
-{
-    fprintf(to, "plot $data with linespoints lw 2 pt 7 ps 0.7 lc rgb '%s' title 'release rate'", curve_colour[0]);
-    if (isfinite(mean))
-        fprintf(to, ", %.9g with lines lw 1.6 dt (3,4) lc rgb '%s' title 'mean %.4g %s'", mean / rate.factor,
-                curve_colour[0], mean / rate.factor, rate.name);
-    for (int k = 0; k < n; k++)
-        fprintf(to, ", %.9g with lines lw 1.8 dt (10,6) lc rgb '%s' title 'G_c = %.4g %s'", toughness[k] / rate.factor,
-                curve_colour[1 + k], toughness[k] / rate.factor, rate.name);
-    putc('\n', to);
-}
-
-status r_curve_draw(struct sheet sheet, const char *folder, const char *title, const struct history *history)
-{
-    const int area = history_find_column(history, "crack_area"), rate = history_find_column(history, "release_rate");
-    const double grown = history_largest_magnitude(history, area);
-    double toughness[TOUGHNESSES_SHOWN] = {0}, top = history_largest_magnitude(history, rate);
-    struct gnuplot g;
-    if (!(grown > 0)) return report_picture_not_drawn(sheet.path, "no crack has grown");
-    const int n = toughnesses_of(folder, toughness);
-    for (int k = 0; k < n; k++) top = fmax(top, toughness[k]);
-    double mean; /* NAN before the run has ended */
-    (void)summary_read_number(folder, "load_steps.release_rate", &mean);
-    top = fmax(top, mean);
-    const struct unit square = unit_for_area(grown), joule = unit_for_largest_value(top, "J/m²");
-    TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 640));
-    release_send(g.to, history, area, rate, square, joule.factor);
-    curves_write_title(&g, title, "energy released by the growing crack");
-    const struct curves_layout l = curves_layout_make(&g, 2 + n, strlen("mean 123.4 kJ/m²"), false);
-    curves_write_margins_and_key(g.to, &l);
-    fprintf(g.to,
-            "set xrange [0:%.9g]\nset yrange [0:%.9g]\nset ylabel 'released over new area [%s]'\nset xlabel 'new crack "
-            "area [%s]'\n",
-            1.03 * grown / square.factor, 1.15 * top / joule.factor, joule.name, square.name);
-    write_horizontal_tics(g.to, &l, 0, 1.03 * grown / square.factor);
-    curves_write_tics(g.to, "y", 0, top / joule.factor, curves_layout_height_of_all_panels(&l));
-    release_plot(g.to, toughness, n, mean, joule);
     return gnuplot_close(&g);
 }

@@ -149,6 +149,32 @@ holds "motion without force is named" grep -a -q "^set xlabel 'displacement −y
 holds "a curve that is signed" grep -a -q "^-10 -300$" all
 holds "round-off is no motion" sh -c "! grep -a -q \"title 'base\" all"
 
+# A force that stays 0 is not drawn; the prefixes of units go as far as those of SI.
+mkdir flat
+cat >flat/history.csv <<'END'
+time [s],step,load_time [s],kinetic [J],up.force_x [N],up.force_y [N],up.displacement_x [m],up.displacement_y [m],pin.force_x [N],pin.force_y [N],pin.displacement_x [m],pin.displacement_y [m]
+0,0,0,0,0,0,0,0,0,0,0,0
+1,1,1,1e17,0,1e15,8e-5,1e-4,1e9,0,1e-4,0
+2,2,2,1.67e17,0,2e15,8e-5,2e-4,0,0,2e-4,0
+END
+: >all
+"$cleave" plot flat $small -o flat/ >out 2>err
+holds "one curve: $(cat err)" grep -a -q "title 'up', .f0 every" all
+holds "no other" sh -c "! grep -a -q 'f1' all"
+for label in "energy \[PJ\]" "force y \[PN\]"; do holds "an axis: $label" grep -a -q "$label" all; done
+
+# A face that only turns has a mean displacement of round-off, over which nothing is drawn.
+mkdir turning
+cat >turning/history.csv <<'END'
+time [s],step,load_time [s],right.force_x [N],right.force_y [N],right.displacement_x [m],right.displacement_y [m]
+0,0,0,0,0,0,0
+1,1,1,200,0,1.4e-20,0
+2,2,2,-290,0,-1.7e-21,0
+END
+cp strip.yaml turning/scene.yaml
+"$cleave" plot turning $small -o turning/ >out 2>err
+holds "a face that only turns: $(cat err)" grep -q "load_displacement.png is not drawn: .* only turns" out
+
 # Numbers of five digits below the axis of a column of a journal do not touch: tics every 5000 mm^2.
 mkdir grown
 cat >grown/history.csv <<'END'
