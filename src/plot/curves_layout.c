@@ -18,8 +18,18 @@ static const struct sizes {
 
 static const struct sizes *sizes_now(void) { return picture_is_too_narrow_for_key() ? &NARROW : &WIDE; }
 
+double curves_key_height_beside_panel(int entry_count) { return (entry_count + 0.5) * sizes_now()->row; }
+
+/* Returns true if the key (legend) with `entries` entries is no higher than the uppermost of `panels` panels with the
+ * layout l: gnuplot breaks a higher one into columns, for which there is no space beside the panels. */
+static bool key_fits_beside_panel(const struct curves_layout *l, int entries, int panels)
+{
+    const double panel = (curves_layout_height_of_all_panels(l) - PANEL_GAP * (panels - 1)) / panels;
+    return curves_key_height_beside_panel(entries) <= panel;
+}
+
 struct curves_layout curves_layout_make(const struct gnuplot *gnuplot, int key_entry_count, size_t longest_key_entry,
-                                        bool has_second_axis)
+                                        bool has_second_axis, int panel_count)
 {
     const bool narrow = picture_is_too_narrow_for_key();
     struct curves_layout l = {.width = gnuplot->width,
@@ -30,7 +40,8 @@ struct curves_layout curves_layout_make(const struct gnuplot *gnuplot, int key_e
     if (gnuplot->untitled) l.above = UNTITLED;
     const struct sizes *of = sizes_now();
     const double entry = of->sample + of->letter * (double)longest_key_entry;
-    l.key_below = key_entry_count > 0 && (narrow || has_second_axis);
+    l.key_below =
+        key_entry_count > 0 && (narrow || has_second_axis || !key_fits_beside_panel(&l, key_entry_count, panel_count));
     l.right = has_second_axis ? (narrow ? AXIS_NARROW : AXIS) : narrow ? RIGHT_NARROW : RIGHT;
     if (key_entry_count > 0 && !l.key_below) l.right = fmin(entry, 0.5 * l.width);
     l.key_columns = (int)fmax(fmin(floor((l.width - l.left - RIGHT_NARROW) / entry), key_entry_count), 1);

@@ -53,10 +53,14 @@ struct curves_layout {
 
 /* Returns the layout (sizes and margins of panels, position of the key) of the picture of curves that `gnuplot` draws.
  * key_entry_count: number of texts of the key (legend), 0 for a picture without key; longest_key_entry: number of
- * letters of the longest text; has_second_axis: true if there is a second vertical axis on the right. The key is beside
- * the panels. In narrow pictures (picture_is_too_narrow_for_key), or with a second axis, it is below them. */
+ * letters of the longest text; has_second_axis: true if there is a second vertical axis on the right; panel_count:
+ * number of panels of equal height, one above another. The key is beside the panels. In narrow pictures
+ * (picture_is_too_narrow_for_key), with a second axis, or if it is higher than a panel, it is below them. */
 struct curves_layout curves_layout_make(const struct gnuplot *gnuplot, int key_entry_count, size_t longest_key_entry,
-                                        bool has_second_axis);
+                                        bool has_second_axis, int panel_count);
+
+/* Returns the least height [pixel] of a panel with a key (legend) of entry_count entries beside it. */
+double curves_key_height_beside_panel(int entry_count);
 
 /* Returns the height [pixel] between the upper edge of the first panel of `layout` and the lower edge of the last
  * panel. */

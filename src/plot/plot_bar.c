@@ -220,7 +220,7 @@ static status plot_bar_draw(struct sheet sheet, const char *title, const struct 
     fprintf(g.to, "set multiplot\nset format x ''\nset xrange [%.9g:%.9g]\n", (x.low - half) / metre.factor,
             (x.high + half) / metre.factor);
     bool tinted = tint_kinds(g.to, &h[frames - 1], metre.factor, half);
-    const struct curves_layout l = curves_layout_make(&g, frames + 1 + tinted, strlen("peridynamic"), false);
+    const struct curves_layout l = curves_layout_make(&g, frames + 1 + tinted, strlen("peridynamic"), false, panels);
     const double each = (curves_layout_height_of_all_panels(&l) - PANEL_GAP * (panels - 1)) / panels;
     curves_write_margins_and_key(g.to, &l);
     for (int q = 0; q < panels; q++) {

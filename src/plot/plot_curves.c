@@ -111,7 +111,7 @@ static status draw_crack(struct sheet sheet, const char *title, const struct ser
     curves_write_title(&g, title, "crack");
     curves_write_time_axis(g.to, s);
     const bool both = shown[0] && shown[1];
-    const struct curves_layout l = curves_layout_make(&g, both ? 2 : 0, strlen("peridynamic share (right)"), both);
+    const struct curves_layout l = curves_layout_make(&g, both ? 2 : 0, strlen("peridynamic share (right)"), both, 1);
     curves_write_margins_and_key(g.to, &l);
     const double pixels = curves_layout_height_of_all_panels(&l);
     snprintf(label, sizeof label, "crack growth [%s]", metre.name);
@@ -290,7 +290,7 @@ static status draw_energy(struct sheet sheet, const char *title, const struct se
     curves_write_time_axis(g.to, s);
     size_t longest = 3; /* sum */
     for (int k = 0; k < e.n; k++) longest = strlen(e.label[k]) > longest ? strlen(e.label[k]) : longest;
-    const struct curves_layout l = curves_layout_make(&g, e.n + 1, longest, false);
+    const struct curves_layout l = curves_layout_make(&g, e.n + 1, longest, false, 1);
     curves_write_margins_and_key(g.to, &l);
     fprintf(g.to, "set ylabel 'energy [%s]'\n", e.joule.name);
     const double end =

@@ -230,7 +230,7 @@ static status profiles_draw(struct sheet sheet, const char *title, const struct 
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1080, 130 + 263 * panels));
     profiles_send(g.to, profile, profiles, spacing, factor);
     curves_write_title(&g, text, "");
-    const struct curves_layout l = curves_layout_make(&g, profiles, longest_label(profile, profiles), false);
+    const struct curves_layout l = curves_layout_make(&g, profiles, longest_label(profile, profiles), false, panels);
     const double each = (curves_layout_height_of_all_panels(&l) - PANEL_GAP * (panels - 1)) / panels;
     curves_write_margins_and_key(g.to, &l);
     fprintf(g.to, "set multiplot\nset format x ''\nset xrange [%.9g:%.9g]\n", x.low / metre.factor,
@@ -284,7 +284,7 @@ static status field_profile_draw(struct sheet sheet, const char *title, const st
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 560));
     profiles_send(g.to, profile, profiles, spacing, factor);
     curves_write_title(&g, text, "");
-    const struct curves_layout l = curves_layout_make(&g, profiles, longest_label(profile, profiles), false);
+    const struct curves_layout l = curves_layout_make(&g, profiles, longest_label(profile, profiles), false, 1);
     curves_write_margins_and_key(g.to, &l);
     fprintf(g.to, "set xlabel 'x [%s]'\nset ylabel '%s'\nset xrange [%.9g:%.9g]\n", metre.name, label,
             x.low / metre.factor, x.high / metre.factor);

@@ -113,7 +113,7 @@ status sif_curves_draw(const char *title, const struct series *series)
     curves_write_time_axis(g.to, series);
     size_t longest = 0; /* of the names of several probes, which are before those of the factors */
     for (int k = 0; k < f.n && f.n > 1; k++) longest = strlen(f.name[k]) > longest ? strlen(f.name[k]) : longest;
-    const struct curves_layout l = curves_layout_make(&g, 2 * f.n, longest + strlen(": K_II"), false);
+    const struct curves_layout l = curves_layout_make(&g, 2 * f.n, longest + strlen(": K_II"), false, 1);
     curves_write_margins_and_key(g.to, &l);
     fprintf(g.to, "set ylabel 'K [%s]'\nset offsets graph 0, graph 0, graph 0.04, graph 0.04\n", f.unit.name);
     const double end =
@@ -237,13 +237,14 @@ static status paths_open(struct gnuplot *g, const char *path, const struct serie
                          const double *high, const struct unit *metre, int entries, size_t longest)
 {
     const struct gnuplot most = {.width = PATH_WIDE, .height = PATH_HIGH};
-    const struct curves_layout usual = curves_layout_make(&most, entries, longest, false);
+    const struct curves_layout usual = curves_layout_make(&most, entries, longest, false, 1);
     const double beside = usual.left + usual.right, aspect = (high[1] - low[1]) / (high[0] - low[0]);
     const double highest = curves_layout_height_of_all_panels(&usual),
                  inner = fmax(fmin(PATH_WIDE - beside, highest / aspect), PATH_LOW);
-    const double height = PATH_HIGH - highest + fmin(inner * aspect, highest);
+    const double height =
+        PATH_HIGH - highest + fmin(fmax(inner * aspect, curves_key_height_beside_panel(entries)), highest);
     TRY(gnuplot_open(g, path, s->format, (int)(inner + beside), (int)height));
-    const struct curves_layout l = curves_layout_make(g, entries, longest, false);
+    const struct curves_layout l = curves_layout_make(g, entries, longest, false, 1);
     const double pixels[2] = {l.width - l.left - l.right, curves_layout_height_of_all_panels(&l)};
     const double scale = fmin(pixels[0] / (high[0] - low[0]), pixels[1] / (high[1] - low[1])); /* [pixel/m] */
     curves_write_margins_and_key(g->to, &l);

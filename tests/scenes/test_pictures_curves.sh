@@ -108,6 +108,13 @@ holds "a lone particle is a point: $(cat err)" grep -a -q '$l3 using 1:2 with po
 holds "and outside the axis of velocities" grep -a -q "profiles (1 particle is outside the picture)" all
 between "whose axis is that of the bar" "$(sed -n 's/^set yrange .*:\([0-9.]*\)\].*/\1/p' all | head -n 1)" 0.5 20
 
+# The names of more curves than fit beside a panel are below it.
+"$cleave" run spall.yaml -q -o many -s output.frames=23 >out 2>err
+: >all
+"$cleave" plot many --field stress_xx --times all -o many.png >out 2>err
+holds "24 curves: $(cat err)" grep -q "stress_xx of 24 frames" out
+holds "their names are below the panel" grep -a -q "^set key at .* horizontal maxcols 6 maxrows 4$" all
+
 # Load steps of a bar: profiles are named by the step, and a bar at rest has no panel of velocities.
 "$cleave" run spall.yaml -q -o slow -s solver=static -s steps.number=2 -s 'boundary=[{fixed: [x], face: x-}, {displacement: [1 um], face: x+, time: {ramp: {until: 12 us}}}]' >out 2>err
 : >all
