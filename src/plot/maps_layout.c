@@ -20,6 +20,7 @@ enum { WIDTH = 1280, WIDTH_SINGLE = 1000, HEIGHT_MAX = 1180, PANEL_MIN = 24 };
 static const double SHAPE_WANTED = 0.72;  /* height of the picture divided by its width */
 static const double TALL_MOST = 1.5;      /* the same of a narrow picture of which the width alone is given */
 enum { PAGE_HEIGHT = 1300 };              /* of such a picture whose panels do not fit into this: 230 mm [pixel] */
+enum { BAR_UNDER_LEAST = 120 };           /* least length of a colour bar below the panels [pixel] */
 enum { PANEL_TITLE = 11 };                /* letters of the title of a panel, as `t = 12.3 µs` */
 static const double DOES_NOT_FIT = 1e3;   /* more than any other cost of a layout */
 static const double BESIDE_BETTER = 0.03; /* a bar below must make panels larger by 6 % of their area */
@@ -50,6 +51,7 @@ static struct layout margins_of(const struct maps_shown *m, bool under, const st
                             .axes = m->outside ? BELOW_OUTSIDE_NARROW : BELOW_NARROW,
                             .right = under || !bar ? EDGE_NARROW : colour_bar_width_beside_panels(m, panels),
                             .gap = GAP_NARROW};
+    if (before) l.gap = (int)fmax(l.gap, PANEL_TITLE * letter - before->panel_width);
     if (before && !m->outside) {
         l.left = (int)fmax(l.left, panel_margin_of_numbers(m->view, before->panel_height));
         l.gap = (int)fmax(l.gap, panel_numbers_width(m->view, before->panel_width) + BETWEEN_NUMBERS);
@@ -83,13 +85,14 @@ static double height_most(bool tall)
 }
 
 /* Returns true if the panels of layout l fit into a picture of the size that the user has chosen, with their titles
- * beside one another. more: width of the picture beyond what the layout needs [pixel]; height: largest height of the
- * picture [pixel]. */
+ * beside one another and beside the colour bar, which is not too short below them. more: width of the picture beyond
+ * what the layout needs [pixel]; height: largest height of the picture [pixel]. */
 static bool panels_fit(const struct layout *l, int more, double height)
 {
     const double letter = picture_is_too_narrow_for_key() ? KEY_LETTER_NARROW : KEY_LETTER;
     return more >= 0 && l->above + l->below + (l->rows - 1) * GAP_Y + l->rows * l->panel_height <= height + 1 &&
-           (l->columns == 1 || l->panel_width + l->gap >= PANEL_TITLE * letter);
+           (!l->bar_under || l->width - l->left - l->right >= BAR_UNDER_LEAST) &&
+           l->panel_width + (l->columns == 1 ? 2 * BAR_FROM_NARROW : l->gap) >= PANEL_TITLE * letter;
 }
 
 /* Returns the layout of a picture with the given numbers of columns and of panels. aspect: height of a panel divided by

@@ -90,6 +90,20 @@ static int64_t count_outside(const struct view *v, const struct plotted_particle
     return outside;
 }
 
+/* Largest height of the rectangle of a view over its width, and largest width over its height: beside a more slender
+ * body there is space for the numbers of the axis across it. */
+static const double UPRIGHT_MOST = 8, FLAT_MOST = 20;
+
+/* Widens the rectangle of the view v of a slender body at both sides. */
+static void view_widen_slender(struct view *v)
+{
+    const double size[2] = {v->to[0] - v->from[0], v->to[1] - v->from[1]};
+    for (int k = 0; k < 2; k++) {
+        const double more = fmax(0.5 * (size[1 - k] / (k == 0 ? UPRIGHT_MOST : FLAT_MOST) - size[k]), 0);
+        v->from[k] -= more, v->to[k] += more;
+    }
+}
+
 struct view view_make_around_particles(const struct plotted_particles *cloud, int frame_count)
 {
     struct view v = {.top = 0.5};
@@ -112,6 +126,7 @@ struct view view_make_around_particles(const struct plotted_particles *cloud, in
         v.from[k] -= beside, v.to[k] += beside;
     }
     for (int c = 0; c < frame_count; c++) view_extend_to_rigid_bodies(&v, &cloud[c]);
+    view_widen_slender(&v);
     for (int c = 0; c < frame_count; c++)
         v.outside = (int64_t)fmax((double)v.outside, (double)count_outside(&v, &cloud[c]));
     return v;

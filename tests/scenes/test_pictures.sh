@@ -221,6 +221,19 @@ holds "what is the same everywhere is not drawn" grep -q "speed is 0 m/s everywh
 drawn "a slice is in the unit of the axes" "set label 1 'block, pd: damage, z = 0.5 mm'"
 refused "no particle is at this position; give one from 0.5 to 5.5 mm" results/block --slice z=9mm
 refused "one of the two" results/block --slice z=3mm --view iso
+# Without damage the section goes through the largest stress: of a block that is struck from above, the top layer.
+"$cleave" run block.yaml -q -o struck -s duration=0.2us -s cracks=[] -s 'boundary=[{traction: [0, 0, -3 MPa], face: z+}]' >out 2>err
+keep_commands sections -a
+"$cleave" plot struck -o struck/ $small >out 2>err
+holds "the section through the largest stress: $(cat err)" grep -a -q "set label 1 'block, pd: von Mises stress, z = 5.5 mm'" sections
+keep_commands drawn
+# Panels of a slender body stand side by side, with space for numbers below them.
+"$cleave" run strip.yaml -q -o slender -s duration=0.5us -s output.frames=3 -s cracks=[] -s probes=[] \
+    -s 'bodies=[{name: plate, shape: {box: {from: [0, 0], to: [2 mm, 60 mm]}}}]' -s 'boundary=[{traction: [0, 3 MPa], face: y+}]' >out 2>err
+"$cleave" plot slender --field speed -o slender.png >out 2>err
+is "a slender body: $(cat err)" $? 0
+is "lower edges of panels and bar" "$(grep -a 'set bmargin' drawn | sort -u | wc -l)" 2
+is "heights over widths of panels" "$(sed -n 's/^set [xy]range .\([-0-9.]*\):\([-0-9.]*\)\]/\1 \2/p' drawn | awk 'NR == 1 { w = $2 - $1 } NR == 2 { print ($2 - $1) / w }')" 8
 
 
 # ---- files of others, a disk that is full, films that are stopped ----------------------------------------------------

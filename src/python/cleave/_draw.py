@@ -27,6 +27,7 @@ _FROM_LEAST = ("temperature", "density")
 _NEARLY = 0.98                           # share of the most damage that makes a layer a candidate for the section
 _APART = 1.5                             # distance of neighbours over the spacing above which a bar has separated
 _NAMED_MOST = 12                         # largest number of values that the key of a field with named values has
+_UPRIGHT_MOST, _FLAT_MOST = 8, 20        # largest height of a picture over its width, and width over its height
 _BESIDE = 0.3                            # share of its longer side by which a picture grows towards rigid bodies
 
 
@@ -216,7 +217,9 @@ def _seen(particles: np.ndarray, rigid: np.ndarray) -> np.ndarray:
     low, high = particles.min(axis=0), particles.max(axis=0)
     beside = _BESIDE * float((high - low).max())
     points = np.concatenate([particles, np.clip(rigid, low - beside, high + beside)])
-    return np.array([points.min(axis=0), points.max(axis=0)])
+    low, high = points.min(axis=0), points.max(axis=0)
+    more = np.maximum((high - low)[::-1] / [_UPRIGHT_MOST, _FLAT_MOST] - (high - low), 0) / 2
+    return np.array([low - more, high + more])
 
 
 def _draw_categories(frame: Any, name: str, values: np.ndarray, squares: Any, ax: Any, key: bool) -> None:
