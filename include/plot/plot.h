@@ -302,9 +302,12 @@ void plotted_particles_free(struct plotted_particles *c);
 
 /* Completes the slice *projection through a body in three dimensions from the particles of the frame f (state at one
  * time): sets its normal and its position along the normal, each if it is not set; a given position is moved to the
- * nearest layer of the lattice of particles. Does nothing for views from outside and in lower dimensions. Returns
- * REFUSED if no particle is within one spacing of the given position. */
-status projection_complete_slice_from_particles(struct projection *projection, const struct output_frame *f);
+ * nearest layer of the lattice of particles. A position that is not set is that of the layer with the most damage, or,
+ * in an undamaged body, with the largest value of projection->field, if this is a continuous field. path: file of the
+ * frame, from which the field is read. Does nothing for views from outside and in lower dimensions. Returns REFUSED if
+ * no particle is within one spacing of the given position, FAILED if the field cannot be read. */
+status projection_complete_slice_from_particles(struct projection *projection, const struct output_frame *f,
+                                                const char *path);
 
 /* Returns the particle spacing [m] of the frame f (state at one time): the smallest one if the frame stores spacings,
  * else the median distance of nearest neighbours in the reference positions of a sample of particles; 0 if it is

@@ -189,7 +189,8 @@ static status draw_solid(struct plot_request *r, const struct run_frames *frames
 {
     r->projection.outside = false;
     TRY(plot_field_choose_default(&r->projection.field, r->folder, frames));
-    TRY(projection_complete_slice_from_particles(&r->projection, last));
+    TRY(projection_complete_slice_from_particles(
+        &r->projection, last, run_frame_path(r->folder, frames->show[frames->shown - 1].number).text));
     TRY(draw_clouds(r, frames, draw_flat));
     if (last->dim < 3) return OK;
     r->projection.outside = true;

@@ -134,39 +134,59 @@ static double nearest_coordinate(const struct output_frame *f, int normal, doubl
     return at;
 }
 
+/* Computes for each layer of particles of output frame f along the axis `normal` what makes it worth showing, and
+ * stores it in weight[layers], which is 0 at the beginning: the sum of damage; if no particle is damaged, the largest
+ * magnitude of value[f->n]; nothing without values (NULL). from: coordinate of the first layer [m]; spacing: distance
+ * of layers [m]. Returns the largest weight. */
+static double layers_weigh(double *weight, int layers, const struct output_frame *f, int normal, const float *value,
+                           double from, double spacing)
+{
+    double most = 0;
+    for (int pass = 0; pass < 1 + (value != NULL) && !(most > 0); pass++)
+        for (int64_t i = 0; i < f->n; i++) {
+            const int layer = layers > 1 ? (int)lround((f->X[normal][i] - from) / spacing) : 0;
+            const double own = pass == 0 ? f->damage[i] : fabs(value[i]);
+            if (isfinite(own)) weight[layer] = pass == 0 ? weight[layer] + own : fmax(weight[layer], own);
+            most = fmax(most, weight[layer]);
+        }
+    return most;
+}
+
 /* Returns the coordinate along the axis `normal` [m] of the particle layer of output frame f that a slice shows. It is
  * the layer nearest to the middle among those whose sum of damage is at least 0.98 of the largest sum; in an undamaged
- * body, the layer nearest to the middle. Of two such layers it is the lower one. */
-static double damaged_layer(const struct output_frame *f, int normal)
+ * body, among those whose largest magnitude of value[f->n] is at least 0.98 of the largest one; without values (NULL),
+ * the layer nearest to the middle. Of two such layers it is the lower one. */
+static double telling_layer(const struct output_frame *f, int normal, const float *value)
 {
     enum { LAYERS_MAX = 100000 };
     static const double NEARLY = 0.98;
-    double from, to, most = 0, best = INFINITY, spacing = frame_particle_spacing(f);
+    double from, to, best = INFINITY, spacing = frame_particle_spacing(f);
     frame_extent(f, normal, &from, &to);
     const double middle = 0.5 * (from + to);
     const int layers = spacing > 0 && (to - from) / spacing < LAYERS_MAX ? (int)((to - from) / spacing) + 2 : 1;
-    double *sum = NEW("plot.layers", layers, double), at = middle;
-    for (int64_t i = 0; i < f->n; i++) {
-        const int layer = layers > 1 ? (int)lround((f->X[normal][i] - from) / spacing) : 0;
-        if (isfinite(f->damage[i])) sum[layer] += f->damage[i];
-    }
-    for (int k = 0; k < layers; k++) most = fmax(most, sum[k]);
+    double *weight = NEW("plot.layers", layers, double), at = middle;
+    const double most = layers_weigh(weight, layers, f, normal, value, from, spacing);
     for (int k = 0; k < layers && most > 0; k++) {
         const double place = from + k * spacing, off = fabs(place - middle);
-        if (sum[k] < NEARLY * most || off >= best - TIE * spacing) continue;
+        if (weight[k] < NEARLY * most || off >= best - TIE * spacing) continue;
         best = off, at = place;
     }
-    memory_free(sum);
+    memory_free(weight);
     return nearest_coordinate(f, normal, at);
 }
 
-status projection_complete_slice_from_particles(struct projection *projection, const struct output_frame *f)
+status projection_complete_slice_from_particles(struct projection *projection, const struct output_frame *f,
+                                                const char *path)
 {
+    float *value = NULL;
     if (f->dim < 3 || projection->outside) return OK;
     if (projection->normal < 0) projection->normal = thinnest_direction(f);
     if (!projection->placed) {
-        projection->layer = damaged_layer(f, projection->normal);
+        if (projection->field && map_of_field(projection->field) == MAP_FIELD)
+            TRY(plot_field_read(&value, projection->field, f, path));
+        projection->layer = telling_layer(f, projection->normal, value);
         projection->placed = true;
+        memory_free(value);
         return OK;
     }
     double from, to;
@@ -264,7 +284,7 @@ void plotted_particles_select_from_frame(struct plotted_particles *c, const stru
                                          const struct projection *projection)
 {
     struct projection open = {.normal = -1};
-    if (!projection) (void)projection_complete_slice_from_particles(&open, f), projection = &open;
+    if (!projection) (void)projection_complete_slice_from_particles(&open, f, NULL), projection = &open;
     *c = (struct plotted_particles){.axis = {0, 1},
                                     .normal = -1,
                                     .t = f->t,

@@ -165,7 +165,8 @@ static status field_of_frames(struct plot_request *r, const struct run_frames *f
 {
     struct output_frame last;
     struct path path;
-    TRY(run_read_frame(&last, r->folder, frames->show[frames->shown - 1].number));
+    const int number = frames->show[frames->shown - 1].number;
+    TRY(run_read_frame(&last, r->folder, number));
     const int dim = last.dim;
     status s = projection_check(r, dim);
     if (s == OK && r->field) s = plot_field_find_by_name(&r->projection.field, r->field, dim);
@@ -175,7 +176,8 @@ static status field_of_frames(struct plot_request *r, const struct run_frames *f
         fprintf(stderr, "plot: principal_stress is the largest of the three; draw the others by --field "
                         "principal_stress_2 and principal_stress_3\n");
     if (s == OK && dim == 3 && r->projection.normal < 0) r->projection.outside = true;
-    if (s == OK) s = projection_complete_slice_from_particles(&r->projection, &last);
+    if (s == OK)
+        s = projection_complete_slice_from_particles(&r->projection, &last, run_frame_path(r->folder, number).text);
     frame_free(&last);
     TRY(s);
     TRY(field_path(&path, r, r->projection.field->name));

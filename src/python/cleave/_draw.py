@@ -105,29 +105,33 @@ def _limits(values: np.ndarray, name: str, given: Any) -> Tuple[float, float]:
     return (-high, high) if _SIGNED.match(name) else (low, low + high)
 
 
-def _layer(frame: Any, axis: int) -> float:
-    """Returns the position [m] of the layer of particles along an axis that has the most damage, of nearly equal ones that nearest to the
-    middle; without damage the middle one. Of two alike it is the lower one, as in `cleave plot` (src/plot/plot_cloud.c)."""
+def _layer(frame: Any, axis: int, name: str) -> float:
+    """Returns the position [m] of the layer of particles along an axis that has the most damage, without damage that of the largest value
+    of the field `name`; of nearly equal ones that nearest to the middle. Of two alike it is the lower one, as in `cleave plot`
+    (src/plot/plot_cloud.c)."""
     place, spacing = frame.reference[:, axis], float(frame.spacing.min())
     middle, low = (place.min() + place.max()) / 2, place.min()
     wanted = middle
-    damage = frame["damage"] if "damage" in frame else np.zeros(0)
-    if damage.any():
-        total = np.bincount(np.rint((place - low) / spacing).astype(int), np.nan_to_num(damage))
-        most = np.flatnonzero(total >= _NEARLY * total.max())
+    layer = np.rint((place - low) / spacing).astype(int)
+    weight = np.bincount(layer, np.nan_to_num(frame["damage"])) if "damage" in frame else np.zeros(1)
+    if not weight.any() and name != "damage" and name not in CATEGORIES:
+        weight = np.zeros(layer.max() + 1)
+        np.maximum.at(weight, layer, np.abs(np.nan_to_num(_values_of(frame, name)[0])))
+    if weight.any():
+        most = np.flatnonzero(weight >= _NEARLY * weight.max())
         wanted = low + spacing * most[np.argmin(np.round(np.abs(low + most * spacing - middle) / spacing, 3))]
     off = np.round(np.abs(place - wanted) / spacing, 3)
     return float(place[off == off.min()].min())
 
 
-def _section(frame: Any, plane: Optional[Dict[str, float]]) -> Tuple[Any, Tuple[int, int], float, str]:
+def _section(frame: Any, plane: Optional[Dict[str, float]], name: str) -> Tuple[Any, Tuple[int, int], float, str]:
     """Returns the particles of a solid to draw, the axes of the picture, the mean position of the particles
-    [m], and it in words."""
+    [m], and it in words. name: field that is drawn."""
     reference = frame.reference
     if plane is None:
         sides = np.ptp(reference, axis=0)
         axis = int(np.flatnonzero(sides <= sides.min() * (1 + 1e-5))[-1])
-        plane = {"xyz"[axis]: _layer(frame, axis)}
+        plane = {"xyz"[axis]: _layer(frame, axis, name)}
     if not isinstance(plane, dict) or len(plane) != 1 or next(iter(plane)) not in ("x", "y", "z"):
         raise ValueError('slice: one of x, y, z with its position [m], as {"z": 4e-3}, not %r' % (plane,))
     (name, at), = plane.items()
@@ -213,7 +217,8 @@ def _check(frame: Any, magnify: float, limits: Any, colours: Optional[str]) -> N
 
 
 def _seen(particles: np.ndarray, rigid: np.ndarray) -> np.ndarray:
-    """Returns two corners of the rectangle to show [m]: all corners of particles, and of rigid bodies those beside them."""
+    """Returns two corners of the rectangle to show [m]: all corners of particles, and of rigid bodies those beside them. Beside a slender
+    body there is space for the numbers of the axis across it."""
     low, high = particles.min(axis=0), particles.max(axis=0)
     beside = _BESIDE * float((high - low).max())
     points = np.concatenate([particles, np.clip(rigid, low - beside, high + beside)])
@@ -256,7 +261,7 @@ def draw_frame(frame: Any, field: Optional[str], ax: Any = None, *, magnify: flo
         _title(ax, words)
         return ax
     if frame.dimension == 3:
-        frame, axes, at, where = _section(frame, slice)
+        frame, axes, at, where = _section(frame, slice, name)
         words.append(where)
     if magnify != 1:
         words.append("displacements times %g" % magnify)

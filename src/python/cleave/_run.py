@@ -230,7 +230,7 @@ class Run:
                     damage if bonds are broken, else plastic strain if there is any, else von Mises stress
         time        frame nearest to this time [s], within the run; default: the last one
         ax          axes to draw into; default: new ones
-        magnify     factor on displacements [1]
+        magnify     factor on displacements, above 0 [1]
         limits      lowest and highest value of the colour bar [SI unit of the field]; default: those of `cleave plot`: from 0, or
                     symmetric about 0 for fields with a sign, to all values but the extreme 0.2 %
         colours     name of a colour map of matplotlib; default: that of `cleave plot` for the field

@@ -152,10 +152,10 @@ static void slices_show_damage(void **state)
     assert_float_equal(fabs(c.layer), 0.5e-3, 1e-8);
     plotted_particles_free(&c);
     struct projection projection = {.normal = 0, .placed = true, .layer = 1.9e-3};
-    assert_int_equal(projection_complete_slice_from_particles(&projection, &f), OK);
+    assert_int_equal(projection_complete_slice_from_particles(&projection, &f, NULL), OK);
     assert_float_equal(projection.layer, 1.5e-3, 1e-8);
     projection.layer = 9e-3;
-    assert_int_equal(projection_complete_slice_from_particles(&projection, &f), REFUSED);
+    assert_int_equal(projection_complete_slice_from_particles(&projection, &f, NULL), REFUSED);
     assert_non_null(strstr(status_message(), "-2.5 to 2.5 mm"));
     frame_free(&f);
 }
@@ -169,7 +169,7 @@ static void slices_are_near_the_middle(void **state)
     struct output_frame f = block_make(9, 9, 8, 3);
     for (int64_t i = 0; i < f.n; i++) f.damage[i] = damage[i / 81];
     struct projection projection = {.normal = 2};
-    assert_int_equal(projection_complete_slice_from_particles(&projection, &f), OK);
+    assert_int_equal(projection_complete_slice_from_particles(&projection, &f, NULL), OK);
     assert_float_equal(projection.layer, -1.5e-3, 1e-8);
     f.spacing = NEW("test.spacing", f.n, float);
     for (int64_t i = 0; i < f.n; i++) f.spacing[i] = i == 37 ? 0.7e-3F : 2.8e-3F;
