@@ -42,6 +42,7 @@ struct factors {
     int column[2 * PROBES_SHOWN], spread[PROBES_SHOWN]; /* columns of K_I and K_II of each probe; of contour_spread */
     /* factors from the columns to the unit of the axis; to per cent */
     double factor[2 * PROBES_SHOWN], percent[PROBES_SHOWN];
+    bool shown[2 * PROBES_SHOWN]; /* the factor is not 0 throughout */
     struct unit unit;
 };
 
@@ -58,7 +59,11 @@ static void find_factors(struct factors *f, const struct history *h)
         f->column[2 * k + 1] = plot_sif_column_of(h, f->name[k], "K_II");
         f->spread[k] = plot_sif_column_of(h, f->name[k], "contour_spread");
         f->percent[k] = 0.01;
-        for (int m = 0; m < 2; m++) largest = fmax(largest, history_largest_magnitude(h, f->column[2 * k + m]));
+        for (int m = 2 * k; m < 2 * k + 2; m++) {
+            const double own = history_largest_magnitude(h, f->column[m]);
+            largest = fmax(largest, own);
+            f->shown[m] = own > 0;
+        }
     }
     f->unit = unit_for_largest_value(largest, "Pa√m");
     for (int k = 0; k < 2 * f->n; k++) f->factor[k] = f->unit.factor;
@@ -70,10 +75,12 @@ static void plot_factors(FILE *to, const struct factors *f)
 {
     fputs("plot 0 with lines lw 0.8 lc rgb '#888888'", to);
     for (int k = 0; k < f->n; k++)
-        for (int m = 0; m < 2; m++)
+        for (int m = 0; m < 2; m++) {
+            if (!f->shown[2 * k + m]) continue;
             fprintf(to, ", $data using 1:%d with lines lw %s%s lc rgb '%s' title '%s%sK_%s'", 2 + 2 * k + m,
                     m == 0 ? "2.4" : "2", m == 1 && f->n > 1 ? " dt (9,4)" : "", curve_colour[f->n > 1 ? k : m],
                     f->n > 1 ? f->name[k] : "", f->n > 1 ? ": " : "", m == 0 ? "I" : "II");
+        }
     putc('\n', to);
 }
 

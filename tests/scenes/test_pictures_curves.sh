@@ -170,6 +170,18 @@ holds "one curve: $(cat err)" grep -a -q "title 'up', .f0 every" all
 holds "no other" sh -c "! grep -a -q 'f1' all"
 for label in "energy \[PJ\]" "force y \[PN\]"; do holds "an axis: $label" grep -a -q "$label" all; done
 
+# Nor is a stress-intensity factor that stays 0.
+mkdir opened
+cat >opened/history.csv <<'END'
+time [s],step,tip.K_I [Pa m^0.5],tip.K_II [Pa m^0.5]
+0,0,0,0
+1e-5,1,1e6,0
+END
+: >all
+"$cleave" plot opened $small -o opened/ >out 2>err
+holds "K_I: $(cat err)" grep -a -q "title 'K_I'" all
+holds "no K_II" sh -c "! grep -a -q K_II all"
+
 # A face that only turns has a mean displacement of round-off, over which nothing is drawn.
 mkdir turning
 cat >turning/history.csv <<'END'
