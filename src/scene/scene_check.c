@@ -325,7 +325,8 @@ const char *scene_why_reference_frame_unsupported(const struct scene *s, int bod
     if (s->method == METHOD_PD) return "method pd has no material points";
     if (scene_is_single_equilibrium(s)) return "static solvers need the current frame";
     if (s->coupling != COUPLING_PARTIAL_STRESS && s->coupling != COUPLING_HANDSHAKE)
-        return "couplings pm, pg, pmg and pgg need the grid of the current frame";
+        return "the couplings pm, pg, pmg and pgg exist only for material points in the current configuration "
+               "(mpm.frame: current)";
     if (s->cell != 2) return "the reference frame needs mpm.cell: 2";
     if (s->irregularity > 0) return "it needs particles on a regular lattice";
     if (s->body[body].list.mass) return "particles with a mass from a list need the current frame";

@@ -337,8 +337,8 @@ status report_finished_step(struct run *e)
         if (stop || checkpoint_due(r, e->scene)) TRY(write_checkpoint(e));
         if (stop && !last)
             return status_set(INTERRUPTED, "%s at step %lld of %lld; continue with --resume",
-                              late ? "time.wall is over" : "interrupted", (long long)e->clock.step,
-                              (long long)e->clock.steps);
+                              late ? "the wall-clock limit time.wall is reached" : "interrupted",
+                              (long long)e->clock.step, (long long)e->clock.steps);
     }
     progress(e, false);
     timer_add_elapsed_to_section(&e->timers, TIMER_OUTPUT);

@@ -61,7 +61,7 @@ calm "$work/wall" $flat -s time.wall=1h
 same "an hour of wall clock" "$work/flat1" "$work/wall"
 "$cleave" run -q -o "$work/wall" --overwrite $flat -s time.wall=20ms 2>"$work/err"
 is "20 ms of wall clock: exit status" $? 130
-holds "20 ms of wall clock: said" grep -q 'time.wall is over at step .*--resume' "$work/err"
+holds "20 ms of wall clock: said" grep -q 'time.wall is reached at step .*--resume' "$work/err"
 calm "$work/wall" --resume $flat
 same "20 ms of wall clock, resumed without a limit" "$work/flat1" "$work/wall"
 
