@@ -115,9 +115,9 @@ refused "study contains a study; export one of its runs" export lammps study -o 
 refused "give lammps or exodus" export cubit plate.yaml -o other.g
 refused "use exodus for a mesh that PeriLab reads" export perilab plate.yaml -o other.g
 printf 'ITEM: TIMESTEP\n0\nITEM: ATOMS id x y\n1 0 0\n' >dump.txt
-refused "this is a dump of LAMMPS: remove its lines" check plate.yaml -s 'bodies=[{name: plate, particles: dump.txt}]'
+refused "this is a dump of LAMMPS: remove its lines" check plate.yaml -s 'bodies=[{name: plate, material: glass, particles: dump.txt}]'
 echo 'x,y,volume' >none.csv
-refused "check that the list has particles" check plate.yaml -s 'bodies=[{name: plate, particles: none.csv}]'
+refused "check that the list has particles" check plate.yaml -s 'bodies=[{name: plate, material: glass, particles: none.csv}]'
 refused "is not a list of columns" check plate.yaml -s 'bodies=[{name: plate, particles: {file: bare.txt, columns: x}}]'
 refused "is not a unit of length" check plate.yaml -s 'bodies=[{name: plate, particles: {file: bare.txt, unit: inch}}]'
 

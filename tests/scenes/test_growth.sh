@@ -205,5 +205,5 @@ between "their plastic work over the work of the load" "$(compute "$(f yields en
 sed 's/at: \[50 mm, 25 mm\]/at: [50 mm, 30 mm]/' inputs/kalthoff_sif.yaml >"$work/bad.yaml"
 "$cleave" check "$work/bad.yaml" >"$work/out" 2>"$work/err"
 is "a tip of another crack: exit status" $? 2
-holds "a tip of another crack: says '$(cat "$work/err")'" grep -q 'probe "sif" controls growth0, but measures.*(0.05, 0.025)' "$work/err"
+holds "a tip of another crack: says '$(cat "$work/err")'" grep -q 'probe "sif" controls the growth rule growth0, but measures.*(0.05, 0.025)' "$work/err"
 finish

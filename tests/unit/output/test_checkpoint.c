@@ -253,7 +253,7 @@ static void strange_files_are_refused(void **state)
     open_fresh(&o, "strange");
     assert_int_equal(file_write_whole(path, "", 0), OK);
     assert_not_restored(&o);
-    assert_message("checkpoint.h5 is empty and checkpoint.previous.h5 is missing");
+    assert_message("the file checkpoint.h5 is empty, and the previous one, checkpoint.previous.h5, is missing");
     unlink(path);
     assert_int_equal(mkdir(path, 0777), 0);
     assert_not_restored(&o);
