@@ -74,8 +74,8 @@ status option_read_dpi(struct picture_size *size, const char *option, const char
 {
     char *end;
     const double value = strtod(text, &end);
-    if (end == text || *end || !(value > 0 && value <= 1200))
-        return status_set(REFUSED, "%s %s: give a number above 0, up to 1200", option, printable_name(text).text);
+    if (end == text || *end || !(value >= 30 && value <= 1200))
+        return status_set(REFUSED, "%s %s: give a number from 30 to 1200", option, printable_name(text).text);
     size->dpi = value;
     return OK;
 }

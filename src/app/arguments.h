@@ -27,7 +27,7 @@ status option_read_count(int *count, const char *option, const char *text, int s
 status option_read_picture_size(struct picture_size *size, const char *option, const char *text);
 
 /* Reads the resolution of pictures [pixel/inch] from `text`, the text that follows the option `option`, into size->dpi.
- * Returns REFUSED, with a message, unless it is a number above 0, up to 1200. */
+ * Returns REFUSED, with a message, unless it is a number from 30 to 1200. */
 status option_read_dpi(struct picture_size *size, const char *option, const char *text);
 
 /* Returns true if `option`, a word of the command line, is an option of the pictures of a study: --size, --dpi or

@@ -27,6 +27,16 @@ static const struct yaml_node *owner_beside(const struct yaml_node *n, const cha
     return NULL;
 }
 
+/* Returns the key of the list whose entries node n names in a mapping, such as `materials` in materials: {glass:
+ * {young: 1 GPa}}, where a list of entries with a key `name` is meant; NULL if n is not such an entry. */
+static const char *list_of_named_entries(const struct yaml_node *n)
+{
+    const struct yaml_node *list = n->parent;
+    const struct key *k = list && list->key && list->kind == NODE_MAP ? key_find("", list->key) : NULL;
+    const char *group = k && k->type == KEY_LIST && n->kind == NODE_MAP ? group_of_values(k) : NULL;
+    return group && key_find(group, "name") ? list->key : NULL;
+}
+
 /* Writes the reason why YAML node n, which is no key of the group `group`, is refused to text[capacity], with the key
  * that is probably meant if there is a similar one. */
 static void describe_unknown_key(const struct yaml_node *n, const char *group, char *text, size_t capacity)
@@ -37,7 +47,11 @@ static void describe_unknown_key(const struct yaml_node *n, const char *group, c
     int others;
     const struct key *other = key_find_in_any_group(n->key, &others);
     const struct yaml_node *owner = owner_beside(n, group);
-    if (foreign_word_advice(n->key, group, instead, sizeof instead))
+    const char *list = list_of_named_entries(n);
+    if (list)
+        snprintf(text, capacity, "unknown key; names of entries stand inside a list: %s: [{name: %s, ..}]", list,
+                 n->key);
+    else if (foreign_word_advice(n->key, group, instead, sizeof instead))
         snprintf(text, capacity, "unknown key; %s", instead);
     else if (nearest && words_are_similar(leaf, n->key))
         snprintf(text, capacity, "unknown key; did you mean %s?", leaf);

@@ -427,6 +427,9 @@ static const struct {
      "key); check its spelling"},
     {{"particles.horizon", "0.8"},
      "-s particles.horizon=0.8: horizon: 0.8 is smaller than one spacing; 3.015 is usual"},
+    {{"boundary", "{left: {fixed: all, face: x-}}"},
+     "-s boundary={left: {fixed: all, face: x-}}: left: unknown key; names of entries stand inside a list: boundary: "
+     "[{name: left, ..}]"},
     {{"probes[1].point.att", "[0, 0]"}, "-s probes[1].point.att=[0, 0]: att: unknown key; did you mean at?"},
     {{"method", "[pd"},
      "-s method=[pd: not YAML: did not find expected ',' or ']'; indent by spaces (not tabs), write `: ` after each "
