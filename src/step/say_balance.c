@@ -155,12 +155,12 @@ void warn_of_tips_above_rayleigh_speed(const struct crack_tips *t, const struct 
     }
     if (!fastest) return;
     snprintf(text, sizeof text,
-             "the tip of a crack, from (%.4g, %.4g) to (%.4g, %.4g) m, moves at up to %.4g m/s within %.3g s "
+             "the tip of a crack, from (%s) to (%s) m, moves at up to %.4g m/s within %.3g s "
              "(crack.speed_window), faster than Rayleigh waves, %.4g m/s, the limit for a crack that opens: it may be "
              "the edge of a zone that breaks at once, for example beside a face under load; look at damage in the "
              "frames; if this is intended, add accept: [rayleigh]",
-             fastest->origin[0], fastest->origin[1], fastest->place[0], fastest->place[1], fastest->speed_max,
-             t->window, limit);
+             position_text(fastest->origin, t->dim, 6).text, position_text(fastest->place, t->dim, 6).text,
+             fastest->speed_max, t->window, limit);
     warnings_add_and_print(warning_list, text);
 }
 
