@@ -152,8 +152,8 @@ function sweepPoints() {
         .sort((a, b) => a.x - b.x);
 }
 
-// Returns true if positive values extend over more than two decades.
-const overDecades = (values) => Math.min(...values) > 0 && Math.max(...values) > 100 * Math.min(...values);
+// Returns true if positive values extend over two decades and more.
+const overDecades = (values) => Math.min(...values) > 0 && Math.max(...values) >= 100 * (1 - 1e-6) * Math.min(...values);
 
 // Returns true if the distances of the values, in ascending order, are equal.
 function evenlySpaced(values) {
@@ -177,11 +177,13 @@ function ticsOfWords(words) {
     return {short, list: words.map((word, k) => k), text: (k) => (short ? words[k] : String(k))};
 }
 
-// Returns the axes of the curves in a canvas of width x height, for the points with a value. yUnit: unit of the figure.
-function axesOfStudy(context, points, width, height, yUnit) {
+// Returns the axes of the curves in a canvas of width x height, for the points with a value; all: also those without,
+// which a logarithmic axis includes. yUnit: unit of the figure.
+function axesOfStudy(context, points, all, width, height, yUnit) {
     const sweep = page.kind === "sweep", spread = (list) => [Math.min(...list), Math.max(...list)];
-    const xs = points.map((p) => p.x), ys = points.flatMap((p) => [p.y - (p.error || 0), p.y + (p.error || 0)]);
-    const log = {x: sweep && !study.words && overDecades(xs) && !evenlySpaced(xs), y: overDecades(ys)};
+    const xsOfAll = all.map((p) => p.x), ys = points.flatMap((p) => [p.y - (p.error || 0), p.y + (p.error || 0)]);
+    const log = {x: sweep && !study.words && overDecades(xsOfAll) && !evenlySpaced(xsOfAll), y: overDecades(ys)};
+    const xs = log.x ? xsOfAll : points.map((p) => p.x);
     const tics = study.words && ticsOfWords(study.words);
     const area = {right: width - 20, top: 40, bottom: height - 50, tics}, range = padded(...spread(ys), log.y);
     area.left = leftBeside(context, range, yUnit, area.bottom - area.top, log.y);
@@ -199,7 +201,7 @@ function drawStudy() {
     if (points.length === 0) return context.fillStyle = "#5d6675", context.fillText("No run has this figure.", 20, 40);
     const unit = sweep ? study.units[study.figures[study.y]] || "" : at(study.rows[study.y], "unit"),
           yUnit = unitFor(Math.max(...points.map((p) => Math.abs(p.y) + (p.error || 0))), unit);
-    const area = axesOfStudy(context, points, width, height, yUnit), key = sweep ? study.keys[study.x] : "spacing",
+    const area = axesOfStudy(context, points, all, width, height, yUnit), key = sweep ? study.keys[study.x] : "spacing",
           xUnit = sweep ? {factor: 1, name: study.words ? "" : unitOfKey(key)} : unitFor(area.x1, "m");
     const figure = sweep ? study.figures[study.y] : study.rows[study.y][0];
     drawAxes(context, area, xUnit, yUnit,

@@ -4,7 +4,7 @@
 
 #include "study_picture.h"
 
-/* An axis is logarithmic if its values are positive and the largest is more than DECADES times the smallest.
+/* An axis is logarithmic if its values are positive and the largest is at least DECADES times the smallest.
  * DIGITS_LEAST, DIGITS_MOST: limits of the number of significant digits at an axis. */
 enum { DECADES = 100, DIGITS_LEAST = 4, DIGITS_MOST = 12 };
 
@@ -16,7 +16,7 @@ enum { STEPS_MOST = 4, TICS_UP = 31 };
  * spaced [1]. */
 static const double EVEN = 1e-6;
 
-/* Margin of a logarithmic axis at either end, as a share of the length of the axis [1]. */
+/* Margin of an axis at either end, as a share of the length of the axis [1]. */
 static const double MARGIN = 0.06;
 
 double study_value_across(const struct study_picture *p, int value_index)
@@ -35,27 +35,38 @@ static bool value_is_drawn(const struct study_picture *p, int panel, int v)
     return false;
 }
 
-struct study_axis study_axis_across(const struct study_picture *p, int panel)
+/* Returns true if the values of an axis from `low` to `high` are positive and extend over two decades. */
+static bool over_decades(double low, double high) { return low > 0 && high >= DECADES * (1 - EVEN) * low; }
+
+/* Returns the horizontal axis of panel number `panel` of the picture p for the values of the key along it: for all of
+ * them if `all` is true, else for those that have points in the panel. */
+static struct study_axis axis_of_values(const struct study_picture *p, int panel, bool all)
 {
     struct study_axis axis = {INFINITY, -INFINITY, false};
     double before = NAN, distance = NAN;
     bool even = true;
     for (int v = 0; v < p->key[p->across].shown.values; v++) {
-        if (!value_is_drawn(p, panel, v)) continue;
+        if (!all && !value_is_drawn(p, panel, v)) continue;
         const double here = study_value_across(p, v), step = here - before;
         if (!isnan(step) && !isnan(distance)) even = even && fabs(step - distance) <= EVEN * fabs(distance);
         distance = step, before = here;
         axis.low = fmin(axis.low, here), axis.high = fmax(axis.high, here);
     }
-    axis.logarithmic = p->numbers && !even && axis.low > 0 && axis.high > DECADES * axis.low;
+    axis.logarithmic = p->numbers && !even && over_decades(axis.low, axis.high);
     return axis;
+}
+
+struct study_axis study_axis_across(const struct study_picture *p, int panel)
+{
+    const struct study_axis all = axis_of_values(p, panel, true);
+    return all.logarithmic ? all : axis_of_values(p, panel, false);
 }
 
 struct study_axis study_axis_of_figure(const struct study_picture *p, int panel)
 {
     struct study_axis axis = {INFINITY, -INFINITY, false};
     study_points_range(p, panel, &axis.low, &axis.high);
-    axis.logarithmic = axis.low > 0 && axis.high > DECADES * axis.low;
+    axis.logarithmic = over_decades(axis.low, axis.high);
     return axis;
 }
 
@@ -103,14 +114,17 @@ int study_intervals_across(const struct study_picture *p, const struct study_axi
 }
 
 /* Sends the range of the axis called `name` (`x`, `y` or `cb`, the colour bar) to gnuplot's input stream. A
- * logarithmic axis gets the range of the data extended by a margin, the colour bar without margin. On a linear axis
- * gnuplot chooses the range and its margin, except that a vertical axis whose data begin at 0 begins at 0. */
+ * logarithmic axis and a horizontal one get the range of the data extended by a margin, the colour bar without margin.
+ * Of other linear axes gnuplot chooses the range, except that a vertical axis whose data begin at 0 begins at 0. */
 static void range_send(FILE *gnuplot, const char *name, const struct study_axis *axis)
 {
     const double margin = *name == 'c' ? 0 : MARGIN * log10(axis->high / axis->low);
     if (axis->logarithmic)
         fprintf(gnuplot, "set %srange [%.10g:%.10g]\n", name, axis->low * pow(10, -margin),
                 axis->high * pow(10, margin));
+    else if (*name == 'x' && axis->high > axis->low)
+        fprintf(gnuplot, "set xrange [%.15g:%.15g]\n", axis->low - MARGIN * (axis->high - axis->low),
+                axis->high + MARGIN * (axis->high - axis->low)); /* gnuplot would include values without a result */
     else if (*name != 'x' && axis->low == 0)
         fprintf(gnuplot, "set %srange [0:*]\n", name);
     else

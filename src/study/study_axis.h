@@ -6,7 +6,7 @@
 #include <stdio.h>
 
 /* Axis of a panel of a picture. low, high: smallest and largest value, INFINITY and -INFINITY if there is none;
- * logarithmic: the scale is logarithmic, as for positive values over more than two decades. */
+ * logarithmic: the scale is logarithmic, as for positive values over two decades and more. */
 struct study_axis {
     double low, high;
     bool logarithmic;

@@ -109,8 +109,9 @@ void study_points_free(struct study_picture *p);
  * in the unit of the panel, and stores them in *low and *high; INFINITY and -INFINITY if there are no points. */
 void study_points_range(const struct study_picture *p, int panel, double *low, double *high);
 
-/* Returns the horizontal axis of panel number `panel`: range and kind for those values of the key along this axis
- * (p->across) that have points in the panel. The axis is not logarithmic if the values are evenly spaced. */
+/* Returns the horizontal axis of panel number `panel` for the key along it (p->across). Its kind follows from all
+ * values of the key; it is not logarithmic if they are evenly spaced. A logarithmic axis has the range of all values, a
+ * linear one of those that have points in the panel. */
 struct study_axis study_axis_across(const struct study_picture *p, int panel);
 
 /* Returns the vertical axis of panel number `panel` of the picture p: range and kind for the values of the result that

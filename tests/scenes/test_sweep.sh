@@ -139,6 +139,11 @@ rm drawn
 PATH=$work/bin:$PATH "$cleave" sweep bar.yaml -s time.safety=0.7,0.8,2 -s material.toughness=1e9 --of energy.kinetic -o axis -q >out 2>err
 is "an axis for the runs that are done" "$(grep -c logscale drawn) $(grep '^set xtics' drawn)" "2 set xtics norotate 0.05"
 is "a gap where a run failed" "$(grep -c '^2 NaN NaN$' drawn)" 1
+is "which the axis leaves out" "$(sed -n 's/^set xrange //p' drawn | head -n 1)" "[0.694:0.806]"
+# Two decades of a key are a logarithmic axis, also where its last value has no result.
+rm drawn
+PATH=$work/bin:$PATH "$cleave" sweep bar.yaml -s time.safety=0.01,0.1,2 -s material.toughness=1e9 --of energy.kinetic -o missing -q >out 2>err
+is "decades with a gap" "$(grep -c '^set logscale x$' drawn) $(grep '^set xtics' drawn)" "1 set xtics norotate 0.01,10"
 rm drawn
 PATH=$work/bin:$PATH "$cleave" sweep bar.yaml -s method=pd,mpm --of energy.kinetic -o words -q >out
 is "points alone over words" "$(grep -c 'with lines' drawn) $(grep -c 'with points' drawn)" "0 1"
