@@ -363,15 +363,23 @@ static void reactions_plot(FILE *to, const struct history *h, const struct react
     putc('\n', to);
 }
 
-/* Prints the reason why the picture `path` of load against displacement is not drawn. r: the curves that were found.
- * Returns FAILED if standard output cannot be written. */
-static status say_missing_load(const char *path, const struct reactions *r)
+/* Prints the reason why the picture `path` of load against displacement is not drawn. r: the curves that were found in
+ * the history h. Returns FAILED if standard output cannot be written. */
+static status say_missing_load(const char *path, const struct reactions *r, const struct history *h)
 {
-    if (r->n > 0)
-        return report_picture_not_drawn(path,
-                                        "the boundary that carries the load does not move, or only turns, so that "
-                                        "its mean displacement is 0; add a point probe where the body moves: "
-                                        "probes: [{point: {at: [...]}}]");
+    char text[320], name[NAME_MAX_LENGTH];
+    if (r->n > 0) {
+        snprintf(text, sizeof text,
+                 "the %s that carries the load does not move, or only turns, so that its mean displacement is 0; add "
+                 "a point probe where the body moves: probes: [{point: {at: [...]}}]",
+                 r->of[0].rigid ? "rigid body" : "boundary");
+        return report_picture_not_drawn(path, text);
+    }
+    const bool rigid = probe_from(h, 0, "_force_x", name) >= 0, support = probe_from(h, 0, ".force_x", name) >= 0;
+    if (rigid || support)
+        return report_picture_not_drawn(path, rigid ? support ? "boundaries and rigid bodies bear no load"
+                                                              : "the rigid bodies bear no load"
+                                                    : "the boundaries bear no load");
     return report_picture_not_drawn(
         path, "no force to draw: give a boundary a displacement or velocity, or add a rigid body");
 }
@@ -426,7 +434,7 @@ status load_displacement_draw(struct sheet sheet, const char *title, const struc
     struct reactions r;
     struct gnuplot g;
     reactions_find(&r, history, ROUND_OFF * spacing);
-    if (!(r.n > 0 && r.displacement.high > r.displacement.low)) return say_missing_load(sheet.path, &r);
+    if (!(r.n > 0 && r.displacement.high > r.displacement.low)) return say_missing_load(sheet.path, &r, history);
     reactions_join(&r, history);
     const struct unit newton = unit_for_largest_value(largest_end(r.force), "N"),
                       metre = unit_for_length(largest_end(r.displacement));

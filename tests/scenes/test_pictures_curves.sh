@@ -194,6 +194,17 @@ cp strip.yaml turning/scene.yaml
 "$cleave" plot turning $small -o turning/ >out 2>err
 holds "a face that only turns: $(cat err)" grep -q "load_displacement.png is not drawn: .* only turns" out
 
+# A rigid body at rest that carries the load is named as such.
+mkdir anvil
+cat >anvil/history.csv <<'END'
+time [s],step,anvil_force_x [N],anvil_force_y [N],anvil_moment_z [N m],anvil_x [m],anvil_y [m]
+0,0,0,0,0,0.1,2.5
+1e-3,1,300,400,0,0.1,2.5
+END
+cp strip.yaml anvil/scene.yaml
+"$cleave" plot anvil $small -o anvil/ >out 2>err
+holds "a rigid body at rest: $(cat err)" grep -q "load_displacement.png is not drawn: the rigid body that carries the load does not move" out
+
 # Numbers of five digits below the axis of a column of a journal do not touch: tics every 5000 mm^2.
 mkdir grown
 cat >grown/history.csv <<'END'
@@ -206,7 +217,7 @@ END
 "$cleave" plot grown --size 85mmx70mm -o grown/ >out 2>err
 holds "tics of areas: $(cat err)" grep -a -q "^set xtics 5000$" all
 
-# The supports of a scene without probes bear the load; a run without supports has no such curve.
+# The supports of a scene without probes bear the load; a run without supports, or whose rigid body bears no load, has no such curve.
 "$cleave" run strip.yaml -q -o held2 -s 'boundary=[{name: grip, fixed: all, face: y-}, {name: jaw, velocity: [0, 1 m/s], face: y+}]' >out 2>err
 : >all
 "$cleave" plot held2 $small >out 2>err
@@ -215,6 +226,10 @@ holds "the support that moves" grep -a -q "title .jaw" all
 holds "not the one at rest" sh -c "! grep -a -q 'title .grip' all"
 "$cleave" run strip.yaml -q -o free -s 'boundary=[{traction: [0, 1 kPa], face: y+}]' >out 2>err
 "$cleave" plot free $small >out 2>err
+holds "no force on the rigid body: a line says so" grep -q "load_displacement.png is not drawn: the rigid bodies bear no load" out
+sed '/anvil/d' strip.yaml >alone.yaml
+"$cleave" run alone.yaml -q -o alone -s 'boundary=[{traction: [0, 1 kPa], face: y+}]' >out 2>err
+"$cleave" plot alone $small >out 2>err
 holds "no support: a line says so" grep -q "load_displacement.png is not drawn: no force to draw" out
 
 # All pictures into a folder of -o, whether it is there or not; one picture into a file.
