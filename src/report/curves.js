@@ -83,6 +83,7 @@ function readColumns() {
             if (Number.isFinite(v)) low = Math.min(low, v), high = Math.max(high, v);
         return {name, unit: unit && unit !== "1" ? unit : "", values, low, high, shift: 0};
     });
+    if (isBar) history_.columns = history_.columns.filter((c) => c.name !== "crack_length"); // which a bar has not
     const kinetic = history_.columns.find((c) => c.name === "kinetic");
     if (kinetic) kinetic.shift = flatteningEnergy(kinetic);
 }
@@ -132,7 +133,8 @@ function showColumns() {
     const groups = new Map(), constant = [];
     columnsByWeight().forEach((c) => {
         if (history_.columns.indexOf(c) < 2 && /^(time|step|load_step)$/.test(c.name)) return;
-        if (!varies(c)) return constant.push(labelOf(c) + (c.low === c.high ? " = " + quantity(c.low, c.unit) : ""));
+        if (!(c.high >= c.low)) return; // no values
+        if (!varies(c)) return constant.push(labelOf(c) + " = " + quantity(c.low, c.unit));
         if (!groups.has(c.unit)) groups.set(c.unit, []);
         groups.get(c.unit).push(c);
     });

@@ -11,6 +11,8 @@ const technical = new RegExp("^(laps\\.|threads$|processor$|commit$|kernels$|wal
     "memory_|ns_per_|inactive_share|warnings|uncertainty\\.|steps$|time_step|particles|bonds_peak|name$|version$|" +
     "method$|status$|message$|time_end$)");
 
+const isBar = page.dim === 1;
+
 // All entries of the summary as [dotted key, value].
 function flat(object, prefix = "") {
     return Object.entries(object).flatMap(
@@ -45,16 +47,12 @@ function showHead() {
 // The figures that one looks for first.
 function showCards() {
     const all = new Map(flat(summary)), wanted = [
-        ["crack.start_time", "first bond breaks"], [
-            "crack.length_end", // the end of a bar has no angle
-            summary.crack?.angle_deg === null && summary.crack.length_end > 0 ?
-                "longest zone of broken bonds grows by" :
-                "longest crack grows by"
-        ],
+        ["crack.start_time", "first bond breaks"], ["crack.length_end", "longest crack grows by"],
         ["crack.tip_speed_max", "largest tip speed"], ["energy.fracture", "fracture energy"],
         ["fragments.count", "fragments"], ["energy.balance_error", "error of the energy balance"]
     ];
     for (const [key, meaning] of wanted) {
+        if (isBar && /length_end|tip_speed/.test(key)) continue; // a crack of a bar has no length
         if (!all.has(key) || (all.get(key) === 0 && key !== "energy.balance_error")) continue;
         if (key === "fragments.count" && all.get(key) < 2) continue;
         const angle = key === "crack.length_end" && all.has("crack.angle_deg") ?

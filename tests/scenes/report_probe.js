@@ -110,6 +110,7 @@ async function probe() {
     const seen = {
         title: document.title,
         heading: byId("title").textContent,
+        cards: byId("cards").textContent,
         tags: document.querySelectorAll("main b").length
     };
     // Pointer capture needs a pointer that the browser knows.
@@ -124,6 +125,7 @@ async function probe() {
         seen.room = leftBeside(byId("plot").getContext("2d"), [7e10, 7e10 + 2e3], {factor: 1}, 2 * TIC_ROOM);
         seen.powers = tickText(1.5e8, [5e7, 1e8, 1.5e8]);
         seen.origin = byId("origin").textContent;
+        seen.constant = byId("rows").textContent;
         seen.chips = [...document.querySelectorAll("#columns label")].map((l) => l.textContent);
         const sum = () => byId("plot").toDataURL().length, before = sum();
         document.querySelector("#columns input:not(:checked)").click();
@@ -134,6 +136,8 @@ async function probe() {
         seen.rows = document.querySelectorAll("#table tbody tr").length;
         seen.series = byId("series").childElementCount;
         seen.axes = study.area && study.area.log;
+        const whole = study.points, part = whole.filter((p) => p.x < Math.max(...whole.map((q) => q.x)));
+        seen.gap = axesOfStudy(byId("scatter").getContext("2d"), part, whole, 600, 340, {factor: 1}).log.x;
         seen.tics = [0, 1, 2].map((k, at, all) => tickText(7e10 + 1e3 * k, all.map((m) => 7e10 + 1e3 * m)));
         send("wanted", "input", "energy");
         seen.columns = document.querySelectorAll("#table th").length;
