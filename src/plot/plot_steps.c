@@ -11,6 +11,7 @@
 #define DRIVEN 0.02      /* least component of a displacement along which a body is driven, as a share of its length */
 #define ROUND_OFF 1e-9   /* displacements below this number of spacings are round-off */
 #define REST_SHOWN 3     /* motion without force is shown up to this multiple of that with force */
+#define LOAD_SHOWN 0.5   /* least peak along the load that is marked, as a share of the largest force */
 #define FORCE_SHOWN 5e-4 /* a smaller part of the largest force is not drawn: its curve coincides with the axis */
 #define LINE_WIDE 0.002  /* width of a line divided by the length of an axis [1] */
 enum { REACTIONS_SHOWN = CURVE_COLOURS - 1, POINTS_SHOWN = 200, LABEL_ROOM = 256, PEAK_ROOM = 128 };
@@ -71,6 +72,18 @@ static int64_t peak_of(const struct history *h, const struct component *c)
     return at;
 }
 
+/* Returns the row of the history h in which component c is largest with the sign that counts as positive, if it is
+ * there at least LOAD_SHOWN times its largest magnitude; else the row of the largest magnitude. The first is the peak
+ * of the load; the force may be larger after the body has broken, when its parts swing back. */
+static int64_t peak_of_load(const struct history *h, const struct component *c)
+{
+    int64_t at = 0;
+    for (int64_t i = 1; i < h->rows; i++)
+        if (component_at(h, i, c) > component_at(h, at, c)) at = i;
+    const int64_t largest = peak_of(h, c);
+    return component_at(h, at, c) >= LOAD_SHOWN * fabs(component_at(h, largest, c)) ? at : largest;
+}
+
 static double largest_of(const struct history *h, const struct component *c)
 {
     return fabs(component_at(h, peak_of(h, c), c));
@@ -100,7 +113,7 @@ struct reaction {
     char name[NAME_MAX_LENGTH];
     bool rigid; /* the force is that on a rigid body, else that of a support on the body */
     struct component force, displacement;
-    int64_t peak; /* row of the largest force */
+    int64_t peak; /* row of the largest load */
 };
 /* All curves of a picture, of[n], and the ends of its axes. */
 struct reactions {
@@ -199,9 +212,9 @@ static bool one_axis(const struct reactions *r, bool force)
     return one;
 }
 
-/* Chooses the signs of the curves r such that they begin with positive force and displacement. The force on a rigid
- * body is opposite to that of a support, which acts along the motion. If curves have different axes, keeps the signs
- * of the history h and adds the axis to their names. */
+/* Chooses the signs of the curves r such that they begin with positive force and displacement, and their peaks. The
+ * force on a rigid body is opposite to that of a support, which acts along the motion. If curves have different axes,
+ * keeps the signs of the history h and adds the axis to their names. */
 static void reactions_choose_signs(struct reactions *r, const struct history *h)
 {
     const bool one = one_axis(r, true) && one_axis(r, false);
@@ -212,6 +225,7 @@ static void reactions_choose_signs(struct reactions *r, const struct history *h)
             a->force.sign = r->over[0] ? first_sign(h, &a->force)
                             : a->rigid ? -a->displacement.sign
                                        : a->displacement.sign;
+            a->peak = peak_of_load(h, &a->force);
         } else {
             const size_t length = strlen(a->name);
             if (length + 3 <= sizeof a->name) snprintf(a->name + length, 3, " %c", 'x' + a->force.axis);
@@ -318,7 +332,7 @@ static void reactions_send(FILE *to, const struct history *h, const struct react
     }
 }
 
-/* Writes to text[capacity], for the key (legend), the largest sampled force of the curve a and the displacement at
+/* Writes to text[capacity], for the key (legend), the largest sampled load of the curve a and the displacement at
  * that sample. The text names the axis of this component, since summary.json has the magnitude of the force vector
  * instead. h: history with the values; newton, metre: units of force and displacement. */
 static void write_peak(char *text, size_t capacity, const struct history *h, const struct reaction *a,
@@ -345,7 +359,7 @@ static size_t longest_key_entry(const struct history *h, const struct reactions 
 }
 
 /* Writes to gnuplot the command that plots the curves r of force against displacement, each with a ring at its largest
- * force. h: history with the values; newton, metre: units of the vertical and the horizontal axis. */
+ * load. h: history with the values; newton, metre: units of the vertical and the horizontal axis. */
 static void reactions_plot(FILE *to, const struct history *h, const struct reactions *r, struct unit newton,
                            struct unit metre)
 {

@@ -205,6 +205,19 @@ cp strip.yaml anvil/scene.yaml
 "$cleave" plot anvil $small -o anvil/ >out 2>err
 holds "a rigid body at rest: $(cat err)" grep -q "load_displacement.png is not drawn: the rigid body that carries the load does not move" out
 
+# The peak of the load is marked, not a larger force of the other sign after the break.
+mkdir broken
+cat >broken/history.csv <<'END'
+time [s],step,grip.force_x [N],grip.force_y [N],grip.displacement_x [m],grip.displacement_y [m]
+0,0,0,0,0,0
+1e-5,1,629,0,1e-4,0
+2e-5,2,0,0,2e-4,0
+3e-5,3,-631,0,3e-4,0
+END
+: >all
+"$cleave" plot broken $small -o broken/ >out 2>err
+holds "the peak before the break: $(cat err)" grep -a -q "sampled along x: 629 N at 100 µm" all
+
 # Numbers of five digits below the axis of a column of a journal do not touch: tics every 5000 mm^2.
 mkdir grown
 cat >grown/history.csv <<'END'
