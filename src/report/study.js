@@ -153,7 +153,7 @@ function sweepPoints() {
 }
 
 // Returns true if positive values extend over two decades and more.
-const overDecades = (values) => Math.min(...values) > 0 && Math.max(...values) >= 100 * (1 - 1e-6) * Math.min(...values);
+const overDecades = (values) => Math.min(...values) > 0 && Math.max(...values) >= 99.9999 * Math.min(...values);
 
 // Returns true if the distances of the values, in ascending order, are equal.
 function evenlySpaced(values) {
