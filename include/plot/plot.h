@@ -434,9 +434,10 @@ void notches_paint_crack_faces(struct colour *pixel, int width, int height, cons
  * deformable bodies are faded, too. */
 struct colour rigid_body_colour(enum map map);
 
-/* Extends the rectangle of the view v so that it shows the rigid bodies of c (their boxes), on each side by at most 0.3
- * times the longer side of the rectangle: parts of a body farther away remain outside. */
-void view_extend_to_rigid_bodies(struct view *v, const struct plotted_particles *c);
+/* Extends the rectangle of the view v so that it shows the rigid bodies (their boxes) of the output frames
+ * cloud[frame_count], on each side by at most 0.3 times the longer side that the rectangle has before: parts of a body
+ * farther away remain outside. Bodies that are not in the section are left out. */
+void view_extend_to_rigid_bodies(struct view *v, const struct plotted_particles *cloud, int frame_count);
 
 /* Returns true if at least one rigid body of c is visible in the rectangle of v. In views from outside every rigid body
  * counts as visible. In plane bodies and slices the rectangle is tested at 300 x 300 points. */

@@ -109,18 +109,29 @@ static double corner_along(const struct rigid_shown *r, int dim, int k, const do
     return sum;
 }
 
-void view_extend_to_rigid_bodies(struct view *v, const struct plotted_particles *c)
+/* Returns true if the rigid body r is not in the plane of the section that c shows: its box is on one side of it. */
+static bool misses_section(const struct rigid_shown *r, const struct plotted_particles *c)
 {
-    const double *axis[2] = {c->camera.right, c->camera.up};
+    int below = 0, corners = 1 << c->dim;
+    if (c->normal < 0) return false;
+    for (int k = 0; k < corners; k++)
+        below += corner_along(r, c->dim, k, c->camera.towards) < c->layer * c->camera.towards[c->normal];
+    return below == 0 || below == corners;
+}
+
+void view_extend_to_rigid_bodies(struct view *v, const struct plotted_particles *cloud, int frame_count)
+{
     const double longest = fmax(v->to[0] - v->from[0], v->to[1] - v->from[1]);
     const double from[2] = {v->from[0], v->from[1]}, to[2] = {v->to[0], v->to[1]};
-    for (int b = 0; b < c->rigids; b++)
-        for (int k = 0; k < 1 << c->dim; k++)
-            for (int a = 0; a < 2; a++) {
-                const double x = corner_along(&c->rigid[b], c->dim, k, axis[a]);
+    for (const struct plotted_particles *c = cloud; c < cloud + frame_count; c++)
+        for (int q = 0; q < c->rigids << c->dim; q++) {
+            const struct rigid_shown *r = &c->rigid[q >> c->dim];
+            for (int a = 0; a < 2 && !misses_section(r, c); a++) {
+                const double x = corner_along(r, c->dim, q % (1 << c->dim), a ? c->camera.up : c->camera.right);
                 v->from[a] = fmin(v->from[a], fmax(x, from[a] - BESIDE * longest));
                 v->to[a] = fmax(v->to[a], fmin(x, to[a] + BESIDE * longest));
             }
+        }
 }
 
 /* Computes the position x[3] [m] of pixel q of a picture of size[0] x size[1] pixels that shows the rectangle of view v

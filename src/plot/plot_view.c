@@ -125,7 +125,7 @@ struct view view_make_around_particles(const struct plotted_particles *cloud, in
         const double beside = k == 1 && cloud[0].tall > 0 ? 1.5 * cloud[0].tall : margin;
         v.from[k] -= beside, v.to[k] += beside;
     }
-    for (int c = 0; c < frame_count; c++) view_extend_to_rigid_bodies(&v, &cloud[c]);
+    view_extend_to_rigid_bodies(&v, cloud, frame_count);
     view_widen_slender(&v);
     for (int c = 0; c < frame_count; c++)
         v.outside = (int64_t)fmax((double)v.outside, (double)count_outside(&v, &cloud[c]));
