@@ -314,6 +314,11 @@ status projection_complete_slice_from_particles(struct projection *projection, c
  * unknown. */
 double frame_particle_spacing(const struct output_frame *f);
 
+/* Returns an allocated array with the size [m] of each particle of the frame f, whose particles come from lists, by the
+ * distances of its neighbours. Returns NULL if the sizes do not differ (the list is not graded), if the frame stores
+ * spacings, or for a bar. spacing: median spacing [m]. */
+float *frame_find_sizes_of_list_particles(const struct output_frame *f, double spacing);
+
 /* Quantity that the colours of a map (picture of particles) show: damage, kind or fragment of the particles, a field,
  * named values such as bodies, or cracks (particles with damage above CRACK_DAMAGE). */
 enum map { MAP_DAMAGE, MAP_KIND, MAP_FRAGMENT, MAP_FIELD, MAP_CATEGORY, MAP_CRACKS };

@@ -66,27 +66,31 @@ double frame_particle_spacing(const struct output_frame *f)
     return median_by_sorting(distance, known);
 }
 
-/* Returns true if the direction from particle i to its nearest neighbour is within 8 degrees of an axis of the map.
- * X[2][n]: reference positions of n particles along the axes of the map [m]. */
-static bool lies_along(double *const *X, int64_t n, int64_t i)
+/* Returns true if the direction from particle i to its nearest neighbour is within 8 degrees of one of the dim axes.
+ * X[dim][n]: reference positions of n particles along the axes [m]. */
+static bool lies_along(double *const *X, int dim, int64_t n, int64_t i)
 {
     double best = INFINITY, along = 0, across = 1;
     for (int64_t j = 0; j < n; j++) {
-        double a = fabs(X[0][j] - X[0][i]), b = fabs(X[1][j] - X[1][i]);
-        if (j == i || a * a + b * b >= best) continue;
-        best = a * a + b * b;
-        along = fmax(a, b);
-        across = fmin(a, b);
+        double largest = 0, r2 = 0;
+        for (int d = 0; d < dim; d++) {
+            const double a = fabs(X[d][j] - X[d][i]);
+            largest = fmax(largest, a), r2 += a * a;
+        }
+        if (j == i || r2 >= best) continue;
+        best = r2;
+        along = largest;
+        across = sqrt(r2 - largest * largest);
     }
     return across < 0.14 * along; /* tan 8 degrees */
 }
 
-/* Returns true if n particles appear to be on a lattice along the axes of the map: for 90 % of a sample the nearest
- * neighbour is along an axis. X[2][n]: reference positions along the axes of the map [m]. */
-static bool is_aligned(double *const *X, int64_t n)
+/* Returns true if n particles appear to be on a lattice along the axes: for 90 % of a sample the nearest neighbour is
+ * along an axis. X[dim][n]: reference positions along the axes [m]. */
+static bool is_aligned(double *const *X, int dim, int64_t n)
 {
     int64_t samples = sample_count(n), along = 0;
-    for (int64_t k = 0; k < samples; k++) along += lies_along(X, n, k * n / samples);
+    for (int64_t k = 0; k < samples; k++) along += lies_along(X, dim, n, k * n / samples);
     return 10 * along >= 9 * samples;
 }
 
@@ -280,8 +284,9 @@ static void cloud_axes(struct plotted_particles *c, const struct output_frame *f
     c->camera = camera_along_axis(c->normal, c->normal == 1 ? -1 : 1);
 }
 
-void plotted_particles_select_from_frame(struct plotted_particles *c, const struct output_frame *f,
-                                         const struct projection *projection)
+/* Does the work of plotted_particles_select_from_frame for a frame f that has the sizes of its particles, or whose
+ * particles are of one size. */
+static void cloud_select(struct plotted_particles *c, const struct output_frame *f, const struct projection *projection)
 {
     struct projection open = {.normal = -1};
     if (!projection) (void)projection_complete_slice_from_particles(&open, f, NULL), projection = &open;
@@ -312,7 +317,26 @@ void plotted_particles_select_from_frame(struct plotted_particles *c, const stru
         if (c->value) c->value[c->n] = projection->value[i];
         c->kind[c->n++] = f->kind[i];
     }
-    c->aligned = !c->position[2] && is_aligned(c->reference, c->n);
+    c->aligned = !c->position[2] && is_aligned(c->reference, 2, c->n);
+}
+
+static bool has_lists(const struct scene *s)
+{
+    bool has = false;
+    for (int b = 0; s && b < s->bodies; b++) has |= s->body[b].file != NULL;
+    return has;
+}
+
+void plotted_particles_select_from_frame(struct plotted_particles *c, const struct output_frame *f,
+                                         const struct projection *projection)
+{
+    struct output_frame sized = *f;
+    float *size = NULL;
+    if (projection && has_lists(projection->scene))
+        size = frame_find_sizes_of_list_particles(f, frame_particle_spacing(f));
+    if (size && is_aligned(f->X, f->dim, f->n)) sized.spacing = size;
+    cloud_select(c, &sized, projection);
+    memory_free(size);
 }
 
 status plotted_particles_read(struct plotted_particles *c, const char *folder, const struct listed_frame *frame,

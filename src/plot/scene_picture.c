@@ -58,10 +58,19 @@ static void cloud_add(struct plotted_particles *c, const real *x, int dim, doubl
     c->colour[c->n++] = colour;
 }
 
+/* Returns the edge of the square or cube of particle i of p [m]: for a particle of a list the one of its volume, which
+ * differs in a graded list, else the spacing of the scene s. */
+static real particle_size(const struct scene *s, const struct particles *p, int64_t i)
+{
+    if (!s->body[p->body[i]].file || s->dim < 2) return s->spacing;
+    const real whole = lattice_particle_volume(scene_section_or_thickness(s), s->spacing, s->dim);
+    return s->spacing * pow(p->volume0[i] / whole, 1.0 / s->dim);
+}
+
 /* Appends the squares of n = p->n particles p to c, the particles of the picture, coloured by material or body. With
- * `spacing` NULL, p are the particles of the run, with the spacing that the input file (scene) gives s; if the run has
- * material points and peridynamic particles, the latter are darker. Otherwise p are points that represent coarse
- * cells, and spacing[n] are the edges of their squares [m]. part: all particles of the run. */
+ * `spacing` NULL, p are the particles of the run, with sizes by particle_size; if the run has material points and
+ * peridynamic particles, the latter are darker. Otherwise p are points that represent coarse cells, and spacing[n] are
+ * the edges of their squares [m]. part: all particles of the run. */
 static void cloud_add_particles(struct plotted_particles *c, const struct scene *s, const struct particles *part,
                                 const struct particles *p, const real *spacing)
 {
@@ -71,7 +80,7 @@ static void cloud_add_particles(struct plotted_particles *c, const struct scene 
         real x[DIM_MAX];
         for (int d = 0; d < p->dim; d++) x[d] = spacing ? p->X[d][i] : p->x[d][i];
         if (both && !spacing && p->kind[i] == KIND_PD) colour = colour_mixed_with_black(colour, PERIDYNAMIC);
-        cloud_add(c, x, p->dim, spacing ? spacing[i] : s->spacing, colour);
+        cloud_add(c, x, p->dim, spacing ? spacing[i] : particle_size(s, p, i), colour);
     }
 }
 
