@@ -27,7 +27,7 @@
 /* Largest number of surely connected pairs that are sampled; of pairs of a particle of which the median is taken. */
 enum { SURE_MOST = 100000, NEAR_MOST = 64 };
 
-/* Pairs of neighbours of a frame. limit: elongation above which two particles without all their bonds are apart;
+/* Pairs of neighbours of a frame. limit: opening above which two particles without all their bonds are apart;
  * magnify: factor on displacements in the picture. */
 struct pairs {
     const struct output_frame *f;
@@ -46,6 +46,17 @@ static double elongation(const struct output_frame *f, int64_t i, int64_t j)
         first += square(xi), now += square(xi + ((double)f->u[d][j] - f->u[d][i]));
     }
     return sqrt(now / first) - 1;
+}
+
+/* Returns the elongation of the pair of particles i and j along the axes of the lattice: that of a diagonal pair counts
+ * by its squared length in spacings, so that both kinds of pairs across an opening crack are apart at the same opening.
+ */
+static double opening(const struct pairs *p, int64_t i, int64_t j)
+{
+    double first = 0;
+    for (int d = 0; d < p->f->dim; d++) first += square((double)p->f->X[d][j] - p->f->X[d][i]);
+    const double own = p->f->spacing ? fmax(p->f->spacing[i], p->f->spacing[j]) : p->spacing;
+    return elongation(p->f, i, j) * fmax(first / square(own), 1);
 }
 
 /* Returns true if the particles i and j of the output frame p->f belong to one body, none of them has lost more than
@@ -76,19 +87,17 @@ static double jump_of(const struct pairs *p, const struct neighbour_list *near, 
 }
 
 /* Returns true if the neighbours i and j of the output frame p->f are drawn as connected: they are on one side of all
- * cracks (same_side), and their elongation |x_j - x_i|/|X_j - X_i| - 1 is at most `jump`, at most LONGEST - 1 and, if
- * both have lost bonds, at most p->limit. */
+ * cracks (same_side), and their elongation |x_j - x_i|/|X_j - X_i| - 1 is at most `jump` and at most LONGEST - 1, and,
+ * if both have lost bonds, their `opening` is at most p->limit. */
 static bool connected(const struct pairs *p, int64_t i, int64_t j, double jump)
 {
-    const double longer = elongation(p->f, i, j);
     const bool whole = p->f->damage[i] <= 0 || p->f->damage[j] <= 0;
-    const double most = fmin(whole ? INFINITY : p->limit, fmin(jump, LONGEST - 1));
-    return longer <= most && same_side(p, i, j);
+    if (elongation(p->f, i, j) > fmin(jump, LONGEST - 1)) return false;
+    return (whole || opening(p, i, j) <= p->limit) && same_side(p, i, j);
 }
 
-/* Returns the elongation |x_j - x_i|/|X_j - X_i| - 1 above which two neighbours that have both lost bonds are drawn
- * apart. It is PARTED_MORE times the 99th percentile of the elongations of neighbours that are certainly connected, and
- * at least PARTED/p->magnify. */
+/* Returns the opening above which two neighbours that have both lost bonds are drawn apart. It is PARTED_MORE times the
+ * 99th percentile of the openings of neighbours that are certainly connected, and at least PARTED/p->magnify. */
 static double parted_limit(const struct pairs *p)
 {
     struct neighbour_list near = {0};
@@ -98,7 +107,7 @@ static double parted_limit(const struct pairs *p)
     for (int64_t i = 0; i < p->f->n; i += stride) {
         particles_list_neighbours_within_radius(&near, &p->cells, &p->part, i, NEAR_REACH * p->spacing, false);
         for (int k = 0; k < near.n && n < SURE_MOST; k++)
-            if (surely_connected(p, i, near.at[k])) sure[n++] = elongation(p->f, i, near.at[k]);
+            if (surely_connected(p, i, near.at[k])) sure[n++] = opening(p, i, near.at[k]);
     }
     array_sort(sure, n, sizeof *sure, compare_doubles);
     const double least = PARTED / p->magnify;

@@ -11,7 +11,7 @@ static const struct colour FACE = {122, 16, 32, 255}, GAP = {255, 255, 255, 255}
 /* LINE_HALF: half width of a line, at least LINE_LEAST pixels, so that it looks alike in pictures of any resolution;
  * GAP_SEEN: distance of the faces from which the gap between them is left open [widths of the image]; FLAT: an image
  * that is more than so many times wider than high, as of a thin strip, counts as so wide. */
-static const double LINE_HALF = 1.0 / 600, LINE_LEAST = 0.7, GAP_SEEN = 1.0 / 140, FLAT = 12;
+static const double LINE_HALF = 1.0 / 600, LINE_LEAST = 0.7, GAP_SEEN = 1.0 / 400, FLAT = 12;
 
 /* BESIDE: largest distance of the particles whose motion is that of a face [spacings]; RUBBLE: damage above which a
  * particle has no part of a face. */
@@ -129,8 +129,9 @@ static double line_scale(int width, int height) { return fmin(width, FLAT * heig
 static double line_half(int width, int height) { return fmax(LINE_HALF * line_scale(width, height), LINE_LEAST); }
 
 /* Paints the pixels of pixel[height][width] within half a line width of the line between the points a[2] and b[2]
- * [pixel] in the colour c. */
-static void line_paint(struct colour *pixel, int width, int height, const double *a, const double *b, struct colour c)
+ * [pixel] in the colour c. on_body: true to leave out the pixels without a particle. */
+static void line_paint(struct colour *pixel, int width, int height, const double *a, const double *b, struct colour c,
+                       bool on_body)
 {
     const double half = line_half(width, height);
     int low[2], high[2];
@@ -142,12 +143,13 @@ static void line_paint(struct colour *pixel, int width, int height, const double
     }
     for (int row = low[1]; row <= high[1]; row++)
         for (int column = low[0]; column <= high[0]; column++)
-            if (segment_distance_from_point(a, b, (double[]){column + 0.5, row + 0.5}, 2) <= half)
+            if ((!on_body || pixel[(int64_t)row * width + column].alpha) &&
+                segment_distance_from_point(a, b, (double[]){column + 0.5, row + 0.5}, 2) <= half)
                 pixel[(int64_t)row * width + column] = c;
 }
 
 /* Paints both faces of the deformed pre-crack f as lines in `colour` into the image pixel[height][width], which shows
- * the rectangle of the view v. Also fills the gap between the faces where it is too narrow to be seen. The round ends
+ * the rectangle of the view v. Fills the gap between the faces only where it is too narrow to be seen. The round ends
  * of the lines end where the faces do. */
 static void faces_paint(struct colour *pixel, int width, int height, const struct view *v, const struct faces *f,
                         struct colour colour)
@@ -166,12 +168,13 @@ static void faces_paint(struct colour *pixel, int width, int height, const struc
         for (int side = 0; side < 2; side++)
             for (int a = 0; a < 2 && is[side]; a++)
                 x[side][a] = (x[side][a] - v->from[a]) * (a ? height : width) / (v->to[a] - v->from[a]);
+        const bool shut =
+            is[0] && is[1] && hypot(x[1][0] - x[0][0], x[1][1] - x[0][1]) < GAP_SEEN * line_scale(width, height);
         for (int side = 0; side < 2; side++) {
-            if (is[side] && was[side]) line_paint(pixel, width, height, last[side], x[side], colour);
+            if (is[side] && was[side]) line_paint(pixel, width, height, last[side], x[side], colour, !shut);
             last[side][0] = x[side][0], last[side][1] = x[side][1], was[side] = is[side];
         }
-        if (is[0] && hypot(x[1][0] - x[0][0], x[1][1] - x[0][1]) < GAP_SEEN * line_scale(width, height))
-            line_paint(pixel, width, height, x[0], x[1], colour);
+        if (shut) line_paint(pixel, width, height, x[0], x[1], colour, false);
     }
 }
 

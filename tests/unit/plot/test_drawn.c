@@ -1,0 +1,124 @@
+/* Tests of what a map shows of graded lists, long rigid bodies and narrow cracks. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <cmocka.h>
+
+#include <math.h>
+
+#include "base/memory.h"
+#include "plot/plot.h"
+#include "tests/support/frame_block.h"
+
+enum { PIXELS = 120, FINE = 8 * PIXELS };
+
+/* Paints c into a square of 2 x `half` around 0 [m]. Returns the number of pixels with a particle. */
+static int painted_around(const struct plotted_particles *c, double half)
+{
+    struct colour *pixel = NEW("test.pixel", PIXELS * PIXELS, struct colour);
+    const struct view v = {.from = {-half, -half}, .to = {half, half}, .top = 1};
+    int painted = 0;
+    raster_paint_particles(pixel, PIXELS, PIXELS, &v, c, MAP_DAMAGE);
+    for (int q = 0; q < PIXELS * PIXELS; q++) painted += pixel[q].alpha > 0;
+    memory_free(pixel);
+    return painted;
+}
+
+/* Moves the particles of the block f of 20 x 30 on the left of the middle to a lattice of half the spacing, which is as
+ * high as 10 rows, and the others to 10 rows beside it. Leaves f->n of them. */
+static void block_grade(struct output_frame *f)
+{
+    int64_t n = 0;
+    for (int k = 0; k < 20 * 20; k++, n++)
+        f->X[0][n] = (k % 20 - 19.5) * 0.5 * SPACING, f->X[1][n] = (k / 20 - 9.5) * 0.5 * SPACING;
+    for (int k = 0; k < 10 * 10; k++, n++) f->X[0][n] = (k % 10 + 0.5) * SPACING, f->X[1][n] = (k / 10 - 4.5) * SPACING;
+    f->n = n;
+}
+
+/* Checks that a list whose left half has half the spacing is drawn without gaps, and hardly larger than it is. The same
+ * particles without a list are of one size. */
+static void graded_lists_are_closed(void **state)
+{
+    (void)state;
+    char file[] = "graded.csv";
+    struct scene_body body = {.file = file};
+    struct scene scene = {.dim = 2, .bodies = 1, .body = &body};
+    struct output_frame f = block_make(20, 30, 1, 2);
+    struct plotted_particles c;
+    block_grade(&f);
+    plotted_particles_select_from_frame(&c, &f, &(struct projection){.normal = -1, .scene = &scene});
+    assert_int_equal(painted_around(&c, 4.5 * SPACING), PIXELS * PIXELS);
+    const double body_pixels = 20.0 * 10 / (24 * 24) * PIXELS * PIXELS;
+    assert_true(fabs(painted_around(&c, 12 * SPACING) - body_pixels) < 0.03 * body_pixels);
+    for (int64_t i = 0; i < c.n; i++) assert_true(fabs(c.size[i] - (f.X[0][i] < 0 ? 0.5 : 1) * SPACING) < 1e-8);
+    plotted_particles_free(&c);
+    scene.bodies = 0;
+    plotted_particles_select_from_frame(&c, &f, &(struct projection){.normal = -1, .scene = &scene});
+    assert_null(c.size);
+    plotted_particles_free(&c), frame_free(&f);
+}
+
+/* Checks that pictures of one frame and of six show the same part of a rigid plate much longer than the body, and that
+ * a section of a solid that the plate misses is no larger for it. */
+static void long_rigid_bodies_are_cut_off(void **state)
+{
+    (void)state;
+    static struct solid plate = {.kind = SOLID_BOX, .from = {-1, -8e-3, -9e-3}, .to = {1, -6e-3, -6e-3}};
+    static const struct region shape = {.n = 1, .solid = &plate};
+    for (int dim = 2; dim < 4; dim++) {
+        struct output_frame f = block_make(10, 10, dim == 2 ? 1 : 4, dim);
+        struct plotted_particles c, six[6];
+        plotted_particles_select_from_frame(&c, &f, NULL);
+        const struct view alone = view_make_around_particles(&c, 1);
+        struct rigid_shown *r = NEW("test.rigid", 1, struct rigid_shown);
+        *r = (struct rigid_shown){.shape = &shape, .at.turn = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+        r->bounded = region_compute_bounding_box_if_finite(&shape, dim, r->low, r->high);
+        c.dim = dim, c.rigids = 1, c.rigid = r;
+        for (int k = 0; k < 6; k++) six[k] = c;
+        const struct view one = view_make_around_particles(&c, 1), all = view_make_around_particles(six, 6);
+        assert_true(one.from[0] == all.from[0] && one.to[0] == all.to[0]);
+        const double more = dim == 2 ? 0.3 * (alone.to[0] - alone.from[0]) : 0;
+        assert_true(fabs(all.to[0] - alone.to[0] - more) < 1e-9);
+        plotted_particles_free(&c), frame_free(&f);
+    }
+}
+
+/* Checks that a crack of 0.16 spacings through broken bonds is open, and so is a pre-crack in its place, whose faces
+ * are lines on the body: as many pixels are blank. */
+static void narrow_cracks_are_open(void **state)
+{
+    (void)state;
+    real end[2][DIM_MAX] = {{-16e-3, 0}, {16e-3, 0}};
+    struct crack slit = {.n = 2, .corner = end};
+    struct scene scene = {.dim = 2, .cracks = 1, .crack = &slit};
+    struct colour *pixel = NEW("test.pixel", FINE * FINE, struct colour);
+    for (int cut = 0; cut < 2; cut++) {
+        struct output_frame f = block_make(30, 30, 1, 2);
+        struct plotted_particles c;
+        int blank = 0;
+        for (int64_t i = 0; i < f.n; i++) {
+            f.u[1][i] = f.X[1][i] > 0 ? (float)(0.16 * SPACING) : 0;
+            f.damage[i] = fabs(f.X[1][i]) < SPACING ? 0.4F : 0;
+        }
+        scene.cracks = cut;
+        plotted_particles_select_from_frame(&c, &f, &(struct projection){.normal = -1, .scene = &scene});
+        const struct view v = {
+            .from = {-14e-3, -14e-3}, .to = {14e-3, 14e-3}, .top = 1, .notches = cut, .notch = &slit};
+        raster_paint_particles(pixel, FINE, FINE, &v, &c, MAP_DAMAGE);
+        for (int q = 0; q < FINE * FINE; q++) blank += !pixel[q].alpha;
+        assert_true(blank >= FINE && blank <= 3 * FINE); /* 0.06 spacings of 34 pixels, 2 or 3 high */
+        plotted_particles_free(&c), frame_free(&f);
+    }
+    memory_free(pixel);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(graded_lists_are_closed),
+        cmocka_unit_test(long_rigid_bodies_are_cut_off),
+        cmocka_unit_test(narrow_cracks_are_open),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
