@@ -127,8 +127,11 @@ function drawFilm() {
             drawRigids(context, to, frame, ratio);
             drawPreCracks(context, to, frame, ratio);
         } else
-            drawTriad(context, [width - BAR - 60, height - foot / 2 + 4]);
+            drawTriad(context, [width - BAR - 60, height - foot / 2]);
         drawScaleBar(context, width - BAR, height - foot / 2);
+        context.fillStyle = "#dde1e8"; // where the picture of the body ends
+        context.fillRect(0, view.height, width - BAR, 1);
+        context.fillRect(width - BAR, 0, 1, view.height);
         drawColourBar(context, width, height);
     }
     context.fillStyle = "#1d2330";
@@ -170,7 +173,7 @@ const timeText = (frame) => {
 
 // The axes as the body is turned. at: their origin on the canvas.
 function drawTriad(context, at) {
-    const length = 22;
+    const length = 18;
     context.lineWidth = 1.6;
     ["x", "y", "z"].forEach((name, k) => {
         const tip = [at[0] + length * view.turn[0][k], at[1] - length * view.turn[1][k]];
@@ -319,7 +322,7 @@ function boxOfFrames(magnify) {
 // Shows the whole body: from the front in the plane, obliquely in space.
 function resetView() {
     const box = view.magnify === 1 ? film.box : boxOfFrames(view.magnify);
-    view.chosen = false;
+    view.chosen = view.zoomed = false;
     const {low, high} = boxWithRigids(box, film.frames[view.frame]),
                 size = high.map((h, d) => h - low[d]), width = byId("view").clientWidth - BAR;
     if (film.dim === 2) {
@@ -330,11 +333,18 @@ function resetView() {
         view.height = 560;
         view.centre = low.map((l, d) => (l + high[d]) / 2);
         view.turn = [[0.8, 0.6, 0], [-0.3, 0.4, 0.866], [0.52, -0.693, 0.5]].map(unitVector);
-        const extent = (row) => size.reduce((sum, s, d) => sum + Math.abs(row[d]) * s, 0);
-        view.scale = Math.min(width / extent(view.turn[0]), view.height / extent(view.turn[1])) / 1.12;
+        view.size = size;
+        view.scale = turnedScale();
     } else
         view.height = 380, view.box = box;
     drawFilm();
+}
+
+// Scale with which the whole body, as it is turned, is on the canvas [CSS pixel per metre].
+function turnedScale() {
+    const extent = (row) => view.size.reduce((sum, s, d) => sum + Math.abs(row[d]) * s, 0);
+    const width = byId("view").clientWidth - BAR;
+    return Math.min(width / extent(view.turn[0]), view.height / extent(view.turn[1])) / 1.12;
 }
 
 // Shows the whole body again after a change of its magnification, unless the reader has chosen a view.
@@ -342,7 +352,8 @@ function followBody() { view.chosen ? drawFilm() : resetView(); }
 
 const unitVector = (v) => v.map((c) => c / Math.hypot(...v));
 
-// Turns the body by angles about the vertical and the horizontal of the screen.
+// Turns the body by angles about the vertical and the horizontal of the screen. Makes it smaller where it would leave
+// the canvas, unless the reader has zoomed.
 function turnBy(across, down) {
     const rotate = (a, b, angle) => {
         const [c, s] = [Math.cos(angle), Math.sin(angle)], p = view.turn[a], q = view.turn[b];
@@ -352,6 +363,7 @@ function turnBy(across, down) {
     rotate(0, 2, -across);
     rotate(1, 2, down);
     view.turn = view.turn.map(unitVector);
+    if (!view.zoomed) view.scale = Math.min(view.scale, turnedScale());
 }
 
 function listenToPointer() {
@@ -381,7 +393,7 @@ function listenToPointer() {
         if (film.dim === 2)
             view.x += off[0] / view.scale * (1 - 1 / factor), view.y += off[1] / view.scale * (1 - 1 / factor);
         view.scale *= factor;
-        view.chosen = true;
+        view.chosen = view.zoomed = true;
         drawFilm();
     }, {passive: false});
 }
