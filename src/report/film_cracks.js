@@ -1,7 +1,9 @@
 // Pre-cracks in the plane: both faces, as lines that move with the particles beside them.
 
+const ALONG = 0.55;  // a face ends so far beyond the last particle beside it [spacings]
+
 // Returns the faces of all pre-cracks, each a list of points [x, y, particle beside it on this side of the line, or -1
-// where there is none within 1.2 spacings].
+// where there is none within 1.2 spacings, and within ALONG along the line].
 function facesOf(set) {
     if (set.faces) return set.faces;
     const [X, Y] = set.X, wide = set.size.reduce((a, b) => Math.max(a, b), 0),
@@ -15,10 +17,13 @@ function facesOf(set) {
     // The nearest particle to (x, y) on the side of the line to which the normal points.
     const beside = (x, y, normal) => {
         let [least, found] = [1.2, -1];
+        const length = Math.hypot(...normal);
         for (let k = 0; k < 9; k++)
             for (const i of cells.get(cell(x + (k % 3 - 1) * wide, y + (Math.floor(k / 3) - 1) * wide)) || []) {
                 const [dx, dy] = [X[i] - x, Y[i] - y], distance = Math.hypot(dx, dy) / set.size[i];
-                if (dx * normal[0] + dy * normal[1] > 0 && distance < least) [least, found] = [distance, i];
+                const along = Math.abs(dx * normal[1] - dy * normal[0]) / length;
+                if (dx * normal[0] + dy * normal[1] > 0 && distance < least && along < ALONG * set.size[i])
+                    [least, found] = [distance, i];
             }
         return found;
     };
@@ -28,7 +33,7 @@ function facesOf(set) {
             const face = [];
             for (let k = 1; k < line.length; k++) {
                 const [a, b] = [line[k - 1], line[k]], [dx, dy] = [b[0] - a[0], b[1] - a[1]];
-                const steps = Math.min(Math.ceil(2 * Math.hypot(dx, dy) / fine), 8000) || 1;
+                const steps = Math.min(Math.ceil(8 * Math.hypot(dx, dy) / fine), 8000) || 1;
                 for (let s = 0; s <= steps; s++) {
                     const [x, y] = [a[0] + dx * s / steps, a[1] + dy * s / steps];
                     face.push([x, y, beside(x, y, [-side * dy, side * dx])]);

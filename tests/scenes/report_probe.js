@@ -30,6 +30,12 @@ function slits() {
     return owner.reduce((n, i, at) => n + (i < 0 && near(at, 1) && near(at, -1)), 0);
 }
 
+// Is a particle at the border of the stage, where a body that does not fit is cut off?
+function cutOff() {
+    const {owner, width, height} = buffer;
+    return owner.some((i, at) => i >= 0 && (at < width || at >= width * (height - 1) || (at + 1) % width < 2));
+}
+
 // Number of faces of cubes that are painted although a parted neighbour still covers them: a dotted lattice.
 function bareFaces() {
     const frame = film.frames[view.frame], set = particlesOf(film, film.sets[frame.set]), sides = [0, 1, 2, 3, 4, 5];
@@ -58,6 +64,8 @@ async function probeFilm(seen) {
     seen.frames = film.frames.length;
     seen.shown_at_first = view.frame;
     seen.limits = [view.low, view.high];
+    if (film.dim === 2)
+        seen.faces_from = Math.min(...particlesOf(film, film.sets[0]).faces.flat().map((p) => (p[2] < 0 ? 1 : p[0])));
     seen.bare = film.dim === 3 ? bareFaces() : 0;
     seen.slits = film.dim > 1 ? slits() : 0;
     seen.first_field = view.field.name;
@@ -89,6 +97,9 @@ async function probeFilm(seen) {
         for (const [type, x] of [["pointerdown", 300], ["pointermove", 380], ["pointerup", 380]])
             canvas.dispatchEvent(new PointerEvent(type, {clientX: x, clientY: 300, pointerId: 1}));
         seen.turned = JSON.stringify(view.turn) !== rows;
+        turnBy(1, 1.2);
+        drawFilm();
+        seen.cut_off = cutOff();
         seen.painted_turned = painted();
         send("cut", "input", "1");
         send("cut_at", "input", "0.3");
