@@ -60,7 +60,8 @@ const valueOf = (field, code) => field.low + (field.high - field.low) * code / 2
 
 function nameOf(field, code) {
     if (field.name === "kind") return kindNames[code] || String(code);
-    if (field.name === "fragment") return code === 65535 ? "no bonds" : "fragment " + code;
+    if (field.name === "fragment")
+        return code === 65535 ? "no bond left" : code === 0 ? "the heaviest" : "fragment " + code;
     return ((page.names || {})[field.name] || [])[code] || field.name + " " + code;
 }
 
@@ -223,9 +224,12 @@ function drawColourBar(context, width, height) {
     }
 }
 
+// The key of a field with named values: of fragments those without bonds first, then the heaviest ones, up to where the
+// colours repeat.
 function drawCategories(context, left, top, height) {
-    const seen = new Set(view.codes), list = [...seen].sort((a, b) => a - b);
-    const most = Math.floor((height - top - 20) / 19);
+    const fragments = view.field.name === "fragment", first = (code) => (fragments && code === 65535 ? -1 : code);
+    const list = [...new Set(view.codes)].sort((a, b) => first(a) - first(b));
+    const most = Math.min(Math.floor((height - top - 20) / 19), fragments ? fragmentColours.length + 1 : Infinity);
     list.slice(0, most).forEach((code, k) => {
         context.fillStyle = "rgb(" + categoryColour(view.field, code).join() + ")";
         context.fillRect(left, top + 19 * k, 12, 12);
