@@ -4,6 +4,7 @@
 const CRACK = 0.35;  // damage from which a particle is drawn as part of a crack, as in cleave plot
 const CRACK_CODE = CRACK * 254;
 const LOOSE_CODE = 0.6 * 254, LONGEST = 4;  // of rubble, from this damage; of drawn particles [spacings], as there
+const TURNED = 1.5;  // edge of the squares below particles that are on no lattice [spacings]; a turned cell has gaps
 const WIDER = 0.04;  // cubes are drawn wider by this to close the gaps of a strained lattice [spacings]
 const INK = 0xff201a18, GHOST = 0xffe9e6e4;  // alpha, blue, green, red
 
@@ -15,9 +16,31 @@ function particlesOf(film, set) {
         return Float64Array.from(of, (v) => axis.low + (axis.high - axis.low) * v / 65535);
     });
     const size = set.size ? arrayOf(set.size) : new Float32Array(set.n).fill(film.spacing);
-    set.ready =
-        {n: set.n, X, size, beside: film.dim > 1 ? neighbours(X, size, film.dim === 2 && page.cracks || []) : null};
+    set.ready = {
+        n: set.n,
+        X,
+        size,
+        beside: film.dim > 1 ? neighbours(X, size, film.dim === 2 && page.cracks || []) : null,
+        scattered: film.dim === 2 && isScattered(X, size)
+    };
     return set.ready;
+}
+
+// Are the particles in the plane on no lattice along the axes? As in cleave plot: of a sample of the smallest ones,
+// more than 10 % have their nearest neighbour more than 8 degrees off an axis.
+function isScattered(X, size) {
+    const least = size.reduce((a, b) => Math.min(a, b), Infinity), small = [];
+    size.forEach((s, i) => s < 1.01 * least && small.push(i));
+    const every = Math.ceil(small.length / 100), sample = small.filter((_, k) => k % every === 0);
+    const off = sample.filter((i) => {
+        let [best, turned] = [Infinity, false];
+        for (let j = 0; j < size.length; j++) {
+            const a = Math.abs(X[0][j] - X[0][i]), b = Math.abs(X[1][j] - X[1][i]), distance = a * a + b * b;
+            if (j !== i && distance < best) best = distance, turned = Math.min(a, b) > 0.14 * Math.max(a, b);
+        }
+        return turned;
+    });
+    return off.length > 0.1 * sample.length;
 }
 
 // Returns, for each axis, two arrays: the next particle of the same size in its direction, and against it; -1: none, or
@@ -70,8 +93,9 @@ function positionsOf(film, frame, magnify) {
 const apart = (damage, i, j) => damage &&
     (Math.min(damage[i], damage[j]) > CRACK_CODE || Math.max(damage[i], damage[j]) > LOOSE_CODE);
 
-// Paints particles in the plane. to: {pixel, owner, width, height}; see: {x, y, scale}: the position at the centre and
-// the pixels per metre. colour(i): of particle i; damage: codes of damage, or null.
+// Paints particles in the plane, those on no lattice with wider squares below them, which fill the gaps. to: {pixel,
+// owner, width, height}; see: {x, y, scale}: the position at the centre and pixels per metre. colour(i): of particle
+// i; damage: codes of damage, or null.
 function paintPlane(to, see, set, x, colour, damage) {
     const edge = [0, 0], beside = set.beside;
     // The vector from the middle of one side of a particle to that of the other: half the way between its neighbours.
@@ -84,18 +108,20 @@ function paintPlane(to, see, set, x, colour, damage) {
         if (p === m || Math.hypot(edge[0], edge[1]) > LONGEST * set.size[i])
             edge[axis] = set.size[i], edge[1 - axis] = 0;
     };
-    for (let i = 0; i < set.n; i++) {
+    const paint = (i, wide) => {
         edgeOf(i, beside[0], beside[1], 0);
-        const ax = edge[0] * see.scale, ay = -edge[1] * see.scale;
+        const ax = edge[0] * wide, ay = -edge[1] * wide;
         edgeOf(i, beside[2], beside[3], 1);
-        const bx = edge[0] * see.scale, by = -edge[1] * see.scale;
+        const bx = edge[0] * wide, by = -edge[1] * wide;
         const cx = to.width / 2 + (x[0][i] - see.x) * see.scale, cy = to.height / 2 - (x[1][i] - see.y) * see.scale;
         const own = colour(i);
         paintCells(to, cx, cy, ax, ay, bx, by, (at) => {
             to.pixel[at] = own;
             to.owner[at] = i;
         });
-    }
+    };
+    for (const share of set.scattered ? [TURNED, 1] : [1])
+        for (let i = 0; i < set.n; i++) paint(i, share * see.scale);
 }
 
 // Calls paint(pixel, s, t) for the pixels of a parallelogram with the centre (cx, cy) and the edges a and b [pixel]; s

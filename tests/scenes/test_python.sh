@@ -214,7 +214,11 @@ if shutil.which("gnuplot"):
         holds("ends of the colours of " + field, np.allclose(_draw._limits(values, field, None), ends, rtol=2e-4))
 
 # faces of the pre-crack: two lines along it, that move with the particles beside it
-from cleave._shape import crack_faces
+from cleave._shape import crack_faces, is_scattered, without_gaps
+around = np.linspace(0, 2 * np.pi, 63)[:-1]
+ring = np.vstack([radius * np.column_stack([np.cos(around), np.sin(around)]) for radius in (10, 11)])
+holds("a ring is on no lattice", is_scattered(ring, np.ones(len(ring))) and not is_scattered(frame.reference[:, :2], frame.spacing))
+holds("a lattice needs no wider squares", len(without_gaps(frame, (0, 1), np.zeros((len(frame), 4, 2)), frame["id"])[1]) == len(frame))
 faces = crack_faces(frame)
 holds("two faces", len(faces) == 2 and all(np.allclose(face[[0, -1], 0], [0, 9.9e-3], atol=2e-5) for face in faces))
 opened = crack_faces(frame, magnify=100)

@@ -11,7 +11,7 @@ from ._categories import CATEGORIES, categories_of
 from ._errors import need, number_of
 from ._fields import components, scale_of
 from ._rigid import outlines_of
-from ._shape import corners_of, crack_faces
+from ._shape import corners_of, crack_faces, without_gaps
 
 # The colours and their ends are those of `cleave plot` (src/plot/colours.c, plot_view.c).
 _EXTREME, _FEW = 0.002, 3                # share and number of the values beyond the end of the colour bar
@@ -274,6 +274,7 @@ def draw_frame(frame: Any, field: Optional[str], ax: Any = None, *, magnify: flo
     wide, high_up = np.ptp(seen, axis=0)
     ax = _axes_of(ax, high_up / wide)
     long, metres = scale_of(float(max(wide, high_up)), "m")
+    corners, values = without_gaps(frame, axes, corners, values)
     squares = PolyCollection(long * corners, array=factor * values, cmap=_colours_of(name, colours, low, high),
                              edgecolors="face", linewidths=0.3, antialiaseds=False, rasterized=len(values) > 5000)
     squares.set_clim(factor * low, factor * high)

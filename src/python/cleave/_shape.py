@@ -12,6 +12,7 @@ _REACH = 1.6                             # distance of neighbours over the spaci
 # _SURVIVED times that of 99 % of sure pairs; any pair beyond a length of _LONGEST, or _JUMP plus _JUMPS times the median of its particle.
 _PARTED, _SURVIVED, _LONGEST, _JUMP, _JUMPS = 0.1, 1.5, 4.0, 0.75, 4.0
 _LOOSE = 0.6                             # share of lost bonds above which a particle is rubble, whose shape is its own
+_TURNED = 1.5                            # edge of the squares below particles that are on no lattice; a turned cell has gaps
 _OPEN = 1e-6                             # weight of the undeformed shape, for directions without neighbours
 
 
@@ -129,6 +130,32 @@ def deformation_gradients(reference: np.ndarray, current: np.ndarray, spacing: f
     gradients = unit + magnify * (moment @ np.linalg.inv(shape))
     sound = np.linalg.det(gradients) > 0.05
     return np.where(sound[:, None, None], gradients, unit)
+
+
+def is_scattered(reference: np.ndarray, spacing: np.ndarray) -> bool:
+    """Returns true if particles in the plane are on no lattice along the axes, as `cleave plot` decides (src/plot/plot_cloud.c): of a
+    sample of the smallest ones more than 10 % have their nearest neighbour more than 8 degrees off an axis.
+
+    reference, spacing  positions [m], n x 2, and spacings [m], n
+    """
+    small = np.flatnonzero(spacing < 1.01 * spacing.min(initial=np.inf))
+    sample, off = small[::max(1, -(-len(small) // 100))], 0
+    for i in sample:
+        apart = np.abs(reference - reference[i])
+        distance = np.einsum("nd,nd->n", apart, apart)
+        distance[i] = np.inf
+        across, along = np.sort(apart[np.argmin(distance)])
+        off += bool(across > 0.14 * along)
+    return off > 0.1 * len(sample)
+
+
+def without_gaps(frame: Any, axes: Tuple[int, ...], corners: np.ndarray, values: np.ndarray) -> Tuple[np.ndarray, np.ndarray]:
+    """Returns corners and values of the squares to draw, in this order: where particles are on no lattice, wider squares precede their
+    own, which fill the gaps. corners, values: of the particles (corners_of), n x 4 x 2 [m] and n; axes: those of the picture."""
+    if not is_scattered(frame.reference[:, list(axes)], frame.spacing):
+        return corners, values
+    middle = corners.mean(axis=1, keepdims=True)
+    return np.concatenate([middle + _TURNED * (corners - middle), corners]), np.concatenate([values, values])
 
 
 def corners_of(frame: Any, magnify: float = 1.0, axes: Tuple[int, ...] = (0, 1, 2)) -> np.ndarray:
