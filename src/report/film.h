@@ -10,8 +10,8 @@
  * level of cells of intact particles, of cells with damaged ones, and of cells of any particles. */
 enum { FILM_FIELDS_MOST = 24, FILM_LEVELS = 3, FILM_LEVELS_DAMAGED = 2, FILM_LEVELS_ALL = 15 };
 
-/* What a particle suffers in the frames of a film: nothing; damage of at most CRACK_DAMAGE, or yielding; more damage,
- * with which pictures show it as part of a crack. */
+/* Worst state of a particle in all frames of an HTML report. FILM_INTACT: neither damaged nor yielding; FILM_DAMAGED:
+ * damage of at most CRACK_DAMAGE, or yielding; FILM_CRACKED: more damage, drawn as part of a crack. */
 enum film_state { FILM_INTACT, FILM_DAMAGED, FILM_CRACKED };
 
 /* A field of the frames as the page stores it, with 8 bits per particle (fragments: 16). */

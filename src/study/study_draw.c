@@ -245,7 +245,7 @@ static status draw_study_map(struct study_picture *p, int up)
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
-/* Finds the two varied keys (keys of the input file that a study varies) that form the axes of a map in the picture p:
+/* Finds the two varied keys (keys of the input file that a study varies) along the axes of a map in the picture p:
  * those with a physical meaning if there are two, else all varied keys. Stores the index of the key along the vertical
  * axis in *up, and of that along the horizontal axis in *across. Returns false if there are not exactly two, so that
  * no map is drawn. */
