@@ -43,8 +43,10 @@ static struct quartiles quartiles_of(double *spent, int n)
 
 /* Makes time steps of run e and measures the processor time of one step. Each measurement covers the steps from one
  * sample of the history to the next. *step: receives the quartiles of the measurements [s]. The first step, which has
- * cold caches, does not count. Returns FAILED, with a message, if a step fails. */
-static status time_steps(struct run *e, struct quartiles *step)
+ * cold caches, does not count. *bytes: receives the peak memory of this process after the first WINDOWS_LEAST
+ * measurements [byte]: the number of measurements depends on the speed of the processor, and with conversion the memory
+ * depends on their number; not written if NULL. Returns FAILED, with a message, if a step fails. */
+static status time_steps(struct run *e, struct quartiles *step, double *bytes)
 {
     const int64_t samples = e->scene->samples > 0 ? e->scene->samples : 1;
     const int64_t period = e->clock.steps / samples > 0 ? e->clock.steps / samples : 1;
@@ -65,7 +67,9 @@ static status time_steps(struct run *e, struct quartiles *step)
         if (taken == 0) break;
         all += thread_cpu_clock_seconds() - start;
         spent[n++] = (thread_cpu_clock_seconds() - start) / (double)taken;
+        if (bytes && n == WINDOWS_LEAST) *bytes = (double)memory_peak_resident_size();
     }
+    if (bytes && n < WINDOWS_LEAST) *bytes = (double)memory_peak_resident_size();
     *step = n > 0 ? quartiles_of(spent, n) : (struct quartiles){first, first, first};
     return OK;
 }
@@ -151,7 +155,7 @@ static double try_other(const struct run_arguments *a, const char *key, const ch
         memory_set_reuse_of_freed_arrays(whole);
         if (whole)
             seconds = all_steps(&e);
-        else if (time_steps(&e, &step) == OK)
+        else if (time_steps(&e, &step, NULL) == OK)
             seconds = step.median * (double)e.clock.steps;
     }
     memory_set_reuse_of_freed_arrays(false);
@@ -244,7 +248,7 @@ static double step_peridynamic(const struct run_arguments *a, double spacing)
     coarse.override = NEW("check.coarse", a->overrides + 1, struct scene_override);
     array_copy(coarse.override, a->override, a->overrides, sizeof *a->override);
     coarse.override[coarse.overrides++] = (struct scene_override){"particles.spacing", value};
-    if (make_other(&s, &e, &coarse, "method", "pd", false) == OK && time_steps(&e, &step) == OK)
+    if (make_other(&s, &e, &coarse, "method", "pd", false) == OK && time_steps(&e, &step, NULL) == OK)
         seconds = step.median / (double)e.part.n;
     memory_free(coarse.override);
     engine_free_run(&e);
@@ -269,18 +273,19 @@ static void cost_peridynamic(struct cost *c, const struct run *e, const struct r
     if (c->basis == COST_FIRST) c->most = c->all_peridynamic > 0 ? fmax(c->most, c->all_peridynamic) : INFINITY;
 }
 
-/* Returns an estimate of the memory for writing the output of `scene` with the particles `part` [byte]. It is added to
- * the memory measured in trial steps, which write nothing. */
-static double output_bytes(const struct particles *part, const struct scene *scene)
+/* Returns an estimate of the memory for writing the output of `scene` with n particles [byte]. It is added to the
+ * memory measured in trial steps, which write nothing. */
+static double output_bytes(int64_t n, const struct scene *scene)
 {
     /* per particle, by dimension: copy for the writer, the sort order, what goes to the particles file; measured */
     static const double frame[DIM_MAX + 1] = {0, 30, 53, 89};
-    return OUTPUT_BYTES + (double)part->n * (frame[scene->dim] + (scene->method == METHOD_MPM ? 0 : PARTS_BYTES));
+    return OUTPUT_BYTES + (double)n * (frame[scene->dim] + (scene->method == METHOD_MPM ? 0 : PARTS_BYTES));
 }
 
 status cost_measure_by_trial_steps(struct cost *c, struct run *e, const struct run_arguments *a)
 {
     const int known = e->warnings.n;
+    c->particles_at_start = e->part.n;
     c->all_peridynamic = NAN;
     e->warnings.silent = true;
     if (scene_has_load_steps(e->scene)) {
@@ -288,23 +293,23 @@ status cost_measure_by_trial_steps(struct cost *c, struct run *e, const struct r
         const status result = cost_estimate_load_steps(c, e);
         warnings_append_new_from_list(&c->found, &e->warnings, known);
         TRY(result);
-        c->bytes = (double)memory_peak_resident_size() + output_bytes(&e->part, e->scene);
+        c->bytes = (double)memory_peak_resident_size() + output_bytes(c->particles_at_start, e->scene);
         return OK;
     }
     if (scene_is_single_equilibrium(e->scene)) {
         /* conjugate gradients use central differences of forces: two evaluations per iteration
          * (static_body_compute_tangent_product) */
         c->step = (e->scene->solver == SOLVER_CG ? 2 : 1) * time_force(e);
-        c->bytes = (double)memory_peak_resident_size() + output_bytes(&e->part, e->scene);
+        c->bytes = (double)memory_peak_resident_size() + output_bytes(c->particles_at_start, e->scene);
         return OK;
     }
     struct quartiles step;
-    const status result = time_steps(e, &step);
+    const status result = time_steps(e, &step, &c->bytes);
     warnings_append_new_from_list(&c->found, &e->warnings, known);
     TRY(result);
     c->step = step.median, c->spread = real_max(step.upper / step.median, step.median / step.lower);
     c->contact = time_contact(e) / c->step;
-    c->bytes = (double)memory_peak_resident_size() + output_bytes(&e->part, e->scene);
+    c->bytes += output_bytes(c->particles_at_start, e->scene);
     c->output = output_seconds(e);
     cost_run(c, &e->clock, e->scene, a);
     cost_peridynamic(c, e, a);

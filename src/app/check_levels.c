@@ -69,9 +69,9 @@ void print_coarse_cells_saving(const struct run *e, const struct cost *c)
     double cells = 0;
     for (int level = 1; level <= l->n; level++) cells += (double)levels_count_cells_of_level(l, level);
     if (l->n == 0 || cells == 0) return;
-    if (e->part.n < e->part.n_body)
+    if (c->particles_at_start < e->part.n_body)
         printf("levels         %s particles would fill the body; coarse cells reduce them to %s at the start",
-               many((double)e->part.n_body, millions, all), many((double)e->part.n, millions, made));
+               many((double)e->part.n_body, millions, all), many((double)c->particles_at_start, millions, made));
     else
         printf("levels         %s of %s particles are in %s coarse cells",
                many(points_in_coarse_cells(l, e->part.dim), millions, few), many((double)e->part.n_body, millions, all),

@@ -41,9 +41,10 @@ struct cost {
     enum cost_basis basis; /* how `run` was estimated */
     double coarser,
         growth; /* SCALED: factor on the spacing; time of all steps divided by that expected from the first [1] */
-    double all_peridynamic; /* time of a run with all particles peridynamic [s]; NAN: not adaptive, or too large */
-    double bytes;           /* peak memory of a run without conversion [byte] */
-    struct warnings found;  /* warnings of the trial steps of this scene */
+    double all_peridynamic;     /* time of a run with all particles peridynamic [s]; NAN: not adaptive, or too large */
+    double bytes;               /* peak memory of a run without conversion [byte] */
+    int64_t particles_at_start; /* number of particles before the first trial step */
+    struct warnings found;      /* warnings of the trial steps of this scene */
 };
 
 /* Estimates the cost c (time and memory) of a run by trial steps, on the number of OpenMP threads that is set. a:

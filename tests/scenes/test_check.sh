@@ -175,7 +175,7 @@ says "levels: none, too thin" 'no coarse cells: they need parts at least 24 spac
 says "levels given to a thin body" 'accuracy  *mpm.levels: 1 makes coarse cells of 4 spacings in thin parts, such as at .* (100 % of all coarse cells)' "$far" -s mpm.levels=1 \
     -s "body={box: {from: [0, 0], to: [200 mm, 2 mm]}}"
 silent "levels of what has no cells" '^levels' plate_crack -s method=pd
-costs "few particles made" '^levels  *321536 particles would fill the body; coarse cells reduce them to [0-9]* at the start; memory \([6-9][0-9]\|10[0-9]\) MB instead of 221 MB; \(at least\|about\) .* if all of it' \
+costs "few particles made" '^levels  *321536 particles would fill the body; coarse cells reduce them to 44736 at the start; memory \([6-9][0-9]\|10[0-9]\) MB instead of 221 MB; \(at least\|about\) .* if all of it' \
     kalthoff_3d_fine -s mpm.levels=1 -s particles.spacing=0.5mm -s time.step=auto -s probes=[] -s "body[0].box.to=[100 mm, 100 mm, 4 mm]" \
     -s "body[1].add.box.to=[0, 24 mm, 4 mm]" -s "boundary[0].region.box.to=[0, 24 mm, 4 mm]"
 
