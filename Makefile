@@ -162,7 +162,7 @@ $(filter-out %/test_numbers,$(PROGRAMS)): LIBS = $(SHARED)
 # libraries must not be taken for the program's.
 LINUX    := $(findstring linux,$(shell $(CC) -dumpmachine))
 WRAPPED  := main malloc calloc realloc posix_memalign mmap open fopen read pread write pwrite fflush fsync close rename mkdir unlink \
-            output_write_history convert_flagged_points partial_stress_make bonds_largest_stretch_ratio
+            output_write_history convert_flagged_points_to_peridynamic partial_stress_compute_from_bonds bonds_largest_stretch_ratio
 $(BUILD)/tests/robustness/test_faults: $(BUILD)/tests/robustness/faults.o $(if $(LINUX),$(BUILD)/src/app/main.o)
 $(BUILD)/tests/robustness/test_faults: LIBS = $(SHARED) $(if $(LINUX),$(WRAPPED:%=-Wl,--wrap=%) -ldl)
 

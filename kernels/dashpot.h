@@ -12,8 +12,8 @@
  * of velocity to a->kick, which is excluded from the correction of the kinetic energy in energy balances. rate_dt:
  * dashpot rate times the duration of the step, k dt [kg]; mass [kg]; old_velocity: velocity v_old [m/s];
  * velocity_change: velocity change by all other forces [m/s]. */
-static inline real dashpot_add_impulse(struct absorbed *a, int axis, real rate_dt, real mass, real old_velocity,
-                                       real velocity_change)
+static inline real dashpot_compute_and_add_impulse(struct dashpot_effect *a, int axis, real rate_dt, real mass,
+                                                   real old_velocity, real velocity_change)
 {
     const real mean = (old_velocity + 0.5 * velocity_change) / (1 + 0.5 * rate_dt / mass), impulse = -rate_dt * mean;
     a->energy += rate_dt * mean * mean;
@@ -23,10 +23,11 @@ static inline real dashpot_add_impulse(struct absorbed *a, int axis, real rate_d
 }
 
 /* Corrects a->energy, the energy that dashpots dissipate, and a->kick, a quarter of the sum of impulse times change of
- * velocity [J], to which dashpot_add_impulse has added, if the velocity at the end of the step is afterwards changed by
- * a further `velocity_change` [m/s], along the same axis. impulse: of the dashpot on the body, as dashpot_add_impulse
- * has returned it [N s]. */
-static inline void dashpot_correct_energy(struct absorbed *a, real impulse, real velocity_change)
+ * velocity [J], to which dashpot_compute_and_add_impulse has added, if the velocity at the end of the step is
+ * afterwards changed by a further `velocity_change` [m/s], along the same axis. impulse: of the dashpot on the body, as
+ * dashpot_compute_and_add_impulse has returned it [N s]. */
+static inline void dashpot_correct_energy_for_velocity_change(struct dashpot_effect *a, real impulse,
+                                                              real velocity_change)
 {
     a->energy -= 0.5 * impulse * velocity_change;
     a->kick += 0.25 * impulse * velocity_change;

@@ -17,7 +17,7 @@ static ALWAYS_INLINE lanes_mask eight_diverged(const struct particles *p, const 
         speed2 += v * v;
         place += lanes_absolute(lanes_load_or_gather(p->x[d], first, list));
     }
-    return lanes_diverged_mask(speed2, place, limit2);
+    return lanes_mask_of_diverged_particles(speed2, place, limit2);
 }
 
 /* Returns true if any of the n particles of p whose indices are in `list` has diverged: its speed is above the limit,
@@ -30,7 +30,7 @@ static ALWAYS_INLINE bool any_diverged(const struct particles *p, const int32_t 
 #pragma omp parallel for schedule(static) reduction(+ : found)
     for (int64_t k = 0; k < n; k += LANES) {
         _Alignas(sizeof(lanes)) int32_t room[LANES];
-        found += lanes_mask_any(eight_diverged(p, list_eight_entries(list, k, n, room), limit2, dim));
+        found += lanes_mask_any(eight_diverged(p, list_get_eight_padded_entries(list, k, n, room), limit2, dim));
     }
     return found > 0;
 }

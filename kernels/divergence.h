@@ -10,7 +10,8 @@
  * position or velocity that is not finite. squared_speed: squares of the speeds [m^2/s^2]; position_sum: sums of the
  * absolute values of the position components [m]; squared_limit: square of the largest allowed speed [m^2/s^2]. NaN
  * counts as diverged. */
-static ALWAYS_INLINE lanes_mask lanes_diverged_mask(lanes squared_speed, lanes position_sum, real squared_limit)
+static ALWAYS_INLINE lanes_mask lanes_mask_of_diverged_particles(lanes squared_speed, lanes position_sum,
+                                                                 real squared_limit)
 {
     return ~((squared_speed <= squared_limit) & (position_sum <= DBL_MAX));
 }

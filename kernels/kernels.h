@@ -49,7 +49,7 @@ struct elastic {
 /* Returns the largest principal stress [Pa] at which material point i of p is marked for conversion to a peridynamic
  * particle. m: constants of its material. The stress is m->trigger, or, where strength is random, m->trigger_mean times
  * the strength of the point. */
-static inline real point_conversion_stress(const struct elastic *m, const struct particles *p, int64_t i)
+static inline real point_pd_conversion_stress_threshold(const struct elastic *m, const struct particles *p, int64_t i)
 {
     return p->strength ? m->trigger_mean * p->strength[i] : m->trigger;
 }
@@ -65,22 +65,23 @@ struct partial_stress {
     /* [entries][symmetric] derivative of the mean strain of the point's neighbourhood by the strain of its cell; 0 for
      * points without bonds; NULL: bond-based model [1] */
     real *local;
-    bool gives_all;              /* all stress is transmitted (coupling `handshake`): M and local are 0 */
-    int64_t entries;             /* number of entries */
-    int32_t *touched;            /* particles whose entries were recomputed; whoever has read them sets touches = 0 */
-    int64_t touches;             /* number of these particles */
-    struct partial_table *table; /* table of the segments of lattice bonds in cells (src/coupling/partial_table.c) */
+    bool gives_all;   /* all stress is transmitted (coupling `handshake`): M and local are 0 */
+    int64_t entries;  /* number of entries */
+    int32_t *touched; /* particles whose entries were recomputed; whoever has read them sets touches = 0 */
+    int64_t touches;  /* number of these particles */
+    struct bond_fraction_table
+        *table; /* table of the segments of lattice bonds in cells (src/coupling/partial_table.c) */
 };
 
 /* Returns true if material point i has state-based bonds of its own; false if at most bonds of other points cross its
  * cell, or if the model is bond-based. partial: partial stresses (shares that bonds carry) of the material points,
  * which contain this information. */
-static inline bool point_has_state_bonds(const struct partial_stress *partial, int64_t i, int dim)
+static inline bool point_has_own_state_based_bonds(const struct partial_stress *partial, int64_t i, int dim)
 {
     if (!partial->local || partial->index[i] < 0) return false;
     bool any = partial->gives_all;
-    for (int k = 0; k < symmetric_component_count(dim) && !any; k++)
-        any = partial->local[partial->index[i] * symmetric_component_count(dim) + k] != 0;
+    for (int k = 0; k < symmetric_tensor_component_count(dim) && !any; k++)
+        any = partial->local[partial->index[i] * symmetric_tensor_component_count(dim) + k] != 0;
     return any;
 }
 
@@ -326,13 +327,13 @@ KERNEL_TABLE(spread_to_nodes_fn, spread_table, [SHAPES]);
 /* Computes mass, centre, inertia and angular velocity (spin) of each group of t (neighbouring points that rotate
  * together, data/turning.h) from its points (of p) on the grid, before a step, and stores in t->turn, for each point,
  * the angular velocity of its group [1/s]. spacing: of the particles [m]. */
-KERNEL(void, rotation_groups_compute_spins, (struct rotation_groups *t, struct particles *p, real spacing));
+KERNEL(void, corotating_groups_compute_spins, (struct corotating_groups *t, struct particles *p, real spacing));
 
 /* Gives each group of t (points that rotate together, data/turning.h) the angular momentum that its points (of p) have
  * lost in the transfer from the grid (t->turn [kg m^2/s]), as a rotation about its centre of mass: adds this rotation
  * to the velocities of its points. Then stores in t->turn, for each point, the new angular velocity of its group [1/s].
- * Positions must be those of rotation_groups_compute_spins. */
-KERNEL(void, rotation_groups_restore_angular_momentum, (struct rotation_groups *t, struct particles *p));
+ * Positions must be those of corotating_groups_compute_spins. */
+KERNEL(void, corotating_groups_restore_angular_momentum, (struct corotating_groups *t, struct particles *p));
 
 /* Stores in k the kernels for bodies of `dim` dimensions with the given peridynamic model, shape function of the grid
  * and transfer scheme (FLIP or APIC). The combination must exist in simd/variants.h. */
@@ -360,8 +361,8 @@ KERNEL(void, grid_constrain,
 
 /* Moves the nodes of g: calls grid_advance and then grid_constrain, which describe transfer, dt_velocity,
  * smallest_mass, impulse and work. For a body that has no contact with bodies on other grids. */
-static inline void grid_move_nodes(struct grid *g, enum transfer transfer, real dt_velocity, real smallest_mass,
-                                   real impulse[DIM_MAX], real *work)
+static inline void grid_advance_and_constrain_nodes(struct grid *g, enum transfer transfer, real dt_velocity,
+                                                    real smallest_mass, real impulse[DIM_MAX], real *work)
 {
     grid_advance(g, transfer, dt_velocity, smallest_mass);
     grid_constrain(g, transfer, smallest_mass, impulse, work);

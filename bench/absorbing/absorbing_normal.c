@@ -53,15 +53,15 @@ static status normal_run(const struct absorbing_method *m, int dim, int width, i
     double before = 0;
     normal_scene(text, sizeof text, m, dim, width, length);
     TRY(bench_engine_make(&e, &s, "absorbing", text, NULL, 0));
-    status ran = report_start_before_first_step(&e);
+    status ran = report_open_history_and_write_first_frame(&e);
     while (ran == OK && e.clock.step < e.clock.steps) {
-        ran = engine_adapt_refinement_and_step(&e);
+        ran = run_adapt_mesh_and_advance_one_step(&e);
         figure->back = fmax(figure->back, before - e.loads.absorbing.energy);
         before = e.loads.absorbing.energy;
         figure->balance = fmax(figure->balance, fabs(e.diagnostics->now.balance_error));
     }
     figure->back /= e.diagnostics->energy_start;
-    reference_frame_update_motion_and_stress(e.frame, &e.part, &e.loads);
+    lagrangian_mesh_update_point_motion_and_stress(e.frame, &e.part, &e.loads);
     *v = BARE("bench.v", e.part.n, real);
     array_copy(*v, e.part.v[0], e.part.n, sizeof(real));
     bench_engine_free(&e, &s);

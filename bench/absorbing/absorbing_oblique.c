@@ -73,10 +73,10 @@ static status oblique_run(const struct oblique *o, const struct absorbing_method
     TRY(bench_engine_make(&e, &s, "absorbing", text, NULL, 0));
     bench_engine_set_velocities(&e, packet, o);
     sum[0] = sum[1] = 0;
-    status ran = report_start_before_first_step(&e);
+    status ran = report_open_history_and_write_first_frame(&e);
     while (ran == OK && e.clock.step < e.clock.steps) {
-        ran = engine_adapt_refinement_and_step(&e);
-        reference_frame_update_motion_and_stress(e.frame, &e.part, &e.loads);
+        ran = run_adapt_mesh_and_advance_one_step(&e);
+        lagrangian_mesh_update_point_motion_and_stress(e.frame, &e.part, &e.loads);
         const double complex turn = cexp(_Complex_I * o->frequency * (e.clock.t - 0.5 * e.clock.dt)) * e.clock.dt;
         for (int64_t i = 0; i < e.part.n; i++) {
             if (fabs(e.part.X[0][i] - o->station) > 0.1 * h) continue;

@@ -96,7 +96,7 @@ struct accuracy_problem {
     double seconds, quick_seconds;        /* predicted duration of all points [s], replaced by measured times */
     /* Writes the scene of a point. */
     void (*scene)(const struct accuracy_point *p, struct accuracy_scene *s);
-    /* Runs a point; NULL: engine_run_to_end. */
+    /* Runs a point; NULL: run_advance_to_end_time. */
     status (*run)(const struct accuracy_point *p, struct run *e);
     /* Computes the relative error and its parts of a finished run. */
     status (*measure)(const struct accuracy_point *p, struct run *e, double *error, double *part);

@@ -95,7 +95,7 @@ static void mode_at(const void *context, const real *X, real *v)
  * v_mode, where v_mode is the velocity of the mode at the particle [J]. */
 static double part_in_mode(const struct mode *m, const struct run *e)
 {
-    const struct particles *p = observed_run_view_of(e).part;
+    const struct particles *p = observed_run_make_read_only_view(e).part;
     double sum = 0;
     for (int64_t i = 0; i < p->n; i++) {
         real X[DIM_MAX] = {0}, v[DIM_MAX];
@@ -120,7 +120,7 @@ static status accuracy_beam_run(const struct accuracy_point *p, struct run *e)
     for (int k = 1; k <= 300; k++) {
         TRY(bench_engine_run(e, e->clock.steps * k / 300, NULL));
         run_update_particle_motion_and_stress(e);
-        const double now = part_in_mode(m, e), t = observed_run_view_of(e).t_velocity;
+        const double now = part_in_mode(m, e), t = observed_run_make_read_only_view(e).t_velocity;
         zeros += k > 1 && now * before < 0;
         if (zeros == 2) {
             measured = 1.5 * M_PI / (t_before + (t - t_before) * before / (before - now));

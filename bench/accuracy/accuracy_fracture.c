@@ -206,7 +206,7 @@ static status print_reference(const struct accuracy_point *p)
     struct scene s;
     accuracy_compose_scene_of_point(p, &from);
     TRY(bench_engine_make(&e, &s, p->problem->name, from.text, bench_overrides_as_array(&from.set), from.set.n));
-    const status ran = engine_run_to_end(&e);
+    const status ran = run_advance_to_end_time(&e);
     const struct fracture f = accuracy_fracture_of(p, &e);
     printf("    {%.7g, %.5g, %.5g, {", f.start, f.speed, f.length);
     for (int r = 0; r < FRACTURE_RINGS; r++) printf("%.5g%s", f.angle[r], r < FRACTURE_RINGS - 1 ? ", " : "}},");
@@ -218,7 +218,7 @@ static status print_reference(const struct accuracy_point *p)
 
 status accuracy_compute_reference_cracks(bool quick)
 {
-    team_set_thread_count(0);
+    threads_set_count_and_bind_to_cores(0);
     for (int resolution = 100; resolution <= (quick ? 200 : 800); resolution *= 2)
         for (int at = 0; at < accuracy_case_count(&accuracy_fracture); at++)
             TRY(print_reference(&(struct accuracy_point){&accuracy_fracture, &accuracy_method[0], at, resolution,

@@ -50,7 +50,7 @@ static void accuracy_manufactured_make_scene(const struct accuracy_point *p, str
 static void add_stress(const struct particles *p, int64_t i, const real *stiffness, const real *strain, double *off,
                        double *all)
 {
-    const int count = symmetric_component_count(p->dim);
+    const int count = symmetric_tensor_component_count(p->dim);
     for (int s = 0; s < count; s++) {
         const double exact = dot(&stiffness[s * count], strain, count), twice = s < p->dim ? 1 : 2;
         *off += twice * square(p->stress[s][i] - exact), *all += twice * square(exact);
@@ -61,7 +61,7 @@ static status accuracy_manufactured_measure(const struct accuracy_point *q, stru
 {
     const struct manufactured *m = accuracy_manufactured_motion_of(q);
     const struct particles *p = &e->part;
-    const struct observed_run seen = observed_run_view_of(e);
+    const struct observed_run seen = observed_run_make_read_only_view(e);
     real stiffness[SYM_MAX * SYM_MAX];
     double off[2] = {0}, all[2] = {0};
     bonds_compute_particle_stress(&e->bonds, &e->part, &e->source, &e->kernels);

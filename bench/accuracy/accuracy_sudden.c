@@ -55,7 +55,7 @@ static status accuracy_sudden_run(const struct accuracy_point *p, struct run *e)
 {
     const struct crack_medium m = crack_medium_of_material(&e->scene->material[0], e->scene->space);
     const double slower = p->at == MOVING ? crack_moving_to_resting_sif_ratio(&m, SPEED_EXACT, speed) : 1;
-    const int64_t stride = levels_steps_per_cycle(&e->frame->levels);
+    const int64_t stride = mesh_levels_time_steps_per_cycle(&e->frame->levels);
     for (int k = 0; k < INSTANTS; k++) {
         const int64_t whole = stride * llround(instant[k] / (e->clock.dt * (double)stride));
         const int64_t until = k < INSTANTS - 1 ? whole : e->clock.steps;

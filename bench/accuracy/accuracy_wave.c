@@ -114,7 +114,7 @@ static double best_shift(const struct wave_pulse *w, const struct particles *p, 
 static status accuracy_wave_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     const struct wave_pulse w = pulse_of(p);
-    const struct observed_run seen = observed_run_view_of(e);
+    const struct observed_run seen = observed_run_make_read_only_view(e);
     const struct material *m = seen.material;
     const double gone = (w.transverse ? m->shear_speed : m->wave_speed) * seen.t_velocity;
     const double shift = best_shift(&w, seen.part, gone);

@@ -43,11 +43,11 @@ static status accuracy_run_once(struct accuracy_entry *entry, int team)
     const struct accuracy_point *p = &entry->point;
     struct accuracy_result *r = &entry->result;
     accuracy_compose_scene_of_point(p, &from);
-    team_set_thread_count(team + 1);
+    threads_set_count_and_bind_to_cores(team + 1);
     TRY(bench_engine_make(&e, &s, from.path[0] ? from.path : p->problem->name, from.path[0] ? NULL : from.text,
                           bench_overrides_as_array(&from.set), from.set.n));
     const double before = processor_seconds();
-    status ran = p->problem->run ? p->problem->run(p, &e) : engine_run_to_end(&e);
+    status ran = p->problem->run ? p->problem->run(p, &e) : run_advance_to_end_time(&e);
     const double busy = team == 0 ? processor_seconds() - before : INFINITY;
     r->seconds[team] = fmin(r->seconds[team], fmin(report_wall_clock_times(e.report, &e.timers).loop, busy));
     r->particles = (double)e.part.n, r->steps = (double)e.clock.step, r->stable = ran == OK;
@@ -175,7 +175,7 @@ static status accuracy_measure_all(struct accuracy_plan *plan, const char *only,
     TRY(accuracy_plan_make(plan));
     TRY(accuracy_read_earlier_results(plan));
     TRY(accuracy_run_all(plan, only, quick));
-    team_set_thread_count(0);
+    threads_set_count_and_bind_to_cores(0);
     TRY(accuracy_write_all_results(plan));
     TRY(accuracy_write_table_of_pareto_lines(plan));
     TRY(accuracy_write_overview_page(plan));
@@ -197,7 +197,7 @@ status bench_accuracy_of_problem(const char *problem_name, bool quick)
     if (problem_name && !chart && !is_problem(problem_name))
         return status_set(REFUSED, "bench accuracy: there is no problem %s", problem_name);
     printf("accuracy\n");
-    bench_print_machine(team_set_thread_count(0));
+    bench_print_machine(threads_set_count_and_bind_to_cores(0));
     const status s = chart ? write_known(&plan) : accuracy_measure_all(&plan, problem_name, quick);
     accuracy_plan_free(&plan);
     return s;

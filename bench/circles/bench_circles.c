@@ -214,7 +214,7 @@ static status circles_measure(const char *only, bool quick)
     TRY(bench_check_scenes_exist("circles", needed, COUNT_OF(needed)));
     struct circles *c = NEW("bench.circles", 1, struct circles);
     printf("nine circles of elastic brittle fracture (Kamarei et al. 2025): glass, l = E G_c/strength^2 = 0.4375 mm\n");
-    bench_print_machine(team_set_thread_count(0));
+    bench_print_machine(threads_set_count_and_bind_to_cores(0));
     printf("  %-15s %-21s %8s %8s %19s %14s\n", "circle", "figure", "horizon", "lattice", "expected", "found");
     bench_table_make(&rows, "", COLUMNS);
     status s = bench_create_results_folder();

@@ -83,7 +83,7 @@ status bench_block_make(struct run *e, struct scene *s, const struct bench_block
     *e = (struct run){0};
     *s = (struct scene){0};
     TRY(scene_read_text(s, text, strlen(text), "block", NULL, 0));
-    status made = engine_set_up_run(e, s, output);
+    status made = run_set_up_from_scene(e, s, output);
     e->report->quiet = true;
     if (made != OK) bench_engine_free(e, s);
     return made;

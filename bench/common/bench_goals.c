@@ -26,7 +26,7 @@ static status job_end(struct bench_job *job, struct bench_child *child)
 
 status bench_jobs_run(struct bench_job *job, int job_count, int parallel_jobs)
 {
-    const int threads = parallel_jobs > 1 ? 1 : team_set_thread_count(0);
+    const int threads = parallel_jobs > 1 ? 1 : threads_set_count_and_bind_to_cores(0);
     struct bench_child *child = NEW("bench.children", job_count, struct bench_child);
     status s = OK;
     int started = 0;

@@ -52,7 +52,7 @@ status bench_engine_make(struct run *e, struct scene *s, const char *path, const
         TRY(scene_read_text(s, text, strlen(text), path, override, override_count));
     else
         TRY(scene_read(s, path, override, override_count));
-    status made = engine_set_up_run(e, s, NULL);
+    status made = run_set_up_from_scene(e, s, NULL);
     e->report->quiet = true;
     if (made != OK) bench_engine_free(e, s);
     return made;
@@ -60,18 +60,18 @@ status bench_engine_make(struct run *e, struct scene *s, const char *path, const
 
 void bench_engine_free(struct run *e, struct scene *s)
 {
-    engine_free_run(e);
+    run_free_memory(e);
     scene_free(s);
 }
 
 status bench_engine_run(struct run *e, int64_t last_step, struct timers *section_times)
 {
-    const int64_t steps = e->clock.steps, stride = levels_steps_per_cycle(&e->frame->levels);
+    const int64_t steps = e->clock.steps, stride = mesh_levels_time_steps_per_cycle(&e->frame->levels);
     last_step = (last_step + stride - 1) / stride * stride;
-    memory_free(e->report->record); /* each call of engine_run_to_end allocates its own */
+    memory_free(e->report->record); /* each call of run_advance_to_end_time allocates its own */
     e->report->record = NULL;
     e->clock.steps = last_step < steps ? last_step : steps;
-    status ran = engine_run_to_end(e);
+    status ran = run_advance_to_end_time(e);
     e->clock.steps = steps;
     for (int k = 0; section_times && k < TIMERS; k++) section_times->spent[k] += e->timers.spent[k];
     return ran;
@@ -88,7 +88,7 @@ void bench_engine_set_velocities(struct run *e, bench_field *velocity_field, con
     }
     for (int64_t I = 0; e->frame->mesh.points > 0 && I < g->n; I++) {
         if (!(e->frame->mesh.inverse_mass[I] > 0)) continue;
-        const int64_t at = mesh_regular_node_of_doubled_node(&e->frame->mesh, I);
+        const int64_t at = mesh_original_node_of_doubled_node(&e->frame->mesh, I);
         for (int d = 0; d < g->dim; d++) X[d] = grid_node_position(g, d, at / g->stride[d] % g->count[d]);
         velocity_field(context, X, v);
         for (int d = 0; d < g->dim; d++) g->velocity[d][I] = v[d];
@@ -128,7 +128,7 @@ static void take_figure(void *context, const char *probe, const char *quantity, 
 
 void bench_figures_read_from_probes(const struct run *e, struct bench_figure *figure, int figure_count)
 {
-    const struct observed_run seen = observed_run_view_of(e);
+    const struct observed_run seen = observed_run_make_read_only_view(e);
     probes_visit_results(&e->probing->probes, &seen, take_figure, &(struct wanted_figures){figure, figure_count});
 }
 
@@ -139,8 +139,8 @@ status bench_run_scene_and_read_figures(const char *path, const char *text, stru
     struct scene s;
     for (int k = 0; k < figure_count; k++) figure[k].value = NAN;
     TRY(bench_engine_make(&e, &s, path, text, bench_overrides_as_array(overrides), overrides->n));
-    status ran = engine_run_to_end(&e);
-    if (ran == OK) ran = engine_run_mpm_baseline_for_pulse_probe(&e);
+    status ran = run_advance_to_end_time(&e);
+    if (ran == OK) ran = run_repeat_with_mpm_only_for_pulse_probe(&e);
     if (ran == OK) bench_figures_read_from_probes(&e, figure, figure_count);
     bench_engine_free(&e, &s);
     return ran;

@@ -42,9 +42,9 @@ struct manufactured_values manufactured_at(const struct manufactured *m, const r
         v.displacement[a] = shape * grown, v.velocity[a] = shape * rate;
         v.force[a] = (steady + beat * grown) * mode(m, position, a, -1);
     }
-    for (int s = 0; s < symmetric_component_count(m->dim); s++) {
+    for (int s = 0; s < symmetric_tensor_component_count(m->dim); s++) {
         int a, b;
-        symmetric_component_axes(m->dim, s, &a, &b);
+        symmetric_tensor_component_axes(m->dim, s, &a, &b);
         v.strain[s] = 0.5 * m->amplitude * grown * k *
                       (m->share[a] * mode(m, position, a, b) + m->share[b] * mode(m, position, b, a));
     }

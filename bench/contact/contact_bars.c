@@ -34,10 +34,10 @@ static status bars_run(struct run *e, struct contact_course *seen)
 {
     double before = contact_motion_of_body(e, 0).v[0];
     *seen = (struct contact_course){INFINITY, -INFINITY, 0, 0};
-    TRY(report_start_before_first_step(e));
+    TRY(report_open_history_and_write_first_frame(e));
     while (e->clock.step < e->clock.steps) {
-        TRY(engine_adapt_refinement_and_step(e));
-        TRY(stability_check_after_step(e));
+        TRY(run_adapt_mesh_and_advance_one_step(e));
+        TRY(run_check_stability_after_step(e));
         const struct contact_motion a = contact_motion_of_body(e, 0);
         const double force = fabs(a.v[0] - before) * a.mass / e->clock.dt;
         if (force > seen->force) seen->force = force;
@@ -45,7 +45,7 @@ static status bars_run(struct run *e, struct contact_course *seen)
         seen->error = fmax(seen->error, fabs(e->diagnostics->now.balance_error));
         before = a.v[0];
     }
-    return report_finish_after_last_step(e);
+    return report_write_last_checkpoint_and_finish(e);
 }
 
 /* Runs two equal bars that approach each other with opposite velocities. c->given[]: lengths of the first and the

@@ -13,15 +13,15 @@
 static status discs_run(struct run *e, double *normal)
 {
     double least = INFINITY;
-    TRY(report_start_before_first_step(e));
+    TRY(report_open_history_and_write_first_frame(e));
     while (e->clock.step < e->clock.steps) {
-        TRY(engine_adapt_refinement_and_step(e));
-        TRY(stability_check_after_step(e));
+        TRY(run_adapt_mesh_and_advance_one_step(e));
+        TRY(run_check_stability_after_step(e));
         const struct contact_motion a = contact_motion_of_body(e, 0), b = contact_motion_of_body(e, 1);
         const double x = b.x[0] - a.x[0], y = b.x[1] - a.x[1], far = hypot(x, y);
         if (far < least) least = far, normal[0] = x / far, normal[1] = y / far;
     }
-    return report_finish_after_last_step(e);
+    return report_write_last_checkpoint_and_finish(e);
 }
 
 status contact_measure_disc_collision(const struct contact_case *c, double *measured)

@@ -36,9 +36,9 @@ static status block_run(const struct contact_case *c, bool cut, struct block_for
         "contact: {between: all, law: %s}\noutput: {frames: 0, samples: 10}\n",
         time, D, edge, edge, crack, 2 * D, slip, -shift, edge - 2 * D, ramp, c->law));
     int64_t n = 0;
-    status ran = report_start_before_first_step(&e);
+    status ran = report_open_history_and_write_first_frame(&e);
     while (ran == OK && e.clock.step < e.clock.steps) {
-        ran = engine_adapt_refinement_and_step(&e);
+        ran = run_adapt_mesh_and_advance_one_step(&e);
         if (e.clock.t < ramp) continue;
         f->normal += e.loads.load[1].reaction[1], f->along += e.loads.load[1].reaction[0], n++;
     }
@@ -86,12 +86,12 @@ status contact_measure_ball_on_plane(const struct contact_case *c, double *measu
     double sum[5] = {0}, from = INFINITY, until = 0, largest = 0, start = 0;
     const int64_t steps = e.clock.steps;
     double *force = NEW("bench.force", steps, double), *approach = NEW("bench.way", steps, double);
-    status ran = report_start_before_first_step(&e);
+    status ran = report_open_history_and_write_first_frame(&e);
     while (ran == OK && e.clock.step < steps) {
         const int64_t n = e.clock.step;
         approach[n] = start - contact_motion_of_body(&e, 0).x[2];
         if (n == 0) start = contact_motion_of_body(&e, 0).x[2], approach[n] = 0;
-        ran = engine_adapt_refinement_and_step(&e);
+        ran = run_adapt_mesh_and_advance_one_step(&e);
         force[n] = -e.rigid->body[0].force[2];
         if (force[n] > 0) from = fmin(from, e.clock.t), until = e.clock.t;
         if (force[n] > largest) largest = force[n];

@@ -36,13 +36,13 @@ status contact_measure_sliding_block(const struct contact_case *c, double *measu
         2 * settle + slide, E, density, D, 12 * D, 8 * D, floor, held, -density * g * cos(slope), settle,
         density * g * sin(slope), settle, 1.001 * settle, friction));
     double from = 0, at = 0, then = 0;
-    status ran = report_start_before_first_step(&e);
+    status ran = report_open_history_and_write_first_frame(&e);
     while (ran == OK && e.clock.step < e.clock.steps) {
-        ran = engine_adapt_refinement_and_step(&e);
+        ran = run_adapt_mesh_and_advance_one_step(&e);
         const struct contact_motion m = contact_motion_of_body(&e, 0);
         if (e.clock.t < 2 * settle) from = m.x[0], at = m.v[0], then = e.clock.t;
     }
-    if (ran == OK) ran = report_finish_after_last_step(&e);
+    if (ran == OK) ran = report_write_last_checkpoint_and_finish(&e);
     const struct contact_motion m = contact_motion_of_body(&e, 0);
     measured[0] = (m.v[0] - at) / (e.clock.t - then) / (g * sin(slope));
     measured[1] = (m.x[0] - from) / D;

@@ -216,7 +216,7 @@ static status coupling_measure_all(struct coupling_figures *all, bool quick)
 {
     if (!bench_scene_exists(COUPLING_BAR) || !bench_scene_exists(COUPLING_PLATE))
         return status_set(REFUSED, "bench coupling: its scenes are not here; start it where the folder inputs is");
-    team_set_thread_count(1); /* a bar is too short to be divided among threads */
+    threads_set_count_and_bind_to_cores(1); /* a bar is too short to be divided among threads */
     TRY(measure_pulses(&all->pulses, quick));
     print_pulses(&all->pulses);
     TRY(measure_places(&all->places, quick));
@@ -225,7 +225,7 @@ static status coupling_measure_all(struct coupling_figures *all, bool quick)
     print_variants(&all->variants);
     TRY(patch_test_measure_nodal_forces(&all->patch, quick));
     patch_print(&all->patch);
-    team_set_thread_count(0);
+    threads_set_count_and_bind_to_cores(0);
     TRY(plane_wave_measure_reflections(&all->plane, quick));
     plane_print(&all->plane);
     TRY(coupling_write_tables(all));
@@ -237,7 +237,7 @@ status bench_coupling(bool quick)
 {
     struct coupling_figures *all = NEW("bench.coupling", 1, struct coupling_figures);
     printf("coupling\n");
-    bench_print_machine(team_set_thread_count(0));
+    bench_print_machine(threads_set_count_and_bind_to_cores(0));
     status s = coupling_measure_all(all, quick);
     memory_free(all);
     return s;

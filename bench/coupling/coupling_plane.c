@@ -77,12 +77,12 @@ static status plain_make(struct plain *b, const struct strip *s, struct plane_ro
     struct scene scene;
     row.variant = -1;
     TRY(strip_make(&e, &scene, s, &row));
-    status ran = engine_run_to_end(&e);
+    status ran = run_advance_to_end_time(&e);
     for (int d = 0; d < 2 && ran == OK; d++) {
         b->v[d] = NEW("bench.plain", e.part.n, real);
         array_copy(b->v[d], e.part.v[d], e.part.n, sizeof(real));
     }
-    if (ran == OK) b->energy_change = observed_run_view_of(&e).energy_change;
+    if (ran == OK) b->energy_change = observed_run_make_read_only_view(&e).energy_change;
     bench_engine_free(&e, &scene);
     return ran;
 }
@@ -139,8 +139,8 @@ static void coupling_plane_compare(struct plane_row *r, const struct strip *s, c
         else if (far < -AWAY || 1e3 * p->X[0][i] < passed)
             back = fmax(back, hypot(p->v[0][i] - b->v[0][i], p->v[1][i] - b->v[1][i]));
     }
-    r->result =
-        (struct pulse_result){back / incident, on / incident, observed_run_view_of(e).energy_change - b->energy_change};
+    r->result = (struct pulse_result){back / incident, on / incident,
+                                      observed_run_make_read_only_view(e).energy_change - b->energy_change};
     r->wave = largest_block(s, p, b) / incident;
 }
 
@@ -149,7 +149,7 @@ static status row_measure(struct plane_row *r, const struct strip *s, const stru
     struct run e;
     struct scene scene;
     TRY(strip_make(&e, &scene, s, r));
-    status ran = engine_run_to_end(&e);
+    status ran = run_advance_to_end_time(&e);
     if (ran == OK) coupling_plane_compare(r, s, &e, b);
     bench_engine_free(&e, &scene);
     return ran;

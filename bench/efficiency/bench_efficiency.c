@@ -426,7 +426,7 @@ status bench_efficiency(bool quick)
 {
     struct efficiency all = {.result = NEW("bench.efficiency", CASES, struct result)};
     printf("efficiency\n");
-    bench_print_machine(team_set_thread_count(0));
+    bench_print_machine(threads_set_count_and_bind_to_cores(0));
     status s = efficiency_measure_all(&all, quick);
     memory_free(all.result);
     return s;

@@ -239,7 +239,7 @@ status bench_sensitivity(bool quick)
 {
     struct all_scatters all = {.at = NEW("bench.scatter", EFFICIENCY_CASES, struct scatter)};
     printf("sensitivity\n");
-    bench_print_machine(team_set_thread_count(0));
+    bench_print_machine(threads_set_count_and_bind_to_cores(0));
     status s = sensitivity_measure_all(&all, quick);
     memory_free(all.at);
     return s;

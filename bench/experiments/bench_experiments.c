@@ -144,7 +144,7 @@ status bench_experiments(bool quick)
     x->quick = quick;
     strcpy(x->folder, BENCH_FOLDER "/experiments-XXXXXX");
     printf("experiments\n");
-    bench_print_machine(team_set_thread_count(0));
+    bench_print_machine(threads_set_count_and_bind_to_cores(0));
     if (s == OK && !mkdtemp(x->folder)) s = file_report_write_failure(x->folder, errno), x->folder[0] = 0;
     printf("  %-19s %-11s %-24s %9s %-6s %8s %2s %8s  asked (source)  [coarser spacings]\n", "experiment", "variant",
            "figure", "mean", "", "one run", "n", "95 %");

@@ -123,7 +123,7 @@ static double strip_flux(const char *folder, double spacing)
 {
     const struct crack_medium m = strip_medium();
     const double v = strip_speed(folder, spacing) * m.rayleigh;
-    return crack_universal_function(&m, MODE_I, v) * square(strip_factor(folder, spacing));
+    return crack_tip_speed_universal_function(&m, MODE_I, v) * square(strip_factor(folder, spacing));
 }
 
 /* ---- all loads --------------------------------------------------------------------------------------------------- */

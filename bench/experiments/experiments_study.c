@@ -50,7 +50,7 @@ static double figure_of_run(const struct convergence_study *s, int k, const stru
 /* Computes mean and scatter of a result at each spacing level of study s: of the finest level into *row, of the next
  * two into row->coarse. value[k]: the result in run k of the study; NAN to leave out the run, as for the angle of
  * branching of a crack that does not branch. */
-static void levels_take(struct experiment_row *row, const struct convergence_study *s, const double *value)
+static void mesh_levels_take(struct experiment_row *row, const struct convergence_study *s, const double *value)
 {
     double own[LEVELS_MOST * RUNS_MOST], mean, deviation, interval;
     for (int l = 0; l < s->spacings.levels; l++) {
@@ -83,7 +83,7 @@ static void figure_take(struct experiments *x, const struct experiment_case *c, 
         value[k] = s->point[k].level >= 0 ? figure_of_run(s, k, f) : NAN;
         spacing[k] = s->point[k].spacing, level[k] = s->point[k].level;
     }
-    levels_take(&row, s, value);
+    mesh_levels_take(&row, s, value);
     if (convergence_evaluate_scalar_result(&found, spacing, value, level, n, s->spacings.levels, NULL)) {
         row.verdict = verdict_name[found.verdict];
         row.interval = found.uncertainty[0];

@@ -54,7 +54,7 @@ static void surf_field(const struct surf *s, const struct particles *p, int64_t 
 {
     const real at[2] = {p->X[0][i] - s->tip - s->speed * t, p->X[1][i]};
     struct crack_field f;
-    crack_tip_field(&s->medium, MODE_I, s->speed, at, &f);
+    crack_tip_field_resting_or_moving(&s->medium, MODE_I, s->speed, at, &f);
     for (int d = 0; d < 2; d++) {
         u[d] = s->factor * f.displacement[d];
         v[d] = -s->speed * s->factor * f.state.gradient[d][0];
@@ -117,10 +117,10 @@ static status surf_go(struct surf *s, struct run *e, double spacing, struct surf
     const double until = (SURF_WIDTH - SURF_NOTCH) / s->speed;
     struct surf_line taken = {0}, place = {0};
     double tip = 0;
-    TRY(report_start_before_first_step(e));
+    TRY(report_open_history_and_write_first_frame(e));
     for (int64_t step = 0; e->clock.t < until && tip < SURF_TO; step++) {
         surf_edge_move(s, &e->part, e->clock.t);
-        TRY(engine_adapt_refinement_and_step(e));
+        TRY(run_adapt_mesh_and_advance_one_step(e));
         if (step % SURF_STEPS) continue;
         tip = surf_tip(&e->part, spacing);
         if (tip < SURF_FROM) continue;
@@ -149,8 +149,8 @@ status surf_run_and_measure_crack(double spacing, double energy_share, double sp
     s.medium = crack_medium_of_material(&scene.material[0], scene.space);
     *rayleigh_speed = s.medium.rayleigh;
     s.speed = speed_ratio * *rayleigh_speed;
-    s.factor =
-        sqrt(energy_share * SURF_TOUGHNESS * s.medium.modulus / crack_universal_function(&s.medium, MODE_I, s.speed));
+    s.factor = sqrt(energy_share * SURF_TOUGHNESS * s.medium.modulus /
+                    crack_tip_speed_universal_function(&s.medium, MODE_I, s.speed));
     surf_start(&s, &e);
     const status ran = surf_go(&s, &e, spacing, measured);
     memory_free(s.particle);

@@ -69,11 +69,11 @@ static double vortex_error(struct run *e, const struct vortex *v)
 
 static status vortex_go(struct run *e, const struct vortex *v)
 {
-    TRY(report_start_before_first_step(e));
+    TRY(report_open_history_and_write_first_frame(e));
     while (e->clock.step < e->clock.steps) {
         vortex_load(e, v);
-        TRY(engine_adapt_refinement_and_step(e));
-        TRY(stability_check_after_step(e));
+        TRY(run_adapt_mesh_and_advance_one_step(e));
+        TRY(run_check_stability_after_step(e));
     }
     return OK;
 }

@@ -129,7 +129,7 @@ static void points_stress(struct run *e)
 {
     const real yield = e->tables.elastic[0].law->yield;
     for (int64_t i = 0; i < e->part.n; i++) e->part.plastic_strain[i] = 0;
-    for (int c = 0; c < symmetric_component_count(e->part.dim); c++)
+    for (int c = 0; c < symmetric_tensor_component_count(e->part.dim); c++)
         for (int64_t i = 0; i < e->part.n; i++) e->part.stress[c][i] = c == 0 ? 2 * yield : 0.1 * yield;
 }
 
@@ -179,7 +179,8 @@ static void job_call(const struct job *j, struct ground *g)
         grid_clear(&e->grid->field[0].grid);
         break;
     case GRID_MOVE:
-        grid_move_nodes(&e->grid->field[0].grid, TRANSFER_FLIP, 1e-12, e->grid->smallest_mass, impulse, &work);
+        grid_advance_and_constrain_nodes(&e->grid->field[0].grid, TRANSFER_FLIP, 1e-12, e->grid->smallest_mass, impulse,
+                                         &work);
         break;
     case MESH_CLEAR:
         mesh_clear(&m->frame->mesh);
@@ -268,7 +269,7 @@ static double job_bytes(const struct job *j, struct ground *g)
 {
     const double mesh_node = sizeof(real) / (double)(1 << j->dim);
     const struct run *e = &g->engine[POINTS], *pd = bonds_of(j, g);
-    const double r = sizeof(real), dim = j->dim, symmetric = symmetric_component_count(j->dim);
+    const double r = sizeof(real), dim = j->dim, symmetric = symmetric_tensor_component_count(j->dim);
     const double node = r * (double)e->grid->field[0].grid.n / (double)e->part.n;
     const double stretch = j->shape == SHAPE_CPGIMP ? dim : 0;
     /* State-based: two sweeps; yielding: two numbers read and written, and the pair of materials. */
@@ -335,7 +336,7 @@ static void find_limits(struct kernel_bench *b)
 static status kernels_run(struct kernel_bench *b, bool quick)
 {
     TRY(bench_targets_measure_memory(&b->targets));
-    team_set_thread_count(1);
+    threads_set_count_and_bind_to_cores(1);
     bench_print_machine(1);
     for (int d = 1; d <= DIM_MAX; d++) TRY(ground_make(&b->ground[d], d));
     time_all(b, quick);

@@ -75,7 +75,7 @@ static status time_frames(struct size_result *r, const struct bench_block *block
     TRY(bench_block_make(&e, &s, block, particles, FRAMES * FRAME_EVERY, FRAMES, &out));
     status ran = output_open(&out, folder.folder, s.text, OUTPUT_OVERWRITE, false);
     if (ran == OK) {
-        ran = engine_run_to_end(&e);
+        ran = run_advance_to_end_time(&e);
         r->frame = e.timers.spent[TIMER_OUTPUT] / FRAMES;
         FILE *f = fopen(path_join(folder.folder, "frames/000001.hdf").text, "r");
         if (f && fseek(f, 0, SEEK_END) == 0) r->frame_bytes = (double)ftell(f) / (double)e.part.n;
@@ -257,7 +257,7 @@ status bench_scale(bool quick)
 {
     struct scale_bench *b = NEW("bench.scale", 1, struct scale_bench);
     printf("scale\n");
-    bench_print_machine(team_set_thread_count(0));
+    bench_print_machine(threads_set_count_and_bind_to_cores(0));
     status s = scale_measure(b, quick);
     memory_free(b);
     return s;

@@ -76,7 +76,7 @@ static status targets_time_run(struct targets_bench *b, int which)
     struct timing *t = &b->run[which];
     struct scene s;
     struct run e;
-    team_set_thread_count(1);
+    threads_set_count_and_bind_to_cores(1);
     TRY(bench_engine_make(&e, &s, SCENE, NULL, w->override, w->overrides));
     const real rate = w->sampled ? (real)s.samples / (real)e.clock.steps : 0; /* samples per step */
     s.samples = 0;
@@ -85,7 +85,7 @@ static status targets_time_run(struct targets_bench *b, int which)
     for (int k = 0; k < ROUNDS * b->threads && ran == OK; k++) {
         const int threads = 1 + k % b->threads;
         struct timers spent = {0};
-        team_set_thread_count(threads);
+        threads_set_count_and_bind_to_cores(threads);
         s.samples = (int)(rate * (real)(e.clock.step + STEPS_TIMED)); /* in the piece, as the engine counts them */
         ran = bench_engine_run(&e, e.clock.step + STEPS_TIMED, &spent);
         if (ran == OK) keep_fastest(t, threads, &spent);
@@ -98,7 +98,7 @@ static void time_probes(struct targets_bench *b, struct microbench_lattice *cell
                         struct microbench_points *points)
 {
     for (int threads = 1; threads <= b->threads; threads++) {
-        team_set_thread_count(threads);
+        threads_set_count_and_bind_to_cores(threads);
         for (int k = 0; k < 20; k++) {
             b->cell_stencil[threads - 1] = fmin(b->cell_stencil[threads - 1], microbench_lattice_run(cell_stencil));
             b->points[threads - 1] = fmin(b->points[threads - 1], microbench_points_run(points));
@@ -118,7 +118,7 @@ static status time_everything(struct targets_bench *b, int repetitions)
         }
     microbench_lattice_free(cell_stencil);
     microbench_points_free(points);
-    team_set_thread_count(1);
+    threads_set_count_and_bind_to_cores(1);
     return s;
 }
 

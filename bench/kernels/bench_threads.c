@@ -50,7 +50,7 @@ static status time_block(struct threads_bench *b, int which, int scaling, int t,
     struct scene s;
     struct run e;
     double *best = &b->step[which][scaling][t];
-    team_set_thread_count(b->team[t]);
+    threads_set_count_and_bind_to_cores(b->team[t]);
     TRY(bench_block_make(&e, &s, &bench_blocks[which], particles, STEPS_WARM + PIECES * steps, 0, NULL));
     b->particles[which][scaling][t] = (double)e.part.n;
     status ran = bench_engine_run(&e, STEPS_WARM, NULL);
@@ -83,7 +83,7 @@ static status threads_time_scalings(struct threads_bench *b, int which, bool qui
 static void time_memory(struct threads_bench *b, bool quick)
 {
     for (int t = 0; t < b->teams; t++) {
-        team_set_thread_count(b->team[t]);
+        threads_set_count_and_bind_to_cores(b->team[t]);
         struct microbench_triad *probe = microbench_triad_make(quick);
         for (int k = 0; k < 5; k++) b->triad[t] = fmax(b->triad[t], microbench_triad_run(probe));
         microbench_triad_free(probe);
@@ -162,7 +162,7 @@ static status threads_measure(struct threads_bench *b, bool quick)
     time_memory(b, quick);
     for (int which = 0; which < BENCH_BLOCKS; which++)
         if (has_shown_dim(which)) TRY(threads_time_scalings(b, which, quick));
-    team_set_thread_count(0);
+    threads_set_count_and_bind_to_cores(0);
     TRY(threads_write_tables(b));
     return bench_draw("threads", 1200, 500, threads_draw, b);
 }
@@ -174,7 +174,7 @@ status bench_threads(bool quick)
         for (int c = 0; c < SCALINGS; c++)
             for (int t = 0; t < TEAMS_MAX; t++) b->step[which][c][t] = INFINITY;
     printf("threads\n");
-    const int most = team_set_thread_count(0);
+    const int most = threads_set_count_and_bind_to_cores(0);
     bench_print_machine(most);
     choose_teams(b, most);
     status s = threads_measure(b, quick);

@@ -66,7 +66,7 @@ struct growth_bench {
 
 /* Returns the number of levels of coarse grid cells with which the largest cells are at most 2 mm: cells have two
  * spacings, and each level doubles them. spacing: of the particles [mm]. */
-static int levels_of(double spacing)
+static int mesh_levels_of(double spacing)
 {
     int levels = 0;
     while ((4 << levels) * spacing <= 2 * (1 + 1e-9)) levels++;
@@ -95,7 +95,7 @@ static void growth_overrides(struct bench_overrides *o, const struct growth_seri
         if (s->dim == 3) bench_overrides_append(o, "mpm", "%s", "");
         return;
     }
-    bench_overrides_append(o, "mpm.levels", "%d", levels_of(spacing));
+    bench_overrides_append(o, "mpm.levels", "%d", mesh_levels_of(spacing));
     bench_overrides_append(o, "mpm.fill", "needed");
 }
 

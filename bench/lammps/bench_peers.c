@@ -290,7 +290,7 @@ static status run_both(struct peer_result *r, const struct peer_case *c, int edg
     r->particles = (double)e.part.n;
     status ran = write_input(&e, c, edge, r);
     r->bonds = (double)e.bonds.n - 2 * r->cut;
-    if (ran == OK) ran = engine_run_to_end(&e);
+    if (ran == OK) ran = run_advance_to_end_time(&e);
     if (ran == OK) ran = peer_run_lammps(".", FOLDER "/in.lammps", FOLDER "/log.lammps");
     if (ran == OK) ran = peer_read_seconds_per_step(FOLDER "/log.lammps", STEPS, &spent);
     if (ran == OK) ran = peer_solution(peer, e.part.n);
@@ -437,9 +437,9 @@ status bench_peers(bool quick)
         return OK;
     }
     struct peer_result *result = NEW("bench.peers", CASES, struct peer_result);
-    bench_print_machine(team_set_thread_count(1));
+    bench_print_machine(threads_set_count_and_bind_to_cores(1));
     status s = peers_measure(result, quick);
-    team_set_thread_count(0);
+    threads_set_count_and_bind_to_cores(0);
     memory_free(result);
     return s;
 }

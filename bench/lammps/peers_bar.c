@@ -43,7 +43,7 @@ static status bar_run(struct bar_result *r, bool yields, bool quick)
              quick ? "0.76 mm" : "0.38 mm", yields ? -190 : -19);
     TRY(bench_engine_make(&e, &s, "bar", text, NULL, 0));
     const double start = thread_cpu_clock_seconds();
-    const status ran = engine_run_to_end(&e);
+    const status ran = run_advance_to_end_time(&e);
     r->seconds = fmin(r->seconds, thread_cpu_clock_seconds() - start);
     r->particles = (double)e.part.n, r->steps = (double)e.clock.steps;
     bench_engine_free(&e, &s);
@@ -55,7 +55,7 @@ status bench_taylor_bar(bool quick)
     struct bar_result bar[BARS] = {{"yields", 0, 0, INFINITY}, {"elastic", 0, 0, INFINITY}};
     struct bench_table t;
     printf("peers=bar\n");
-    bench_print_machine(team_set_thread_count(1));
+    bench_print_machine(threads_set_count_and_bind_to_cores(1));
     for (int r = 0; r < (quick ? 1 : ROUNDS); r++)
         for (int k = 0; k < BARS; k++) TRY(bar_run(&bar[k], k == 0, quick));
     bench_table_make(&t, "", "bar,particles,steps,ns_per_particle_step");
@@ -75,6 +75,6 @@ status bench_taylor_bar(bool quick)
         MPM3D_FASTEST, MPM3D_SLOWEST);
     const status s = bench_write_result_tables("peers_bar", &t, 1);
     bench_table_free(&t);
-    team_set_thread_count(0);
+    threads_set_count_and_bind_to_cores(0);
     return s;
 }

@@ -138,7 +138,7 @@ status bench_laws(bool quick)
     struct bench_table rows;
     if (!quick) TRY(bench_check_scenes_exist("laws", needed, COUNT_OF(needed)));
     printf("laws: metals beside closed forms and published values\n");
-    bench_print_machine(team_set_thread_count(0));
+    bench_print_machine(threads_set_count_and_bind_to_cores(0));
     printf("  %-44s %-27s %9s %9s %9s\n", "", "", "expected", "found", "tolerance");
     bench_table_make(&rows, "", "case,figure,unit,expected,found,tolerance,verdict,source");
     for (int k = 0; k < laws_cases_count; k++) {

@@ -53,7 +53,7 @@ static status bar_strike(struct bar_rest *r, const char *path, const struct laws
     bench_overrides_append(o, "output.frames", "0");
     TRY(bench_engine_make(&e, &s, path, NULL, bench_overrides_as_array(o), o->n));
     if (c->given[1] == 1) points_have_own_dilatations(&e);
-    const status ran = engine_run_to_end(&e);
+    const status ran = run_advance_to_end_time(&e);
     *r = (struct bar_rest){.balance = e.diagnostics->now.balance_error};
     bar_measure(r, &e.part, s.spacing);
     bench_engine_free(&e, &s);
@@ -127,7 +127,7 @@ status laws_measure_cook_membrane(const struct laws_case *c, double *measured)
     if (current) bench_overrides_append(&o, "solver_tolerance", "1e-3");
     bench_overrides_append(&o, "output.frames", "0");
     TRY(bench_engine_make(&e, &s, "cook", cook[solid], bench_overrides_as_array(&o), o.n));
-    const status ran = engine_run_to_end(&e);
+    const status ran = run_advance_to_end_time(&e);
     const int64_t i = particles_index_nearest_to_position(&e.part, corner);
     const struct load *end = &e.loads.load[1];
     double area = 0; /* the steps of the lattice make the loaded face longer than 16 mm */
@@ -155,7 +155,7 @@ static status body_run(struct run *e, struct scene *s, const char *text)
              "material: {young: %g, poisson: %g, density: 7850, yield_stress: %g}\n%s",
              YOUNG, POISSON, YIELD, text);
     TRY(bench_engine_make(e, s, "body", whole, NULL, 0));
-    const status ran = engine_run_to_end(e);
+    const status ran = run_advance_to_end_time(e);
     if (ran != OK) return bench_engine_free(e, s), ran;
     run_update_particle_motion_and_stress(e);
     return OK;

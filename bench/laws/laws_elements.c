@@ -7,7 +7,7 @@
 struct law laws_law_with_derived_constants(struct law law, real young, real poisson, real yield, real density)
 {
     law.given = true;
-    law_compute_derived_constants(&law, yield, young, poisson, young / (2 * (1 + poisson)), density);
+    flow_law_compute_derived_constants(&law, yield, young, poisson, young / (2 * (1 + poisson)), density);
     return law;
 }
 

@@ -11,7 +11,7 @@ status bench_sif(bool quick)
     struct bench_goals asked = {0};
     TRY(bench_check_scenes_exist("sif", needed, COUNT_OF(needed)));
     printf("stress-intensity factors\n");
-    bench_print_machine(team_set_thread_count(0));
+    bench_print_machine(threads_set_count_and_bind_to_cores(0));
     TRY(edge_crack_bench(&asked, quick));
     TRY(inclined_crack_bench(&asked, quick));
     TRY(moving_crack_bench(&asked, quick));

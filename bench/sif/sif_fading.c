@@ -112,7 +112,7 @@ static status sif_fading_reactions(struct bench_goals *asked)
         job[k] = (struct bench_job){.path = "inputs/load_displacement.yaml", .row = &t.row[k], .take = take_reaction};
         bench_overrides_append(&job[k].overrides, "growth[0].damping", "%s", t.row[k].damping);
     }
-    status s = bench_jobs_run(job, RELEASES, team_set_thread_count(0));
+    status s = bench_jobs_run(job, RELEASES, threads_set_count_and_bind_to_cores(0));
     if (s == OK) bench_add_goal(asked, "%", t.row[0].rough / t.row[1].rough, 1.0 / 3, "reaction, fading over sudden");
     if (s == OK) s = write_reactions(&t);
     for (int k = 0; k < RELEASES; k++) memory_free(t.row[k].t), memory_free(t.row[k].force);
@@ -184,7 +184,7 @@ static status paths(void)
         bench_overrides_append(&job[k].overrides, "output.frames", "0");
         if (row[k].key) bench_overrides_append(&job[k].overrides, row[k].key, "%s", row[k].value);
     }
-    TRY(bench_jobs_run(job, PATHS, team_set_thread_count(0)));
+    TRY(bench_jobs_run(job, PATHS, threads_set_count_and_bind_to_cores(0)));
     bench_table_make(&rows, "", "name,angle_deg,length,start_time,K_II_over_K_I,seconds");
     for (int k = 0; k < PATHS; k++) {
         bench_table_append_text(&rows, row[k].name);

@@ -199,7 +199,7 @@ static status sif_moving_run_all(struct moving_table *t, bool quick)
     t->n = quick ? QUICK : CASES;
     for (int k = 0; k < t->n; k++) job[k] = job_of(&t->row[k], &moving_case[k]);
     table = t;
-    return bench_jobs_run(job, t->n, team_set_thread_count(0));
+    return bench_jobs_run(job, t->n, threads_set_count_and_bind_to_cores(0));
 }
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */

@@ -11,7 +11,7 @@ status bench_slow(bool quick)
     struct bench_goals asked = {0};
     TRY(bench_check_scenes_exist("slow", needed, COUNT_OF(needed)));
     printf("load steps\n");
-    bench_print_machine(team_set_thread_count(0));
+    bench_print_machine(threads_set_count_and_bind_to_cores(0));
     TRY(slow_run_specimens(&asked, quick));
     TRY(slow_compare_crack_paths(&asked, quick));
     TRY(slow_time_load_steps(&asked, quick));

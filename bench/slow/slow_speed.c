@@ -40,7 +40,7 @@ static status hundred_steps(struct bench_table *t, struct bench_goals *asked, bo
     speed_put(t, "load steps, the crack grows", &r);
     if (!quick)
         bench_add_goal(asked, "s", r.seconds, 300, "100 load steps of 100,000 particles, %d threads",
-                       team_set_thread_count(0));
+                       threads_set_count_and_bind_to_cores(0));
     return OK;
 }
 

@@ -35,7 +35,7 @@ static struct mover mover_at(const struct run *e, int64_t k)
     const struct particles *p = &e->part;
     const struct grid *g = &e->frame->mesh.grid;
     struct mover a = {0};
-    const int64_t I = k - p->n, at = I < 0 ? I : mesh_regular_node_of_doubled_node(&e->frame->mesh, I);
+    const int64_t I = k - p->n, at = I < 0 ? I : mesh_original_node_of_doubled_node(&e->frame->mesh, I);
     if (I < 0)
         a.m = p->flag[k] & FLAG_MESHED ? 0 : p->mass[k];
     else
@@ -270,8 +270,8 @@ static status energy_drift_run_body(struct run *e, const struct drift_case *l, s
     to->free = energy_drift_run_is_free(e), to->turn = to->free ? 0 : NAN;
     while (s == OK && e->clock.step < e->clock.steps) {
         earlier_take(&before, e);
-        s = engine_adapt_refinement_and_step(e);
-        if (s == OK) s = stability_check_after_step(e);
+        s = run_adapt_mesh_and_advance_one_step(e);
+        if (s == OK) s = run_check_stability_after_step(e);
         if (s != OK || !e->report->sampling.due) continue;
         course_add(c, e, &before);
         if (to->free) to->turn = fmax(to->turn, turned(e, centre, L, size));

@@ -22,7 +22,7 @@ static status single(const struct limits_row *r, double *to)
         "particles: {spacing: 1e-3}\n"
         "initial:\n  - {velocity: [400, 300], region: {box: {from: [11e-3, 11e-3], to: [inf, inf]}}}\n"
         "output: {frames: 0, samples: 20}\n"));
-    const status ran = engine_run_to_end(&e);
+    const status ran = run_advance_to_end_time(&e);
     const int64_t i = e.part.n - 1;
     to[0] = isfinite(e.part.x[0][i]) && e.part.v[0][i] > 100 ? 0 : 1;
     to[1] = e.diagnostics->now.momentum_error;
@@ -80,8 +80,8 @@ static status inversion(const struct limits_row *r, double *to)
         "  - {velocity: [%g, 0], region: {box: {from: [20, -inf], to: [inf, inf]}}}\n"
         "output: {frames: 0, samples: 10}\n",
         100 * r->given, -100 * r->given));
-    const status ran = engine_run_to_end(&e);
-    if (e.frame->mesh.points > 0) reference_frame_update_motion_and_stress(e.frame, &e.part, &e.loads);
+    const status ran = run_advance_to_end_time(&e);
+    if (e.frame->mesh.points > 0) lagrangian_mesh_update_point_motion_and_stress(e.frame, &e.part, &e.loads);
     to[0] = inverted(&e.part);
     to[1] = fabs(e.diagnostics->now.balance_error);
     bench_engine_free(&e, &s);
@@ -150,7 +150,7 @@ static status closing(const struct limits_row *r, double *to)
     status ran = bench_engine_run(&e, 1, NULL);
     to[0] = 0, to[1] = 0;
     while (ran == OK && e.clock.step < e.clock.steps - 1) {
-        ran = engine_adapt_refinement_and_step(&e);
+        ran = run_adapt_mesh_and_advance_one_step(&e);
         to[0] = fmax(to[0], overlap(&e));
     }
     for (int64_t i = 0; i < e.part.n; i++) to[1] += e.part.v[0][i] * (e.part.body[i] ? -1 : 1) / 4 / (double)e.part.n;

@@ -33,10 +33,10 @@ static status corner(const struct limits_row *r, double *to)
         "initial: [{pulse: {at: [%g, 0], direction: [1, 0], width: %g, velocity: %g}}]\n"
         "output: {frames: 0, samples: 1}\n",
         35e-3 / c, r->given, peak, START, WIDTH, -SPEED));
-    const status ran = engine_run_to_end(&e);
+    const status ran = run_advance_to_end_time(&e);
     const struct particles *p = &e.part;
     const bool converts = e.coupling->conversion.converted > 0 || e.scene->method != METHOD_ADAPTIVE;
-    if (e.frame->mesh.points > 0) reference_frame_update_motion_and_stress(e.frame, &e.part, &e.loads);
+    if (e.frame->mesh.points > 0) lagrangian_mesh_update_point_motion_and_stress(e.frame, &e.part, &e.loads);
     to[0] = converts ? 0 : INFINITY;
     for (int64_t i = 0; i < p->n; i++) to[0] = fmax(to[0], fabs(p->v[1][i]) / SPEED);
     to[1] = fabs(e.diagnostics->now.balance_error);

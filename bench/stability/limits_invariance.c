@@ -122,7 +122,7 @@ static status plate_run(struct run *e, struct scene *s, const struct twin *t, co
     const status made = limits_make_run_of_scene(e, s, r, "%s", text);
     if (t->listed) remove(list);
     TRY(made);
-    return engine_run_to_end(e);
+    return run_advance_to_end_time(e);
 }
 
 /* Returns the index of that particle of q, the particles of the plate transformed by t, which corresponds to particle i

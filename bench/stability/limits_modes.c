@@ -15,20 +15,21 @@ struct matrix {
  * member `at` with memory_free. */
 static struct matrix matrix_of(struct run *e)
 {
-    struct bond_operator body = bond_operator_make(&e->bonds, &e->part, e->kernels.bond_force, NULL, e->scene->spacing);
+    struct bond_stiffness_operator body =
+        bond_stiffness_operator_make(&e->bonds, &e->part, e->kernels.bond_force, NULL, e->scene->spacing);
     struct matrix m = {.n = e->part.dim * e->part.n};
     real *unit = NEW("modes.unit", m.n, real);
     m.at = NEW("modes.matrix", m.n * m.n, real);
     for (int64_t k = 0; k < m.n; k++) {
         unit[k] = 1;
-        bond_operator_apply(&body, unit, &m.at[k * m.n]);
+        bond_stiffness_operator_apply(&body, unit, &m.at[k * m.n]);
         unit[k] = 0;
     }
     for (int64_t k = 0; k < m.n; k++)
         for (int64_t j = 0; j < k; j++)
             m.at[k * m.n + j] = m.at[j * m.n + k] = 0.5 * (m.at[k * m.n + j] + m.at[j * m.n + k]);
     memory_free(unit);
-    bond_operator_free(&body);
+    bond_stiffness_operator_free(&body);
     return m;
 }
 

@@ -32,9 +32,9 @@ static struct turning turning_of(const struct particles *p)
 static status limits_motion_turn(struct run *e, double *to)
 {
     const struct particles *p = &e->part;
-    if (e->frame->mesh.points > 0) reference_frame_update_motion_and_stress(e->frame, &e->part, &e->loads);
+    if (e->frame->mesh.points > 0) lagrangian_mesh_update_point_motion_and_stress(e->frame, &e->part, &e->loads);
     const struct turning start = turning_of(p);
-    TRY(engine_run_to_end(e));
+    TRY(run_advance_to_end_time(e));
     const struct turning end = turning_of(p);
     if (p->n_of[KIND_MPM] == 0) bonds_compute_particle_stress(&e->bonds, &e->part, &e->source, &e->kernels);
     to[0] = 0, to[1] = fabs(end.momentum / start.momentum - 1), to[2] = fabs(end.kinetic / start.kinetic - 1);
@@ -144,7 +144,7 @@ static void lame(const void *context, const real *X, real *v)
 static double projection(struct run *e)
 {
     double sum = 0;
-    if (e->frame->mesh.points > 0) reference_frame_update_motion_and_stress(e->frame, &e->part, &e->loads);
+    if (e->frame->mesh.points > 0) lagrangian_mesh_update_point_motion_and_stress(e->frame, &e->part, &e->loads);
     for (int64_t i = 0; i < e->part.n; i++) {
         const real X[2] = {e->part.X[0][i], e->part.X[1][i]};
         real v[2];
@@ -168,7 +168,7 @@ static status periods(struct run *e, double *steps)
     *steps = NAN;
     TRY(bench_engine_run(e, 1, NULL)); /* creates the record of the first sample */
     for (double now; times < STANDS && e->clock.step < e->clock.steps - 1; before = now) {
-        TRY(engine_adapt_refinement_and_step(e));
+        TRY(run_adapt_mesh_and_advance_one_step(e));
         now = projection(e);
         if ((now > 0) == (before > 0)) continue;
         times++;
@@ -258,7 +258,7 @@ static status million_steps(struct run *e, double *to)
     double mean[2] = {0};
     TRY(bench_engine_run(e, 1, NULL));
     for (int k = 0; k < 1000000; k++) {
-        TRY(engine_adapt_refinement_and_step(e));
+        TRY(run_adapt_mesh_and_advance_one_step(e));
         if (k < 20000) mean[0] += energy_of(e);
         if (k >= 980000) mean[1] += energy_of(e);
     }
@@ -316,7 +316,7 @@ static status vibration(const struct limits_row *r, double *to)
     status ran = bench_engine_run(&e, 1, NULL);
     const int64_t period = e.clock.steps / 10;
     while (ran == OK && e.clock.step < e.clock.steps - 1) {
-        ran = engine_adapt_refinement_and_step(&e);
+        ran = run_adapt_mesh_and_advance_one_step(&e);
         const double kinetic = particles_kinetic_energy(&e.part) + mesh_kinetic(&e.frame->mesh);
         if (e.clock.step < period) first = fmax(first, kinetic);
         if (e.clock.step >= e.clock.steps - period) last = fmax(last, kinetic);

@@ -30,7 +30,7 @@ status stability_find_step_of_automatic_stop(const struct stability_case *c, dou
     bench_overrides_append(&o, "initial", "[{pulse: {at: %s, width: 5e-3, velocity: 1}}]", at[c->dim]);
     bench_overrides_append(&o, "output.samples", "100");
     TRY(bench_engine_make(&e, &s, "block", text, bench_overrides_as_array(&o), o.n));
-    *stop_step = engine_run_to_end(&e) == FAILED && says_all(status_message()) ? (double)e.clock.step : INFINITY;
+    *stop_step = run_advance_to_end_time(&e) == FAILED && says_all(status_message()) ? (double)e.clock.step : INFINITY;
     bench_engine_free(&e, &s);
     return OK;
 }

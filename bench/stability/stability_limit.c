@@ -74,7 +74,7 @@ status stability_run_and_test_boundedness(const struct stability_case *c, double
     const double first = motion(&e, drift);
     *is_bounded = bench_engine_run(&e, 1, NULL) == OK; /* creates the record of the first sample */
     while (*is_bounded && e.clock.step < initial_motion.steps) {
-        if (engine_adapt_refinement_and_step(&e) != OK)
+        if (run_adapt_mesh_and_advance_one_step(&e) != OK)
             *is_bounded = false;
         else if (e.clock.step % 8 == 0 && !(motion(&e, drift) < GROWN * GROWN * first))
             *is_bounded = false;
@@ -115,7 +115,7 @@ static double silling_step(const struct run *e)
     double most = 0;
     for (int64_t r = 0; r < b->rows; r++) {
         double sum = 0;
-        for (struct bond_iterator it = bond_iterator_of_row(b, r); bond_next(&it);)
+        for (struct bond_iterator it = bond_iterator_of_row(b, r); bond_iterator_advance(&it);)
             sum += b->stiffness * it.bond.w * it.bond.inverse_length;
         most = fmax(most, sum / e->part.mass[b->particle[r]]);
     }

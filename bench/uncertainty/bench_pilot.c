@@ -38,20 +38,20 @@ static status pilot_scene_write(const char *path, const struct pilot_scene *k, d
 /* Runs a scene with the method and spacing that the pilot runs p have chosen, as a study with a single case in
  * `folder`. scene: file of the scene; figure: name of a number in summary.json, which is stored in *value. Returns
  * REFUSED or FAILED if the run does. */
-static status chosen_run(const struct pilot *p, const char *scene, const char *folder, double *value,
+static status chosen_run(const struct pilot_choice *p, const char *scene, const char *folder, double *value,
                          const char *figure)
 {
     struct study s;
     TRY(study_make(&s, scene, folder, "run"));
     study_add_case(&s, "run", p->override, p->overrides);
-    status done = study_determine_case_states(&s, false);
+    status done = study_find_completed_failed_and_equal_cases(&s, false);
     if (done == OK) done = study_execute_waiting_runs(&s, (struct study_options){.quiet = true});
     if (done == OK) done = summary_read_number(study_case_folder(&s, &s.at[0]).text, figure, value);
     study_free(&s);
     return done;
 }
 
-static const char *chosen_value(const struct pilot *p, const char *key)
+static const char *chosen_value(const struct pilot_choice *p, const char *key)
 {
     for (int k = p->overrides - 1; k >= 0; k--)
         if (!strcmp(p->override[k].key, key)) return p->override[k].value;
@@ -63,14 +63,14 @@ static const char *chosen_value(const struct pilot *p, const char *key)
 static void pilot_scene_measure(struct pilot_tally *t, const struct pilot_scene *k, double within, const char *folder)
 {
     const struct path scene = path_join(folder, "scene.yaml.in"), into = path_join(folder, "run");
-    struct pilot p = {0};
+    struct pilot_choice p = {0};
     double value = NAN;
     const double begun = wall_clock_seconds();
     status done = pilot_scene_write(scene.text, k, within);
     struct scene s;
     if (done == OK)
-        done = pilot_scene_read_or_choose_method(&s, &p, scene.text, NULL, 0, into.text,
-                                                 (struct study_options){.quiet = true});
+        done = scene_read_and_choose_method_by_pilot_runs(&s, &p, scene.text, NULL, 0, into.text,
+                                                          (struct study_options){.quiet = true});
     if (done == OK) scene_free(&s);
     const double pilots = wall_clock_seconds() - begun;
     if (done == OK) done = chosen_run(&p, scene.text, into.text, &value, k->figure);
@@ -107,7 +107,7 @@ status bench_pilot(bool quick)
     char folder[] = BENCH_FOLDER "/pilot-XXXXXX";
     TRY(bench_create_results_folder());
     printf("pilot\n");
-    bench_print_machine(team_set_thread_count(0));
+    bench_print_machine(threads_set_count_and_bind_to_cores(0));
     if (!mkdtemp(folder)) return file_report_write_failure(folder, errno);
     printf("  %-22s %-26s %7s %10s  %-14s %11s %9s %9s\n", "scene", "figure", "asked", "error", "chosen", "spacing",
            "pilots", "run");

@@ -91,7 +91,7 @@ static double covered(const struct known_rows *rows, double nominal)
     int held = 0;
     for (int k = 0; k < rows->n; k++) {
         const struct known_row *r = &rows->at[k];
-        held += true_error(r) <= convergence_interval_half_width(&r->c, r->c.level[0].mean, nominal);
+        held += true_error(r) <= convergence_confidence_interval_half_width(&r->c, r->c.level[0].mean, nominal);
     }
     return (double)held / rows->n;
 }
@@ -196,7 +196,7 @@ status bench_uncertainty(bool quick)
     char folder[] = BENCH_FOLDER "/study-XXXXXX";
     status s = bench_create_results_folder();
     printf("uncertainty\n");
-    bench_print_machine(team_set_thread_count(0));
+    bench_print_machine(threads_set_count_and_bind_to_cores(0));
     if (s == OK && !mkdtemp(folder)) s = file_report_write_failure(folder, errno);
     printf("  %-18s %-20s %-8s %-28s %9s %9s %6s  %s\n", "scene", "method", "spacing", "figure", "error", "+-",
            "+-/err", "verdict");

@@ -46,6 +46,6 @@ status archive_save_or_load_particle_array(struct archive *a, const char *name, 
 /* Replaces each restored particle index particle_index[k], k = 0 .. index_count - 1, by the new index of that particle,
  * a->now[particle_index[k]]; -1 if the particle no longer exists. Does nothing while saving, or if a->now is NULL
  * (equal particles). */
-void archive_update_restored_particle_indices(const struct archive *a, int32_t *particle_index, int64_t index_count);
+void archive_renumber_restored_particle_indices(const struct archive *a, int32_t *particle_index, int64_t index_count);
 
 #endif

@@ -38,11 +38,11 @@ enum { DIM_MAX = 3, SYM_MAX = 6, NAME_MAX_LENGTH = 64, LONG_NAME_LENGTH = 256 };
 #endif
 
 /* Returns the number of components of a symmetric tensor in dim dimensions: 1, 3 or 6. */
-static inline int symmetric_component_count(int dim) { return dim * (dim + 1) / 2; }
+static inline int symmetric_tensor_component_count(int dim) { return dim * (dim + 1) / 2; }
 
 /* Computes *row and *column (0 .. 2) of component number `component` (from 0) of a symmetric tensor in dim dimensions.
  * Order of the components: xx, yy, zz, xy, yz, zx in 3D; xx, yy, xy in 2D; xx in 1D. */
-static inline void symmetric_component_axes(int dim, int component, int *row, int *column)
+static inline void symmetric_tensor_component_axes(int dim, int component, int *row, int *column)
 {
     *row = component < dim ? component : component == dim ? 0 : component == dim + 1 ? 1 : 2;
     *column = component < dim ? component : (*row + 1) % DIM_MAX;
@@ -69,7 +69,7 @@ status status_set(status s, const char *format, ...) __attribute__((format(print
 
 /* Appends a line, composed from `format` as by printf, to the message set by status_set, for a further fault of the
  * same kind. */
-void status_add_line(const char *format, ...) __attribute__((format(printf, 1, 2)));
+void status_message_append_line(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 /* Returns the message of the last failure in this thread, "" if there was none. The text changes with the next
  * failure. */
@@ -82,7 +82,7 @@ enum { PLACE_LENGTH = 512 };
 /* Prepends `location`, a position in the input file such as `file:line:column: key: `, to the message set by
  * status_set. Does nothing if s is not REFUSED, if the message has a position already, or if `location` is empty.
  * Returns s. */
-status status_prepend_location(const char *location, status s);
+status status_message_prepend_location(const char *location, status s);
 
 /* Ends the program by invariant_report_violation_and_abort if `condition` is false. For conditions that hold in every
  * run of a correct program; unlike assert of C it is part of every build. What a scene, a file or the system can cause

@@ -13,6 +13,7 @@ double machine_load_average(void);
  * than alone. other_process_load: mean number of processes of other programs (machine_load_average); cores: cores of
  * the machine; threads: threads of this program. Returns true if a warning was written; false, and writes nothing, if
  * there are enough cores for all processes and threads. A text longer than `capacity` is truncated. */
-bool machine_describe_overload_if_any(char *text, size_t capacity, double other_process_load, int cores, int threads);
+bool machine_compose_warning_if_overloaded(char *text, size_t capacity, double other_process_load, int cores,
+                                           int threads);
 
 #endif

@@ -12,6 +12,6 @@ int edit_distance(const char *a, const char *b);
 /* Returns true if `word` is probably `other_word` misspelt, or the reverse. With n the length of the shorter word (at
  * least 2, both together at least 5 letters), the edit distance must be at most 1, or 2 if n >= 8 or if n >= 5 and the
  * first and the last letters are equal. */
-bool words_are_similar(const char *word, const char *other_word);
+bool word_is_probable_misspelling_of(const char *word, const char *other_word);
 
 #endif

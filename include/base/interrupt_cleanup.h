@@ -21,6 +21,6 @@ void interrupt_signals_block(bool block);
 
 /* Prepares a child process, between fork and exec: puts it into a process group of its own, so that processes that it
  * starts are killed with it, and unblocks SIGINT, SIGTERM and SIGHUP. */
-void interrupt_cleanup_prepare_child_process(void);
+void child_process_set_group_and_unblock_signals(void);
 
 #endif

@@ -20,7 +20,7 @@ struct memory_archive {
 /* Initialises the empty archive in memory m, open for saving. scope: part of the state of a run that the archive is to
  * hold (all of it, what a trial solution changes, ...). State is saved by calling the state functions of the modules
  * with &m->archive. Release with memory_archive_free. */
-void memory_archive_make(struct memory_archive *m, enum archive_scope scope);
+void memory_archive_open_for_saving(struct memory_archive *m, enum archive_scope scope);
 
 /* Switches the archive in memory m from saving to restoring and returns to its first entry. The state functions, called
  * in the same order with &m->archive, then restore what they saved. The function may be called repeatedly. */

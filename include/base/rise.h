@@ -19,7 +19,7 @@ enum {
 /* Values of a quantity recorded at some time steps. n: number of records so far, of which the last RISE_VALUES are
  * kept; record k (0 .. n - 1) is at[k % RISE_VALUES]. step: number of the time step of a record; value: the
  * quantity. */
-struct growth_samples {
+struct quantity_samples {
     int64_t n;
     struct {
         int64_t step;
@@ -33,13 +33,13 @@ enum growth_rate { RISE_FAST, RISE_SLOW, RISE_UNSURE };
 
 /* Records `value` at time step number `step` in `samples`, unless the last record is less than RISE_CLOSEST (16) steps
  * old. The last RISE_VALUES (64) records are kept. */
-void growth_samples_add(struct growth_samples *samples, int64_t step, real value);
+void quantity_samples_add_value(struct quantity_samples *samples, int64_t step, real value);
 
 /* Returns how fast the quantity recorded in `samples` has grown to `value` > 0 at time step number `step`: RISE_FAST if
  * it increased tenfold within RISE_STEPS (100) steps (growth between two records is taken as exponential), RISE_SLOW if
  * that took longer, RISE_UNSURE if the records do not decide. *tenfold_steps receives the approximate duration of the
  * last tenfold increase [steps], INFINITY if that increase began before the first record. */
-enum growth_rate growth_samples_classify(const struct growth_samples *samples, int64_t step, real value,
-                                         real *tenfold_steps);
+enum growth_rate quantity_samples_classify_growth_rate(const struct quantity_samples *samples, int64_t step, real value,
+                                                       real *tenfold_steps);
 
 #endif

@@ -16,36 +16,37 @@ struct machine {
  * physical cores that this process may use. Binds helper thread k >= 1 to the k-th of these cores if there are enough
  * and the user has set neither OMP_PROC_BIND nor OMP_PLACES. The calling thread moves to the first core, but is not
  * bound to it. Returns the number of threads. */
-int team_set_thread_count(int requested_threads);
+int threads_set_count_and_bind_to_cores(int requested_threads);
 
 /* Returns the number of cores, the sizes of caches and memory, as far as this process may use them, and the name of the
  * processor. */
 struct machine machine_properties(void);
 
-/* Returns the name of the processor; does not read the topology of the machine again after team_set_thread_count. */
+/* Returns the name of the processor; does not read the topology of the machine again after
+ * threads_set_count_and_bind_to_cores. */
 const char *machine_processor_name(void);
 
 /* Returns the memory [byte] that this process may use: the memory of the machine or, if a limit (ulimit, control group)
- * left less when team_set_thread_count was called, what this limit left. */
+ * left less when threads_set_count_and_bind_to_cores was called, what this limit left. */
 int64_t machine_memory_size(void);
 
 /* Returns the name of the limit that machine_memory_size reports: "memory of the machine", "ulimit -v", ... */
-const char *machine_memory_limit_name(void);
+const char *machine_memory_limit_describe_source(void);
 
 /* Returns the number of physical cores that the process may use. */
 int machine_physical_core_count(void);
 
 /* Divides the cores that this process may use into `share_count` equal parts, for processes that run side by side
- * (core_share_bind_calling_thread). Returns NULL if there are fewer cores than shares, or only one share. Release with
- * core_shares_free. */
-struct core_shares *core_shares_make(int share_count);
+ * (cpu_core_partition_bind_calling_thread). Returns NULL if there are fewer cores than shares, or only one share.
+ * Release with cpu_core_partition_free. */
+struct cpu_core_partition *cpu_core_partition_make(int share_count);
 
 /* Binds the calling thread, and processes that this thread starts later, to the cores of share number `share_number`
  * (from 0) of s; -1 restores the binding that the thread had before. Does nothing if s is NULL. */
-void core_share_bind_calling_thread(const struct core_shares *s, int share_number);
+void cpu_core_partition_bind_calling_thread(const struct cpu_core_partition *s, int share_number);
 
 /* Releases the shares of cores s. */
-void core_shares_free(struct core_shares *s);
+void cpu_core_partition_free(struct cpu_core_partition *s);
 
 /* Returns the time of the wall clock [s], from an arbitrary origin, to measure durations. */
 double wall_clock_seconds(void);

@@ -26,7 +26,7 @@ bool warnings_add_if_new(struct warnings *w, const char *format, ...) __attribut
 
 /* Appends the warnings of the list `source_list`, from number `first_warning` on, to the list w, except those that w
  * contains already. */
-void warnings_append_new_from_list(struct warnings *w, const struct warnings *source_list, int first_warning);
+void warnings_append_missing_from_list(struct warnings *w, const struct warnings *source_list, int first_warning);
 
 /* Prints the warnings of the list w, from number `first_warning` (from 0) on, to `out`, each as one line `warning:
  * text`. The line ends with the location in the input file, in brackets, if w->locate is set and finds the location. */

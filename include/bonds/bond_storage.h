@@ -16,7 +16,7 @@
  *     implicit    UNIT      as WHOLE, with weight 1                                                        x
  *
  * In blocks of eight rows that store columns, `nbr`, `inverse_length` and `w` are complete, and `common` is derived
- * from them by bond_column_update_common_properties. All kinds give equal bits. Where the rows of a block have
+ * from them by bond_column_update_lane_uniform_properties. All kinds give equal bits. Where the rows of a block have
  * neighbours at equal index distances (a lattice), a column has one distance, and its eight neighbours are consecutive.
  *
  * Most blocks of eight rows of a lattice have equal bonds at equal index distances. They follow one stencil, read from
@@ -153,7 +153,7 @@ struct bond_length {
 };
 
 /* Common properties of the eight bonds of a column, derived from first, w and inverse_length by
- * bond_column_update_common_properties: on a lattice the hot loops read only these, four bytes per bond. */
+ * bond_column_update_lane_uniform_properties: on a lattice the hot loops read only these, four bytes per bond. */
 struct bond_column {
     int16_t excess[LANES]; /* |inverse_length| less that of the shell, in units of the last place: positions are
                               rounded; the sum is exact */
@@ -182,7 +182,7 @@ struct stencil_column {
 /* Bonds that blocks of eight rows, of eight consecutive particles, share: equal neighbours at equal distances with
  * equal weights (factors on the stiffness), no bond broken. Most blocks of a lattice follow one of few stencils, whose
  * columns stay in the nearest cache. Columns of such blocks are written only when a bond is accessed by index
- * (bond_row_block_write_columns_from_stencil). */
+ * (bond_row_block_copy_bonds_from_stencil). */
 struct stencil {
     int columns;                   /* number of columns, i.e. of bonds of a row */
     bool whole;                    /* all lanes have all bonds, with one weight */
@@ -191,8 +191,8 @@ struct stencil {
     struct stencil_column *column; /* [columns] */
     real (*w)[LANES];              /* [columns] weights of the lanes, 0: no bond [1] */
 };
-struct stencils; /* all stencils (bonds_stencils.c) */
-struct site_map; /* particle at each site of a lattice (bonds_site_map.c) */
+struct stencil_table;    /* all stencils (bonds_stencils.c) */
+struct lattice_site_map; /* particle at each site of a lattice (bonds_site_map.c) */
 
 /* Free columns of a removed block of eight rows (the bonds of eight particles), to be used when rows are rebuilt:
  * `columns` columns, the first of which is number `column`. */
@@ -237,12 +237,12 @@ struct bonds {
     uint8_t *implicit;                /* [row_blocks] 1: the columns are not written */
     uint8_t *changed; /* [row_blocks] 1: weights have changed since the block of eight rows was made; it follows no
                          stencil */
-    struct bond_holes holes;              /* free columns of removed blocks of eight rows */
-    struct stencils *stencils;            /* all stencils that blocks of eight rows may follow */
-    struct site_map *site_map;            /* particle at each lattice site; NULL: there are no material points */
-    real *plastic_stretch, *plastic_path; /* [columns 8] s_p and alpha of a bond; NULL if no bond yields [1] */
-    int32_t *pair;                        /* [columns 8] pair of materials, index in `yield`; NULL: no bond yields */
-    struct bond_yield yield;              /* yield stretches and hardening by pair of materials */
+    struct bond_holes holes;                   /* free columns of removed blocks of eight rows */
+    struct stencil_table *stencils;            /* all stencils that blocks of eight rows may follow */
+    struct lattice_site_map *site_map; /* particle at each lattice site; NULL: there are no material points */
+    real *plastic_stretch, *plastic_path;      /* [columns 8] s_p and alpha of a bond; NULL if no bond yields [1] */
+    int32_t *pair;            /* [columns 8] pair of materials, index in `yield`; NULL: no bond yields */
+    struct bond_yield yield;  /* yield stretches and hardening by pair of materials */
     real *trigger;            /* [row_blocks 8] lower bound of the stretches at which bonds of the row break [1] */
     float *family_volume;     /* [row_blocks 8] sum of V_j over all initial neighbours of the particle [m^3] */
     float *broken_volume;     /* [row_blocks 8] sum of V_j over the broken bonds [m^3] */
@@ -267,30 +267,31 @@ static inline bool bond_row_block_has_eight_pd_particles(const struct bonds *b, 
 /* Softening state of one bond, all members dimensionless. most: largest stretch so far; onset, end: stretches at which
  * softening begins and the bond breaks; whole: weight before softening, 0 for bond-based models, which do not store
  * it. */
-struct bond_softness {
+struct bond_softening_state {
     float most, onset, end, whole;
 };
 
-/* Returns the softening state (struct bond_softness) to be stored for a bond that is brittle or has not begun to
+/* Returns the softening state (struct bond_softening_state) to be stored for a bond that is brittle or has not begun to
  * soften. range: stretches at which softening begins (onset) and the bond breaks (end) [1], both the critical stretch
  * if the bond is brittle. The member `end` of the result is just below range.onset: once the stretch of the bond
  * exceeds it, the next sweep over the bonds checks whether the bond begins to soften. */
-static inline struct bond_softness bond_softness_before_onset(struct softening_range range)
+static inline struct bond_softening_state bond_softening_state_before_onset(struct softening_range range)
 {
-    return (struct bond_softness){SOFTENING_NEVER, SOFTENING_NEVER, (float)(range.onset * (1 - SOFTENING_LEAST)), 0};
+    return (struct bond_softening_state){SOFTENING_NEVER, SOFTENING_NEVER, (float)(range.onset * (1 - SOFTENING_LEAST)),
+                                         0};
 }
 
-/* Returns the softening state (struct bond_softness) that `softened` stores for the bond with index `bond`. */
-static inline struct bond_softness bond_softness_load(const struct softened *softened, int64_t bond)
+/* Returns the softening state (struct bond_softening_state) that `softened` stores for the bond with index `bond`. */
+static inline struct bond_softening_state bond_softening_state_read(const struct softened *softened, int64_t bond)
 {
-    return (struct bond_softness){softened->most[bond], softened->onset[bond], softened->end[bond],
-                                  softened->whole ? softened->whole[bond] : 0};
+    return (struct bond_softening_state){softened->most[bond], softened->onset[bond], softened->end[bond],
+                                         softened->whole ? softened->whole[bond] : 0};
 }
 
 /* Stores `state` as the softening state of the bond with index `bond` in the arrays of b. Also sets or clears the bit
  * of this bond that tells that it has begun to soften, in the properties of its column (eight bonds, one of each of
  * eight particles, stored together). */
-static inline void bond_softness_store(struct bonds *b, int64_t bond, struct bond_softness state)
+static inline void bond_softening_state_write(struct bonds *b, int64_t bond, struct bond_softening_state state)
 {
     struct bond_column *column = &b->common[bond / LANES];
     const unsigned lane = 1U << bond % LANES;
@@ -301,7 +302,7 @@ static inline void bond_softness_store(struct bonds *b, int64_t bond, struct bon
 
 /* Softening state of an entry of the bond arrays that contains no bond, because the particle has fewer bonds than
  * others of its block of eight rows (the bonds of eight particles): never softens. */
-static const struct bond_softness bond_softness_none = {SOFTENING_NEVER, SOFTENING_NEVER, 2, 0};
+static const struct bond_softening_state bond_softness_none = {SOFTENING_NEVER, SOFTENING_NEVER, 2, 0};
 
 /* Returns true if at least one bond of block `row_block` of eight rows of b (the bonds of eight particles) has begun to
  * soften. */
@@ -351,7 +352,7 @@ static inline real bond_remaining_stiffness_fraction(const struct bonds *b, int6
  * far; the other particle of the bond has the other half. row_block: block of eight rows (the bonds of eight particles)
  * that contains the bond. Returns 0 if the bond is broken, and in state-based models, which add this energy to the
  * fracture energy at once. */
-static inline real bond_half_softening_energy(const struct bonds *b, int64_t row_block, int64_t bond)
+static inline real bond_softening_dissipation_per_particle(const struct bonds *b, int64_t row_block, int64_t bond)
 {
     if (b->soft.whole || !bond_is_softening(b, row_block, bond) || b->w[bond] == 0) return 0;
     return 0.5 * b->stiffness * b->w[bond] *
@@ -363,7 +364,7 @@ static inline real bond_half_softening_energy(const struct bonds *b, int64_t row
 /* Marks particle i of p, one of whose bonds in b begins to soften, for conversion to a peridynamic particle if it is a
  * material point, since the stress of a material point does not include the softening of bonds. May be called by
  * several threads at once for different particles. */
-static inline void softening_mark_point_for_conversion(struct bonds *b, struct particles *p, int32_t i)
+static inline void softening_flag_material_point_for_conversion(struct bonds *b, struct particles *p, int32_t i)
 {
     if (p->kind[i] != KIND_MPM) return;
     p->flag[i] |= FLAG_NEAR;
@@ -373,16 +374,17 @@ static inline void softening_mark_point_for_conversion(struct bonds *b, struct p
 /* Recomputes b->common[column_number], the properties that the eight bonds of a column (one bond of each particle of a
  * block of eight rows) have in common, from their stored weights (factors on the stiffness) and lengths. Required after
  * a change of the weight of a bond or of the sign of its inverse length; usually called through
- * bond_column_update_after_bond_change. */
-void bond_column_update_common_properties(const struct bonds *b, int64_t column_number);
+ * bond_update_cached_data_after_modification. */
+void bond_column_update_lane_uniform_properties(const struct bonds *b, int64_t column_number);
 
 /* Updates all data that b derives from a bond, after the weight of the bond (factor on its stiffness) or the sign of
- * its inverse length has changed. bond: index of the bond in the bond arrays, from bond_index_for_writing; row_number:
- * number of its row, i.e. of the list of bonds of one particle. Recomputes which properties the bond has in common with
- * those of the other seven particles stored beside it in its column (struct bond_column: intact, equal weights,
- * tabulated length), marks its block of eight rows as changed and as following no stencil (pattern of bonds shared by
- * many blocks) any more, and marks the copies of weights in b->clamped as out of date. */
-void bond_column_update_after_bond_change(struct bonds *b, int64_t row_number, int64_t bond);
+ * its inverse length has changed. bond: index of the bond in the bond arrays, from
+ * bond_copy_on_write_and_return_array_index; row_number: number of its row, i.e. of the list of bonds of one particle.
+ * Recomputes which properties the bond has in common with those of the other seven particles stored beside it in its
+ * column (struct bond_column: intact, equal weights, tabulated length), marks its block of eight rows as changed and as
+ * following no stencil (pattern of bonds shared by many blocks) any more, and marks the copies of weights in b->clamped
+ * as out of date. */
+void bond_update_cached_data_after_modification(struct bonds *b, int64_t row_number, int64_t bond);
 
 /* Initialises the stored softening state of all bonds of block `row_block` of eight rows of b (the bonds of eight
  * particles of p), none of which has begun to soften. limit: critical stretches and softening by pair of materials. */
@@ -392,18 +394,19 @@ void bond_row_block_initialise_softening(struct bonds *b, const struct particles
 /* Writes the columns of block `row_block` of eight rows of b (the bonds of eight particles), which stored none and
  * followed a stencil (a pattern of bonds shared by many blocks of a lattice), so that its bonds can be changed. Does
  * nothing if the columns are already written. May be called by several threads at once. */
-void bond_row_block_write_columns_from_stencil(struct bonds *b, int64_t row_block);
+void bond_row_block_copy_bonds_from_stencil(struct bonds *b, int64_t row_block);
 
 /* Returns the index in the bond arrays of b (nbr: neighbours, inverse_length, w: weights, i.e. factors on the
  * stiffness, and others) of bond number `bond_number`, from 0, of one particle, so that the caller may write to this
  * entry. The particle is that of lane `lane` (0 to 7) of block `row_block` of eight rows (the bonds of eight
  * particles). If the block has no entries yet, because it follows a stencil (a pattern of bonds shared by many blocks),
  * its bonds are first copied from the stencil to the arrays. After a change of w or of the sign of inverse_length the
- * caller must call bond_column_update_after_bond_change. */
-static inline int64_t bond_index_for_writing(struct bonds *b, int64_t row_block, int64_t bond_number, int lane)
+ * caller must call bond_update_cached_data_after_modification. */
+static inline int64_t bond_copy_on_write_and_return_array_index(struct bonds *b, int64_t row_block, int64_t bond_number,
+                                                                int lane)
 {
     if (__atomic_load_n(&b->implicit[row_block], __ATOMIC_ACQUIRE))
-        bond_row_block_write_columns_from_stencil(b, row_block);
+        bond_row_block_copy_bonds_from_stencil(b, row_block);
     return (b->column[row_block] + bond_number) * LANES + lane;
 }
 

@@ -12,13 +12,14 @@
 /* Sums over the springs (bonds) of one particle, of stiffness K and direction n: block = sum K n n, total = sum K. From
  * both follows an upper bound of the largest eigenvalue of the stiffness matrix (block-Gershgorin): row-sum norm of
  * `block` + `total`. */
-struct spring_bound {
+struct gershgorin_bound {
     real block[DIM_MAX][DIM_MAX], total; /* sum K n n and sum K over springs of stiffness K, direction n [N/m] */
 };
 
 /* Adds a spring to the sums of `bound`: K n n (a dyad) to bound->block and K to bound->total. stiffness: stiffness K of
  * the spring [N/m]; direction: its unit vector n, dim components. */
-static inline void spring_bound_add_spring(struct spring_bound *bound, real stiffness, const real *direction, int dim)
+static inline void gershgorin_bound_add_spring(struct gershgorin_bound *bound, real stiffness, const real *direction,
+                                               int dim)
 {
     for (int a = 0; a < dim; a++)
         for (int c = 0; c < dim; c++) bound->block[a][c] += stiffness * direction[a] * direction[c];
@@ -28,7 +29,7 @@ static inline void spring_bound_add_spring(struct spring_bound *bound, real stif
 /* Returns an upper bound [N/m] of the largest eigenvalue of the stiffness matrix of the springs added to `bound` in dim
  * dimensions, by block-Gershgorin: the maximum row sum of the magnitudes in bound->block, which is the sum of K n n
  * over springs of stiffness K and direction n, plus bound->total, the sum of all K. */
-static inline real spring_bound_largest_eigenvalue(const struct spring_bound *bound, int dim)
+static inline real gershgorin_bound_largest_eigenvalue(const struct gershgorin_bound *bound, int dim)
 {
     real norm = 0;
     for (int a = 0; a < dim; a++) {
@@ -47,7 +48,7 @@ bool precracks_cut_bond_between(const struct crack *precrack, int precrack_count
 /* Returns an upper bound of the number of neighbours of any particle within the cutoff, to which arrays are allocated:
  * source->room if it is set (> 0), else computed from the numbers of particles in search cells. source: inputs of the
  * bonds (horizon, materials, cracks, mirrors). */
-int bonds_neighbour_count_bound(const struct bond_source *source);
+int bonds_neighbour_count_upper_bound(const struct bond_source *source);
 
 /* Computes the neighbour volume V_i^H = sum V_j beta of every particle i of p, as if no pre-crack cut its bonds, where
  * V_j is the volume of neighbour j and beta the fraction of this volume within the horizon. volume[p->n_all]: receives
@@ -72,7 +73,7 @@ void bonds_rebuild_after_particle_kind_change(struct bonds *b, struct particles 
 
 /* Returns an upper bound [N/m] of the largest eigenvalue of the stiffness matrix of the bonds of row number `row` of b,
  * i.e. of all bonds of one particle of p, by block-Gershgorin. For the critical time step. */
-real bonds_row_stiffness_eigenvalue_bound(const struct bonds *b, const struct particles *p, int64_t row);
+real bonds_row_stiffness_eigenvalue_upper_bound(const struct bonds *b, const struct particles *p, int64_t row);
 
 /* Releases all arrays of the bonds b, not b itself. */
 void bonds_free(struct bonds *b);
@@ -155,7 +156,7 @@ real bonds_fracture_energy(const struct bonds *b);
 
 /* Returns eight bits: bit l is set if particle l (0 to 7) of the eight particles whose bonds block `row_block` of eight
  * rows of b stores has an intact bond. */
-static inline unsigned bond_row_block_lanes_with_intact_bonds(const struct bonds *b, int64_t row_block)
+static inline unsigned bond_row_block_intact_bond_lane_mask(const struct bonds *b, int64_t row_block)
 {
     const struct stencil *stencil = b->stencil[row_block];
     unsigned bits = 0;
@@ -171,13 +172,13 @@ static inline unsigned bond_row_block_lanes_with_intact_bonds(const struct bonds
 static inline bool particle_has_intact_bond(const struct bonds *b, int64_t i)
 {
     const int64_t row = b->row_of[i];
-    return row >= 0 && bond_row_block_lanes_with_intact_bonds(b, row / LANES) >> row % LANES & 1;
+    return row >= 0 && bond_row_block_intact_bond_lane_mask(b, row / LANES) >> row % LANES & 1;
 }
 
 /* Clears the bits of all particles and mirror images (copies beyond planes of symmetry) to which the particle of row
  * `row` of b has intact bonds. particle_bits: the bits, for particle or image i bit i % 64 of particle_bits[i / 64].
  * Does nothing if row is -1 (a particle without bonds). */
-void bonds_clear_marks_of_intact_neighbours(const struct bonds *b, int64_t row, uint64_t *particle_bits);
+void bonds_row_clear_bitmap_at_intact_neighbours(const struct bonds *b, int64_t row, uint64_t *particle_bits);
 
 /* Returns the number of bonds of the eight particles of block `row_block` of eight rows of b together, broken bonds
  * included. A bond between two of these particles counts twice. */
@@ -185,7 +186,7 @@ static inline int32_t bond_row_block_bond_count(const struct bonds *b, int64_t r
 
 /* Returns the number of columns of block `row_block` of eight rows of b, which stores the bonds of eight particles.
  * Column k holds at most one bond of each of these particles, so that none has more bonds than there are columns. */
-static inline int64_t bond_row_block_column_count(const struct bonds *b, int64_t row_block)
+static inline int64_t bond_row_block_bond_slots_per_particle(const struct bonds *b, int64_t row_block)
 {
     return b->column_count[row_block];
 }
@@ -193,7 +194,8 @@ static inline int64_t bond_row_block_column_count(const struct bonds *b, int64_t
 /* Returns the index of the particle to which bond number `column` of the first of the eight particles of block
  * `row_block` of eight rows of b leads, if the bonds number `column` of all eight particles lead to consecutive
  * particles; else -1. */
-static inline int64_t column_first_consecutive_neighbour(const struct bonds *b, int64_t row_block, int64_t column)
+static inline int64_t bond_column_first_neighbour_if_consecutive(const struct bonds *b, int64_t row_block,
+                                                                 int64_t column)
 {
     const struct stencil *stencil = b->stencil[row_block];
     return stencil ? b->particle[row_block * LANES] + stencil->column[column].offset
@@ -239,7 +241,7 @@ static inline struct bond bond_read(const struct bonds *b, int64_t row_block, in
  * changes no bond. bond: present bond; row_block, lane: position of the row; k: number of the next bond, of `columns`.
  * Usage:
  *
- *     for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) ... it.bond ... */
+ *     for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_iterator_advance(&it);) ... it.bond ... */
 struct bond_iterator {
     struct bond bond;
     const struct bonds *b;
@@ -247,8 +249,8 @@ struct bond_iterator {
     int lane;
 };
 
-/* Returns an iterator over all bonds of row number `row` of b, i.e. of one particle, to be advanced by bond_next. row <
- * 0: an iterator without bonds. */
+/* Returns an iterator over all bonds of row number `row` of b, i.e. of one particle, to be advanced by
+ * bond_iterator_advance. row < 0: an iterator without bonds. */
 static inline struct bond_iterator bond_iterator_of_row(const struct bonds *b, int64_t row)
 {
     if (row < 0) return (struct bond_iterator){.b = b};
@@ -257,7 +259,7 @@ static inline struct bond_iterator bond_iterator_of_row(const struct bonds *b, i
 
 /* Advances the iterator `it` to the next bond, which is then in it->bond. Returns true, or false if there are no more
  * bonds. */
-static inline bool bond_next(struct bond_iterator *it)
+static inline bool bond_iterator_advance(struct bond_iterator *it)
 {
     while (it->k < it->columns) {
         it->bond = bond_read(it->b, it->row_block, it->k++, it->lane);

@@ -105,8 +105,9 @@ static inline struct softening_range bond_softening_range(const struct particles
  * rate `rate` [1/s]. limit: critical stretches and softening by pair of materials, with softening (limit->softening not
  * NULL). The rate changes the onset, by the law of the two materials; the stretch at which the bond breaks changes such
  * that the dissipated energy stays the same. */
-static inline struct softening_range
-bond_softening_range_at_rate(const struct particles *p, const struct bond_limit *limit, int64_t i, int64_t j, real rate)
+static inline struct softening_range bond_softening_range_at_strain_rate(const struct particles *p,
+                                                                         const struct bond_limit *limit, int64_t i,
+                                                                         int64_t j, real rate)
 {
     const struct softening_range slow = bond_softening_range(p, limit, i, j);
     const struct strength_rate *r = limit->softening[p->material[i] * limit->materials + p->material[j]].rate;
@@ -114,7 +115,8 @@ bond_softening_range_at_rate(const struct particles *p, const struct bond_limit 
     const real critical = bond_breaking_stretch(p, limit, i, j);
     const real most = real_max(slow.onset, critical / sqrt(RATE_LEAST_RATIO));
     return softening_range_from_onset(
-        limit->curve, real_min(most, slow.onset * strength_rate_interpolate_table(r, r->onset, rate)), critical);
+        limit->curve, real_min(most, slow.onset * strength_rate_table_interpolate_in_log_rate(r, r->onset, rate)),
+        critical);
 }
 
 /* Plastic constants of bonds by pair of materials, arrays of materials^2 entries. stretch: yield stretch s_y [1], NULL
@@ -164,10 +166,10 @@ struct bond_source {
     const struct mirror_plane *mirror; /* [mirrors] planes of symmetry, without clamped planes */
     int mirrors;
     const struct image *image; /* [n_all - n] origins of the mirror images of particles */
-    int room; /* upper bound of the number of neighbours of a particle (bonds_neighbour_count_bound); 0: computed when
-                 needed */
+    int room; /* upper bound of the number of neighbours of a particle (bonds_neighbour_count_upper_bound); 0: computed
+                 when needed */
     const real *neighbour_volume; /* [n_all] V_i^H = sum V_j beta, for the volume method; NULL: other methods */
-    const struct surface_weights *surface; /* factors of bonds near faces (bonds/surface.h); NULL: none */
+    const struct surface_correction *surface; /* factors of bonds near faces (bonds/surface.h); NULL: none */
 };
 
 /* Computes horizon, cutoff, weights by direction and the sums over a complete neighbourhood on the lattice into f. The
@@ -185,7 +187,7 @@ real family_micro_modulus(const struct family *f, const struct material *m);
  * material; c: micro-modulus; V: volume of a particle; r, e: length and direction of a bond; w: its weight, with
  * partial volume and weight by direction (family_bond_weight). The elasticity is cubic, with a shear modulus equal to
  * c12. */
-void family_elastic_constants(const struct family *f, const struct material *m, real *c11, real *c12);
+void family_compute_cubic_elastic_constants(const struct family *f, const struct material *m, real *c11, real *c12);
 
 /* Returns the ratio G/s_c^2 [N/m] of state-based peridynamics, by which the critical stretch s_c of bonds follows from
  * the energy release rate G: the work per area that separates the two halves of a lattice along a plane (separation.c).
@@ -198,11 +200,11 @@ real family_fracture_energy_over_stretch_squared(const struct family *f, const s
 /* Returns the energy per area [J/m^2] stored in the bonds that cross a lattice plane normal to an axis if each has the
  * critical stretch of material m: the energy release rate of a crack along the plane. f: neighbourhood of the lattice.
  * Bond-based models only (Silling & Askari 2005). */
-real family_crack_energy_per_area(const struct family *f, const struct material *m);
+real family_energy_release_rate_at_critical_stretch(const struct family *f, const struct material *m);
 
 /* Returns true if all bonds of neighbourhood f have one weight: no partial volumes, influence function 1, and equal
  * weights in all directions. */
-static inline bool family_has_equal_weights(const struct family *f)
+static inline bool family_bonds_have_equal_weights(const struct family *f)
 {
     return f->volume == VOLUME_WHOLE && f->influence == INFLUENCE_ONE && f->shell_weight[0] == f->shell_weight[1];
 }

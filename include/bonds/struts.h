@@ -8,6 +8,7 @@
  * stretched beyond their end, while another tenth are intact and press with more than five times the tensile strength.
  * A crack that is sheared under pressure cannot slide there, and columns between cracks do not crush. limit: onsets of
  * softening. Returns false if no bond softens. */
-bool bonds_act_as_struts(const struct bonds *b, const struct particles *p, const struct bond_limit *limit);
+bool bonds_any_softened_crack_carries_compression(const struct bonds *b, const struct particles *p,
+                                                  const struct bond_limit *limit);
 
 #endif

@@ -22,7 +22,7 @@
 /* Factors by which the weights (factors on the stiffness) of bonds near faces are corrected. They are tabulated by
  * class of the particle (particles with equal surroundings) and by offset (lattice vector from the particle to its
  * neighbour). */
-struct surface_weights {
+struct surface_correction {
     real spacing;   /* lattice spacing [m] */
     real residual;  /* residual of the least-squares problem divided by that with all factors 1; large if the solver did
                        not converge [1] */
@@ -42,12 +42,12 @@ struct surface_weights {
  * with_rotations: true for the modified state-based model, in which particles rotate; its factors differ because
  * relative rotations of neighbours store energy there. Returns REFUSED, with a message, if the particles are not on a
  * lattice; weights->apart then holds two particles whose distance is not a whole number of spacings (-1 if none was
- * found). Release with surface_weights_free. */
-status surface_weights_fit_bond_weight_factors(struct surface_weights *weights, const struct particles *p,
-                                               const struct bond_source *source, bool with_rotations);
+ * found). Release with surface_correction_free. */
+status surface_correction_fit_bond_weight_factors(struct surface_correction *weights, const struct particles *p,
+                                                  const struct bond_source *source, bool with_rotations);
 
 /* Releases the arrays of w, the factors on the weights of bonds near faces. */
-void surface_weights_free(struct surface_weights *w);
+void surface_correction_free(struct surface_correction *w);
 
 /* Returns the integer nearest to `spacings`, halves rounded away from 0. It is quicker than nearbyint. */
 static inline int nearest_integer(real spacings) { return (int)(spacings + (spacings < 0 ? -0.5 : 0.5)); }
@@ -56,7 +56,8 @@ static inline int nearest_integer(real spacings) { return (int)(spacings + (spac
  * body; 1 if the particle is far from it or `bond_vector` is longer than any bond. bond_vector: reference vector from
  * particle i to its neighbour, dim components [m]; i must not be a mirror image (copy beyond a plane of symmetry). Both
  * particles of a bond obtain bitwise equal factors. */
-static inline real surface_weight_factor(const struct surface_weights *weights, int64_t i, const real *bond_vector)
+static inline real surface_correction_bond_weight_factor(const struct surface_correction *weights, int64_t i,
+                                                         const real *bond_vector)
 {
     int at = 0;
     if (weights->class_of[i] == 0) return 1;

@@ -59,8 +59,9 @@ struct contact_law {
 struct contact_spring {
     real length[DIM_MAX]; /* elongation [m] */
     real drag[DIM_MAX];   /* force on the particle [N] */
-    real density;         /* sum of the weights (contact_weight) by which particles of the face share the reaction */
-    real stored, lost;    /* stored energy [J]; work of friction since the last search [J] */
+    real density; /* sum of the weights (contact_density_contribution) by which particles of the face share the reaction
+                   */
+    real stored, lost; /* stored energy [J]; work of friction since the last search [J] */
 };
 
 /* Data by which the reaction to the force of a friction spring is distributed over the particles of the face
@@ -84,7 +85,7 @@ struct contact_face {
 
 /* Record of the energy error that leap-frog makes at the begin and end of a contact, from which a correcting force
  * follows (contact_balance.c). */
-struct contact_balance {
+struct contact_leapfrog_error_account {
     real gap, older; /* gaps of the last two steps [spacings] */
     real drag;       /* correcting force: derivative of the energy by the gap, against the rate of the gap [J] */
     real account;    /* energy added minus energy removed [J] */
@@ -99,7 +100,7 @@ struct contact_near {
     int32_t *row;
     real *zero, x[DIM_MAX], turn[DIM_MAX * DIM_MAX];
     struct contact_spring *spring;
-    struct contact_balance *balance;
+    struct contact_leapfrog_error_account *balance;
     uint8_t *touch;
 };
 
@@ -128,10 +129,11 @@ struct contact {
     real *at[DIM_MAX]; /* [n] positions at the last search [m] */
     int64_t *first;    /* [rows + 1] the pairs of row k are first[k] .. first[k + 1] - 1 */
     int64_t pairs;
-    int32_t *other;                    /* [pairs] second particle, an index in `particle`, ascending within a row */
-    real *distance;                    /* form `pair`: [pairs] contact distance d [m] */
-    struct contact_face *face;         /* form `surface`: [rows] contact of the particle with faces beside it */
-    struct contact_balance *balance;   /* form `surface`: [rows] correction of the energy error of this contact */
+    int32_t *other;            /* [pairs] second particle, an index in `particle`, ascending within a row */
+    real *distance;            /* form `pair`: [pairs] contact distance d [m] */
+    struct contact_face *face; /* form `surface`: [rows] contact of the particle with faces beside it */
+    struct contact_leapfrog_error_account
+        *balance;                      /* form `surface`: [rows] correction of the energy error of this contact */
     struct contact_spring *spring;     /* [rows] springs of friction; NULL: no friction */
     struct contact_reaction *reaction; /* [rows] how their reaction is distributed; NULL: no friction */
     uint8_t *followed;                 /* [rows] enum row_state (contact_internal.h) */
@@ -193,13 +195,14 @@ void contact_update_pair_list_if_outdated(struct contact *c, const struct partic
  * particle_list[particle_count] (indices), which have become peridynamic, is at the surface of a body, i.e. has fewer
  * bonds in b than a particle inside a body. family: horizon and lattice. Does nothing if contact is not possible in
  * this run. */
-void contact_request_search_if_at_surface(struct contact *c, const struct bonds *b, const struct family *family,
-                                          const int32_t *particle_list, int64_t particle_count);
+void contact_request_search_if_particles_at_surface(struct contact *c, const struct bonds *b,
+                                                    const struct family *family, const int32_t *particle_list,
+                                                    int64_t particle_count);
 
 /* Marks in `loads` the particles of p on which forces of the contact c may act, and in b the bonds of these particles
  * as active, i.e. to be computed. Needed after a restart only; contact_update_pair_list_if_outdated does this, too. */
-void contact_activate_particles_after_restart(struct contact *c, const struct particles *p, struct bonds *b,
-                                              struct loads *loads);
+void contact_restore_active_particles_after_restart(struct contact *c, const struct particles *p, struct bonds *b,
+                                                    struct loads *loads);
 
 /* Computes the contact forces at the present positions, adds them to p->f and to the forces on rigid bodies, and
  * updates the largest overlap c->overlap. To be called after the forces of bonds and before those of loads. dt: time
@@ -208,7 +211,7 @@ void contact_compute_forces(struct contact *c, struct particles *p, real dt);
 
 /* Allocates c->push, in which contact_compute_forces stores the contact force on each particle of p while c->recorded
  * is true. Does nothing if contact is not possible in this run, or if the array exists. contact_free releases it. */
-void contact_allocate_force_record(struct contact *c, const struct particles *p);
+void contact_allocate_particle_forces(struct contact *c, const struct particles *p);
 
 /* Records the times of first and last contact of the run: if particles were in contact at the last call of
  * contact_compute_forces, c->ended becomes t [s], and c->began, too, if it is still NAN. */
@@ -231,25 +234,25 @@ real contact_friction_dissipated_energy(const struct contact *c);
  * [spacings]. Marks in `loads` the particles on which contact forces may act, and in b their bonds as active, i.e. to
  * be computed. Selected contacts act as linear springs, also with a positive gap, until the next selection, so that
  * forces are smooth. An equilibrium satisfies the contact law if exactly the overlapping contacts are selected. Forces
- * that correct the energy error of earlier time steps (struct contact_balance) are set to 0. family: horizon and
- * lattice. Returns the number of contacts whose selection changed. */
-int64_t contact_search_select_and_count_changes(struct contact *c, const struct particles *p, struct bonds *b,
-                                                struct loads *loads, const struct family *family, real max_gap);
+ * that correct the energy error of earlier time steps (struct contact_leapfrog_error_account) are set to 0. family:
+ * horizon and lattice. Returns the number of contacts whose selection changed. */
+int64_t contact_search_and_select_linear_springs(struct contact *c, const struct particles *p, struct bonds *b,
+                                                 struct loads *loads, const struct family *family, real max_gap);
 
 /* Selects the contacts of particles p that act in an equilibrium solution, from the existing list of pairs in c:
  * contacts that overlap, and contacts between different bodies whose gap is less than `max_gap` [spacings]. Selected
  * contacts act as linear springs, also with a positive gap, until the next selection. A contact whose gap is 0 within
  * round-off stays as it was. Returns the number of contacts whose selection changed. */
-int64_t contact_select_active_and_count_changes(struct contact *c, const struct particles *p, real max_gap);
+int64_t contact_select_linear_springs_count_changes(struct contact *c, const struct particles *p, real max_gap);
 
-/* Chooses which contacts of c act when forces are computed next. selected_only: true for the contacts that
- * contact_select_active_and_count_changes has selected for an equilibrium, which act as linear springs with either sign
- * of the gap; false for all contacts that overlap. */
-void contact_restrict_forces_to_selection(struct contact *c, bool selected_only);
+/* Chooses which contacts of c act when forces are computed next. springs_only: true for the contacts that
+ * contact_select_linear_springs_count_changes has selected for an equilibrium, which act as linear springs with either
+ * sign of the gap; false for all contacts that overlap. */
+void contact_restrict_forces_to_linear_springs(struct contact *c, bool springs_only);
 
 /* Ends the selection of contacts of c for an equilibrium: from now on all contacts that overlap act again. Requests a
  * search for pairs before the next time step. */
-void contact_discard_equilibrium_selection(struct contact *c);
+void contact_discard_linear_springs(struct contact *c);
 
 /* Returns true if particles of p or rigid bodies have moved so far since the last search that pairs missing in the list
  * could be in contact, or if no search has been done. Updates c->moved, the largest displacement since the last
@@ -260,15 +263,15 @@ bool contact_search_is_needed(struct contact *c, const struct particles *p);
  * As long as no particle has moved farther, no pair that is missing in the list can come into contact. */
 real contact_pair_list_safe_displacement(const struct contact *c);
 
-/* Calls visit(context, term) for each contact of c selected by contact_select_active_and_count_changes, for the
+/* Calls visit(context, term) for each contact of c selected by contact_select_linear_springs_count_changes, for the
  * assembly of a stiffness matrix or similar. term: the contact between particles of p as a linear spring, valid during
  * the call only. Does nothing if no selection has been made. */
-void contact_visit_selected_as_springs(const struct contact *c, const struct particles *p,
-                                       void (*visit)(void *context, const struct contact_term *term), void *context);
+void contact_visit_linear_springs(const struct contact *c, const struct particles *p,
+                                  void (*visit)(void *context, const struct contact_term *term), void *context);
 
 /* Returns the root of the sum of squares [N] of those forces of the contact c that rigid bodies exert on particles of
  * p. Serves as a scale for the residual of an equilibrium. */
-real contact_rigid_force_norm(const struct contact *c, const struct particles *p);
+real contact_rigid_body_force_norm(const struct contact *c, const struct particles *p);
 
 /* Saves the list of pairs of c with contact distances, friction springs and energies to the archive `a` if a->saving,
  * else restores all of these. p: the particles. Returns FAILED, with a message, if the archive cannot be read or

@@ -16,7 +16,7 @@ enum { APPROACH_STEPS = 5 };
  * among them get FLAG_NEAR, by which they are later converted to peridynamic particles. For peridynamic particles among
  * them the time with low stress is counted from 0 again, so that they do not become material points soon. body_count:
  * number of bodies that consist of particles; rigid: array of `rigid_body_count` rigid bodies. */
-void flag_points_near_other_bodies_to_convert(struct particles *p, int body_count, const struct rigid_body *rigid,
-                                              int rigid_body_count, real max_distance);
+void flag_points_near_other_bodies_for_conversion(struct particles *p, int body_count, const struct rigid_body *rigid,
+                                                  int rigid_body_count, real max_distance);
 
 #endif

@@ -26,9 +26,10 @@ struct conversion {
     real reversion_energy;        /* change of the total energy by reversions [J] */
 };
 
-/* Functions that convert_flagged_points calls, with `context` as first argument. sync: brings position and velocity of
- * the particles list[n] (indices, each once) up to date from the nodes of a mesh, before bonds of these particles are
- * made. converted: is called after the particles list[n] have become peridynamic and have bonds; NULL: not called. */
+/* Functions that convert_flagged_points_to_peridynamic calls, with `context` as first argument. sync: brings position
+ * and velocity of the particles list[n] (indices, each once) up to date from the nodes of a mesh, before bonds of these
+ * particles are made. converted: is called after the particles list[n] have become peridynamic and have bonds; NULL:
+ * not called. */
 struct conversion_sync {
     void (*sync)(void *context, const int32_t *list, int64_t n);
     void *context;
@@ -42,14 +43,15 @@ struct conversion_sync {
  * (parts of stresses that bonds carry; `partial`, NULL: none) near converted particles and broken bonds. sync:
  * functions to call before and after bonds are made, NULL if no particle is in a mesh; t: time [s]. Counts are added to
  * c. Returns the number of particles converted. */
-int64_t convert_flagged_points(struct conversion *c, const struct conversion_rule *rule, struct particles *p,
-                               struct bonds *b, const struct bond_source *source, struct partial_stress *partial,
-                               const struct conversion_sync *sync, real t);
+int64_t convert_flagged_points_to_peridynamic(struct conversion *c, const struct conversion_rule *rule,
+                                              struct particles *p, struct bonds *b, const struct bond_source *source,
+                                              struct partial_stress *partial, const struct conversion_sync *sync,
+                                              real t);
 
 /* Makes those particles of p peridynamic, before step 0, that have a bond cut by a pre-crack (Zeng et al. 2022, eq. 28)
  * or are in `region` (NULL: no region). source: inputs of the bonds, with the pre-cracks. */
-void convert_to_peridynamic_at_precracks(struct particles *p, const struct bond_source *source,
-                                         const struct region *region);
+void convert_particles_at_precracks_to_peridynamic(struct particles *p, const struct bond_source *source,
+                                                   const struct region *region);
 
 /* Computes into *region the region whose particles are peridynamic from step 0 on: the region that the input file
  * gives, and a ball round each end of a pre-crack inside the body (in 3D a cylinder round each edge). The caller frees
@@ -65,8 +67,8 @@ void initial_pd_region_make(struct region *region, const struct region *scene_re
  * K, length xi, direction e and share l of the length inside the cell; V: volume of the point. source: inputs of the
  * bonds (horizon, materials, cracks, mirrors); changed[n]: indices of the particles converted since the last call; only
  * points near them are recomputed. If `changed` is NULL, all points are. Release with partial_stress_free. */
-void partial_stress_make(struct partial_stress *partial, const struct particles *p, const struct bonds *b,
-                         const struct bond_source *source, const int32_t *changed, int64_t n);
+void partial_stress_compute_from_bonds(struct partial_stress *partial, const struct particles *p, const struct bonds *b,
+                                       const struct bond_source *source, const int32_t *changed, int64_t n);
 
 /* Computes p->end_strain [1] for each material point on the background grid that has state-based bonds to peridynamic
  * particles: the part of the mean strain of its neighbourhood that is due to the deformation of the cell of the point

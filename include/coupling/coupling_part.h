@@ -17,8 +17,8 @@ struct coupling_state {
     bool uses_partial;             /* `partial` is filled: partial stresses, or data of state-based PD-MPM bonds */
     uint8_t *bonded;               /* [n] 1: material point with PD-MPM bonds (FLIP); NULL: none */
     struct interface_zone zone;    /* damped zone beside peridynamic particles (FLIP, partial stress) */
-    real damping_share; /* strength of the damping in `zone` in a step (interface_zone_damp_and_return_half_energy) [1];
-                           0: none */
+    real damping_share; /* strength of the damping in `zone` in a step (interface_zone_damp_return_loss_by_old_velocity)
+                           [1]; 0: none */
     struct conversion conversion; /* numbers, time and position of conversions */
     struct notches notches;       /* representation of pre-cracks: slits or cut bonds */
     struct region start_region;   /* peridynamic from the start; no solids: empty */
@@ -29,14 +29,14 @@ struct coupling_state {
  * particles can convert from material points to peridynamic ones, else by hand-shake. Then computes, for the present
  * bonds, the partial stresses of material points (the parts of their stress that bonds carry) and the interface zone
  * (material points beside peridynamic particles, whose motion is damped). */
-void coupling_choose_and_compute_partial_stress(struct run *e);
+void coupling_set_method_and_compute_partial_stress(struct run *e);
 
 /* Makes the mesh of run e for the bodies in the reference frame (shape functions are evaluated in the undeformed
  * state), with the present partial stresses (parts of the stress that bonds carry) and with pre-cracks as slits (free
- * surfaces of the mesh). caller_sets_motion: true if the caller sets displacement and velocity of the nodes afterwards,
- * false to fit them to those of the particles. Returns REFUSED (unsuitable input) or FAILED (too many nodes), with a
- * message, if no mesh is possible (mesh_make). */
-status coupling_make_reference_frame_mesh(struct run *e, bool caller_sets_motion);
+ * surfaces of the mesh). caller_sets_nodal_motion: true if the caller sets displacement and velocity of the nodes
+ * afterwards, false to fit them to those of the particles. Returns REFUSED (unsuitable input) or FAILED (too many
+ * nodes), with a message, if no mesh is possible (mesh_make). */
+status coupling_build_total_lagrangian_mesh(struct run *e, bool caller_sets_nodal_motion);
 
 /* Rebuilds the data of coupling state c that depend on the bonds, after the bonds b have changed. c->bonded[p->n]: 1
  * for material points with bonds to peridynamic particles, for the FLIP transfer only. c->zone: the interface zone,
@@ -51,8 +51,9 @@ void interface_zone_rebuild_after_bond_change(struct coupling_state *c, const st
  * the point. For points of the mesh of `frame` it follows from the strain of the cell; for points on the background
  * grid from the stress of the point, by the elastic law of its material in material[]. Does nothing in bond-based
  * models. */
-void bonded_points_update_strain(const struct partial_stress *partial, const struct reference_frame *frame,
-                                 struct particles *p, const struct material *material);
+void bonded_points_update_strain_from_mesh_or_stress(const struct partial_stress *partial,
+                                                     const struct lagrangian_mesh *frame, struct particles *p,
+                                                     const struct material *material);
 
 /* Decides whether each pre-crack of run e becomes a slit, i.e. a free surface of the mesh, or cuts bonds along its
  * length, and makes particles peridynamic that are so from the start: particles near the ends of slits, with bonds cut
@@ -71,46 +72,49 @@ void notch_describe_as_slit_or_cut_bonds(const struct notches *n, int crack_numb
  * beside slits and voids; frame: the mesh, whose motion particles receive first; spacing: of the particles [m];
  * time_ahead: time until the next call [s]; p, loads: particles and loads. Returns true if n has such slits or voids,
  * whether or not points were marked. */
-bool flag_points_at_closing_slits(const struct notches *n, struct reference_frame *frame, struct particles *p,
-                                  const struct loads *loads, real spacing, real time_ahead);
+bool flag_points_at_closing_slits_for_conversion(const struct notches *n, struct lagrangian_mesh *frame,
+                                                 struct particles *p, const struct loads *loads, real spacing,
+                                                 real time_ahead);
 
 /* Makes the particles on both sides of narrow voids peridynamic, so that common nodes of a grid do not join the two
- * sides. p: the particles; v: voids (narrow gaps of a body); NULL: nothing is done. include_meshed: true to include
- * particles of the mesh of the reference frame (undeformed state), needed if this mesh has no free surfaces at voids
- * (mesh_cannot_double_nodes_at_voids). */
-void convert_to_peridynamic_beside_voids(struct particles *p, const struct voids *v, bool include_meshed);
+ * sides. p: the particles; v: voids (narrow gaps of a body); NULL: nothing is done. include_mesh_particles: true to
+ * include particles of the mesh of the reference frame (undeformed state), needed if this mesh has no free surfaces at
+ * voids (mesh_cannot_have_free_surfaces_at_voids). */
+void convert_particles_beside_voids_to_peridynamic(struct particles *p, const struct voids *v,
+                                                   bool include_mesh_particles);
 
 /* Returns true if a mesh with the nodes of grid g has no free surfaces at voids (narrow gaps of a body): in 1D, and if
  * a mirror plane of scene s (the input file) does not pass through nodes of g, because doubled nodes are not possible
  * then. */
-bool mesh_cannot_double_nodes_at_voids(const struct grid *g, const struct scene *s);
+bool mesh_cannot_have_free_surfaces_at_voids(const struct grid *g, const struct scene *s);
 
 /* Adds warnings to `warning_list` for voids of bodies of run e that are too narrow, so that the run treats them as
  * closed: voids whose two sides share nodes of the background grid, such gaps between a body and a plane of symmetry,
  * and gaps of one or two particles in bodies made from particle lists or images, whose surfaces are not known.
- * reference_possible: true if the body can be in the reference frame (shape functions in the undeformed state), which
- * is then named as a remedy. */
-void warn_of_voids_treated_as_closed(const struct run *e, bool reference_possible, struct warnings *warning_list);
+ * total_lagrangian_possible: true if the body can be in the reference frame (shape functions in the undeformed state),
+ * which is then named as a remedy. */
+void warn_of_voids_treated_as_closed(const struct run *e, bool total_lagrangian_possible,
+                                     struct warnings *warning_list);
 
 /* Adds warnings to `warning_list` for bodies of run e that will pass through each other or stick together, and for
  * voids that are too narrow to stay open (warn_of_voids_treated_as_closed). */
-void warn_of_bodies_that_pass_or_stick(const struct run *e, struct warnings *warning_list);
+void warn_of_bodies_that_penetrate_or_stick_together(const struct run *e, struct warnings *warning_list);
 
 /* Marks the material points of run e that are to become peridynamic particles because contact is near (FLAG_NEAR):
  * those near other bodies, and those beside crack faces that approach each other. Searches for such points in each load
  * step (static equilibrium), or once in APPROACH_STEPS time steps. In every step first updates the list of the blocks
  * of eight rows (the bonds of eight particles each) whose particles may move. Returns true if points beside crack faces
  * were searched for in this step, so that some may be marked. */
-bool conversion_flag_points_near_bodies_or_faces(struct run *e);
+bool conversion_flag_points_near_contact(struct run *e);
 
 /* Converts those material points of run e whose flags require it (FLAG_LOST_BOND, FLAG_NEAR, FLAG_STRESSED) to
  * peridynamic particles, and updates all that depends on it: bonds, contact, partial stresses (the parts of stresses
  * that bonds carry), interface zone (damped material points beside peridynamic particles) and mesh. broken_bond_count:
- * number of bonds broken in this step, each counted once for each of its particles; faces_examined: value that
- * conversion_flag_points_near_bodies_or_faces returned in this step; bonds_fade: true if bonds of growing cracks lose
- * strength gradually. Returns the number of particles converted. */
-int64_t conversion_convert_points_and_update_run(struct run *e, int64_t broken_bond_count, bool faces_examined,
-                                                 bool bonds_fade);
+ * number of bonds broken in this step, each counted once for each of its particles; crack_faces_examined: value that
+ * conversion_flag_points_near_contact returned in this step; bonds_weaken_gradually: true if bonds of growing cracks
+ * lose strength gradually. Returns the number of particles converted. */
+int64_t run_convert_flagged_points_to_peridynamic(struct run *e, int64_t broken_bond_count, bool crack_faces_examined,
+                                                  bool bonds_weaken_gradually);
 
 /* Updates the mesh of run e, and the strains of material points with state-based bonds to peridynamic particles, after
  * conversion. converted_count: number of particles that have become peridynamic; 0 if at most partial stresses (the
@@ -122,7 +126,7 @@ void conversion_update_mesh_after_conversion(struct run *e, int64_t converted_co
  * peridynamic particles become material points again. Returns REFUSED, with a message, if the scene has no conversion
  * of material points by stress, another coupling than partial stress or hand-shake, growing cracks, a solver of a
  * single equilibrium, or a material that yields. Returns OK if the scene has no reversion. */
-status reversion_check_scene_allows_reversion(const struct scene *s);
+status reversion_check_scene_allows_return_to_mpm(const struct scene *s);
 
 /* Turns peridynamic particles of run e back into material points if their stress has been low for long enough and no
  * bond near them was ever cut (reversion_select_particles_to_become_mpm). Called before each step; examines the

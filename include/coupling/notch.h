@@ -57,6 +57,7 @@ void notches_free(struct notches *n);
  * positions and velocities, which must be up to date. At a slit, points are flagged if this distance is less than
  * spacing (1 - NOTCH_GAP), NOTCH_GAP being 1e-4; at a notch of width `width`, if it is less than spacing (1 +
  * NOTCH_GAP) - width; at a void, if the faces are close to contact. spacing: of the particles [m]. */
-void notches_flag_points_at_closing_faces(const struct notches *n, struct particles *p, real spacing, real time_ahead);
+void notches_flag_closing_face_points_for_conversion(const struct notches *n, struct particles *p, real spacing,
+                                                     real time_ahead);
 
 #endif

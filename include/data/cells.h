@@ -33,7 +33,7 @@ int cells_list_particles_near_point(const struct cells *c, const struct particle
 /* Returns an upper bound of the number of particles and mirror images (copies beyond planes of symmetry) within
  * `radius` [m] (at most c->edge) of any particle, including the particle itself. The bound is the largest number of
  * particles in a cell and the cells around it; no distances are computed. */
-int cells_neighbour_count_bound(const struct cells *c, real radius);
+int cells_neighbour_count_upper_bound(const struct cells *c, real radius);
 
 /* List of particle indices at[0 .. n - 1] that grows as needed; room: allocated length of `at`. Initialise it with {0}
  * and release `at` with memory_free. */

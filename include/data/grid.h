@@ -16,14 +16,14 @@ struct dashpot {
 /* Effect of all dashpots in a step. energy: energy that the dashpots dissipate [J]; kick: a quarter of the sum of
  * impulse times change of velocity, which the correction of the kinetic energy of samples leaves out [J]; impulse:
  * impulse of the dashpots on the body [N s]. */
-struct absorbed {
+struct dashpot_effect {
     real energy, kick, impulse[DIM_MAX];
 };
 
 /* Effect of bulk damping on a velocity update, for the work of supports, which refers to undamped motion
  * (step/damping.h). velocities, increments: relative amounts [1] by which the velocities before the update, and the
  * increments of velocity in the update, would be larger without damping; 0 if there is no damping. */
-struct damping_shares {
+struct undamped_velocity_excess {
     real velocities, increments;
 };
 
@@ -45,7 +45,7 @@ struct grid {
                           * half a step of common flight in the second map and g2p, else 0 */
     int64_t walls;
     struct wall *wall; /* [walls] prescribed velocities of this step; a later entry overrules an earlier entry */
-    struct damping_shares damped; /* effect of damping in this step, for the work of the walls */
+    struct undamped_velocity_excess damped; /* effect of damping in this step, for the work of the walls */
     int64_t mirror_nodes;
     struct mirror_node *mirror_node; /* [mirror_nodes] nodes of this box beyond planes of symmetry */
     real light_mass;                 /* nodes lighter than this follow a neighbour (grid_move.c); 0: none [kg] */
@@ -54,8 +54,8 @@ struct grid {
     uint8_t *held; /* [n] not 0: a component is prescribed; valid only in the search for followers and in contact. In
                     * that search bit d for a plane of symmetry with normal d, and HELD if others prescribe it */
     int64_t dashpots;
-    struct dashpot *dashpot;  /* [dashpots] of absorbing faces in this step, ascending by node */
-    struct absorbed absorbed; /* their effect in this step */
+    struct dashpot *dashpot;        /* [dashpots] of absorbing faces in this step, ascending by node */
+    struct dashpot_effect absorbed; /* their effect in this step */
 };
 
 /* A grid node of very small mass (below GRID_MASS_LIGHT), whose acceleration is extrapolated from two heavier nodes.
@@ -160,7 +160,7 @@ static ALWAYS_INLINE int64_t grid_cell_index_at(const struct grid *g, int axis, 
 /* Returns the coordinate [m] along axis `axis` of one of the 2^dim particles that cell number `cell` of g contains at a
  * quarter and three quarters of each edge. corner: number of the corner of the cell that is nearest to the particle;
  * bit d of it is set if the corner is on the upper side along axis d. */
-static inline real grid_cell_particle_coordinate(const struct grid *g, int64_t cell, int corner, int axis)
+static inline real grid_cell_quadrature_point_coordinate(const struct grid *g, int64_t cell, int corner, int axis)
 {
     return grid_node_position(g, axis, cell / g->stride[axis] % g->count[axis]) +
            (corner >> axis & 1 ? 0.75 : 0.25) * g->h;

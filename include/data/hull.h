@@ -77,7 +77,7 @@ bool hull_point_is_within_distance(const struct hull *s, const real *X, real max
  * away is in front of another such face. A straight line from X, if X is inside, to another inside point at most
  * `reach` away is then completely inside. Returns false for an open surface or one with holes, and where more than 100
  * faces are that near. */
-bool hull_is_convex_within_distance(const struct hull *s, const real *X, real reach);
+bool hull_is_convex_near_point(const struct hull *s, const real *X, real reach);
 
 /* Returns how far the surface s extends in a direction (support function): the maximum [m] of the scalar product X .
  * direction over its corners X. direction: unit vector, s->dim components. */
@@ -95,7 +95,7 @@ struct hull_samples {
  * share of points at which inside and outside cannot be distinguished, and the volume that is enclosed more than once.
  * Both are 0 for a closed surface whose normals point outwards (at a cavity, into the cavity) and whose shells
  * (connected parts) neither overlap nor are inside each other. */
-struct hull_samples hull_sample_winding_numbers(const struct hull *s);
+struct hull_samples hull_sample_winding_number_statistics(const struct hull *s);
 
 /* Builds s->node, the search tree over the faces of the surface s, and sorts s->face so that the faces of each tree
  * node are consecutive. Corners and faces must be set before. Part of hull_make_closed_surface. */

@@ -12,7 +12,7 @@
  *   2  name in its functions, which a header of its own in kernels/laws defines (flow_linear.h describes them)
  *   3  key below `material.hardening`; NULL: the law has a key of its own
  *   4  true: its constants contain the first yield stress, and the key `yield_stress` is refused; law->yield is then
- *      computed by law_compute_derived_constants
+ *      computed by flow_law_compute_derived_constants
  *   5  true: its slope at plastic strain 0 is infinite, or has no bound over the constants that a scene may give;
  *      explicit steps then use a slope of at most 3 G */
 #define FLOWS(X)                                     \
@@ -50,7 +50,7 @@ enum { FLOW_POINTS = 16 };
 struct flow_curve {
     int points;
     real strain[FLOW_POINTS], stress[FLOW_POINTS];
-    real start[FLOW_POINTS], slope[FLOW_POINTS]; /* derived by law_compute_derived_constants */
+    real start[FLOW_POINTS], slope[FLOW_POINTS]; /* derived by flow_law_compute_derived_constants */
 };
 
 /* The law by which the material points of one material yield: flow law, kinematic hardening and heating by plastic
@@ -77,7 +77,7 @@ struct law {
     } kinematic;
     /* c [J/(kg K)], 0: no heating; beta, share of the plastic work that heats the material [1] */
     real specific_heat, taylor_quinney;
-    /* values derived by law_compute_derived_constants */
+    /* values derived by flow_law_compute_derived_constants */
     real yield;                 /* yield stress at no plastic strain, at the reference rate and room temperature [Pa] */
     real young, poisson, shear; /* elastic constants [Pa] [1] [Pa]; shear is 0 in 1D */
     real heating;               /* increase of temperature per plastic work, beta/(rho c) [K m^3/J]; 0: no heating */
@@ -90,14 +90,17 @@ struct law {
 /* Computes the derived members of `law` from constants of the material. yield_stress: initial yield stress [Pa],
  * ignored if the constants of the flow law contain it; young, shear: moduli [Pa], shear 0 in 1D; poisson [1]; density
  * [kg/m^3]. Does nothing if law->given is false. */
-void law_compute_derived_constants(struct law *law, real yield_stress, real young, real poisson, real shear,
-                                   real density);
+void flow_law_compute_derived_constants(struct law *law, real yield_stress, real young, real poisson, real shear,
+                                        real density);
 
 /* Returns true if plastic work heats the material with this law: the law is given and has a specific heat. */
-static inline bool law_heats_material(const struct law *law) { return law->given && law->specific_heat > 0; }
+static inline bool flow_law_plastic_work_heats_material(const struct law *law)
+{
+    return law->given && law->specific_heat > 0;
+}
 
 /* Returns true if the flow law `law` has a room temperature, at which its material starts. */
-static inline bool law_has_room_temperature(const struct law *law)
+static inline bool flow_law_has_room_temperature(const struct law *law)
 {
     return law->given && law->flow == FLOW_JOHNSON_COOK;
 }

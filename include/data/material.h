@@ -115,8 +115,8 @@ real material_micro_modulus_of_discrete_family(const struct material *m, enum sp
 
 /* Returns the micro-modulus c [N/m^6] of bond-based peridynamics in the space `space` for a continuous family: 2 k/(A
  * d^2) in 1D, 12 k/(pi h d^3) in 2D, 18 k/(pi d^4) in 3D, with k = m->bulk (Silling & Askari 2005). horizon: d [m];
- * section: cross-section A in 1D [m^2], thickness h in 2D [m], ignored in 3D. */
-real material_micro_modulus_of_continuum(const struct material *m, enum space space, real horizon, real section);
+ * cross_section: cross-section A in 1D [m^2], thickness h in 2D [m], ignored in 3D. */
+real material_micro_modulus_of_continuum(const struct material *m, enum space space, real horizon, real cross_section);
 
 /* Returns the critical stretch [1] of the bonds of material m: if all bonds that cross a plane have this stretch, their
  * energy per area of the plane is the energy release rate G_c. horizon: radius of neighbourhoods [m]; model:
@@ -144,13 +144,13 @@ struct surface_strengths {
 /* Returns the strengths [Pa] that follow from the strength surface of material m: the stresses at which the surface is
  * reached under uniaxial, biaxial, shear and hydrostatic loading. m must have a strength surface. space: plane stress,
  * plane strain or solid. */
-struct surface_strengths material_strength_surface_strengths(const struct material *m, enum space space);
+struct surface_strengths material_strengths_from_strength_surface(const struct material *m, enum space space);
 
 /* Returns the smallest strain [1] at which the strength surface of material m can be reached: the minimum, over all
  * stress states on the surface, of the largest principal strain, which is the stretch of the most stretched bond. Bonds
  * with smaller stretches need no check of the surface. space: plane stress, plane strain or solid. Returns 0 if some
  * stress state on the surface stretches no bond. */
-real material_smallest_strain_at_strength(const struct material *m, enum space space);
+real material_smallest_strain_on_strength_surface(const struct material *m, enum space space);
 
 /* Sets m->surface to `surface`, the strength surface of Drucker and Prager at which the bonds of material m begin to
  * soften, and m->surface_least_strain to the smallest strain [1] at which this surface can be reached. space: space of
@@ -163,13 +163,13 @@ void material_set_strength_surface(struct material *m, enum space space, struct 
 real material_stress_to_strength_ratio(const struct material *m, enum space space, const real *stress);
 
 /* Computes into `matrix` the elastic stiffness [Pa] of material m, row-major n x n, for the n =
- * symmetric_component_count(dim) components of stress and strain. Strains are tensor components, so that shear rows
- * contain 2G. */
+ * symmetric_tensor_component_count(dim) components of stress and strain. Strains are tensor components, so that shear
+ * rows contain 2G. */
 void material_stiffness_matrix(const struct material *m, int dim, real *matrix);
 
 /* Computes into `matrix` the inverse of the elastic stiffness of material m [1/Pa], row-major n x n, for the n =
- * symmetric_component_count(dim) components of stress and strain. Strains are tensor components, so that shear rows
- * contain 1/(2G). */
+ * symmetric_tensor_component_count(dim) components of stress and strain. Strains are tensor components, so that shear
+ * rows contain 1/(2G). */
 void material_compliance_matrix(const struct material *m, int dim, real *matrix);
 
 #endif

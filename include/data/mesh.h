@@ -25,7 +25,7 @@
 enum { CORNERS_MAX = 8, CELL_UNKNOWNS_MAX = CORNERS_MAX * DIM_MAX, MODES_MAX = 18 };
 
 /* A run: consecutive whole cells along x (cells with all their points, of one material, without bonds). */
-struct mesh_run {
+struct mesh_cell_run {
     int32_t cell, cells; /* first cell; number of cells */
     uint8_t material;
     bool stressed; /* a point may have exceeded the conversion stress */
@@ -103,7 +103,7 @@ struct mesh {
     int32_t *span;        /* [rows][2] index of the first node of a row that has mass, and one past the last */
     int64_t bands, *band; /* bands (layers of cells): runs of band b are run[band[b]] .. run[band[b+1]-1] */
     int64_t runs;
-    struct mesh_run *run;      /* [runs] consecutive cells along x */
+    struct mesh_cell_run *run; /* [runs] consecutive cells along x */
     int64_t partial_cells;     /* number of partial cells */
     int32_t *partial_cell;     /* [partial_cells, padded to whole groups of LANES] partial cells, ascending */
     uint8_t *partial_material; /* [as partial_cell] material of the cell, of several the one that converts first */
@@ -135,7 +135,7 @@ struct mesh {
 /* Returns the array of the 2^dim nodes at the corners of cell `cell` of the mesh if one of these nodes is an extra
  * node, i.e. a second node at the position of a grid node, where a slit (a pre-crack) divides the mesh. The array
  * belongs to the mesh. Returns NULL otherwise: the corners are then the nodes `cell` + mesh->corner[c] of the grid. */
-static inline const int32_t *mesh_cell_corner_nodes_at_slit(const struct mesh *mesh, int64_t cell)
+static inline const int32_t *mesh_cell_corner_nodes_if_at_slit(const struct mesh *mesh, int64_t cell)
 {
     const struct mesh_slits *s = &mesh->slits;
     return s->cell && s->cell[cell] >= 0 ? s->corner + ((int64_t)s->cell[cell] << mesh->grid.dim) : NULL;
@@ -146,7 +146,7 @@ static inline const int32_t *mesh_cell_corner_nodes_at_slit(const struct mesh *m
  * side along axis d. */
 static inline int64_t mesh_cell_corner_node(const struct mesh *mesh, int64_t cell, int corner)
 {
-    const int32_t *own = mesh_cell_corner_nodes_at_slit(mesh, cell);
+    const int32_t *own = mesh_cell_corner_nodes_if_at_slit(mesh, cell);
     return own ? own[corner] : cell + mesh->corner[corner];
 }
 
@@ -154,7 +154,8 @@ static inline int64_t mesh_cell_corner_node(const struct mesh *mesh, int64_t cel
  * cells (cells with missing points, or points with bonds to peridynamic particles), if one of the corners is an extra
  * node (second node where a pre-crack divides the mesh). The array belongs to the mesh. Returns NULL otherwise: all
  * corners are then nodes of the grid. */
-static inline const int32_t *mesh_group_corner_nodes_at_slit(const struct mesh *mesh, int64_t group, const int dim)
+static inline const int32_t *mesh_eight_partial_cells_corner_nodes_if_at_slit(const struct mesh *mesh, int64_t group,
+                                                                              const int dim)
 {
     const struct mesh_slits *s = &mesh->slits;
     return s->group && s->group[group] >= 0 ? s->lane + ((int64_t)s->group[group] << dim) * LANES : NULL;
@@ -163,7 +164,7 @@ static inline const int32_t *mesh_group_corner_nodes_at_slit(const struct mesh *
 /* Returns the index of the node of the regular grid at the position of the mesh node `node`. For an extra node, a
  * second node where a pre-crack divides the mesh, this is the grid node at the same position; for all other nodes it is
  * `node` itself. */
-static inline int64_t mesh_regular_node_of_doubled_node(const struct mesh *mesh, int64_t node)
+static inline int64_t mesh_original_node_of_doubled_node(const struct mesh *mesh, int64_t node)
 {
     const struct mesh_slits *s = &mesh->slits;
     return s->cell && node >= s->first && s->base[node - s->first] >= 0 ? s->base[node - s->first] : node;
@@ -171,18 +172,18 @@ static inline int64_t mesh_regular_node_of_doubled_node(const struct mesh *mesh,
 
 /* Returns the index of the cell of the regular grid whose corner `corner` (0 .. 2^dim - 1, bit d set on the upper side
  * along axis d) is at the position of mesh node `node`; -1 if there is none. Where slits (pre-cracks) divide this cell,
- * mesh_cell_next_slit_part lists its further parts, and mesh_cell_corner_node shows which of the parts has node `node`
- * itself. */
+ * mesh_next_subcell_of_cell_divided_by_slits lists its further parts, and mesh_cell_corner_node shows which of the
+ * parts has node `node` itself. */
 static inline int64_t mesh_cell_with_corner_at_node(const struct mesh *mesh, int64_t node, int corner)
 {
-    const int64_t cell = mesh_regular_node_of_doubled_node(mesh, node) - mesh->corner[corner];
+    const int64_t cell = mesh_original_node_of_doubled_node(mesh, node) - mesh->corner[corner];
     return cell >= 0 ? cell : -1;
 }
 
 /* Returns the next one of the cells of the mesh into which slits (pre-cracks as free surfaces) divide a cell of the
  * regular grid. cell: the cell of the grid for the first call, then the previous result. Returns -1 after the last one,
  * and for a cell that is not divided. */
-static inline int64_t mesh_cell_next_slit_part(const struct mesh *mesh, int64_t cell)
+static inline int64_t mesh_next_subcell_of_cell_divided_by_slits(const struct mesh *mesh, int64_t cell)
 {
     return mesh->slits.next ? mesh->slits.next[cell] : -1;
 }
@@ -195,24 +196,25 @@ static inline int cell_bending_mode_count(int dim) { return dim * ((1 << dim) - 
  * strain plus bending modes (cell_bending_mode_count): 1 in 1D, 5 in 2D, 18 in 3D. */
 static inline int cell_deformation_mode_count(int dim)
 {
-    return symmetric_component_count(dim) + cell_bending_mode_count(dim);
+    return symmetric_tensor_component_count(dim) + cell_bending_mode_count(dim);
 }
 
 /* Returns the number of groups of eight (LANES) partial cells of the mesh that are processed side by side; the last
  * group may be incomplete. Partial cells are cells with missing points, points with bonds to peridynamic particles, or
  * several materials. */
-static inline int64_t mesh_partial_cell_group_count(const struct mesh *mesh)
+static inline int64_t mesh_count_groups_of_eight_partial_cells(const struct mesh *mesh)
 {
     return (mesh->partial_cells + LANES - 1) / LANES;
 }
 
 /* Returns true if, according to the last computation of forces, the stress of a material point of the mesh may have
  * exceeded the limit at which points are converted to peridynamic particles. */
-static inline bool mesh_may_exceed_conversion_stress(const struct mesh *mesh)
+static inline bool mesh_stress_may_exceed_conversion_limit(const struct mesh *mesh)
 {
     bool any = false;
     for (int64_t r = 0; r < mesh->runs; r++) any |= mesh->run[r].stressed;
-    for (int64_t k = 0; k < mesh_partial_cell_group_count(mesh) * LANES; k++) any |= mesh->partial_stressed[k];
+    for (int64_t k = 0; k < mesh_count_groups_of_eight_partial_cells(mesh) * LANES; k++)
+        any |= mesh->partial_stressed[k];
     return any;
 }
 
@@ -225,16 +227,17 @@ static inline int64_t mesh_block_of_node(const struct mesh *mesh, int64_t node)
 
 /* Returns a pointer to the activity levels of the blocks (eight nodes each) in row number `row` of the mesh nodes along
  * x: one entry per block, mesh->segments entries. Level 0: the block is at rest and skipped (active_set.h). */
-static inline const uint8_t *mesh_row_activity_levels(const struct mesh *mesh, int64_t row)
+static inline const uint8_t *mesh_activity_levels_of_node_blocks_in_row(const struct mesh *mesh, int64_t row)
 {
     return mesh->active.level + row * mesh->segments;
 }
 
 /* Returns true if the eight consecutive nodes or cells of a row from number `first_node` (from 0) of the row on are at
- * rest, so that they can be skipped. levels: activity levels of the blocks of this row (mesh_row_activity_levels). */
-static inline bool mesh_eight_nodes_are_at_rest(const uint8_t *levels, int64_t first_node)
+ * rest, so that they can be skipped. activity_levels: activity levels of the blocks of this row
+ * (mesh_activity_levels_of_node_blocks_in_row). */
+static inline bool mesh_eight_nodes_are_at_rest(const uint8_t *activity_levels, int64_t first_node)
 {
-    return (levels[first_node / LANES] | levels[(first_node + LANES - 1) / LANES]) == 0;
+    return (activity_levels[first_node / LANES] | activity_levels[(first_node + LANES - 1) / LANES]) == 0;
 }
 
 /* Range of blocks (eight nodes each) of a row of nodes: the blocks number first .. end - 1, counted from 0 at the begin
@@ -245,7 +248,7 @@ struct mesh_row_blocks {
 
 /* Returns the range of blocks (eight nodes each) of row number `row` of mesh nodes along x that contains all nodes of
  * this row with mass; an empty range if there is none. */
-static inline struct mesh_row_blocks mesh_blocks_of_row(const struct mesh *mesh, int64_t row)
+static inline struct mesh_row_blocks mesh_block_range_with_mass_in_node_row(const struct mesh *mesh, int64_t row)
 {
     const int64_t start = row * mesh->grid.count[0], first = mesh->span[2 * row], end = mesh->span[2 * row + 1];
     if (first == end) return (struct mesh_row_blocks){0, 0};
@@ -253,10 +256,10 @@ static inline struct mesh_row_blocks mesh_blocks_of_row(const struct mesh *mesh,
 }
 
 /* Returns the number of the first block (eight nodes of a row) from `block` to `end_block` - 1 that is not at rest;
- * `end_block` if all are. levels: activity levels of the blocks of the row. */
-static inline int64_t mesh_next_active_block(const uint8_t *levels, int64_t block, int64_t end_block)
+ * `end_block` if all are. activity_levels: activity levels of the blocks of the row. */
+static inline int64_t mesh_next_active_block(const uint8_t *activity_levels, int64_t block, int64_t end_block)
 {
-    return block < end_block && levels[block] ? block : next_marked_index(levels, block, end_block);
+    return block < end_block && activity_levels[block] ? block : next_marked_index(activity_levels, block, end_block);
 }
 
 /* Returns the value [1] in dim dimensions of the linear shape function of a corner node at a quadrature point (material

@@ -23,8 +23,8 @@ enum { ROTATION = 4 };    /* numbers that store a rotation in 3D (a quaternion) 
 enum kind { KIND_MPM, KIND_PD, KINDS };
 
 /* Bits of the member `flag` of struct particles, one sum of them for each particle. FLAG_LOST_BOND, FLAG_CRACKED,
- * FLAG_STRESSED and FLAG_NEAR are cleared by convert_flagged_points, which turns material points into peridynamic
- * particles at the end of the step. */
+ * FLAG_STRESSED and FLAG_NEAR are cleared by convert_flagged_points_to_peridynamic, which turns material points into
+ * peridynamic particles at the end of the step. */
 enum particle_flag {
     FLAG_LOST_BOND = 1,     /* lost a bond in this step */
     FLAG_STRESSED = 2,      /* largest principal stress exceeds that at which material points become peridynamic */
@@ -57,9 +57,9 @@ struct particles {
     real *mass;             /* mass of the particle [kg] */
     real *volume0, *volume; /* reference and current volume [m^3] */
     /* Cauchy stress, components xx yy xy in 2D, xx yy zz xy yz zx in 3D [Pa]. Points on the grid: updated by g2p in
-     * every step. Points of a mesh: updated by reference_frame_update_motion_and_stress, peridynamic particles: by
-     * bonds_compute_particle_stress, for frames (run_update_particle_motion_and_stress) and for samples and reversion
-     * that read it; out of date in between. */
+     * every step. Points of a mesh: updated by lagrangian_mesh_update_point_motion_and_stress, peridynamic particles:
+     * by bonds_compute_particle_stress, for frames (run_update_particle_motion_and_stress) and for samples and
+     * reversion that read it; out of date in between. */
     real *stress[SYM_MAX];
     real *gradient[DIM_MAX *
                    DIM_MAX]; /* velocity gradient dv_a/dx_b at [a dim + b], only APIC (Jiang et al. 2015) [1/s] */
@@ -141,14 +141,14 @@ static inline void bit_clear(uint64_t *marks, int64_t i) { marks[i / 64] &= ~((u
 static inline bool bit_is_set(const uint64_t *marks, int64_t i) { return marks[i / 64] >> i % 64 & 1; }
 
 /* Returns how many of the eight indices first .. first + 7 are below `limit`. */
-static inline int count_of_eight_indices_below(int64_t first, int64_t limit)
+static inline int count_of_eight_consecutive_indices_below(int64_t first, int64_t limit)
 {
     return limit - first < LANES ? (int)(limit - first) : LANES;
 }
 
 /* Returns the index of the particle of which entry i of the arrays of p is a mirror image (copy beyond a plane of
  * symmetry), possibly through images of images; i itself if it is no image. image[k]: origin of entry p->n + k. */
-static inline int64_t image_source_particle(const struct particles *p, const struct image *image, int64_t i)
+static inline int64_t mirror_image_source_particle(const struct particles *p, const struct image *image, int64_t i)
 {
     while (i >= p->n) i = image[i - p->n].source;
     return i;
@@ -229,13 +229,13 @@ static inline real particle_stress_to_strength_ratio(const struct particles *p, 
 {
     const struct material *m = &material[p->material[i]];
     real stress[SYM_MAX];
-    for (int s = 0; s < symmetric_component_count(p->dim); s++) stress[s] = p->stress[s][i];
+    for (int s = 0; s < symmetric_tensor_component_count(p->dim); s++) stress[s] = p->stress[s][i];
     return material_has_strength_surface(m) ? material_stress_to_strength_ratio(m, space, stress) : 0;
 }
 
 /* Returns true if particle i of p moves with the nodes of the grid or mesh: it is a material point, or a peridynamic
  * particle that the grid moves. */
-static inline bool particle_moves_with_nodes(const struct particles *p, int64_t i)
+static inline bool particle_is_moved_by_grid_or_mesh_nodes(const struct particles *p, int64_t i)
 {
     return p->kind[i] == KIND_MPM || (p->flag[i] & FLAG_GRID_COUPLED);
 }
@@ -267,8 +267,8 @@ void particles_free(struct particles *p);
 /* Copies all fields of those particles of `previous` that p has, too, to their entries in p, which must be allocated.
  * new_index: [previous->n] new index of each particle in p, -1: the particle is not in p. optional_arrays: optional
  * arrays of both, sum of WITH_*. */
-void particles_copy_fields(struct particles *p, const struct particles *previous, const int32_t *new_index,
-                           int optional_arrays);
+void particles_copy_fields_by_new_index(struct particles *p, const struct particles *previous, const int32_t *new_index,
+                                        int optional_arrays);
 
 /* Sorts the particles of p row by row: by z, then y, then x, where z and y are rounded to rows of thickness `spacing`
  * [m]; equal positions by id. optional_arrays: optional arrays of p, sum of WITH_*. Called at set-up, before mirror

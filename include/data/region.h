@@ -32,7 +32,7 @@ real region_signed_distance(const struct region *r, const real *X, int dim, real
 
 /* Returns true if a box of the region r, also within a group of solids, has an infinite side, so that
  * region_signed_distance is not defined. */
-bool region_contains_infinite_box_solid(const struct region *r, int dim);
+bool region_has_box_with_infinite_side(const struct region *r, int dim);
 
 /* Returns an upper bound [m] of how far the region r extends in a direction: of the scalar product X . direction over
  * all points X of the region. direction: unit vector, dim components. */

@@ -61,7 +61,8 @@ struct softening_curve softening_curve_of_law(enum softening law);
 /* Returns the stretch s_f [1] at which a softening bond breaks, such that the bond dissipates the same energy as a
  * brittle bond of critical stretch `critical` [1]. c: softening curve; onset: stretch s_0 at which softening begins, at
  * most `critical` [1]. */
-static inline real softening_end_stretch(const struct softening_curve *c, real onset, real critical)
+static inline real softening_breaking_stretch_of_equal_energy(const struct softening_curve *c, real onset,
+                                                              real critical)
 {
     return onset + (square(critical) - square(onset)) / (2 * onset * c->area);
 }
@@ -73,13 +74,13 @@ static inline struct softening_range softening_range_from_onset(const struct sof
                                                                 real critical)
 {
     if (!(onset < critical * (1 - SOFTENING_LEAST))) return (struct softening_range){critical, critical};
-    return (struct softening_range){onset, softening_end_stretch(c, onset, critical)};
+    return (struct softening_range){onset, softening_breaking_stretch_of_equal_energy(c, onset, critical)};
 }
 
 /* Returns the value G(x) [1] of the softening curve c: the force of a bond divided by its force when softening begins.
  * x >= 0: (k - s_0)/(s_f - s_0) [1], with the stretch k of the bond and the stretches s_0 and s_f at which it begins to
  * soften and breaks. */
-static inline real softening_curve_value(const struct softening_curve *c, real x)
+static inline real softening_curve_normalised_force(const struct softening_curve *c, real x)
 {
     real level = 0;
     for (int k = 0; k < c->pieces; k++) level = real_max(level, c->level[k] - c->slope[k] * x);
@@ -92,7 +93,8 @@ static inline real softening_curve_value(const struct softening_curve *c, real x
 static inline real softening_remaining_stiffness_fraction(const struct softening_curve *c, real onset,
                                                           real breaking_stretch, real largest_stretch)
 {
-    return onset * softening_curve_value(c, (largest_stretch - onset) / (breaking_stretch - onset)) / largest_stretch;
+    return onset * softening_curve_normalised_force(c, (largest_stretch - onset) / (breaking_stretch - onset)) /
+           largest_stretch;
 }
 
 /* Returns the energy that a softening bond has dissipated, divided by stiffness, weight (factor on its force, such as
@@ -106,13 +108,13 @@ real softening_normalised_dissipated_energy(const struct softening_curve *c, rea
  * directions with the softening curve c reach under growing uniform strain, by quadrature over directions. s_0: stretch
  * at which bonds begin to soften; E': modulus of uniaxial tension (material_uniaxial_tension_modulus); space: line,
  * plane stress, plane strain or solid; squared_stretch_ratio: (critical stretch/s_0)^2 [1]. */
-struct softening_strength softening_curve_normalised_strengths(const struct softening_curve *c, enum space space,
-                                                               real squared_stretch_ratio);
+struct softening_strength softening_curve_normalised_peak_stresses(const struct softening_curve *c, enum space space,
+                                                                   real squared_stretch_ratio);
 
 /* Returns the stretch s_0 [1] at which bonds must begin to soften so that material m has the tensile strength
  * m->tensile_strength, by fixed-point iteration of s_0 = strength/(E' tension(kappa)) with kappa = (critical
- * stretch/s_0)^2 (softening_curve_normalised_strengths). m->critical_stretch must be set; if the horizon is too large
- * for this strength, the result exceeds m->critical_stretch. space: line, plane stress, plane strain or solid. */
+ * stretch/s_0)^2 (softening_curve_normalised_peak_stresses). m->critical_stretch must be set; if the horizon is too
+ * large for this strength, the result exceeds m->critical_stretch. space: line, plane stress, plane strain or solid. */
 real softening_onset_stretch_from_strength(const struct material *m, enum space space);
 
 /* Share of the onset stretch (at which a bond begins to soften in slow loading) from which on the strain rate of the
@@ -125,7 +127,7 @@ real softening_onset_stretch_from_strength(const struct material *m, enum space 
 
 /* Interpolates a quantity that is table_values[k] at the strain rate r->rate[k], k = 0 .. r->points - 1, to the strain
  * rate `rate` [1/s] and returns the value: linear in the logarithm of the rate, constant beyond the table. */
-real strength_rate_interpolate_table(const struct strength_rate *r, const real *table_values, real rate);
+real strength_rate_table_interpolate_in_log_rate(const struct strength_rate *r, const real *table_values, real rate);
 
 /* Returns the modulus E' [Pa] of material m in the space `space`: the elastic stress divided by the strain in uniaxial
  * tension, i.e. Young's modulus E, in plane strain E/(1 - nu^2) with Poisson's ratio nu. */

@@ -17,22 +17,23 @@ struct softening_model {
  * (particle with its neighbours) of softening bonds of the model `model` reaches under growing uniform strain, by
  * quadrature over directions. c: softening curve; s_0: stretch at which bonds begin to soften; E': modulus of uniaxial
  * tension; space: line, plane stress, plane strain or solid; squared_stretch_ratio: (critical stretch/s_0)^2 [1]. */
-struct softening_strength softening_model_normalised_strengths(const struct softening_curve *c, enum space space,
-                                                               real squared_stretch_ratio,
-                                                               const struct softening_model *model);
+struct softening_strength softening_model_normalised_peak_stresses(const struct softening_curve *c, enum space space,
+                                                                   real squared_stretch_ratio,
+                                                                   const struct softening_model *model);
 
 /* Returns the stretch s_0 [1] at which bonds must begin to soften so that material m has the tensile strength
  * m->tensile_strength, for neighbourhoods of the bond-based or state-based model `model`, by fixed-point iteration.
  * space: line, plane stress, plane strain or solid. m->critical_stretch must be set. If the horizon is too large for
  * this strength, the result exceeds m->critical_stretch. */
-real softening_model_onset_stretch(const struct material *m, enum space space, const struct softening_model *model);
+real softening_model_onset_stretch_from_strength(const struct material *m, enum space space,
+                                                 const struct softening_model *model);
 
 /* Computes, for each strain rate of the table m->rate, by which factor the stretch at which bonds of material m begin
  * to soften exceeds that in slow loading, m->onset_stretch, so that the material has its strength at this rate. Stores
  * the factors in m->rate.onset. space: line, plane stress, plane strain or solid; model: peridynamic model of the
  * bonds. Returns the smallest ratio (critical stretch/onset)^2 over all rates, by which the caller checks the table:
  * below RATE_LEAST_RATIO bonds would break before they reach the strength. */
-real strength_rate_compute_onsets_and_least_ratio(struct material *m, enum space space,
-                                                  const struct softening_model *model);
+real strength_rate_set_onsets_return_stretch_ratio(struct material *m, enum space space,
+                                                   const struct softening_model *model);
 
 #endif

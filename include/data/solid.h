@@ -97,16 +97,16 @@ struct solid {
     struct region region;    /* section of an extrusion (in the other two axes, in order), or solids of a group */
     struct polygon *polygon; /* polygon: its corners; owned */
     const struct hull *hull; /* surface of a file: its triangles; borrowed. Open: all points within `radius` */
-    const struct voxel_part *voxels; /* image: range of grey values; borrowed from the scene */
-    int motions, images;             /* numbers; images 0: one copy, where the members above place it */
-    struct solid_motion *motion;     /* [motions] rules for copies, as given in the scene; owned */
-    struct placement *image;         /* [images] position and orientation of each copy; owned */
-    struct box_tree tree;            /* search tree over the bounding boxes of the copies */
+    const struct voxel_solid *voxels; /* image: range of grey values; borrowed from the scene */
+    int motions, images;              /* numbers; images 0: one copy, where the members above place it */
+    struct solid_motion *motion;      /* [motions] rules for copies, as given in the scene; owned */
+    struct placement *image;          /* [images] position and orientation of each copy; owned */
+    struct box_tree tree;             /* search tree over the bounding boxes of the copies */
 };
 
 /* Returns true if the solid s is of the kind `kind` and has not been moved or copied, so that its members (from, to,
  * radius, ...) describe its actual position. */
-static inline bool solid_is_of_kind_and_not_moved(const struct solid *s, enum solid_kind kind)
+static inline bool solid_is_untransformed_and_of_kind(const struct solid *s, enum solid_kind kind)
 {
     return s->kind == kind && s->images == 0;
 }
@@ -146,12 +146,12 @@ real solid_least_thickness(const struct solid *s, int dim);
 /* Applies the motion `motion` to all present copies of the solid s: moves, rotates or reflects them, or multiplies them
  * on a grid or a ring. Appends `motion` to s->motion. dim: dimension of the body. Returns true, or false without any
  * change if there would be more than IMAGES_MOST copies. */
-bool solid_apply_motion_if_not_too_many_copies(struct solid *s, const struct solid_motion *motion, int dim);
+bool solid_transform_copies_unless_too_many(struct solid *s, const struct solid_motion *motion, int dim);
 
 /* Returns an upper bound [m] of the distance, along any axis, between the bounding box of a solid and a point at which
  * the level (solid_level_set_value) is `level` [m]: 1.75 `level`, because outside the solid a level is at least
  * 1/sqrt(3) of the distance (beside the corner of a box); a negative level is returned as it is. */
-static inline real solid_distance_bound_from_level(real level) { return level > 0 ? 1.75 * level : level; }
+static inline real solid_distance_upper_bound_from_level_set(real level) { return level > 0 ? 1.75 * level : level; }
 
 /* Returns an estimate of the cost of one query of the solid s, divided by that of a simple solid such as a ball: adds
  * up all copies, the solids of a group, and the edges of a polygon. */
@@ -167,6 +167,6 @@ enum polygon_fault { POLYGON_FINE, POLYGON_SHORT, POLYGON_FLAT, POLYGON_CROSSED,
 /* Checks the polygon p and computes its orientation (p->sense) and the arcs of its rounded corners (p->bend) from its
  * corners and corner radius. Returns POLYGON_FINE or the fault that was found. *faulty_corner receives the number of
  * the corner at which the fault is, if it is at a corner. */
-enum polygon_fault polygon_check_and_complete(struct polygon *p, int *faulty_corner);
+enum polygon_fault polygon_check_and_compute_rounded_corners(struct polygon *p, int *faulty_corner);
 
 #endif

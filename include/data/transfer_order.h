@@ -17,7 +17,10 @@ enum { ORDER_AHEAD = 64 };
 
 /* Returns the number of grid cells of a block along axis `axis` (0 .. 2). Blocks are boxes of grid cells by which
  * particles are sorted. */
-static ALWAYS_INLINE int64_t transfer_block_edge_length(int axis) { return axis == 0 ? BLOCK_LENGTH : BLOCK_EDGE; }
+static ALWAYS_INLINE int64_t transfer_block_edge_length_in_cells(int axis)
+{
+    return axis == 0 ? BLOCK_LENGTH : BLOCK_EDGE;
+}
 
 /* The order in which material points on the grid are processed: by colour, block (a box of grid cells) and cell, where
  * blocks of one colour share no node and may be processed in parallel. All arrays are owned. */

@@ -33,7 +33,7 @@ struct turning_group {
     int64_t place[DIM_MAX];     /* position of the group in the lattice of groups of its body [group edges] */
     int32_t body, points;       /* index of the body; number of points on the grid now */
     int32_t off;                /* distance from the middle of the body, summed over the axes [half edges] */
-    int64_t first, end;         /* particles of the group: run[first] .. run[end - 1] of struct rotation_groups */
+    int64_t first, end;         /* particles of the group: run[first] .. run[end - 1] of struct corotating_groups */
     int32_t near[TURNING_NEAR]; /* indices of neighbouring groups of the body, first those along an axis; -1: none */
     int32_t root;               /* index of the group that it has joined; its own index if none */
     bool held;                  /* a support acts on points of the body, which then moves as in plain FLIP */
@@ -52,7 +52,7 @@ struct turning_group {
 };
 
 /* All groups of particles that rotate together. All arrays are owned. */
-struct rotation_groups {
+struct corotating_groups {
     int32_t groups;              /* number of groups; 0: points do not rotate in groups */
     struct turning_group *group; /* ascending by body and position */
     struct turning_run *run;     /* all particles, within a group by position */
@@ -66,12 +66,12 @@ struct rotation_groups {
  * groups and the groups do not depend on other bodies. spacing: of the particles [m]; symmetry_plane[dim]: position of
  * the plane of symmetry across each axis [m], NAN if there is none; first_joined_body[bodies]: for each body the first
  * body that is joined to it; body_is_supported[bodies]: for each body, true if supports act on it, so that its points
- * do not rotate in groups. Replaces previous groups; release with rotation_groups_free. */
-void rotation_groups_make(struct rotation_groups *t, const struct particles *p, real spacing,
-                          const real *symmetry_plane, const int *first_joined_body, const bool *body_is_supported,
-                          int bodies);
+ * do not rotate in groups. Replaces previous groups; release with corotating_groups_free. */
+void corotating_groups_make(struct corotating_groups *t, const struct particles *p, real spacing,
+                            const real *symmetry_plane, const int *first_joined_body, const bool *body_is_supported,
+                            int bodies);
 
 /* Releases all arrays of the rotation groups t. */
-void rotation_groups_free(struct rotation_groups *t);
+void corotating_groups_free(struct corotating_groups *t);
 
 #endif

@@ -30,24 +30,24 @@ struct voids {
 bool region_has_voxel_image(const struct region *r);
 
 /* Returns true if a void (a slot, a slit or a gap) may be between two points of the region r, the shape of a body.
- * Returns false if this is impossible, because the shape is a single convex solid or boxes that together make one box.
- * Returns false also if r has no solids, or a solid made from a voxel image, whose surface is only known to about a
- * voxel. */
-bool region_may_have_voids(const struct region *r);
+ * Returns false if this is impossible: the shape is a single convex solid, boxes that together make one box, or the
+ * intersection of convex solids, such as a quarter of a cylinder between the planes of symmetry of v. Returns false
+ * also if r has no solids, or a solid made from a voxel image, whose surface is only known to about a voxel. */
+bool region_may_have_voids(const struct region *r, const struct voids *v);
 
 /* Computes v->near, which marks the particles of p that a void (a slot, a slit or a gap of the shape) separates from
  * others, by testing all pairs of particles at most `max_distance` [m] apart. The other members of v must be set
  * before. cells: search over reference positions; images: for each mirror image, the particle
  * that it copies. Release with voids_free. */
-void voids_mark_separated_particles(struct voids *v, const struct particles *p, const struct cells *cells,
-                                    const struct image *images, real max_distance);
+void voids_mark_particles_beside_voids(struct voids *v, const struct particles *p, const struct cells *cells,
+                                       const struct image *images, real max_distance);
 
 /* Returns true if the segment between `point` and `other_point` (v->dim components each [m]) leaves the shape of body
  * number `body_number`, so that a void is between the two points. Exchanging the points does not change the result.
- * facing: NULL, or receives, if there is a void, whether its two surfaces face each other. Gaps of up to 2e-5 spacings
- * are ignored. */
+ * surfaces_face_each_other: NULL, or receives, if there is a void, whether its two surfaces face each other. Gaps of up
+ * to 2e-5 spacings are ignored. */
 bool void_separates_points(const struct voids *v, int body_number, const real *point, const real *other_point,
-                           bool *facing);
+                           bool *surfaces_face_each_other);
 
 /* Returns true if a void (a slot, a slit or a gap of the shape) separates the particles `particle` and `other_particle`
  * of p, which are of one body, i.e. if the segment between their reference positions leaves the shape of the body. v:
@@ -57,11 +57,11 @@ bool void_separates_particles(const struct voids *v, const struct particles *p, 
 
 /* Returns a lower bound [m] of the distance of the particle with index `particle` of p from the surface of the shape of
  * its body; the particle must be inside this shape. v: shapes of the bodies. */
-real voids_lower_bound_of_surface_distance(const struct voids *v, const struct particles *p, int64_t particle);
+real voids_particle_surface_distance_lower_bound(const struct voids *v, const struct particles *p, int64_t particle);
 
 /* Returns true if a void (a slot, a slit or a gap of the shape) separates particle i from at least one particle of its
- * body within the distance for which voids_mark_separated_particles has marked particles. v: NULL if no body has voids;
- * the result is then false. */
+ * body within the distance for which voids_mark_particles_beside_voids has marked particles. v: NULL if no body
+ * has voids; the result is then false. */
 static inline bool particle_is_beside_void(const struct voids *v, int64_t i) { return v && v->near[i]; }
 
 /* Releases the arrays that v owns; shapes and mirror planes stay with their owners. */

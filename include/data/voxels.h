@@ -30,7 +30,7 @@ enum { GREY_RANGES_MAX = 64 };
 
 /* A solid that consists of the voxels of the image `of` whose grey values are in one of range[0] .. range[ranges - 1].
  * The array `level` has one more voxel on each side than the image; these voxels are outside the solid. */
-struct voxel_part {
+struct voxel_solid {
     const struct voxels *of;
     int ranges;
     struct grey_range range[GREY_RANGES_MAX];
@@ -40,16 +40,16 @@ struct voxel_part {
 
 /* Finds the voxels of the image p->of whose grey values are in the ranges p->range: sets p->voxels to their number and
  * p->level to the signed distance [m] of each voxel centre from the surface of the solid that these voxels form. p->of
- * and the ranges must be set before. Release with voxel_part_free. */
-void voxel_part_make_from_grey_value_ranges(struct voxel_part *p);
+ * and the ranges must be set before. Release with voxel_solid_free. */
+void voxel_solid_make_from_grey_value_ranges(struct voxel_solid *p);
 
 /* Releases the array of distances p->level of the solid p. */
-void voxel_part_free(struct voxel_part *p);
+void voxel_solid_free(struct voxel_solid *p);
 
 /* Returns the signed distance [m] of the point X (dim components [m]) from the surface of the solid p, negative inside.
  * The sign is exact; the value is the distance of the centre of the voxel that contains X (outside the image: of the
  * nearest voxel, plus the distance of X from the image). normal: NULL, or receives the unit vector that points out of
  * the solid. */
-real voxel_part_signed_distance(const struct voxel_part *p, const real *X, real *normal);
+real voxel_solid_signed_distance(const struct voxel_solid *p, const real *X, real *normal);
 
 #endif

@@ -10,17 +10,17 @@
 /* Creates in *e the state of a run of the scene s before the first step: particles, cells, loads, bonds, grid, time
  * step. output: files of the run, opened by output_open and kept by reference; NULL for a run without files. Returns
  * REFUSED if the scene is invalid or needs more memory than available; FAILED if a file cannot be read. Release *e with
- * engine_free_run whatever is returned. */
-status engine_set_up_run(struct run *e, const struct scene *s, struct output *output);
+ * run_free_memory whatever is returned. */
+status run_set_up_from_scene(struct run *e, const struct scene *s, struct output *output);
 
 /* Releases all memory of the run e. Waits first for the thread that may still be writing a frame (output file of one
  * time). */
-void engine_free_run(struct run *e);
+void run_free_memory(struct run *e);
 
 /* Writes a line on standard error if the set-up of scene s will take longer than some seconds, because its bodies have
  * very many lattice positions: the number of positions, which follows from volume and spacing, and the expected
  * time. */
-void engine_announce_long_set_up(const struct scene *s);
+void run_print_notice_if_set_up_takes_long(const struct scene *s);
 
 /* Returns an estimate of the peak memory [byte] of a run of scene s, whose bodies consist of particles on lattices. p:
  * particles of these bodies; source: materials and neighbourhood sizes. Bonds and grids need not exist yet. */
@@ -31,37 +31,37 @@ real run_estimate_peak_memory(const struct scene *s, const struct particles *p, 
 real run_estimate_peak_memory_if_all_peridynamic(const struct scene *s, const struct particles *p,
                                                  const struct bond_source *source);
 
-/* Runs the scene of e, which engine_set_up_run has prepared, from the present step to its end, with all reports.
+/* Runs the scene of e, which run_set_up_from_scene has prepared, from the present step to its end, with all reports.
  * Returns OK at the end; INTERRUPTED, after a checkpoint, if a signal or the wall-clock limit stops the run; FAILED if
  * the run becomes unstable, no equilibrium is found, or a file cannot be written. */
-status engine_run_to_end(struct run *e);
+status run_advance_to_end_time(struct run *e);
 
 /* Adapts the coarsening levels of the mesh cells of run e (0: finest; the edge of a cell doubles with each level) to
  * the present state, then makes one time step. Returns FAILED, with a message, if one of the two fails. */
-status engine_adapt_refinement_and_step(struct run *e);
+status run_adapt_mesh_and_advance_one_step(struct run *e);
 
 /* Saves the complete state of a run between two steps to the archive a (checkpoint file or memory) if a->saving is
  * true, else restores it from the archive. run: pointer to the struct run. Returns FAILED if the file cannot be
  * written, or if the stored state does not fit the run or is inconsistent. */
-status engine_save_or_load_run_state(void *run, struct archive *a);
+status run_save_or_load_state(void *run, struct archive *a);
 
 /* Restores the state of a run from a checkpoint, which the archive a reads. run: pointer to a struct run of the same
- * scene that engine_set_up_run has created. Reports on standard error if the checkpoint was written with another
+ * scene that run_set_up_from_scene has created. Reports on standard error if the checkpoint was written with another
  * instruction set. Returns FAILED if the checkpoint belongs to another body or is inconsistent. */
-status engine_load_checkpoint(void *run, struct archive *a);
+status run_load_checkpoint(void *run, struct archive *a);
 
 /* If the scene of run e has a PULSE probe (wave packet at an interface), runs the scene once more with material points
  * alone and stores the final velocities and the energy change of that run, with which the probe compares run e. Call
  * this function at the end of run e. Returns the status of the second run; OK if there is no PULSE probe. */
-status engine_run_mpm_baseline_for_pulse_probe(struct run *e);
+status run_repeat_with_mpm_only_for_pulse_probe(struct run *e);
 
 /* Checks the scene of run e for input that is allowed but probably unintended, and adds warnings to e->warnings. Call
  * it once, before the first step. */
-void engine_warn_of_suspicious_input(struct run *e);
+void run_warn_of_suspicious_input(struct run *e);
 
 /* Writes the files summary.json and, if bodies can break into fragments, fragments.csv of run e for the steps done so
  * far. Does nothing for a run without files. end_status: status with which the run ended; thread_count: number of
  * threads. Returns FAILED if a file cannot be written. */
-status summary_write(const struct run *e, status end_status, int thread_count);
+status run_write_summary_files(const struct run *e, status end_status, int thread_count);
 
 #endif

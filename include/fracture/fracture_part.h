@@ -16,6 +16,6 @@ struct fracture_state {
 
 /* Returns true if f (the cracks of a run) has a growing crack whose bonds lose their weight (factor on their force)
  * gradually while the tip moves on. Other cracks break the bonds at once when the tip crosses them. */
-bool cracks_have_gradually_weakening_bonds(const struct fracture_state *f);
+bool any_growing_crack_weakens_bonds_gradually(const struct fracture_state *f);
 
 #endif

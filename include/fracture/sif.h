@@ -109,7 +109,8 @@ struct sif {
 /* Computes the weight q of the interaction integral and the slope of q at the distance r = `distance` [m] from the
  * crack tip. *weight receives q, 1 for r <= contour->inner and 0 for r >= contour->outer; *slope receives dq/dr [1/m].
  * form: function by which q decreases between the two radii. */
-void sif_contour_weight(enum sif_weight form, const struct contour *contour, real distance, real *weight, real *slope);
+void sif_contour_weight_and_slope(enum sif_weight form, const struct contour *contour, real distance, real *weight,
+                                  real *slope);
 
 /* Returns the integrand [N/m^3] of the interaction integral I at a point, i.e. the contribution of the point divided by
  * its area. tip: crack tip and elastic constants; x: position of the point in the frame of the crack tip, x[0] ahead of

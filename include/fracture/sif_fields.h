@@ -59,14 +59,14 @@ void crack_tip_field_moving(const struct crack_medium *m, enum crack_mode mode, 
  * alone, for 0 <= `speed` < c_R, the Rayleigh speed [m/s]. Below 1 % of the shear wave speed the field of a crack at
  * rest is used (crack_tip_field_at_rest), which differs there by 1e-4, else that of a moving crack. x: position in the
  * frame of the tip [m]; f: receives the field. */
-void crack_tip_field(const struct crack_medium *m, enum crack_mode mode, real speed, const real x[2],
-                     struct crack_field *f);
+void crack_tip_field_resting_or_moving(const struct crack_medium *m, enum crack_mode mode, real speed, const real x[2],
+                                       struct crack_field *f);
 
 /* Returns the universal function A_I(v) or A_II(v) (dimensionless) of the mode `mode`, by which the energy release rate
  * G = (A_I K_I^2 + A_II K_II^2)/E* of a moving crack follows (Freund 1990, chapter 5); both tend to 1 at rest. m:
  * medium round the crack; speed: speed v of the tip [m/s]. Both contain the factor 1 - a_s^2, with a_s = sqrt(1 -
  * v^2/c_s^2); some prints have 1 - a_d^2 in A_II, with a_d = sqrt(1 - v^2/c_d^2), by which A_II would not tend to 1. */
-real crack_universal_function(const struct crack_medium *m, enum crack_mode mode, real speed);
+real crack_tip_speed_universal_function(const struct crack_medium *m, enum crack_mode mode, real speed);
 
 /* Formula for k(v), the ratio of K_I to K_I at rest, of a semi-infinite crack that grows at constant speed under a
  * time-independent load: exact (Freund 1990, eq. 6.4.26), the formula of Rose (1976), or the approximation (1 -

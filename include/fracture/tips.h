@@ -66,7 +66,7 @@ struct crack_tips {
 
 /* Returns true if one of the crack tips t started at `end` (t->dim coordinates [m]), an end of a pre-crack. This is so
  * if the end is inside a body and not at a face of it. */
-bool tips_start_at_precrack_end(const struct crack_tips *t, const real *end);
+bool tips_any_started_at_precrack_end(const struct crack_tips *t, const real *end);
 
 /* Excludes from all cracks the particles that pre-cracks damage by more than TIP_DAMAGE, so that crack tips do not grow
  * through them. Needed for pre-cracks that are slits (free surfaces) of the mesh. t: crack tips; cut_fraction: for each
@@ -99,7 +99,7 @@ const struct crack_tip *tips_find_tip_with_largest_growth(const struct crack_tip
 
 /* Returns the number of crack ends (a branched crack has several) of all tips in t whose growth is within one particle
  * spacing of the largest growth; 0 if no tip has grown. */
-int64_t tips_count_ends_with_largest_growth(const struct crack_tips *t);
+int64_t tips_count_crack_ends_with_largest_growth(const struct crack_tips *t);
 
 /* Returns true if the crack of `tip` grows along a plane of symmetry, so that the modelled body has only one face of
  * the crack. t: all tips, with the spacing of the particles; mirror: `mirror_count` planes of symmetry. */
@@ -108,7 +108,8 @@ bool tip_grows_on_mirror_plane(const struct crack_tips *t, const struct crack_ti
 
 /* Moves the tips of t that grow along a plane of symmetry and have stayed beside it into the plane, where the middle of
  * the tip and its mirror image is. mirror: `mirror_count` planes of symmetry. */
-void tips_place_on_mirror_planes(struct crack_tips *t, const struct mirror_plane *mirror, int mirror_count);
+void tips_snap_onto_mirror_planes_they_grow_along(struct crack_tips *t, const struct mirror_plane *mirror,
+                                                  int mirror_count);
 
 /* Symmetry (planes mirror[mirrors]) and cross-section of the body, on which the area of a crack depends. */
 struct tip_surroundings {
@@ -134,9 +135,9 @@ struct crack_area tips_total_crack_area(const struct crack_tips *t, const struct
                                         const struct tip_surroundings *s);
 
 /* Returns the total area [m^2] of the breaks through a bar (1D). A break is a position in the bar where load has broken
- * every bond of b across it. A break in a plane of symmetry counts half in the member `own`. p: particles; section:
- * cross-section of the bar [m^2]. */
-struct crack_area bar_total_crack_area(const struct bonds *b, const struct particles *p, real section);
+ * every bond of b across it. A break in a plane of symmetry counts half in the member `own`. p: particles;
+ * cross_section: cross-section of the bar [m^2]. */
+struct crack_area bar_total_crack_area(const struct bonds *b, const struct particles *p, real cross_section);
 
 /* Frees the arrays of the crack tips t. */
 void tips_free(struct crack_tips *t);

@@ -42,7 +42,8 @@ bool path_has_exodus_extension(const char *path);
 
 /* Sets the message of a failure (status_set) to `path: text` with the path of the file f and a text composed from
  * `format` as by printf. Returns REFUSED. */
-status exodus_report_fault(const struct exodus_file *f, const char *format, ...) __attribute__((format(printf, 2, 3)));
+status exodus_refuse_with_message(const struct exodus_file *f, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
 
 /* Returns the length of a dimension (as of netCDF) of the file f, or 0 if the file has no such dimension. The dimension
  * is called `name` followed by `name_suffix`, or only `name` if `name_suffix` is 0. */

@@ -22,7 +22,7 @@ struct geometry_set {
 
 /* Returns true if `name`, ignoring case, is the name of `set` without the prefix INSTANCE. (instance of an Abaqus
  * assembly); false also if the name of the set has no such prefix. */
-bool geometry_set_has_own_name(const struct geometry_set *set, const char *name);
+bool geometry_set_name_matches_after_instance_prefix(const struct geometry_set *set, const char *name);
 
 /* The surface of a body and its named parts set[sets], all coordinates in metres. */
 struct geometry {
@@ -51,6 +51,6 @@ void geometry_free(struct geometry *g);
  * their nodes are doubled. Appends each slit as a pre-crack to the array *crack and increases *cracks, the length of
  * this array. In 3D adjacent coplanar faces become one crack if they form a convex polygon. The caller releases the
  * array and the `corner` of each crack with memory_free. */
-void geometry_append_slits_as_precracks(const struct hull *h, struct crack **crack, int *cracks);
+void geometry_append_mesh_slits_as_precracks(const struct hull *h, struct crack **crack, int *cracks);
 
 #endif

@@ -69,14 +69,14 @@ void grid_contact_find_shared_nodes(struct grid_contact *c, const struct grid_co
  * touch and approach there: normal momentum without rebound, tangential momentum by friction. Changes the nodal
  * velocities of the grids of both bodies, and the velocity increments stored in their nodal forces. side: grids and
  * points of the bodies, c->sides elements. Returns the energy [J] dissipated by these exchanges. */
-real grid_contact_apply_impulses_and_return_loss(struct grid_contact *c, const struct grid_contact_side *side);
+real grid_contact_apply_impulses_return_dissipation(struct grid_contact *c, const struct grid_contact_side *side);
 
 /* Returns the part [J] of the energy dissipated by contact in this step that
- * grid_contact_apply_impulses_and_return_loss does not include, and adds this part to c->dissipated. With the FLIP
+ * grid_contact_apply_impulses_return_dissipation does not include, and adds this part to c->dissipated. With the FLIP
  * transfer, the moved points are mapped to the nodes a second time to compute their strain. The part is the sum over
  * nodes of J . (w' - w)/2: contact impulse J, relative velocity w of the two bodies just after the impulse and w' after
  * the second mapping. side: grids of the bodies, c->sides elements. */
-real grid_contact_energy_lost_by_second_mapping(struct grid_contact *c, const struct grid_contact_side *side);
+real grid_contact_add_second_mapping_dissipation(struct grid_contact *c, const struct grid_contact_side *side);
 
 /* Records the times of first and last contact of material points on grids: if bodies touched at nodes in the last step,
  * c->ended becomes t [s], and c->began, too, if it is still NAN. */

@@ -29,20 +29,20 @@ struct grid_field {
 struct grid_method {
     int fields; /* number of grids: 1, or one for each body */
     struct grid_field *field;
-    struct grid_contact contact;    /* between the bodies of different grids */
-    struct active_points active;    /* points that transfers include */
-    struct grid_coupled coupled;    /* peridynamic particles that the grid moves (coupling pm .. pgg) */
-    struct rotation_groups turning; /* groups of points with a common rotation (FLIP) */
-    struct transfer_data transfer;  /* inputs of the transfers, besides particles and grid */
-    enum sort_needed sort_needed;   /* which points are sorted before the next transfer */
-    real smallest_mass;             /* of a node that moves [kg] */
-    real spacing;                   /* of particles [m] */
+    struct grid_contact contact;      /* between the bodies of different grids */
+    struct active_points active;      /* points that transfers include */
+    struct grid_coupled coupled;      /* peridynamic particles that the grid moves (coupling pm .. pgg) */
+    struct corotating_groups turning; /* groups of points with a common rotation (FLIP) */
+    struct transfer_data transfer;    /* inputs of the transfers, besides particles and grid */
+    enum sort_needed sort_needed;     /* which points are sorted before the next transfer */
+    real smallest_mass;               /* of a node that moves [kg] */
+    real spacing;                     /* of particles [m] */
 };
 
 /* Makes the background grids mpm of a run: one for all bodies, or one for each body if material points of several
  * bodies can be in contact. Sets cell size and positions of the nodes; grid_sort_points_into_cells allocates the nodes
  * later. May be called again, with another `nodes_midway_between_particles`, to change the positions of the nodes.
- * Released by engine_free_run. s: scene; p: particles; nodes_midway_between_particles: true if bodies move with a mesh
+ * Released by run_free_memory. s: scene; p: particles; nodes_midway_between_particles: true if bodies move with a mesh
  * of the undeformed body (reference frame), whose particles must be midway between nodes. */
 void background_grids_make(struct grid_method *mpm, const struct scene *s, const struct particles *p,
                            bool nodes_midway_between_particles);
@@ -51,12 +51,12 @@ void background_grids_make(struct grid_method *mpm, const struct scene *s, const
  * transfer conserves angular momentum. Does nothing if no body is free to rotate, in 1D, and for transfers other than
  * FLIP. loads: boundary conditions, which may prevent rotation; s: scene; coupling: how material points and peridynamic
  * particles are coupled. */
-void grid_rotation_groups_make(struct grid_method *mpm, const struct particles *p, const struct loads *loads,
-                               const struct scene *s, enum coupling coupling);
+void corotating_groups_make_for_flip_transfer(struct grid_method *mpm, const struct particles *p,
+                                              const struct loads *loads, const struct scene *s, enum coupling coupling);
 
 /* Returns the length [m] by which the shape function of an unstretched material point of scene s extends beyond the
  * nodes of its cell; 0 for linear shape functions. */
-real grid_shape_reach_beyond_cell(const struct scene *s);
+real grid_shape_function_reach_beyond_cell(const struct scene *s);
 
 /* Chooses the position of the nodes of the background grid of scene s: stores the position of one node, from which all
  * others follow, in `node_position` (dim components [m]). body_corner: lower corner of the first body [m];
@@ -67,7 +67,7 @@ void grid_choose_reference_node_position(const struct scene *s, const real *body
 
 /* Returns the number of the first body in group number `group` (from 0) of the bodies of scene s. A group is a set of
  * bodies that are joined to each other, or a single body. Returns -1 if there are no more than `group` groups. */
-int joined_bodies_first_body_of_group(const struct scene *s, int group);
+int scene_first_body_of_joined_group(const struct scene *s, int group);
 
 /* Returns true if the plane of a mirror boundary of scene s does not pass through nodes of the grid g. Slits
  * (pre-cracks) and voids (narrow gaps) then cannot divide a mesh on these nodes, because the doubled nodes have no
@@ -93,6 +93,6 @@ status grid_advance_material_points_one_step(struct run *e, real t_middle);
 /* Returns the power [W] of all forces on the material points of run e that are on background grids: the sum of v . f
  * over the nodes at the current positions. Nothing is moved, but the recorded reactions and work of the loads change.
  * t_middle: current time plus half a time step [s]. Returns 0 if no particles are on a grid. */
-real grid_power_of_forces(struct run *e, real t_middle);
+real grid_power_of_forces_on_material_points(struct run *e, real t_middle);
 
 #endif

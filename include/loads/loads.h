@@ -109,7 +109,7 @@ static inline bool boundary_formula_uses_time(const struct boundary *b)
 
 /* Returns the time [s] for which the formulas of boundary b are evaluated at time t: b->frozen_at in static problems,
  * else t, but at most b->end, after which formulas keep their values. */
-static inline real boundary_evaluation_time(const struct boundary *b, real t)
+static inline real boundary_formula_time_frozen_or_clamped(const struct boundary *b, real t)
 {
     return b->frozen ? b->frozen_at : b->end > 0 ? real_min(t, b->end) : t;
 }
@@ -121,7 +121,7 @@ static inline bool boundary_applies_force(const struct boundary *b)
 }
 
 /* Returns true if boundary b is a support at rest: prescribes zero velocity or displacement. dim: of the space. */
-static inline bool boundary_holds_at_rest(const struct boundary *b, int dim)
+static inline bool boundary_is_support_at_rest(const struct boundary *b, int dim)
 {
     return b->kind == BOUNDARY_VELOCITY && !b->rotates && dot(b->value, b->value, dim) == 0;
 }
@@ -134,8 +134,7 @@ struct held {
     bool overruled; /* a later load constrains the component, so that this entry has no effect */
 };
 
-/* Velocity components of the nodes of a grid that boundary conditions prescribe; found again when the grid covers
- * another box of nodes. */
+/* Velocity components of grid nodes that boundary conditions prescribe; found again when the box of the grid moves. */
 struct constrained_set {
     int64_t n, lasting; /* length of `held`; the first `lasting` do not depend on nodal masses */
     struct held *held;
@@ -148,14 +147,14 @@ struct loads {
     struct load *load; /* [n] in the order of the scene */
     uint8_t *loaded;   /* [particles + LANES] sum of LOADED, MOVES_LATER, TOUCHES; NULL: all 0 */
     int64_t listed;
-    int32_t *list;                /* [listed] indices of the particles for which `loaded` is not 0, ascending */
-    int64_t images;               /* number of mirror images of particles */
-    struct image *image;          /* [images] origin of each mirror image */
-    real impulse[DIM_MAX];        /* impulse of loads and supports since the start [N s] */
-    real work;                    /* work of applied forces, up to the present positions [J] */
-    real constraint_work;         /* work of supports, up to the velocities, half a step behind [J] */
-    struct damping_shares damped; /* effect of damping on the velocities in this step */
-    real spacing, reach;          /* lattice spacing; length of the longest bond [m] */
+    int32_t *list;         /* [listed] indices of the particles for which `loaded` is not 0, ascending */
+    int64_t images;        /* number of mirror images of particles */
+    struct image *image;   /* [images] origin of each mirror image */
+    real impulse[DIM_MAX]; /* impulse of loads and supports since the start [N s] */
+    real work;             /* work of applied forces, up to the present positions [J] */
+    real constraint_work;  /* work of supports, up to the velocities, half a step behind [J] */
+    struct undamped_velocity_excess damped; /* effect of damping on the velocities in this step */
+    real spacing, reach;                    /* lattice spacing; length of the longest bond [m] */
     real centre[2], turn;     /* static, free in 2D: centre of mass [m]; angular acceleration by the moment of the loads
                                  [1/s^2], 0: none */
     real place_step[DIM_MAX]; /* positions across mirrors are rounded to multiples of this, 0: not rounded [m] */
@@ -179,7 +178,7 @@ static inline bool particle_is_loaded(const struct loads *l, int64_t i)
 
 /* Returns true if boundary b is a mirror that also prevents motion along its plane. In 1D (dim = 1) there is no such
  * motion, and false is returned. */
-static inline bool boundary_is_clamped_mirror(const struct boundary *b, int dim)
+static inline bool boundary_is_mirror_without_tangential_motion(const struct boundary *b, int dim)
 {
     return b->kind == BOUNDARY_MIRROR && b->hold_tangential && dim > 1;
 }
@@ -187,7 +186,7 @@ static inline bool boundary_is_clamped_mirror(const struct boundary *b, int dim)
 /* Returns the components of motion that boundary b prescribes, as bits (bit d: component d): those of a prescribed
  * motion, the one normal to a mirror, all `dim` of a clamped mirror; 0 for other kinds. A mirror that is not clamped
  * constrains only nodes of grids and meshes in its plane, no particles. */
-uint8_t boundary_prescribed_components(const struct boundary *b, int dim);
+uint8_t boundary_prescribed_component_mask(const struct boundary *b, int dim);
 
 /* Finds the particles of p on which boundary b acts, those in its region (for a clamped mirror those in its plane), and
  * stores them in l, ascending, with their shares of the load: areas, volumes or masses. Sets FLAG_DRIVEN on particles
@@ -197,12 +196,12 @@ status load_find_particles_of_boundary(struct load *l, const struct boundary *b,
 
 /* Sets selected[i] = 1 for the particles i < p->n in the region and body of boundary b, 0 for all others. spacing:
  * lattice spacing, to which the tolerance of the region refers [m]. Returns false if none is selected. */
-bool load_mark_particles_in_region(const struct boundary *b, const struct particles *p, real spacing,
-                                   uint8_t *selected);
+bool boundary_select_particles_in_region(const struct boundary *b, const struct particles *p, real spacing,
+                                         uint8_t *selected);
 
 /* Sets the particle list of load l to the particles i with selected[i] > 0 ([p->n]), ascending. If the load prescribes
  * motion, sets FLAG_DRIVEN on them; if it applies forces, allocates l->share (areas, volumes or masses). */
-void load_set_particle_list_from_marks(struct load *l, const uint8_t *selected, struct particles *p);
+void load_set_particle_list_from_selected_flags(struct load *l, const uint8_t *selected, struct particles *p);
 
 /* Areas of the particles on an exposed face, for tractions (loads_columns.c). In each column of particles along the
  * normal, the outermost one gets the area; extrapolated tangential areas are 3/2 of it there, -1/2 on the next one. */
@@ -211,11 +210,11 @@ struct exposed_face {
 };
 
 /* Computes the areas of the outermost particles at the face of boundary b, among those with selected[i] = 1, into f.
- * selected: [p->n]; spacing: lattice spacing [m]; extrapolate: true to extrapolate tangential tractions to the face
- * from the first two particles of each line normal to it, false to apply them to the first one. Release with
+ * selected: [p->n]; spacing: lattice spacing [m]; extrapolate_traction: true to extrapolate tangential tractions to the
+ * face from the first two particles of each line normal to it, false to apply them to the first one. Free:
  * exposed_face_free. */
-void exposed_face_compute_areas(struct exposed_face *f, const struct boundary *b, const struct particles *p,
-                                const uint8_t *selected, real spacing, bool extrapolate);
+void exposed_face_compute_particle_areas(struct exposed_face *f, const struct boundary *b, const struct particles *p,
+                                         const uint8_t *selected, real spacing, bool extrapolate_traction);
 
 /* Frees both arrays of areas in f. */
 void exposed_face_free(struct exposed_face *f);
@@ -223,17 +222,17 @@ void exposed_face_free(struct exposed_face *f);
 /* Sets in_layer[i] = 1 for the selected particles in the layer of depth b->depth behind the face of boundary b, and
  * leaves other entries unchanged. On each line of particles normal to the face the layer ends at the first gap.
  * selected, in_layer: [p->n]; spacing: lattice spacing [m]. */
-void face_mark_particles_in_layer(const struct boundary *b, const struct particles *p, const uint8_t *selected,
-                                  real spacing, uint8_t *in_layer);
+void boundary_face_mark_particles_in_layer(const struct boundary *b, const struct particles *p, const uint8_t *selected,
+                                           real spacing, uint8_t *in_layer);
 
-/* Function that face_visit_surface_particles calls for each free end of a line of particles normal to a face.
+/* Function that boundary_face_visit_surface_particles calls for each free end of a line of particles normal to a face.
  * particle: index of the particle at that end; area: cross-section of the line [m^2]; context: data of the caller. */
 typedef void face_particle_fn(void *context, int32_t particle, real area);
 
 /* Calls visit(context, particle, area) for every selected particle at a free end, towards the face of boundary b, of a
  * line of particles normal to it; also at walls of holes. selected: [p->n]; spacing: lattice spacing [m]. */
-void face_visit_surface_particles(const struct boundary *b, const struct particles *p, const uint8_t *selected,
-                                  real spacing, face_particle_fn *visit, void *context);
+void boundary_face_visit_surface_particles(const struct boundary *b, const struct particles *p, const uint8_t *selected,
+                                           real spacing, face_particle_fn *visit, void *context);
 
 /* Finds the particles of p with a free face on which the pressure boundary[boundary_number] acts, and stores them in l
  * with the areas of these faces. boundary[boundaries]: all boundaries of the scene, since mirrors may cover a face.
@@ -241,19 +240,21 @@ void face_visit_surface_particles(const struct boundary *b, const struct particl
 status load_find_pressure_faces(struct load *l, const struct boundary *boundary, int boundaries, int boundary_number,
                                 struct particles *p, real spacing);
 
-/* Function that pressure_visit_faces calls for each free face of a particle (index `particle`). axis, side: axis of the
- * outward normal, and -1 or 1 for its direction; area: area of the face [m^2]; context: data of the caller. */
+/* Function that pressure_boundary_visit_free_faces calls for each free face of a particle (index `particle`). axis,
+ * side: axis of the outward normal, and -1 or 1 for its direction; area: area of the face [m^2]; context: caller's
+ * data. */
 typedef void pressure_face_fn(void *context, int32_t particle, int axis, int side, real area);
 
 /* Calls visit(context, particle, axis, side, area) for every free face of a selected particle on which the pressure
  * boundary[number] acts. boundary: all `boundaries` of the scene; spacing: lattice spacing [m]; selected: [p->n]. */
-void pressure_visit_faces(const struct boundary *boundary, int boundaries, int number, const struct particles *p,
-                          real spacing, const uint8_t *selected, pressure_face_fn *visit, void *context);
+void pressure_boundary_visit_free_faces(const struct boundary *boundary, int boundaries, int number,
+                                        const struct particles *p, real spacing, const uint8_t *selected,
+                                        pressure_face_fn *visit, void *context);
 
 /* Prepares load l if it has a formula or is a pressure that follows the deformation: multiplies its shares (areas,
  * volumes or masses of particles of p) by formulas that do not depend on time, and allocates arrays for shares that
  * depend on time. Returns REFUSED, with a message, if a formula has no finite value at a particle. */
-status load_prepare_varying_particle_shares(struct load *l, const struct particles *p);
+status load_prepare_time_varying_particle_factors(struct load *l, const struct particles *p);
 
 /* Checks that the formulas of all loads and supports in l have finite values at their particles in p at time t [s].
  * Returns FAILED, with a message that contains boundary, position and time, if a value is not finite. */
@@ -262,16 +263,17 @@ status loads_check_formulas_are_finite(const struct loads *l, const struct parti
 /* Recomputes l->share, the factors by which the value of a load is multiplied at each particle of p (its area, volume
  * or mass times a formula), for loads whose formula or surface changes in time: as means over the velocity update of
  * duration dt_velocity [s] that ends at time t [s]. Part of loads_add_applied_forces. */
-void loads_average_shares_over_velocity_update(struct loads *l, const struct particles *p, real t, real dt_velocity);
+void loads_update_mean_particle_factors_for_forces(struct loads *l, const struct particles *p, real t,
+                                                   real dt_velocity);
 
 /* Recomputes l->share, the factors by which the value of a load is multiplied at each particle of p (its area, volume
  * or mass times a formula), for loads with a formula or surface that changes in time, as means over the two velocity
  * updates before and after the position update from t - dt/2 to t + dt/2 [s], just made. Part of
  * loads_add_work_of_applied_forces. */
-void loads_average_shares_over_step_for_work(struct loads *l, const struct particles *p, real t, real dt);
+void loads_update_mean_particle_factors_for_work(struct loads *l, const struct particles *p, real t, real dt);
 
-/* Releases the arrays that load_prepare_varying_particle_shares has allocated for load l. */
-void load_varying_shares_free(struct load *l);
+/* Releases the arrays that load_prepare_time_varying_particle_factors has allocated for load l. */
+void load_time_varying_particle_factors_free(struct load *l);
 
 /* Computes the force of load l on its particle number `entry` at time t [s], from the reference position of the
  * particle in p. force: dim components [N]. In static problems the force is that at full load. */
@@ -280,13 +282,14 @@ void load_force_on_particle(const struct load *l, const struct particles *p, int
 /* Computes the total force of load l on its particles in p at time t [s] into l->reaction [N], and the mean
  * displacement of its particles into l->displacement [m]. The mean is weighted by force, so that total force times mean
  * displacement is the work; it is not weighted if the forces sum to zero. */
-void load_sum_force_and_mean_displacement(struct load *l, const struct particles *p, real t);
+void load_compute_total_force_and_mean_displacement(struct load *l, const struct particles *p, real t);
 
 /* Computes the value that the boundary of load l prescribes at its particle number `entry` (of p) at time t [s]:
  * boundary.value times its function of time and its formula. value: receives dim components in the unit of
  * boundary.value, for example a traction [Pa]; it is not multiplied by the area, volume or mass of the particle, nor by
  * the spatial profile of a body force. Not defined for prescribed rotations. */
-void load_value_at_particle(const struct load *l, const struct particles *p, int64_t entry, real t, real *value);
+void load_prescribed_value_at_particle(const struct load *l, const struct particles *p, int64_t entry, real t,
+                                       real *value);
 
 /* Creates the loads l of boundary[boundaries]: finds the particles of each, sets FLAG_DRIVEN on particles with
  * prescribed motion, and appends to p mirror images (copies beyond the plane) of the particles within `mirror_reach`
@@ -302,7 +305,8 @@ void loads_free(struct loads *l);
 /* Sets in l the list of particles of p on which contact forces may act, in place of the previous one: n indices in
  * ascending order, which are copied. The forces of these particles are cleared before each step, and they are moved
  * after all forces are complete, not already while bond forces are computed. */
-void loads_set_contact_particles(struct loads *l, const struct particles *p, const int32_t *list, int64_t n);
+void loads_set_particles_with_contact_forces(struct loads *l, const struct particles *p, const int32_t *list,
+                                             int64_t n);
 
 /* ---- applied forces (loads_applied.c) ---------------------------------------------------------------------------- */
 
@@ -311,10 +315,10 @@ void loads_merge_equal_particle_lists(struct loads *l, int dim);
 
 /* Releases the arrays load.share (area, volume or mass of each loaded particle) of all loads in l, also arrays that
  * several loads have in common. */
-void loads_shares_free(struct loads *l);
+void loads_particle_factors_free(struct loads *l);
 
 /* Adds the applied forces at time t [s] to the particle forces p->f, and their impulse over dt_velocity, the duration
- * of the velocity update [s], to l->impulse. Part of loads_apply_to_particle_forces. */
+ * of the velocity update [s], to l->impulse. Part of loads_apply_forces_and_motion_constraints. */
 void loads_add_applied_forces(struct loads *l, struct particles *p, real t, real dt_velocity);
 
 /* Adds the work of applied forces from t - dt/2 to t + dt/2 [s] to l->work [J], after the particles have moved. */
@@ -324,7 +328,7 @@ void loads_add_work_of_applied_forces(struct loads *l, struct particles *p, real
 
 /* Checks the absorbing boundaries of l, whose dashpots act on particles of p. Returns REFUSED, with a message, if two
  * of them act on the same part of a face, or if one lies in a mirror plane. */
-status absorbing_boundaries_check(const struct loads *l, const struct particles *p);
+status absorbing_boundaries_check_for_overlap(const struct loads *l, const struct particles *p);
 
 /* Creates the dashpots on the particles of p at all absorbing faces in l. Must be called after loads_make.
  * impedance[m][material]: wave impedances of the materials for particles that are moved by m (enum moved_by: bonds,
@@ -335,7 +339,7 @@ void absorbing_dashpots_make(struct loads *l, const struct particles *p, const s
 void absorbing_dashpots_free(struct loads *l);
 
 /* Adds the forces of the absorbing dashpots in l to p->f, for particles that are moved by bond forces (not by grid or
- * mesh). dt_velocity: duration of the velocity update [s]. Part of loads_apply_to_particle_forces. */
+ * mesh). dt_velocity: duration of the velocity update [s]. Part of loads_apply_forces_and_motion_constraints. */
 void loads_add_dashpot_forces(struct loads *l, struct particles *p, real dt_velocity);
 
 /* Appends the absorbing dashpots (l) of grid nodes to g; part of loads_prescribe_grid_velocities, after the prescribed
@@ -349,12 +353,12 @@ void loads_add_grid_dashpots(struct loads *l, struct grid *g, const struct parti
 void loads_add_mesh_dashpots(struct loads *l, struct mesh *mesh, const struct particles *p);
 
 /* Adds energy and impulse that all dashpots of a grid or mesh have absorbed in a step, `absorbed`, to the sums in l. */
-void loads_add_absorbed_energy(struct loads *l, const struct absorbed *absorbed);
+void loads_add_absorbed_energy_and_impulse(struct loads *l, const struct dashpot_effect *absorbed);
 
 /* Displacements that a boundary of kind VELOCITY prescribes at a (pseudo-)time t >= 0, from reference positions. For
  * `displacement` its value, for a velocity its integral from 0, for a rotation the rotation by the accumulated angle;
  * static formulas are evaluated at `frozen_at`. Made once for a load and time, then evaluated at many positions. Not
- * for a velocity by a formula of t, whose integral has no closed form: boundary_check_displacement_known refuses it. */
+ * for a velocity by a formula of t, whose integral has no closed form (boundary_check_displacement_has_closed_form). */
 struct prescribed_displacement {
     const struct boundary *boundary;
     int dim;
@@ -363,8 +367,8 @@ struct prescribed_displacement {
 };
 
 /* Returns the displacements that boundary b prescribes at time t [s], prepared for evaluation at many positions by
- * prescribed_displacement_at: evaluates the function of time and the rotation once. dim: dimension of the body; b: kept
- * by reference. */
+ * prescribed_displacement_at: evaluates the function of time and the rotation once. dim: dimension; b: kept, borrowed.
+ */
 struct prescribed_displacement prescribed_displacement_make(const struct boundary *b, int dim, real t);
 
 /* Returns component `component` of the displacement [m] at the reference position X[dim]; it must be prescribed. */
@@ -377,7 +381,7 @@ void load_displacement_of_particle(const struct load *l, const struct particles 
 
 /* Returns REFUSED, with a message, if boundary b prescribes a velocity whose integral over time has no closed form (a
  * formula of t), so that its displacements are unknown; else OK. */
-status boundary_check_displacement_known(const struct boundary *b);
+status boundary_check_displacement_has_closed_form(const struct boundary *b);
 
 /* Motion that a boundary of kind VELOCITY prescribes in a time step from t - dt/2 to t + dt/2 (loads_driving.c). */
 struct prescribed_motion {
@@ -410,28 +414,30 @@ static inline bool boundary_motion_varies_in_space(const struct boundary *b)
 
 /* Returns the largest speed [m/s] of the displacement that load l prescribes between the times 0 and `t_end` [s],
  * INFINITY if the displacement jumps. Formulas are sampled at some times and at some particles of p. */
-real load_largest_displacement_speed(const struct load *l, const struct particles *p, real t_end);
+real load_largest_speed_of_prescribed_displacement(const struct load *l, const struct particles *p, real t_end);
 
 /* Returns the largest difference [m/s] between the velocity that load l prescribes at times from 0 to `t_end` [s] and
  * the initial velocity p->v of its particles. Only some times and some particles are examined. For rotations, speeds
  * are compared; 0 for prescribed displacements. */
-real load_largest_jump_from_initial_velocity(const struct load *l, const struct particles *p, real t_end);
+real load_largest_prescribed_minus_initial_velocity(const struct load *l, const struct particles *p, real t_end);
 
 /* Returns the largest speed [m/s] that load l prescribes for its particles in p between the times 0 and `t_end` [s]:
- * load_largest_displacement_speed for a prescribed displacement, else load_largest_jump_from_initial_velocity. */
-real load_largest_driven_speed(const struct load *l, const struct particles *p, real t_end);
+ * load_largest_speed_of_prescribed_displacement for a prescribed displacement, else
+ * load_largest_prescribed_minus_initial_velocity. */
+real load_largest_prescribed_speed(const struct load *l, const struct particles *p, real t_end);
 
 /* Returns the largest change [m/s], within any time span of length `time_span` [s], of the velocity that load l
  * (velocity or displacement) prescribes between the times 0 and `t_end` [s]. Before time 0 the particles of the load
  * have the velocity in p. Sampled at a fixed number of times and at some particles; a span shorter than the sampling
  * interval is extended to that interval. */
-real load_largest_velocity_change(const struct load *l, const struct particles *p, real t_end, real time_span);
+real load_largest_prescribed_velocity_change(const struct load *l, const struct particles *p, real t_end,
+                                             real time_span);
 
 /* Returns the largest difference [m/s] between the velocities that `load` and `other_load` prescribe between the times
  * 0 and `t_end` [s], in components that both prescribe; from each velocity the initial velocity of its particles in p
  * is subtracted. 0 if no component is prescribed by both; INFINITY if one load rotates or depends on position. */
-real loads_largest_velocity_difference(const struct load *load, const struct load *other_load,
-                                       const struct particles *p, real t_end);
+real loads_largest_prescribed_velocity_difference(const struct load *load, const struct load *other_load,
+                                                  const struct particles *p, real t_end);
 
 /* Distance up to which a particle outside a region counts as inside, so that particles on its border do [spacings]. */
 #define LOADS_TOLERANCE ON_SURFACE
@@ -445,7 +451,7 @@ void loads_clear_forces_of_loaded_particles(struct loads *l, struct particles *p
  * peridynamic particles with prescribed motion by the force that produces the prescribed velocity (material points get
  * it from their nodes). Adds to l->impulse the impulse of these forces and of mirror images (copies beyond a plane of
  * symmetry). t: middle of the step of size dt, end of the velocity update of duration dt_velocity [s]. */
-void loads_apply_to_particle_forces(struct loads *l, struct particles *p, real t, real dt, real dt_velocity);
+void loads_apply_forces_and_motion_constraints(struct loads *l, struct particles *p, real t, real dt, real dt_velocity);
 
 /* Stores in g->wall the velocities that l prescribes for nodes of grid g in the step from t - dt/2 to t + dt/2 [s].
  * These are nodes in the region of a prescribed motion, nodes on a mirror plane, and nodes at least half of whose mass
@@ -472,8 +478,8 @@ void loads_find_driven_coarse_nodes(const struct loads *l, struct constrained_se
 
 /* Stores in g->wall the velocities that l prescribes for the nodes in `driven_nodes`, found by
  * loads_find_driven_coarse_nodes, of grid g of a mesh of coarse cells, for the step from t - dt/2 to t + dt/2 [s]. */
-void loads_prescribe_coarse_velocities(const struct loads *l, const struct constrained_set *driven_nodes,
-                                       struct grid *g, real t, real dt);
+void loads_prescribe_coarse_node_velocities(const struct loads *l, const struct constrained_set *driven_nodes,
+                                            struct grid *g, real t, real dt);
 
 /* Imposes the motion that l prescribes in the step from t - dt/2 to t + dt/2 [s] on particles p, after the
  * grid-to-particle transfer: sets velocities of material points on a background grid, and positions of these and of
@@ -496,8 +502,8 @@ void static_boundaries_make_from_dynamic(struct boundary *static_boundary, const
 /* Computes the prescribed displacement of particles for every prescribed component at full load l (pseudo-time
  * `ramp_time` [s]). displacement: [dim][p->n] [m]; driven_components: [p->n], bit d: component d is prescribed. Of
  * overlapping loads the later one in the scene is used, as in dynamic runs. */
-void loads_compute_static_displacements(struct loads *l, const struct particles *p, real ramp_time,
-                                        real *const *displacement, uint8_t *driven_components);
+void loads_compute_prescribed_static_displacements(struct loads *l, const struct particles *p, real ramp_time,
+                                                   real *const *displacement, uint8_t *driven_components);
 
 /* Adds the inertia forces of a rigid rotation (inertia relief) to the applied forces l of a free body of particles p in
  * 2D, so that loads with a moment have an equilibrium, for example loads on particles of an irregular lattice. Returns
@@ -509,7 +515,7 @@ void loads_add_static_forces(const struct loads *l, struct particles *p);
 
 /* Sets the reaction of each support in l to minus the sum of the forces p->f on those components whose motion it
  * prescribes, then sets these components of p->f to 0. Reactions of other loads become 0. */
-void loads_collect_static_reactions(struct loads *l, struct particles *p);
+void loads_extract_static_reactions_from_forces(struct loads *l, struct particles *p);
 
 /* Computes the work of loads that grow in proportion on a linear body p: stores half the sum of applied forces times
  * displacements in l->work, and half the sum of reactions times prescribed displacements in l->constraint_work [J]. */

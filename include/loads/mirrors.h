@@ -24,10 +24,10 @@ void loads_update_mirror_images(const struct loads *l, struct particles *p);
  * between mirrors that are closer would have bonds to images of images on both sides, of which only one exists. The
  * forces would have no potential, and no time step would be stable. Material points have no such limit. Returns
  * REFUSED, with a message, if the distance is at most the bond length minus a spacing. */
-status loads_check_bonds_between_mirrors(const struct loads *l, real bond_length);
+status loads_check_distance_between_mirrors(const struct loads *l, real bond_length);
 
 /* Returns true if the plane of mirror b is on a row of nodes of grid g or midway between two rows, so that nodes have
  * nodes as mirror images. spacing: lattice spacing of the particles, to which the tolerance refers [m]. */
-bool mirror_plane_fits_grid_nodes(const struct boundary *b, const struct grid *g, real spacing);
+bool mirror_plane_is_at_or_midway_between_nodes(const struct boundary *b, const struct grid *g, real spacing);
 
 #endif

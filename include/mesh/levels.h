@@ -69,7 +69,8 @@ struct mesh_levels {
     bool any_wanted; /* an entry of `wanted` is set */
     bool returned; /* true: points whose conversion was postponed have been marked for conversion again in this step */
     real wave_speed; /* largest longitudinal wave speed of the materials [m/s] */
-    /* distances of converting points from coarse cells, in cells of level 0 (levels_set_conversion_distances) */
+    /* distances of converting points from coarse cells, in cells of level 0
+     * (mesh_levels_set_postpone_and_refine_distances) */
     int safe_cells, roomy_cells;
     int64_t changes;                      /* number of changes of the levels since the start */
     struct mesh_level at[LEVELS_MAX + 1]; /* meshes of the coarse levels: at[1] .. at[n] */
@@ -86,158 +87,161 @@ enum levels_distance { DISTANCE_UNSAFE, DISTANCE_SAFE, DISTANCE_ROOMY };
 
 /* Returns the number of cells of coarsening level `level` of l (0: finest) that compute forces. On level 0 these are
  * the cells that contain material points and belong to no coarse cell. */
-int64_t levels_count_cells_of_level(const struct mesh_levels *l, int level);
+int64_t mesh_levels_count_cells_of_level(const struct mesh_levels *l, int level);
 
 /* Returns the mesh of coarsening level `level`: for 0 the finest mesh, with the material points, for higher levels a
  * mesh of coarse cells. The mesh belongs to l. */
-static inline struct mesh *level_mesh(struct mesh_levels *l, int level)
+static inline struct mesh *mesh_levels_mesh_of_level(struct mesh_levels *l, int level)
 {
     return level > 0 ? &l->at[level].mesh : l->fine;
 }
 
 /* Returns the mesh of coarsening level `level` for reading only: for 0 the finest mesh, with the material points, for
  * higher levels a mesh of coarse cells. The mesh belongs to l. */
-static inline const struct mesh *level_mesh_read_only(const struct mesh_levels *l, int level)
+static inline const struct mesh *mesh_levels_mesh_of_level_read_only(const struct mesh_levels *l, int level)
 {
     return level > 0 ? &l->at[level].mesh : l->fine;
 }
 
 /* Returns after how many time steps all coarsening levels of l have again reached the same time: 2^n for n coarse
  * levels, as level L (0: finest) advances by 2^L steps at once. */
-static inline int levels_steps_per_cycle(const struct mesh_levels *l) { return 1 << l->n; }
+static inline int mesh_levels_time_steps_per_cycle(const struct mesh_levels *l) { return 1 << l->n; }
 
 /* Makes in l the levels 1 to `coarse_level_count` of coarse cells over the mesh `finest_mesh`, which is level 0; at
  * first they have no cells. finest_mesh: finest mesh, with material points of p, kept by reference; source: material
  * constants, slits (pre-cracks as free surfaces) and voids; density: mass density of each material [kg/m^3].
  * `coarse_level_count` = 0 makes no levels. Returns FAILED, with a message, if a level would have too many nodes.
- * Release with levels_free. */
-status levels_make_over_finest_mesh(struct mesh_levels *l, int coarse_level_count, struct mesh *finest_mesh,
-                                    const struct particles *p, const struct mesh_source *source, const real *density);
+ * Release with mesh_levels_free. */
+status mesh_levels_make_over_finest_mesh(struct mesh_levels *l, int coarse_level_count, struct mesh *finest_mesh,
+                                         const struct particles *p, const struct mesh_source *source,
+                                         const real *density);
 
-/* Frees the coarse levels in l, which levels_make_over_finest_mesh has made; the finest mesh stays with the caller. */
-void levels_free(struct mesh_levels *l);
+/* Frees the coarse levels in l, which mesh_levels_make_over_finest_mesh has made; the finest mesh stays with the
+ * caller. */
+void mesh_levels_free(struct mesh_levels *l);
 
 /* Sets in l two distances between a coarse cell and a material point that is to become peridynamic, both in cells of
  * level 0 (the finest). postpone_distance: if the point is closer, its conversion is postponed, since its bonds would
  * reach the coarse cell. refine_distance: if it is closer, the coarse cell shall be split, since points near breaking
  * bonds convert next. */
-void levels_set_conversion_distances(struct mesh_levels *l, int postpone_distance, int refine_distance);
+void mesh_levels_set_postpone_and_refine_distances(struct mesh_levels *l, int postpone_distance, int refine_distance);
 
 /* Sets the inertia of coarse cells of l, between lumped and consistent mass (kernels/mesh/mesh_inertia.h), such that
  * waves in the cells have the dispersion of waves in a lattice with bonds. edge: edge of cells with lumped mass that
  * would have this dispersion [m]; wave_speed: speed of longitudinal waves [m/s]; dt: time step [s]. */
-void levels_match_wave_dispersion_of_bonds(struct mesh_levels *l, real edge, real wave_speed, real dt);
+void mesh_levels_match_wave_dispersion_of_bonds(struct mesh_levels *l, real edge, real wave_speed, real dt);
 
 /* Computes the highest (coarsest) admissible level of each cell of l with particles p. A coarse cell must be completely
  * filled with one material and contain no cell of level 0 (the finest) marked in `finest_required`; levels of adjacent
  * cells differ by at most one. finest_required: a byte for each cell of level 0 (fine->grid.n bytes), not 0 where level
  * 0 is required; highest_level: largest level allowed for each cell, NULL for no such limit; admissible: receives the
  * level of the cell to which each cell of level 0 shall belong. */
-void levels_compute_coarsest_admissible_levels(const struct mesh_levels *l, const struct particles *p,
-                                               const uint8_t *finest_required, const uint8_t *highest_level,
-                                               uint8_t *admissible);
+void mesh_levels_compute_coarsest_admissible_levels(const struct mesh_levels *l, const struct particles *p,
+                                                    const uint8_t *finest_required, const uint8_t *highest_level,
+                                                    uint8_t *admissible);
 
 /* Forbids coarsening where the present motion would be lost. For each cell of l that `intended_cell_level` would make
  * coarser than at present, the motion of the nodes inside is compared with the interpolation from its corners. If the
  * energy of the difference (kinetic, and of its strain) exceeds `max_energy` [J/kg], `highest_level` becomes one less
  * than `intended_cell_level` in this cell. intended_cell_level, highest_level: a byte for each cell of level 0, the
- * finest. The motion of the nodes of level 0 must be up to date (levels_prolong_motion_to_fine_nodes). Returns true if
- * an entry of `highest_level` was lowered. */
-bool levels_forbid_lossy_coarsening(const struct mesh_levels *l, const uint8_t *intended_cell_level, real max_energy,
-                                    uint8_t *highest_level);
+ * finest. The motion of the nodes of level 0 must be up to date (mesh_levels_prolong_motion_to_fine_nodes). Returns
+ * true if an entry of `highest_level` was lowered. */
+bool mesh_levels_limit_coarsening_by_energy_loss(const struct mesh_levels *l, const uint8_t *intended_cell_level,
+                                                 real max_energy, uint8_t *highest_level);
 
 /* Extends marks to complete coarse cells of l: if one cell of level 0 (the finest) in a coarse cell is marked, all
  * cells of level 0 in it are marked. cell_level: level of the cell to which each cell of level 0 belongs;
  * cell_is_marked: a byte for each cell of level 0. */
-void levels_mark_all_cells_in_marked_coarse_cells(const struct mesh_levels *l, const uint8_t *cell_level,
-                                                  uint8_t *cell_is_marked);
+void mesh_levels_extend_marks_to_whole_coarse_cells(const struct mesh_levels *l, const uint8_t *cell_level,
+                                                    uint8_t *cell_is_marked);
 
 /* Marks all cells of l of level 0 (the finest) within `reach_in_cells` cells of a marked one, in all directions
  * including diagonals. cell_is_marked: a byte for each cell of level 0, not 0 if marked. */
-void levels_mark_cells_near_marked_cells(const struct mesh_levels *l, uint8_t *cell_is_marked, int reach_in_cells);
+void mesh_levels_mark_cells_near_marked_cells(const struct mesh_levels *l, uint8_t *cell_is_marked, int reach_in_cells);
 
 /* Changes the coarsening levels of cells. new_cell_level: for each of the l->fine->grid.n cells of level 0 (the finest)
  * the level of the cell to which it shall belong. Where cells are split, displacement and velocity are interpolated;
  * where cells are merged, the coarse nodes receive those of the nodes at their positions, and the remaining momentum is
  * distributed among the corners, so that momentum is conserved. All levels must be at the same time. Nodal forces
  * become 0. p: particles; source: material constants. */
-void levels_change_refinement(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
-                              const uint8_t *new_cell_level);
+void mesh_levels_change_refinement(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
+                                   const uint8_t *new_cell_level);
 
 /* Changes the velocities of all nodes of l by the nodal forces of half a time step. Between steps, the velocities of
  * level L (0: finest) are half a time step of this level, 2^L dt/2, behind the displacements: dt > 0 brings both to the
  * same time, dt < 0 reverts this. p: particles; elastic: array of the elastic constants of all materials;
  * finite_strain: true if strains are finite, false if small; |dt|: time step of level 0 [s]. */
-void levels_shift_velocities_half_step(struct mesh_levels *l, const struct particles *p, const struct elastic *elastic,
-                                       bool finite_strain, real dt);
+void mesh_levels_shift_velocities_half_step(struct mesh_levels *l, const struct particles *p,
+                                            const struct elastic *elastic, bool finite_strain, real dt);
 
 /* Copies displacement and velocity to all ghosts of l, from the coarsening level 1 upwards. A ghost is a node of the
  * mesh of a coarser level at the position of a node of the next finer level; the motion of the finer node is copied to
  * it. */
-void levels_copy_motion_to_ghost_nodes(struct mesh_levels *l);
+void mesh_levels_copy_motion_to_ghost_nodes(struct mesh_levels *l);
 
 /* Interpolates displacement and velocity of the nodes of coarse cells of l to all nodes of level 0 (the finest mesh)
  * inside these cells, so that these have the motion of the coarse cells. */
-void levels_prolong_motion_to_fine_nodes(struct mesh_levels *l);
+void mesh_levels_prolong_motion_to_fine_nodes(struct mesh_levels *l);
 
 /* Interpolates displacement and velocity of the nodes of coarse cells of l to those nodes of level 0 (the finest mesh)
  * inside these cells that have particles in an adjacent cell. */
-void levels_prolong_motion_to_nodes_near_points(struct mesh_levels *l);
+void mesh_levels_prolong_motion_near_particles(struct mesh_levels *l);
 
 /* Returns the highest coarsening level (0: finest) whose forces act in step number `step`: the largest L <= l->n for
  * which `step` is a multiple of 2^L, because the forces of level L act every 2^L steps. */
-int levels_highest_level_due_in_step(const struct mesh_levels *l, int64_t step);
+int mesh_levels_coarsest_level_integrated_in_step(const struct mesh_levels *l, int64_t step);
 
 /* Computes the forces of coarse cells of l of levels 1 to `highest_level` on their nodes and on nodes of finer levels
  * at the interfaces. The forces of level 0 (the finest) must be complete before. p: particles; elastic: array of the
  * elastic constants of all materials; finite_strain: true if strains are finite, false if small. */
-void levels_compute_forces_of_coarse_cells(struct mesh_levels *l, const struct particles *p,
-                                           const struct elastic *elastic, bool finite_strain, int highest_level);
+void mesh_levels_compute_forces_of_coarse_cells(struct mesh_levels *l, const struct particles *p,
+                                                const struct elastic *elastic, bool finite_strain, int highest_level);
 
 /* Integrates the motion of the nodes of l on levels 0 (the finest) to `highest_level`, level L over 2^L steps. dt: time
  * step of level 0 [s]; dt_velocity: interval over which velocities of level 0 are advanced [s]. The velocities of nodes
  * with prescribed velocity must be set before; the impulse [N s] and the work [J] at these nodes are added to `impulse`
  * and *work. Returns the largest component of a nodal velocity [m/s]. */
-real levels_move_nodes_return_largest_velocity(struct mesh_levels *l, real dt, real dt_velocity, int highest_level,
-                                               real impulse[DIM_MAX], real *work);
+real mesh_levels_move_nodes_return_largest_velocity(struct mesh_levels *l, real dt, real dt_velocity, int highest_level,
+                                                    real impulse[DIM_MAX], real *work);
 
 /* Returns the kinetic energy of the nodes of all coarse levels of l [J], without those of level 0 (the finest). */
-real levels_kinetic_energy_of_coarse_levels(const struct mesh_levels *l);
+real mesh_levels_kinetic_energy_of_coarse_levels(const struct mesh_levels *l);
 
 /* Returns the strain energy of all coarse cells of l [J]; level 0 (the finest) is not included. p: particles; elastic:
  * array of the elastic constants of all materials; finite_strain: true if strains are finite, false if small. */
-real levels_strain_energy_of_coarse_cells(struct mesh_levels *l, const struct particles *p,
-                                          const struct elastic *elastic, bool finite_strain);
+real mesh_levels_strain_energy_of_coarse_cells(struct mesh_levels *l, const struct particles *p,
+                                               const struct elastic *elastic, bool finite_strain);
 
 /* Returns the kinetic energy of the nodes of all coarse levels of l, as mean of its values before and after the last
  * velocity update, less the kinetic energy that leap-frog conserves [J]. Samples of the energy subtract it. It is the
  * sum of m (v_old^2 + v_new^2)/4 - m v_old . v_new/2 over the nodes, of mass m, with their velocities v_old and v_new
  * before and after the last update. dt: time step of level 0, the finest [s]. */
-real levels_leapfrog_energy_gap(const struct mesh_levels *l, real dt);
+real mesh_levels_leapfrog_kinetic_energy_correction(const struct mesh_levels *l, real dt);
 
 /* Returns the power of the forces on the nodes of all coarse levels of l [W]: the sum of 2^L v . f, with the level L of
  * the node, its velocity v and its force f. Forces of level L act for 2^L steps at once. */
-real levels_power_of_coarse_nodal_forces(const struct mesh_levels *l);
+real mesh_levels_power_of_coarse_nodal_forces(const struct mesh_levels *l);
 
 /* Lists the coarse cells of l of level `level` (> 0) in which particles were never made, since coarse cells do not need
  * them. cell_index: receives the indices of these coarse cells in ascending order, NULL to count only. Returns their
  * number. */
-int64_t levels_list_cells_without_particles(const struct mesh_levels *l, int level, int64_t *cell_index);
+int64_t mesh_levels_list_cells_without_particles(const struct mesh_levels *l, int level, int64_t *cell_index);
 
 /* Returns true if the deformation has turned a coarse cell of l inside out: the determinant of the deformation gradient
  * is 0 or negative at a point a quarter of the edge from its faces. X then receives the reference position of the first
  * such point of the cell, dim components [m]. */
-bool levels_contain_inverted_cell(const struct mesh_levels *l, real *X);
+bool mesh_levels_find_inverted_coarse_cell(const struct mesh_levels *l, real *X);
 
 /* Connects the coarse levels to the finest mesh (l->fine) after it has been rebuilt with other particles p. Coarse
  * cells, their motion and their levels are kept. source: material constants. */
-void levels_reconnect_finest_mesh(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source);
+void mesh_levels_reconnect_coarse_to_finest_mesh(struct mesh_levels *l, const struct particles *p,
+                                                 const struct mesh_source *source);
 
 /* Saves the coarsening level of each cell, the motion of the nodes of coarse cells of l and the data for the next
  * change of levels to the archive `a` (checkpoint file or memory) if a->saving, else restores them. The finest mesh
  * must be restored before. p: particles; source: material constants. Returns FAILED, with a message, if the archive
  * cannot be read or written or if the restored levels are inconsistent. */
-status levels_save_or_load(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
-                           struct archive *a);
+status mesh_levels_save_or_load(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
+                                struct archive *a);
 
 #endif

@@ -62,9 +62,9 @@ real mesh_remove_points_and_return_lost_energy(struct mesh *mesh, struct particl
  * be partial cells before and afterwards: cells with a stiffness matrix of their own, because points are missing or
  * leave a share of their stress to bonds. Else returns false without any change; call
  * mesh_remove_points_and_return_lost_energy then. source: material constants. */
-bool mesh_update_stiffness_of_partial_cells(struct mesh *mesh, const struct particles *p,
-                                            const struct mesh_source *source, const int32_t *changed_points,
-                                            int64_t changed_count);
+bool mesh_try_update_stiffness_for_partial_stress(struct mesh *mesh, const struct particles *p,
+                                                  const struct mesh_source *source, const int32_t *changed_points,
+                                                  int64_t changed_count);
 
 /* Adds the particles in inserted_points[inserted_count] (indices), which have become material points again, to the
  * nodes of the mesh, not yet to its cells. Momentum is conserved: the velocity of the nodes around them becomes (m_I
@@ -111,8 +111,8 @@ enum { CELLS_ACROSS = 6 };
  * 2^L cells along each axis) that the thickness of the body around it allows: CELLS_ACROSS cells of this level must
  * fit. highest_level: [mesh->grid.n], receives these levels; mirror[mirror_count]: planes of symmetry, beyond which the
  * body continues. Returns the largest of these levels. */
-int mesh_compute_highest_cell_levels(const struct mesh *mesh, const struct mirror_plane *mirror, int mirror_count,
-                                     uint8_t *highest_level);
+int mesh_compute_cell_coarsening_limit_by_thickness(const struct mesh *mesh, const struct mirror_plane *mirror,
+                                                    int mirror_count, uint8_t *highest_level);
 
 /* Marks all cells of grid g that are within `reach_in_cells` cells of a marked cell, in all directions including
  * diagonals. cell_is_marked: [g->n] marks of the cells, not 0 if marked. */

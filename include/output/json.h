@@ -19,11 +19,11 @@ struct json {
 };
 
 /* Opens an object (bracket '{') or a list (bracket '[') as the next entry of j. key: name of the entry; NULL in a list.
- * Close it with json_close. */
-void json_open(struct json *j, const char *key, char bracket);
+ * Close it with json_end_object_or_list. */
+void json_begin_object_or_list(struct json *j, const char *key, char bracket);
 
 /* Closes the innermost open object or list of j. bracket: closing bracket, '}' of an object or ']' of a list. */
-void json_close(struct json *j, char bracket);
+void json_end_object_or_list(struct json *j, char bracket);
 
 /* Writes the string `text` as the next entry of j, with special characters escaped. key: name of the entry; NULL in a
  * list. */

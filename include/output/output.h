@@ -24,7 +24,7 @@ enum output_mode { OUTPUT_FIRST, OUTPUT_RESUME, OUTPUT_OVERWRITE };
 enum { SERIES_MOST = 16 };
 
 /* Bit of the member `fields` of struct frame_entry: the file of the frame is missing or damaged, so that the index
- * files do not list it (output_remove_lost_frames_from_index). */
+ * files do not list it (output_remove_missing_frames_from_index). */
 #define FRAME_LOST (1u << 31)
 
 /* A frame (state of the particles at one time) that has been written to its file. */
@@ -76,7 +76,7 @@ struct output {
 
 /* Configures signals: SIGXFSZ and SIGPIPE are ignored, so that a full disk causes an error code instead of the end of
  * the process, and a crash removes unfinished files. Call this function once per process. */
-void output_configure(void);
+void output_install_signal_handling_for_file_writes(void);
 
 /* Opens the output o of a run: creates `folder` and its subfolder frames, locks the folder for this process and writes
  * scene.yaml. Removes temporary files of runs and, unless `mode` is OUTPUT_RESUME, the files of an older run. With
@@ -95,7 +95,7 @@ void output_close(struct output *o);
 /* Checks that frames (the particles at one time) of a region can be written to the subfolder frames_NAME of the folder
  * of a run, with NAME = series_name, the name of the region. Returns REFUSED if a link or a file has that name. Must be
  * called before output_open, which removes the files of an older run. */
-status output_check_series_folder_is_free(const char *folder, const char *series_name);
+status output_check_series_folder_can_be_created(const char *folder, const char *series_name);
 
 /* Adds a series of frames (files with the particles of a region at one time) to the output o: the subfolder frames_NAME
  * and its index files NAME.hdf.series and NAME.xdmf, with NAME = series_name. region: kept by reference until
@@ -112,7 +112,7 @@ status output_write_text(const struct output *o, const char *file_name, const ch
  * that are missing or incomplete. A frame that was lost at an earlier restart and exists again is listed again. To be
  * called after a restart. Stores the number of lost frames in *lost_frame_count and, unless it is 0, a message about
  * the first lost frame in message[capacity]. Returns FAILED if an index file cannot be written. */
-status output_remove_lost_frames_from_index(struct output *o, int *lost_frame_count, char *message, size_t capacity);
+status output_remove_missing_frames_from_index(struct output *o, int *lost_frame_count, char *message, size_t capacity);
 
 /* First lines of the files of rigid bodies, which are written beside the frames and by which Cleave recognises them
  * (rigid/rigid_surface.h). */
@@ -171,11 +171,12 @@ status output_write_frame(struct output *o, const struct particles *p, real t, i
 /* Starts to write to o the next frame (state of the particles) of a series at time t [s] after `step` time steps, in a
  * separate thread. series: 0 for the whole body, 1 .. n_series for regions; extra: quantities that p does not store,
  * NULL for none. The fields of p and *extra are copied before the function returns; scene_text must stay valid until
- * output_wait_for_frame. Contact forces are left out if they are 0 everywhere. Only one frame is written at a time: the
- * next frame, checkpoints and output_close wait for it. Returns FAILED if the previous frame, for which it waits, could
- * not be written. A failure of this frame is returned by the call that waits for it. */
-status output_frame_begin(struct output *o, int series, const struct particles *p, const struct frame_extra *extra,
-                          real t, int64_t step, const char *scene_text);
+ * output_wait_until_frame_is_written. Contact forces are left out if they are 0 everywhere. Only one frame is written
+ * at a time: the next frame, checkpoints and output_close wait for it. Returns FAILED if the previous frame, for which
+ * it waits, could not be written. A failure of this frame is returned by the call that waits for it. */
+status output_begin_writing_frame_in_thread(struct output *o, int series, const struct particles *p,
+                                            const struct frame_extra *extra, real t, int64_t step,
+                                            const char *scene_text);
 
 /* Writes all frames (states of the particles) of each series of o as one file with all times for ParaView,
  * frames.vtkhdf, at the end of a run. scene_text: text of the scene, stored in the file. Writes nothing if there is no
@@ -189,12 +190,12 @@ void output_remove_vtkhdf_of_all_frames(const struct output *o);
 
 /* Discards the stored order in which o writes particles to frames (ascending id), for all series of frames, so that the
  * next frame determines it again. Must be called when the number of particles or their ids have changed, after
- * output_wait_for_frame. */
-void output_discard_particle_order(struct output *o);
+ * output_wait_until_frame_is_written. */
+void output_discard_stored_particle_order_by_id(struct output *o);
 
 /* Waits until the thread that writes a frame (stored state of the particles at one time) of o has finished. Returns
  * FAILED if the frame could not be written; OK if it was written or there was no frame in progress. */
-status output_wait_for_frame(struct output *o);
+status output_wait_until_frame_is_written(struct output *o);
 
 /* Opens history.csv of o and writes its header `name [unit],...` from column[column_count], of which the first two are
  * time and step. If `resume` is true, opens the existing file instead and cuts it to the length that
@@ -223,7 +224,7 @@ struct output_frame {
 
 /* Returns the number of stress components that a frame (stored state of the particles at one time) of dimension `dim`
  * contains: 1 in 1D, 4 in 2D (zz included), 6 in 3D. */
-static inline int frame_stress_component_count(int dim) { return symmetric_component_count(dim) + (dim == 2); }
+static inline int frame_stress_component_count(int dim) { return symmetric_tensor_component_count(dim) + (dim == 2); }
 
 /* Reads the frame (stored state of the particles at one time) in the file `path` into *f, in the order of ascending id.
  * Returns FAILED, with no memory to release, if the file, or the particles file that it links to, cannot be read or is
@@ -257,19 +258,21 @@ status run_list_frames(const char *folder, int *frame_count, struct listed_frame
 /* Type of a function that saves the complete state of a run to the archive a (checkpoint file or memory) if a->saving
  * is true, else restores it from a. context: the argument `context` of checkpoint_write or checkpoint_read. Returns
  * FAILED if an entry cannot be written or read. */
-typedef status archive_all_fn(void *context, struct archive *a);
+typedef status run_state_save_or_load_fn(void *context, struct archive *a);
 
 /* Writes the file checkpoint.h5 of o after renaming the previous one to checkpoint.previous.h5. The file contains the
  * format version, scene_text, the state that save_or_load_all(context, archive) saves, and a footer with a hash by
  * which damage is detected. Waits first for a frame that is being written. Returns FAILED if a file cannot be
  * written. */
-status checkpoint_write(struct output *o, const char *scene_text, archive_all_fn *save_or_load_all, void *context);
+status checkpoint_write(struct output *o, const char *scene_text, run_state_save_or_load_fn *save_or_load_all,
+                        void *context);
 
 /* Restores the state of the run in the folder of o by save_or_load_all(context, archive) from checkpoint.h5. If that
  * file is damaged, uses checkpoint.previous.h5 and prints a line on standard error. scene_text: text of the scene of
  * the run. Returns FAILED if both files are damaged or missing, or if the checkpoint belongs to another scene or format
  * version. */
-status checkpoint_read(const struct output *o, const char *scene_text, archive_all_fn *save_or_load_all, void *context);
+status checkpoint_read(const struct output *o, const char *scene_text, run_state_save_or_load_fn *save_or_load_all,
+                       void *context);
 
 /* Returns true if `folder`, the folder of a run, holds a checkpoint: checkpoint.h5 or checkpoint.previous.h5. */
 bool checkpoint_exists(const char *folder);

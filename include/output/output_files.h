@@ -19,7 +19,7 @@ struct path path_join(const char *folder, const char *name);
 
 /* Writes the last part of `path` (the name of the file or folder, without trailing slashes) to name[capacity], cut to
  * capacity - 1 bytes. Returns name. */
-char *path_last_name(char *name, size_t capacity, const char *path);
+char *path_copy_base_name(char *name, size_t capacity, const char *path);
 
 /* Returns the path frames/NNNNNN.hdf, in the folder of a run, of the frame with the number NNNNNN = frame_number; an
  * empty path if it would be too long. */
@@ -27,11 +27,11 @@ struct path run_frame_path(const char *folder, int frame_number);
 
 /* Creates the folder `path` and its parent folders unless they exist. Returns REFUSED if the path is too long or a
  * file has the name of such a folder; FAILED if a folder cannot be created. */
-status folder_make(const char *path);
+status folder_create_with_parents(const char *path);
 
 /* Creates the folder that shall contain the file `path`, and its parent folders, unless they exist. Returns REFUSED if
  * the path is too long or a file has the name of such a folder; FAILED if a folder cannot be created. */
-status folder_make_for_file(const char *path);
+status folder_create_parents_of_file(const char *path);
 
 /* Ending of the names of temporary files. It contains the name of the program, so that files of other programs do not
  * have it. */
@@ -42,11 +42,11 @@ struct path path_of_temporary_file(const char *path);
 /* Returns the temporary name PATH.cleave.tmp of `path` and adds `path` to the list of unfinished files, whose temporary
  * files are removed if the program fails. file_replace_by_temporary or file_discard_temporary with the same path
  * removes it from the list. */
-struct path file_begin_writing_temporary(const char *path);
+struct path file_register_and_name_temporary(const char *path);
 
-/* Removes the temporary files of all files whose writing has begun with file_begin_writing_temporary and is not
+/* Removes the temporary files of all files whose writing has begun with file_register_and_name_temporary and is not
  * finished. To be called before the program ends because of an internal fault. */
-void files_unfinished_remove(void);
+void files_remove_unfinished_temporaries(void);
 
 /* Returns true if a file, folder, link or other entry called `path` exists; a link counts even if its target is
  * missing. */
@@ -72,21 +72,21 @@ status file_check_replaceable(const char *path);
 /* Checks that the file `path` begins as a file of Cleave does, so that it may be replaced. beginning[beginnings]: the
  * possible beginnings; a file shorter than a beginning must agree with it to the end of the file. Returns OK also if
  * there is no such file; REFUSED if no beginning agrees. */
-status file_check_is_from_cleave(const char *path, const char *const *beginning, size_t beginnings);
+status file_check_is_from_cleave(const char *path, const char *const *beginning, size_t beginning_count);
 
-/* Type of a function that files_visit calls for a file. path: path of the file. Returns OK to continue; any other
- * status ends the visit, and files_visit returns it. */
+/* Type of a function that folder_visit_selected_files calls for a file. path: path of the file. Returns OK to continue;
+ * any other status ends the visit, and folder_visit_selected_files returns it. */
 typedef status file_visit_fn(const char *path);
 
 /* Calls visit(path) for every file in `folder` for whose name name_is_chosen(name, ending) returns true. ending: passed
  * on to name_is_chosen. Links are skipped. Stops at the first call of `visit` that does not return OK, and returns its
  * status; otherwise returns OK. */
-status files_visit(const char *folder, bool (*name_is_chosen)(const char *name, const char *ending), const char *ending,
-                   file_visit_fn *visit);
+status folder_visit_selected_files(const char *folder, bool (*name_is_chosen)(const char *name, const char *ending),
+                                   const char *ending, file_visit_fn *visit);
 
 /* Returns true if the file `path` has exactly the given contents, `length` bytes from `bytes` on; false also if it
  * cannot be read. */
-bool file_has_contents(const char *path, const void *bytes, size_t length);
+bool file_contents_equal_bytes(const char *path, const void *bytes, size_t length);
 
 /* Writes `length` bytes from `bytes` on as the complete file `path`: under a temporary name, which is synchronised with
  * the disk and renamed. Then the folder is synchronised. A file that is an input of the command that is running is
@@ -95,14 +95,14 @@ bool file_has_contents(const char *path, const void *bytes, size_t length);
 status file_write_whole(const char *path, const void *bytes, size_t length);
 
 /* Writes `length` bytes from `bytes` on as the complete file `path`, under a temporary name that is synchronised with
- * the disk and renamed. The folder is not synchronised: after many files in one folder, call file_sync_folder once for
- * one of them. A file that is an input of the command that is running is never replaced: returns OK if it already has
- * these contents, else REFUSED. Returns FAILED if the file cannot be written. */
+ * the disk and renamed. The folder is not synchronised: after many files in one folder, call file_sync_parent_folder
+ * once for one of them. A file that is an input of the command that is running is never replaced: returns OK if it
+ * already has these contents, else REFUSED. Returns FAILED if the file cannot be written. */
 status file_write_whole_unsynced(const char *path, const void *bytes, size_t length);
 
 /* Syncs the folder that holds the file `path`, so that a new name survives a crash of the machine. A folder that may
  * not be read is skipped. Returns FAILED if the sync fails. */
-status file_sync_folder(const char *path);
+status file_sync_parent_folder(const char *path);
 
 /* Appends `length` bytes (may be 0) from `tail` on to PATH.cleave.tmp, the temporary file of `path`, and synchronises
  * it with the disk. Returns FAILED, with PATH.cleave.tmp removed, if it cannot be written. */

@@ -25,23 +25,23 @@ struct hdf {
 
 /* Prepares HDF5 for the calling thread: no exit handler of HDF5, no error messages of HDF5 on the terminal. Functions
  * that open files call it first; commands without such files then start faster, as HDF5 is not initialised. */
-void hdf_prepare(void);
+void hdf_disable_exit_handler_and_messages(void);
 
 /* Creates the HDF5 file `path`, replacing an existing one, and stores its handle in *f. compress: compress the tables
  * that hdf_write_rows_zero_padded writes with gzip. No time stamps are stored, so that equal content gives equal bytes.
- * Close it with hdf_close_written_file or hdf_close. A failure is stored in f->failed. */
+ * Close it with hdf_close_or_remove_if_write_failed or hdf_close. A failure is stored in f->failed. */
 void hdf_create(struct hdf *f, const char *path, bool compress);
 
 /* Opens the HDF5 file `path` for reading and stores its handle in *f. Close it with hdf_close. A failure is stored in
  * f->failed. */
-void hdf_open(struct hdf *f, const char *path);
+void hdf_open_for_reading(struct hdf *f, const char *path);
 
 /* Closes the HDF5 file of *f and all its objects. A failure is stored in f->failed. */
 void hdf_close(struct hdf *f);
 
 /* Closes the HDF5 file f, which was created under PATH.cleave.tmp, the temporary name of `path`. If a call of HDF5 on
  * the file has failed, removes the incomplete file, sets *write_failed to true and returns FAILED, with a message. */
-status hdf_close_written_file(struct hdf *f, const char *path, bool *write_failed);
+status hdf_close_or_remove_if_write_failed(struct hdf *f, const char *path, bool *write_failed);
 
 /* Creates the group `name`, a path within the HDF5 file f. A failure is stored in f->failed. */
 void hdf_create_group(struct hdf *f, const char *name);
@@ -105,7 +105,7 @@ void hdf_write_text_attribute(struct hdf *f, const char *group, const char *name
 
 /* Returns the number of elements of the dataset `name`, the product of its dimensions, or -1 if the file f has no such
  * dataset, which is not a failure. Any other failure is stored in f->failed. */
-int64_t hdf_dataset_size(struct hdf *f, const char *name);
+int64_t hdf_dataset_element_count(struct hdf *f, const char *name);
 
 /* Reads the dataset `name`, which must hold exactly `count` numbers, and converts them to the given type in
  * data[count]. Another size or a failed read is stored in f->failed. */
@@ -127,7 +127,7 @@ bool hdf_is_link(hid_t file, const char *name);
 
 /* Returns true if the data of the dataset with the handle `dataset` are stored in its own file: neither in an external
  * file nor as a virtual dataset, whose data are in other files. */
-bool hdf_dataset_is_in_its_file(hid_t dataset);
+bool hdf_dataset_is_stored_in_own_file(hid_t dataset);
 
 /* Reads the attribute `name` of the dataset or group at the path `object_path` of the file into text[capacity]; "" if
  * there is no such attribute, it is no text, or it has a fixed length of more than capacity - 1 bytes. Longer texts of

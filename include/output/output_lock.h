@@ -16,7 +16,7 @@ status folder_lock(struct folder_lock *l, const char *folder);
 
 /* Checks that the lock l still applies to `folder`. Returns FAILED if another folder has that name now, for example
  * because the locked one was moved or removed. */
-status folder_check_lock(const struct folder_lock *l, const char *folder);
+status folder_check_lock_still_holds(const struct folder_lock *l, const char *folder);
 
 /* Releases the lock l, and removes the lock file in `folder` if the lock still applies to this folder. Does nothing if
  * l holds no lock. */

@@ -10,10 +10,10 @@
 #define PAGE_BEGINNING "<!doctype html>\n<!-- page of cleave report -->\n"
 
 /* Returns true if the regular file `path` begins with PAGE_BEGINNING, i.e. is a page that Cleave wrote. */
-bool page_file_is_from_cleave(const char *path);
+bool report_page_is_from_cleave(const char *path);
 
 /* Removes the page report.html from `folder`, the folder of a run that is to be overwritten. A file of this name that
  * Cleave did not write stays. */
-void page_file_remove(const char *folder);
+void report_page_remove_from_folder(const char *folder);
 
 #endif

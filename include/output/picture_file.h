@@ -11,7 +11,7 @@ enum picture_format { PICTURE_PNG, PICTURE_SVG, PICTURE_PDF, PICTURE_MP4, PICTUR
  * writes a mark into it by which Cleave recognises its own pictures, synchronises it with the disk and renames it to
  * `path`. Returns FAILED if the file is missing or incomplete, for example on a full disk. The temporary file is
  * removed then, and an existing file at `path` remains. */
-status picture_replace_by_temporary(const char *path, enum picture_format format);
+status picture_complete_and_rename_temporary(const char *path, enum picture_format format);
 
 /* Returns true if the file `path` has the mark by which Cleave recognises its own pictures. */
 bool picture_file_is_from_cleave(const char *path);

@@ -6,17 +6,17 @@
 
 /* Returns true if the scene texts a and b describe the same scene. Files of particle lists are compared by their
  * checksums, not by their paths. */
-bool scene_texts_are_equal(const char *a, const char *b);
+bool scene_texts_describe_same_scene(const char *a, const char *b);
 
 /* Returns true if the file `path` contains the text of the same scene as scene_text, apart from the paths of files with
  * equal contents. Returns false also if the file cannot be read. */
-bool scene_file_has_text(const char *path, const char *scene_text);
+bool scene_file_describes_same_scene(const char *path, const char *scene_text);
 
 /* Returns true if `text` begins as every scene.yaml that Cleave writes does: with the quoted name of the scene. */
 bool scene_text_is_from_cleave(const char *text);
 
-/* Returns REFUSED with a message about the first line in which the scenes `former`, of the run in the folder, and `now`
- * differ. The message begins with the path of the key in this line. */
-status scene_text_refuse_other(const char *folder, const char *former, const char *now);
+/* Returns REFUSED with a message about the first line in which the scenes `former_text`, of the run in the folder, and
+ * `present_text` differ. The message begins with the path of the key in this line. */
+status scene_texts_refuse_with_first_difference(const char *folder, const char *former_text, const char *present_text);
 
 #endif

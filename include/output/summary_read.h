@@ -18,11 +18,11 @@ status summary_read_string(const char *folder, const char *dotted_key, char *tex
 /* Type of a function that receives one number of summary.json. context: the argument `context` of
  * summary_visit_numbers; key: names of objects and indices of lists that lead to the number, joined by dots; value: the
  * number. */
-typedef void summary_visit(void *context, const char *key, double value);
+typedef void summary_number_visit_fn(void *context, const char *key, double value);
 
 /* Calls visit(context, key, value) for every number of the file summary.json of the folder of a run, in the order of
  * the file. key: names of objects and indices of lists that lead to the number, joined by dots. Returns FAILED if there
  * is no such file or it is not valid JSON; `visit` has then been called for the numbers before the fault. */
-status summary_visit_numbers(const char *folder, summary_visit *visit, void *context);
+status summary_visit_numbers(const char *folder, summary_number_visit_fn *visit, void *context);
 
 #endif

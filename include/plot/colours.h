@@ -45,7 +45,7 @@ struct colour colour_on_damage_scale(double position);
 /* Returns the colour of a peridynamic particle in maps of the particle kind. It goes from light blue at 0 to dark blue
  * at 1. position: position on this scale, 0 .. 1, which depends on the damage of the particle. Smaller and larger
  * values are treated as 0 and 1, NaN and infinity as 1. */
-struct colour colour_of_peridynamic_particle(double position);
+struct colour colour_on_peridynamic_particle_scale(double position);
 
 /* Returns the colour of material points in maps of the kind of particles (MAP_KIND), which distinguish them from
  * peridynamic particles. */

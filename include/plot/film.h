@@ -6,14 +6,14 @@
 
 /* Checks that the program ffmpeg, which encodes films, can be started. Returns REFUSED if not; the message names the
  * package to install. */
-status film_check_encoder_is_installed(void);
+status video_check_encoder_is_installed(void);
 
 /* Draws one picture for each of cloud[frame_count], the particles at each stored time (frame) of a run, and encodes the
  * pictures as a film (video), the file sheet.path of the format sheet.format. fps: frames per second, 0 for the default
  * of 8; title: heading of each picture; map: quantity that the colours show; view: common rectangle and range of the
  * colours. The pictures are drawn in a temporary folder beside the film, which is removed. Returns FAILED if gnuplot or
  * ffmpeg fails, REFUSED if sheet.path is a file that must not be replaced. */
-status film_draw_frames_as_video(struct sheet sheet, int fps, const char *title, enum map map, const struct view *view,
-                                 const struct plotted_particles *cloud, int frame_count);
+status video_draw_and_encode_frames(struct output_picture output, int fps, const char *title, enum map map,
+                                    const struct view *view, const struct plotted_particles *cloud, int frame_count);
 
 #endif

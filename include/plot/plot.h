@@ -50,13 +50,14 @@ struct projection {
 
 /* Returns true if the run of `projection` computes a single static equilibrium; the times of its frames are then times
  * of the loads, not of a motion. Returns false if the scene of the run is unknown. */
-bool projection_is_equilibrium(const struct projection *projection);
+bool projection_shows_single_equilibrium_run(const struct projection *projection);
 
 /* Writes to `text` the words by which pictures describe the state in a frame, and returns true: `equilibrium` or, at t
  * = 0, `without loads` if the run computes a single static equilibrium (`equilibrium` is true), else `load step 3` if
- * it makes load steps (`in_steps` is true). Returns false and writes "" for a run in time. t: time of the loads [s];
- * step: number of the load step. */
-bool frame_write_state(char text[NAME_MAX_LENGTH], bool in_steps, bool equilibrium, double t, int64_t step);
+ * it makes load steps (`has_load_steps` is true). Returns false and writes "" for a run in time. t: time of the loads
+ * [s]; step: number of the load step. */
+bool frame_compose_label_if_static(char text[NAME_MAX_LENGTH], bool has_load_steps, bool equilibrium, double t,
+                                   int64_t step);
 
 /* Options of `cleave plot`. */
 struct plot_request {
@@ -88,15 +89,15 @@ status run_draw_standard_pictures(const struct plot_request *r);
 /* Draws a picture or film of the field r->field of a run, and prints its file name and the range of the colours.
  * Returns REFUSED if the run has no such field or frames, or if a file that Cleave did not draw would be replaced;
  * FAILED if drawing fails. */
-status field_draw_picture_or_film(const struct plot_request *r);
+status field_draw_picture_or_video(const struct plot_request *r);
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
 /* Returns true if `folder`, the folder of a run, holds a file called `name`. */
-bool run_has_file(const char *folder, const char *name);
+bool run_folder_has_file(const char *folder, const char *name);
 
 /* Returns true if `folder` is that of a sweep or a convergence study, which is recognised by its table. */
-bool folder_holds_study(const char *folder);
+bool folder_contains_study_table(const char *folder);
 
 /* Reads the frame (stored state of the particles at one time) with the number `frame_number` in the folder of a run
  * into *f. Returns FAILED, with no memory to release, if the file cannot be read or is damaged. Release f with
@@ -130,17 +131,18 @@ void frames_free(struct output_frame *frames, int frame_count);
 /* Creates the folder for pictures, `path`, unless it exists. Returns REFUSED if a symbolic link has this name. Also
  * returns REFUSED if the folder contains a file with the name of a picture that Cleave did not draw, unless `overwrite`
  * is true. Returns FAILED if the folder cannot be created. */
-status pictures_folder_make(const char *path, bool overwrite);
+status pictures_folder_create(const char *path, bool overwrite);
 
 /* Determines the path of a picture from `option_argument`, the argument of the option -o, and stores it in *path.
  * `option_argument` is a file, or a folder (which exists or ends in /) in which the file `name` is created. Missing
  * folders are created. Returns REFUSED if the name is empty or too long, or if the file exists, Cleave did not draw it,
  * and `overwrite` is false. */
-status picture_choose_path(struct path *path, const char *option_argument, const char *name, bool overwrite);
+status picture_choose_path_by_output_option(struct path *path, const char *option_argument, const char *name,
+                                            bool overwrite);
 
 /* Prints that the picture `path` is not drawn, with the reason `reason`, and removes an older picture of that name if
  * Cleave drew it. Returns FAILED if standard output cannot be written. */
-status report_picture_not_drawn(const char *path, const char *reason);
+status picture_report_not_drawn_and_remove_old(const char *path, const char *reason);
 
 /* Capacity of the title of a picture, with its terminator [byte]. */
 enum { TITLE_LENGTH = 256 };
@@ -167,9 +169,9 @@ enum { UNIT_PREFIXES = 17 };
 extern const struct unit unit_prefix[UNIT_PREFIXES];
 
 /* Returns the unit with the SI prefix in which the value `largest_value` (in SI units) has one to three digits before
- * the decimal point. unit_name: unit without prefix; unit_for_largest_value(2e-5, "s") is microseconds. A value below
- * the least prefix, which is round-off, has the unit without prefix. */
-struct unit unit_for_largest_value(double largest_value, const char *unit_name);
+ * the decimal point. unit_name: unit without prefix; unit_with_si_prefix_for_largest_value(2e-5, "s") is microseconds.
+ * A value below the least prefix, which is round-off, has the unit without prefix. */
+struct unit unit_with_si_prefix_for_largest_value(double largest_value, const char *unit_name);
 
 /* Returns a unit of length suitable for values up to `largest_length` [m]: millimetres between 0.5 mm and 1 m,
  * kilometres from 1 km on, else metres with an SI prefix. */
@@ -182,7 +184,7 @@ struct unit unit_for_area(double largest_area);
 /* Returns a unit for values up to `largest_value` (in SI units). If `unit_name` is a unit that takes prefixes (s, m,
  * m^2, m/s, N, J, Pa, W, J/m², J/m³, Pa√m), it has the prefix with which `largest_value` has one to three digits
  * before the decimal point; else it is the unit itself. unit_name: unit without prefix. */
-struct unit unit_for_largest_value_if_prefixable(const char *unit_name, double largest_value);
+struct unit unit_with_si_prefix_if_unit_allows_it(const char *unit_name, double largest_value);
 
 /* ---- fields ------------------------------------------------------------------------------------------------------ */
 
@@ -221,7 +223,7 @@ status plot_field_choose_default(const struct plot_field **field, const char *fo
 /* ---- maps -------------------------------------------------------------------------------------------------------- */
 
 /* A rigid body as a picture of one frame shows it: its shape at the start and its placement in the frame. */
-struct rigid_shown {
+struct plotted_rigid_body {
     const struct region *shape;       /* at t = 0; borrowed from the scene */
     struct rigid_placement at;        /* position and rotation in the frame */
     bool bounded;                     /* the body is finite */
@@ -268,8 +270,8 @@ struct plotted_particles {
     double from[2], to[2]; /* bounding box of the reference positions [m] */
     int mirrors;           /* number of planes of symmetry */
     struct shown_mirror mirror[MIRRORS_SHOWN_MOST];
-    int dim, rigids;           /* of the rigid bodies: dimension, number */
-    struct rigid_shown *rigid; /* [rigids] */
+    int dim, rigids;                  /* of the rigid bodies: dimension, number */
+    struct plotted_rigid_body *rigid; /* [rigids] */
 };
 
 /* Copies those particles of the frame f (state at one time) that a picture shows into *c: in 2D all, in 3D those
@@ -306,8 +308,8 @@ void plotted_particles_free(struct plotted_particles *c);
  * in an undamaged body, with the largest value of projection->field, if this is a continuous field. path: file of the
  * frame, from which the field is read. Does nothing for views from outside and in lower dimensions. Returns REFUSED if
  * no particle is within one spacing of the given position, FAILED if the field cannot be read. */
-status projection_complete_slice_from_particles(struct projection *projection, const struct output_frame *f,
-                                                const char *path);
+status projection_choose_slice_normal_and_position(struct projection *projection, const struct output_frame *f,
+                                                   const char *path);
 
 /* Returns the particle spacing [m] of the frame f (state at one time): the smallest one if the frame stores spacings,
  * else the median distance of nearest neighbours in the reference positions of a sample of particles; 0 if it is
@@ -317,21 +319,21 @@ double frame_particle_spacing(const struct output_frame *f);
 /* Returns an allocated array with the size [m] of each particle of the frame f, whose particles come from lists, by the
  * distances of its neighbours. Returns NULL if the sizes do not differ (the list is not graded), if the frame stores
  * spacings, or for a bar. spacing: median spacing [m]. */
-float *frame_find_sizes_of_list_particles(const struct output_frame *f, double spacing);
+float *frame_estimate_graded_particle_sizes(const struct output_frame *f, double spacing);
 
 /* Quantity that the colours of a map (picture of particles) show: damage, kind or fragment of the particles, a field,
  * named values such as bodies, or cracks (particles with damage above CRACK_DAMAGE). */
 enum map { MAP_DAMAGE, MAP_KIND, MAP_FRAGMENT, MAP_FIELD, MAP_CATEGORY, MAP_CRACKS };
 
 /* Returns the kind of map (MAP_...) that shows the field `field`, e.g. MAP_DAMAGE for the damage. */
-enum map map_of_field(const struct plot_field *field);
+enum map colour_map_kind_for_field(const struct plot_field *field);
 
 /* Computes the displacement of the particle that is nearest to a rigid body into displacement[f->dim] [m]; 0 if there
  * are no particles. Pictures with displacements N times as large move the body by N - 1 times this vector, so that its
- * distance from the particle, in contact or not, is the true one. shape: of the body at the start; at: its placement in
- * the frame f. */
-void rigid_displacement_of_nearest_particle(const struct region *shape, const struct rigid_placement *at,
-                                            const struct output_frame *f, real *displacement);
+ * distance from the particle, in contact or not, is the true one. shape: of the body at the start; placement: its
+ * placement in the frame f. */
+void rigid_body_find_nearest_particle_displacement(const struct region *shape, const struct rigid_placement *placement,
+                                                   const struct output_frame *f, real *displacement);
 
 /* Adds the rigid bodies of the scene s to c, the particles of frame number `frame_number` that a picture shows, at the
  * positions and rotations that the run in `folder` has stored for this frame. In a picture with magnified displacements
@@ -343,8 +345,9 @@ void plotted_particles_add_rigid_bodies(struct plotted_particles *c, const struc
 
 /* Adds the rigid bodies of the scene s, whose placements are placement[s->rigids], to the particles c. low, high: box
  * around the particles in the reference state, to which unbounded bodies are cut [s->dim, m]. s: kept by reference. */
-void plotted_particles_add_rigid_bodies_at(struct plotted_particles *c, const struct scene *s,
-                                           const struct rigid_placement *placement, const real *low, const real *high);
+void plotted_particles_add_placed_rigid_bodies(struct plotted_particles *c, const struct scene *s,
+                                               const struct rigid_placement *placement, const real *low,
+                                               const real *high);
 
 /* Number of named values, such as materials or bodies, with different colours (colour_of_material_or_body). */
 enum { CATEGORIES_MOST = 9 };
@@ -365,8 +368,8 @@ struct categories {
 /* Lists the named values (bodies, materials and so on) of a field that occur in cloud[frame_count], the particles of
  * several frames, and stores them in *k. folder: folder of the run, from whose scene the names of bodies and materials
  * are read. */
-void categories_list_named_values(struct categories *k, const struct plot_field *field, const char *folder,
-                                  const struct plotted_particles *cloud, int frame_count);
+void categories_list_values_present_in_frames(struct categories *k, const struct plot_field *field, const char *folder,
+                                              const struct plotted_particles *cloud, int frame_count);
 
 /* Returns the colour of one value of a field whose values have names, such as bodies or materials. category_value: the
  * value, which is the index of the body or material. */
@@ -409,31 +412,31 @@ status view_make_for_request(struct view *v, const struct plot_request *r, const
 
 /* Returns the colour of particle number i of c in a map of the quantity `map`. v: view, with the values at the ends of
  * the colour scale. */
-struct colour particle_colour(const struct view *v, const struct plotted_particles *c, int64_t i, enum map map);
+struct colour plotted_particle_colour(const struct view *v, const struct plotted_particles *c, int64_t i, enum map map);
 
 /* Returns the colour at `position` in 0 .. 1 on the colour scale of a map of the kind `map`. v: view, whose field and
  * table determine the scale if `map` is MAP_FIELD. */
-struct colour map_colour_at_scale_position(const struct view *v, enum map map, double position);
+struct colour view_colour_at_scale_position(const struct view *v, enum map map, double position);
 
 /* Paints the particles of c, seen in the rectangle of `view`, into the image pixel[height * width], rows from bottom to
  * top. map: quantity that the colours show. Each particle covers a square, or a disc if the lattice is rotated, which
  * deforms with the body. Each pixel shows the particle nearest to it. Pixels without a particle are white and
- * transparent. For plane bodies and slices; cubes_paint_particles paints views from outside. */
-void raster_paint_particles(struct colour *pixel, int width, int height, const struct view *view,
-                            const struct plotted_particles *c, enum map map);
+ * transparent. For plane bodies and slices; image_paint_particles_as_cubes paints views from outside. */
+void image_paint_particles_in_plane(struct colour *pixel, int width, int height, const struct view *view,
+                                    const struct plotted_particles *c, enum map map);
 
 /* Paints the particles of c, as seen from outside by a camera, into the image pixel[height * width], rows from bottom
  * to top. map: quantity that the colours show; view: visible rectangle and range of the colours. Each particle is drawn
  * as a cube that deforms with the body. Each pixel shows the cube nearest to the viewer. In MAP_CRACKS the body is
  * painted in a faded colour, and the cubes of particles with damage of at least CRACK_DAMAGE are painted over it. */
-void cubes_paint_particles(struct colour *pixel, int width, int height, const struct view *view,
-                           const struct plotted_particles *c, enum map map);
+void image_paint_particles_as_cubes(struct colour *pixel, int width, int height, const struct view *view,
+                                    const struct plotted_particles *c, enum map map);
 
 /* Paints the faces of the pre-cracks v->notch into the image pixel[height * width] (rows from bottom to top) of a map
  * of a plane body, as lines that move with the adjacent particles of c. v: rectangle of the image; map: quantity that
  * the colours show. Paints nothing unless `map` is MAP_DAMAGE or MAP_FIELD. */
-void notches_paint_crack_faces(struct colour *pixel, int width, int height, const struct view *v,
-                               const struct plotted_particles *c, enum map map);
+void image_paint_precrack_faces(struct colour *pixel, int width, int height, const struct view *v,
+                                const struct plotted_particles *c, enum map map);
 
 /* Returns the colour in which rigid bodies are drawn in a map of the kind `map`; it is faded in MAP_CRACKS, where the
  * deformable bodies are faded, too. */
@@ -446,21 +449,21 @@ void view_extend_to_rigid_bodies(struct view *v, const struct plotted_particles 
 
 /* Returns true if at least one rigid body of c is visible in the rectangle of v. In views from outside every rigid body
  * counts as visible. In plane bodies and slices the rectangle is tested at 300 x 300 points. */
-bool rigids_are_visible(const struct view *v, const struct plotted_particles *c);
+bool view_shows_any_rigid_body(const struct view *v, const struct plotted_particles *c);
 
 /* Paints the rigid bodies of c, seen in the rectangle of v, into the image pixel[height * width] of a plane body or a
  * slice. In front of a slice they hide the particles, in a plane body they are behind the particles. */
-void rigids_paint_in_plane(struct colour *pixel, int width, int height, const struct view *v,
-                           const struct plotted_particles *c);
+void image_paint_rigid_bodies_in_plane(struct colour *pixel, int width, int height, const struct view *v,
+                                       const struct plotted_particles *c);
 
 /* Paints the rigid bodies of c, as seen from outside by a camera, into the image pixel[height * width], rows from
  * bottom to top. A pixel is painted where a body is nearer to the viewer than the depth stored in depth[height * width]
  * [m], which is then updated. v: visible rectangle; map: quantity that the colours show. */
-void rigids_paint_from_outside(struct colour *pixel, float *depth, int width, int height, const struct view *v,
-                               const struct plotted_particles *c, enum map map);
+void image_paint_rigid_bodies_from_outside(struct colour *pixel, float *depth, int width, int height,
+                                           const struct view *v, const struct plotted_particles *c, enum map map);
 
 /* Output file of a picture: its path and its format. */
-struct sheet {
+struct output_picture {
     const char *path;
     enum picture_format format;
 };
@@ -468,7 +471,7 @@ struct sheet {
 /* Draws one picture, the file sheet.path, with a panel for each of the frames cloud[frame_count], a common colour scale
  * or key (legend), and the heading `title`. map: quantity that the colours show; view: common rectangle and range of
  * the colours. Returns FAILED if gnuplot fails. */
-status maps_draw_panels_of_frames(struct sheet sheet, const char *title, enum map map, const struct view *view,
-                                  const struct plotted_particles *cloud, int frame_count);
+status picture_draw_panels_of_frames(struct output_picture output, const char *title, enum map map,
+                                     const struct view *view, const struct plotted_particles *cloud, int frame_count);
 
 #endif

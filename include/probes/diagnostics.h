@@ -43,7 +43,7 @@ struct diagnostics {
 
 /* Initialises the diagnostics *w before the first time step: sums are 0; times and positions of breaks are NAN, since
  * no bond has broken yet. */
-void diagnostics_make(struct diagnostics *w);
+void diagnostics_initialise(struct diagnostics *w);
 
 /* Computes the total momentum of the particles p and of the mesh nodes, stores it in w->now.momentum, and updates
  * w->now.momentum_error, the largest error so far. nodes[grid_count]: grids whose nodes carry the mass of their points.
@@ -66,15 +66,15 @@ void diagnostics_update_energy_balance(struct diagnostics *w, real t, const stru
 /* Returns the relative energy change (E - E_0 - work)/E_0 [1] at the last sample of w. E is the sum of all energies
  * except the energy taken by damping, E_0 that sum at the start, and `work` the work of loads and supports. Returns NAN
  * if E_0 is not positive. */
-real diagnostics_relative_energy_change(const struct diagnostics *w);
+real diagnostics_relative_energy_balance_error(const struct diagnostics *w);
 
 /* Finds the groups of bonds that broke in this time step: clusters of particles of p whose flag FLAG_CRACKED (bond lost
  * in this step) is set and that are at most `horizon` apart. searched_particles[particle_count]: numbers of the
  * particles that are searched; NULL for particles 0 .. particle_count - 1. horizon: length of the longest bond [m].
  * cluster_centre: receives the reference position of the middle of one cluster, dim components [m]. Returns the number
  * of clusters; if it is 0, `cluster_centre` is unchanged. */
-int64_t diagnostics_count_clusters_of_new_breaks(const struct particles *p, const int32_t *searched_particles,
-                                                 int64_t particle_count, real horizon, real *cluster_centre);
+int64_t diagnostics_count_clusters_of_new_bond_breaks(const struct particles *p, const int32_t *searched_particles,
+                                                      int64_t particle_count, real horizon, real *cluster_centre);
 
 /* Adds the bonds that broke in the step at time t [s], `broken_bond_count` (each counted for both of its particles), to
  * the number of broken bonds in w. If they are the first ones of the run, stores t and the position of the break: the
@@ -89,8 +89,8 @@ bool diagnostics_record_broken_bonds(struct diagnostics *w, const struct particl
  * material points of a mesh too. Both are false in most steps, since the functions that move these particles detect
  * divergence. step, t: number and time [s] of the step, for the message. Returns FAILED if there is such a particle,
  * with its position and the cause in the message. */
-status diagnostics_check_divergence(const struct particles *p, bool check_peridynamic, bool check_mesh_points,
-                                    real max_speed, int64_t step, real t);
+status diagnostics_check_particles_for_divergence(const struct particles *p, bool check_peridynamic,
+                                                  bool check_mesh_points, real max_speed, int64_t step, real t);
 
 /* Saves the diagnostics w to the archive `a` (checkpoint file or memory) if a->saving is set, else restores them from
  * it. Returns FAILED if an entry is missing or has another size. */
@@ -104,6 +104,6 @@ bool diagnostics_energy_is_round_off(const struct diagnostics *w, real mass, rea
 /* Returns the energy [J] that breaking bonds have released in excess of the energy that they had stored: minus the
  * fracture energy of the last sample of w if that is negative, else 0. Only bonds of state-based models can have such
  * an excess. */
-real diagnostics_energy_released_beyond_stored(const struct diagnostics *w);
+real diagnostics_excess_energy_released_by_bonds(const struct diagnostics *w);
 
 #endif

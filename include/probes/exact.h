@@ -41,7 +41,7 @@ struct exact_values {
 /* Returns displacement, velocity, stress and strain of the closed-form solution e at reference position X [m] and time
  * t >= 0 [s]. At a front, the values behind the front are returned. All values are NAN if the closed form does not
  * apply at X and t. */
-struct exact_values exact_solution_at(const struct exact *e, real X, real t);
+struct exact_values bar_exact_solution_at_position(const struct exact *e, real X, real t);
 
 /* A stress front of the closed-form solution, a jump that moves along the bar. */
 struct exact_front {
@@ -56,7 +56,7 @@ enum { EXACT_FRONTS = 2 };
  * bar under a step load (EXACT_STEP_BAR) has one front, which is reflected at both ends. A plastic bar
  * (EXACT_PLASTIC_BAR) has the elastic precursor and, if the load exceeds the yield stress, the plastic front. Returns
  * the number of fronts; 0 for solutions without jumps and for times at which the closed form does not apply. */
-int exact_compute_stress_fronts(const struct exact *e, real t, struct exact_front front[EXACT_FRONTS]);
+int bar_exact_solution_compute_stress_fronts(const struct exact *e, real t, struct exact_front front[EXACT_FRONTS]);
 
 /* Parts of a bar in which the stress of the closed-form solution is constant, at a distance from fronts and ends.
  * PLATEAU: behind the last front, at least 0.1 bar lengths from it (0.08 from a plastic front) and from the ends.
@@ -64,10 +64,10 @@ int exact_compute_stress_fronts(const struct exact *e, real t, struct exact_fron
 enum exact_window { EXACT_PLATEAU, EXACT_PRECURSOR };
 
 /* Computes the ends *lower_end and *upper_end [m] of a part of the bar in which the stress of the closed-form solution
- * e is constant at time t [s]. part: EXACT_PLATEAU the part behind the last front, EXACT_PRECURSOR that between the
+ * e is constant at time t [s]. window: EXACT_PLATEAU the part behind the last front, EXACT_PRECURSOR that between the
  * elastic precursor and the plastic front, both at some distance from fronts and ends. Returns false if there is no
  * such part at time t. */
-bool exact_find_constant_stress_range(const struct exact *e, real t, enum exact_window part, real *lower_end,
-                                      real *upper_end);
+bool bar_exact_solution_find_constant_stress_range(const struct exact *e, real t, enum exact_window window,
+                                                   real *lower_end, real *upper_end);
 
 #endif

@@ -24,20 +24,20 @@
  *
  *   L1, L2                           mean |error| and root mean square of the error over the particles [Pa]
  *   front, front_plastic             where the stress passes the middle of the jump of the (plastic) front [m]
- *   plateau                          mean stress in the range EXACT_PLATEAU of exact_find_constant_stress_range [Pa]
- *   strain_elastic, strain_plastic   mean strain ahead of the plastic front, and behind it [1]
- *   end_displacement                 of the outermost particle at the loaded end, half a spacing from the end [m]
- *   L1_velocity, L2_velocity         as L1 and L2, at the time of the velocities [m/s]
- *   L2_displacement                  as L2 [m] */
+ *   plateau                          mean stress in the range EXACT_PLATEAU of
+ * bar_exact_solution_find_constant_stress_range [Pa] strain_elastic, strain_plastic   mean strain ahead of the plastic
+ * front, and behind it [1] end_displacement                 of the outermost particle at the loaded end, half a spacing
+ * from the end [m] L1_velocity, L2_velocity         as L1 and L2, at the time of the velocities [m/s] L2_displacement
+ * as L2 [m] */
 
 /* Final state of the run on material points alone with which PULSE probes are compared
- * (engine_run_mpm_baseline_for_pulse_probe). */
+ * (run_repeat_with_mpm_only_for_pulse_probe). */
 struct baseline {
     real *v[DIM_MAX];   /* [n] velocities [m/s] */
     real energy_change; /* relative energy change since the start [1] */
 };
 
-/* Read-only view of a run that probes measure (observed_run_view_of); all pointers are borrowed. */
+/* Read-only view of a run that probes measure (observed_run_make_read_only_view); all pointers are borrowed. */
 struct observed_run {
     const struct particles *part;         /* particles of all bodies */
     const struct cells *cells;            /* search over reference positions */
@@ -81,7 +81,7 @@ struct probes {
 };
 
 /* Time of the velocities after a time step, and a factor on the velocities that are interpolated to the time of a
- * sample (probes_complete_sample_after_step). */
+ * sample (probes_sample_velocity_dependent_values). */
 struct velocity_time {
     real t;     /* of the present velocities [s] */
     real scale; /* factor of velocities of the sample that undoes half a step of bulk damping [1] */
@@ -100,18 +100,18 @@ void probes_free(struct probes *s);
 
 /* Computes the values of a sample (a line of history.csv) at the current positions, time o->t, and stores them in
  * s->value. Values that depend on velocities at the time of the sample or on the forces of the time step are replaced
- * later by probes_complete_sample_after_step. */
-void probes_begin_sample_before_step(struct probes *s, const struct observed_run *o);
+ * later by probes_sample_velocity_dependent_values. */
+void probes_sample_position_dependent_values(struct probes *s, const struct observed_run *o);
 
 /* Computes the kinetic, strain and fracture energy of the particles of the ENERGY probes of s and stores them in
  * s->value [J]. Must be called when the forces at the time of the sample are known and before anything moves, as the
- * energies of the whole run are computed. The kinetic energy is replaced later by probes_complete_sample_after_step. o:
- * view of the run. */
+ * energies of the whole run are computed. The kinetic energy is replaced later by
+ * probes_sample_velocity_dependent_values. o: view of the run. */
 void probes_sample_energies(struct probes *s, const struct observed_run *o);
 
 /* Copies the positions (at time o->t) and velocities (at time o->t_velocity) of the observed particles into the probes
- * *s. Must be called before the time step; probes_complete_sample_after_step interpolates between these velocities and
- * those after the step. */
+ * *s. Must be called before the time step; probes_sample_velocity_dependent_values interpolates between these
+ * velocities and those after the step. */
 void probes_store_motion_before_step(struct probes *s, const struct observed_run *o);
 
 /* Computes the values of a sample (line of history.csv) that depend on velocities or on the forces of the time step,
@@ -119,7 +119,8 @@ void probes_store_motion_before_step(struct probes *s, const struct observed_run
  * probes_store_motion_before_step: velocities are interpolated to that time, and reactions are those of the forces in
  * the step. now: time of the present velocities. If probes_store_motion_before_step was not called before, the body is
  * assumed to be in equilibrium. o: view of the run. */
-void probes_complete_sample_after_step(struct probes *s, const struct observed_run *o, const struct velocity_time *now);
+void probes_sample_velocity_dependent_values(struct probes *s, const struct observed_run *o,
+                                             const struct velocity_time *now);
 
 /* Appends to *warning_list and prints, once for each SIF probe (stress-intensity factors), a warning that K_I, K_II and
  * J have no value at the last sample (line of history.csv): the integration ring round a tip that has grown leaves the
@@ -131,12 +132,12 @@ void probes_warn_of_meaningless_sif(struct probes *s, bool single_equilibrium, r
  * SPALL probes (separated end of a bar) search for bonds that broke in the step (particles whose flag FLAG_LOST_BOND is
  * set); REACTION probes (force of a support) update the largest force and the sum of squared forces. Must be called
  * before these flags are cleared. */
-void probes_update_every_step(struct probes *s, const struct observed_run *o);
+void probes_update_break_spall_and_reaction_probes(struct probes *s, const struct observed_run *o);
 
 /* Updates the BREAK probes (first broken bond of a region) and SPALL probes (separated end of a bar) of s in run o,
  * which search for bonds that just broke, and no other probes. Load steps (sequences of static equilibria) call this
  * function each time bonds have broken. */
-void probes_update_broken_bonds(struct probes *s, const struct observed_run *o);
+void probes_update_break_and_spall_probes(struct probes *s, const struct observed_run *o);
 
 /* Calls emit(context, probe name, quantity name, value) for every result of every probe of s that summary.json reports,
  * in SI units. o: view of the run at the end. Values that are NAN are skipped. */
@@ -169,7 +170,7 @@ bool probes_compose_profile_file_name(const struct probes *s, int profile, int f
 /* Copies the stress-intensity factors at the last sample of the probe of s (kind SIF) called `probe_name`, and the
  * direction of the crack tip, to *control, by which a growing crack is controlled. Returns false if the probe has no
  * values yet. */
-bool probes_copy_sif_of_probe(const struct probes *s, const char *probe_name, struct growth_control *control);
+bool probes_copy_sif_to_growth_control(const struct probes *s, const char *probe_name, struct growth_control *control);
 
 /* Stores the current position of the crack tip that the SIF probe (stress-intensity factors) number `probe` of s
  * observes in tip_position[2] [m], and the outer radius of the integration contours around the tip in *outer_radius

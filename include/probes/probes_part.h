@@ -21,8 +21,8 @@ struct probing {
 real particles_largest_stress_component(const struct particles *p);
 
 /* Stores the wave pulses among the initial states of the scene s in probing->pulse, a new array (released by
- * engine_free_run), and their number in probing->pulses. */
-void scene_list_wave_pulses(const struct scene *s, struct probing *probing);
+ * run_free_memory), and their number in probing->pulses. */
+void scene_list_initial_wave_pulses(const struct scene *s, struct probing *probing);
 
 /* Extends the cracks of run e with prescribed or controlled growth by the growth of one time step, and cuts the bonds
  * that they cross. The speed and direction of a crack controlled by a SIF probe (stress-intensity factors) follow from

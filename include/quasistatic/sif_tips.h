@@ -37,7 +37,7 @@ struct sif_crack_tip {
 
 /* The plane in which the tips move: the plane of a plane body, or in space the plane across the fronts, which must be
  * straight and parallel and run through the whole body (sif_plane.c). */
-struct sif_plane {
+struct crack_tip_plane {
     bool made;             /* the plane has been found */
     int dim;               /* of the body */
     real spacing;          /* of the particles [m] */
@@ -66,7 +66,7 @@ struct path_segment {
 struct sif_cracks {
     const struct scene *scene;        /* borrowed */
     const struct bond_source *source; /* borrowed: pre-cracks, neighbourhood and critical stretches */
-    struct sif_plane plane;           /* plane in which the tips move */
+    struct crack_tip_plane plane;     /* plane in which the tips move */
     const char *fault;                /* why no crack of the scene is SIF-driven; NULL: cracks are */
     bool known;                       /* the tips of the pre-cracks have been found */
     int n;

@@ -77,14 +77,14 @@ struct flow_start {
 
 /* The largest rotation of the direction of plastic flow within a load step, over all material points and load steps so
  * far. */
-struct flow_turn {
+struct plastic_flow_direction_change {
     real angle;             /* angle of the rotation [rad]; 0: no direction has rotated */
     real position[DIM_MAX]; /* reference position of the point [m] */
     int64_t step;           /* number of the load step */
 };
 
 /* The largest fall of the yield stress of a point within a load step in which it flows. */
-struct flow_softening {
+struct plastic_flow_thermal_softening {
     real share;             /* fall divided by the yield stress at the start of the step [1]; 0: none has fallen */
     real position[DIM_MAX]; /* reference position of the point [m] */
     int64_t step;           /* number of the load step */
@@ -102,15 +102,15 @@ struct statics {
     struct field increment; /* [nodes] displacement increment to the next equilibrium: prescribed, else predicted [m] */
     real *applied[DIM_MAX]; /* [particles of the body] present applied forces [N] */
     int64_t fragments;      /* number of unconstrained fragments */
-    struct unconstrained_fragment *fragment; /* [fragments] */
-    struct block_matrix *matrix;             /* stiffness of bonds, cells and contact, for the preconditioner */
-    struct multigrid *precondition;          /* preconditioner; NULL until its next use makes it */
-    int64_t directions;                      /* search directions of the first solution with it; 0: none yet */
-    struct memory_archive plastic;           /* plastic state at the start of the next solutions (system.c) */
-    struct flow_start *flow_start;           /* [particles of the body] NULL until the first load step */
-    struct flow_turn turn;                   /* the largest one so far */
-    struct flow_softening softening;         /* the largest one so far */
-    real t;                                  /* present pseudo-time [s] */
+    struct unconstrained_fragment *fragment;         /* [fragments] */
+    struct block_matrix *matrix;                     /* stiffness of bonds, cells and contact, for the preconditioner */
+    struct multigrid *precondition;                  /* preconditioner; NULL until its next use makes it */
+    int64_t directions;                              /* search directions of the first solution with it; 0: none yet */
+    struct memory_archive plastic;                   /* plastic state at the start of the next solutions (system.c) */
+    struct flow_start *flow_start;                   /* [particles of the body] NULL until the first load step */
+    struct plastic_flow_direction_change turn;       /* the largest one so far */
+    struct plastic_flow_thermal_softening softening; /* the largest one so far */
+    real t;                                          /* present pseudo-time [s] */
     real stretch_ratio;            /* largest ratio of stretch to critical stretch in the last equilibrium [1] */
     struct break_list next;        /* bonds of the next crack increment; empty: none has been found */
     struct crack_increment ahead;  /* the next crack increment */

@@ -56,7 +56,7 @@ status rigid_make(struct rigid_body *r, const struct region *shape, int dim, rea
 /* Tests by the bounding sphere of the rigid body r whether a point of the body may be within `reach` [m] of the current
  * position x (r->dim components [m]). Returns false if that is impossible; always true for a fixed body, which may be
  * unbounded. */
-static inline bool rigid_may_be_within_reach(const struct rigid_body *r, const real *x, real reach)
+static inline bool rigid_may_be_within_distance_of_position(const struct rigid_body *r, const real *x, real reach)
 {
     real far2 = 0;
     for (int d = 0; d < r->dim; d++) far2 += square(x[d] - r->x[d]);
@@ -69,7 +69,7 @@ real rigid_signed_distance(const struct rigid_body *r, const real *x, real *norm
 
 /* Computes the current position x of the point of the rigid body r that was at X at t = 0. X, x: DIM_MAX components
  * each [m]. */
-void rigid_present_position_of_point(const struct rigid_body *r, const real *X, real *x);
+void rigid_compute_current_position_of_point(const struct rigid_body *r, const real *X, real *x);
 
 /* Computes the velocity of the point of the rigid body r that is at the position x (r->dim components [m]), from the
  * velocity of the centre and the angular velocity of the body. velocity: receives DIM_MAX components [m/s]. */
@@ -102,11 +102,11 @@ void rigid_add_work_of_prescribed_motion(struct rigid_body *r);
 
 /* Sets r->force_most, the largest magnitude of the contact force on the body so far [N], to the magnitude of r->force
  * if this is larger. */
-void rigid_update_largest_force(struct rigid_body *r);
+void rigid_update_largest_contact_force(struct rigid_body *r);
 
 /* Returns the work done on the rigid body r since t = 0 [J] by its drive, the force that enforces a prescribed motion,
  * and by its weight, up to the present position. */
-real rigid_work_of_drive_and_weight(const struct rigid_body *r);
+real rigid_work_of_prescribed_motion_and_weight(const struct rigid_body *r);
 
 /* Returns the kinetic energy of the rigid body r at its present velocity and angular velocity [J]. */
 real rigid_kinetic_energy(const struct rigid_body *r);

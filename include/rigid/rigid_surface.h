@@ -26,7 +26,7 @@ void rigid_surface_approximate_by_polygons(struct rigid_surface *s, const struct
  * the box of the particles, on return those of the box to show, dim components each [m]. A bounded body is shown in its
  * own bounding box. An unbounded one is cut to the box of the particles, widened on all sides by 0.08 of its longest
  * edge, and extended to the nearest part of the body if that is farther away. Returns true if the body is bounded. */
-bool rigid_compute_shown_box(const struct region *shape, int dim, real *low, real *high);
+bool rigid_compute_plotting_box(const struct region *shape, int dim, real *low, real *high);
 
 /* Releases the points and polygons in *s, which rigid_surface_approximate_by_polygons has allocated. */
 void rigid_surface_free(struct rigid_surface *s);

@@ -7,7 +7,7 @@
 
 /* A body of n particles with bonds, as the linear operator M^-1/2 K M^-1/2 on vectors [dim][n], with mass matrix M and
  * tangent stiffness K. */
-struct bond_operator {
+struct bond_stiffness_operator {
     struct bonds *b;           /* rows of all particles of the body */
     struct particles *p;       /* the particles; positions and forces are overwritten */
     bond_force_fn *force;      /* kernel of the bond forces */
@@ -15,23 +15,23 @@ struct bond_operator {
     real spacing, *root;       /* of particles [m]; [n] square roots of the masses [kg^1/2] */
 };
 
-/* Makes a linear operator from the bonds b of particles p, for bond_operator_apply. force: kernel that computes the
- * bond forces; loads: boundary conditions whose mirror images of particles move with the body, NULL for none; spacing:
- * of the particles [m]. All pointers are kept by reference and must outlive the operator. Release it with
- * bond_operator_free. */
-struct bond_operator bond_operator_make(struct bonds *b, struct particles *p, bond_force_fn *force,
-                                        const struct loads *loads, real spacing);
+/* Makes a linear operator from the bonds b of particles p, for bond_stiffness_operator_apply. force: kernel that
+ * computes the bond forces; loads: boundary conditions whose mirror images of particles move with the body, NULL for
+ * none; spacing: of the particles [m]. All pointers are kept by reference and must outlive the operator. Release it
+ * with bond_stiffness_operator_free. */
+struct bond_stiffness_operator bond_stiffness_operator_make(struct bonds *b, struct particles *p, bond_force_fn *force,
+                                                            const struct loads *loads, real spacing);
 
-/* Frees the square roots of the masses in *body, which bond_operator_make has allocated; the bonds, particles and loads
- * stay with the caller. */
-void bond_operator_free(struct bond_operator *body);
+/* Frees the square roots of the masses in *body, which bond_stiffness_operator_make has allocated; the bonds, particles
+ * and loads stay with the caller. */
+void bond_stiffness_operator_free(struct bond_stiffness_operator *body);
 
 /* Computes result = M^-1/2 K M^-1/2 displacement [1/s^2] with the mass matrix M and the tangent stiffness K of a body
  * of bonds. The product of K with a vector d is the difference of the bond forces at the positions X + s d and at the
- * reference positions X, divided by -s; s is chosen such that strains are about 1e-7. bond_body: a struct
- * bond_operator; displacement, result: dim x n values for n particles, component by component. Overwrites the positions
- * and forces of the particles of the body. */
-void bond_operator_apply(void *bond_body, const real *displacement, real *result);
+ * reference positions X, divided by -s; s is chosen such that strains are about 1e-7. stiffness_operator: a struct
+ * bond_stiffness_operator; displacement, result: dim x n values for n particles, component by component. Overwrites the
+ * positions and forces of the particles of the body. */
+void bond_stiffness_operator_apply(void *stiffness_operator, const real *displacement, real *result);
 
 /* Returns the critical time step 2/omega_max of the particles p with the bonds b [s], INFINITY if they have no
  * stiffness. b must hold the bonds of all particles of the body. omega_max^2 is the largest eigenvalue of M^-1 K,

@@ -11,7 +11,7 @@
 real point_energy_fraction_not_carried_by_bonds(const struct partial_stress *partial, int dim, int64_t i);
 
 /* Returns the kinetic energy 1/2 sum m v^2 of all particles p [J], with mass m and velocity v of each, except material
- * points of a mesh, whose kinetic energy is that of the mesh nodes (reference_frame_kinetic_energy). */
+ * points of a mesh, whose kinetic energy is that of the mesh nodes (lagrangian_mesh_kinetic_energy). */
 real particles_kinetic_energy(const struct particles *p);
 
 /* Returns the elastic strain energy of the material points of p on the background grid [J]: 1/2 sum sigma : C^-1 :
@@ -38,7 +38,7 @@ real points_plastic_work(const struct particles *p, const struct material *m, co
  * particles with prescribed motion and material points of a mesh are excluded. old_velocity: velocities v_old before
  * the update [m/s], dim arrays of n; NULL, allowed if no particles are on the background grid, takes v - v_old = dt f/m
  * from the forces p->f. dt: time step [s]. */
-real particles_leapfrog_energy_gap(const struct particles *p, real *const *old_velocity, real dt);
+real particles_mean_minus_leapfrog_kinetic_energy(const struct particles *p, real *const *old_velocity, real dt);
 
 /* Computes the linear momentum of all particles p and all mesh nodes. nodes: `grid_count` pointers to the grids of the
  * meshes; momentum: receives dim components [kg m/s]; momentum_scale: receives the sum of the magnitudes |m v| of all
@@ -49,7 +49,8 @@ void particles_linear_momentum(const struct particles *p, const struct grid *con
 /* Computes the state of each neighbourhood of the bonds b at the current positions of p, before forces, stresses or
  * energies of state-based peridynamics are computed: pressure (force by dilatation), spring stiffness (force by
  * extension) and rotation. Does nothing for bond-based models. s: bond law, which determines the model. */
-static inline void family_states_precompute(struct bonds *b, struct particles *p, const struct bond_source *s)
+static inline void families_compute_pressure_stiffness_and_rotation(struct bonds *b, struct particles *p,
+                                                                    const struct bond_source *s)
 {
     if (s->modulus) state_precompute_table[p->dim][s->rotates ? PD_MOSPD : PD_OSPD](b, p);
 }

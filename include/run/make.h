@@ -20,11 +20,12 @@ struct impedance *absorbing_boundary_impedances(const struct scene *s, const str
  * mirror boundaries. Bodies are left out if they or bodies joined to them are made from particle lists or images.
  * loads: state on which side of each mirror plane the body is. Shapes are kept by reference to s; the lists are
  * released with `tables` at the end of the run. Returns true if at least one shape was listed. */
-bool run_list_shapes_with_voids(struct material_tables *tables, const struct scene *s, const struct loads *loads);
+bool material_tables_list_bodies_with_possible_voids(struct material_tables *tables, const struct scene *s,
+                                                     const struct loads *loads);
 
 /* Returns the largest distance across which particles interact [m], through bonds, which are shorter than `cutoff` [m],
  * or through common cells of the mesh. s: scene. Voids narrower than this distance must be handled explicitly. */
-real voids_interaction_distance(const struct scene *s, real cutoff);
+real scene_interaction_distance_across_voids(const struct scene *s, real cutoff);
 
 /* Returns true if solids (geometric shapes, also surfaces read from files) of the input file define the surfaces of all
  * bodies of a group that interfaces join to one another, i.e. if none of them is made from a particle list or a voxel
@@ -37,15 +38,15 @@ bool joined_bodies_are_all_defined_by_solids(const struct scene *s, int first_bo
  * REFUSED, with a message, if particles of p that can have bonds, mirror images included, are not on one lattice.
  * loads: boundary conditions, so that the message can name the boundary of scene s whose mirror plane does not fit the
  * lattice. */
-status run_compute_surface_bond_weight_factors(struct surface_weights *w, struct bond_source *source,
-                                               const struct particles *p, const struct loads *loads,
-                                               const struct scene *s);
+status surface_correction_compute_bond_weight_factors(struct surface_correction *w, struct bond_source *source,
+                                                      const struct particles *p, const struct loads *loads,
+                                                      const struct scene *s);
 
 /* Checks that bodies which the scene s joins by an interface are close enough for bonds. p: particles; cells: search
  * cells of the particles; cutoff: largest length of a bond [m]. Returns REFUSED, with a message, if no particle of one
  * body is within `cutoff` of a particle of the other. */
-status joined_bodies_check_close_enough(const struct scene *s, const struct particles *p, const struct cells *cells,
-                                        real cutoff);
+status joined_bodies_check_within_bond_reach(const struct scene *s, const struct particles *p,
+                                             const struct cells *cells, real cutoff);
 
 /* Checks the velocities and displacements that the boundaries of scene s prescribe. loads: loads and supports made from
  * these boundaries; p: particles at the start; run_begins: true at the beginning of a run, false at a restart. Returns
@@ -53,7 +54,7 @@ status joined_bodies_check_close_enough(const struct scene *s, const struct part
  * background grid, which store present positions only; in an explicit run, a displacement jumps, is not 0 at t = 0, or
  * changes as fast as the fastest wave or faster; at the beginning, particles with a prescribed displacement are not at
  * their reference positions. */
-status prescribed_motion_check(const struct loads *loads, const struct particles *p, const struct scene *s,
-                               bool run_begins);
+status prescribed_motion_check_is_admissible(const struct loads *loads, const struct particles *p,
+                                             const struct scene *s, bool run_begins);
 
 #endif

@@ -38,9 +38,9 @@ struct material_tables {
     struct voids voids;               /* voids and notches of bodies that are not convex, which cut bonds */
     struct mirror_plane *void_mirror; /* planes beyond which bodies have images, clamped planes included */
     real *neighbour_volume; /* [n_all] volume of the neighbours of each particle, only pd.surface volume [m^3] */
-    struct surface_weights surface; /* weights of bonds near faces, only pd.surface moments */
-    struct impedance *impedance;    /* [MOVERS][materials] impedance of absorbing faces; NULL: no such faces */
-    real wave_speed;                /* largest longitudinal wave speed of the materials [m/s] */
+    struct surface_correction surface; /* weights of bonds near faces, only pd.surface moments */
+    struct impedance *impedance;       /* [MOVERS][materials] impedance of absorbing faces; NULL: no such faces */
+    real wave_speed;                   /* largest longitudinal wave speed of the materials [m/s] */
 };
 
 /* Data of a run: the members that all parts work on, by value, and the parts of the run, each a pointer to a type whose
@@ -66,7 +66,7 @@ struct run {
     struct warnings warnings;        /* warnings of the set-up and of the run, printed and stored */
     struct timers timers;            /* wall-clock time by section of a step */
     struct grid_method *grid;        /* material points on the grid of the current frame: grid/grid_part.h */
-    struct reference_frame *frame;   /* bodies in the reference frame: mesh/mesh_part.h */
+    struct lagrangian_mesh *frame;   /* bodies in the reference frame: mesh/mesh_part.h */
     struct rigid_set *rigid;         /* rigid bodies: rigid/rigid_part.h */
     struct contact *contact;         /* contact between particles: contact/contact.h */
     struct coupling_state *coupling; /* conversion of material points, and back: coupling/coupling_part.h */

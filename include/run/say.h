@@ -7,6 +7,6 @@
 
 /* Adds warnings to `warning_list` for the materials of scene s whose bonds yield: how their plasticity differs from von
  * Mises plasticity. */
-void warn_of_bond_plasticity(const struct scene *s, struct warnings *warning_list);
+void warn_that_bond_plasticity_is_not_von_mises(const struct scene *s, struct warnings *warning_list);
 
 #endif

@@ -72,10 +72,13 @@ enum coupling {
 
 /* Returns true if, with the coupling method c, the background grid moves peridynamic particles, at least those near the
  * interface to material points. */
-static inline bool coupling_moves_by_grid(enum coupling c) { return c >= COUPLING_PM; }
+static inline bool coupling_moves_pd_particles_by_grid(enum coupling c) { return c >= COUPLING_PM; }
 
 /* Returns true if, with the coupling method c, one grid moves all particles, peridynamic ones and material points. */
-static inline bool coupling_has_one_grid(enum coupling c) { return c == COUPLING_PMG || c == COUPLING_PGG; }
+static inline bool coupling_moves_all_particles_by_one_grid(enum coupling c)
+{
+    return c == COUPLING_PMG || c == COUPLING_PGG;
+}
 
 /* Representation of pre-cracks in a mesh in the reference frame (notch.h). SLIT: a free surface of the mesh, with cut
  * bonds around the ends of the crack only; BONDS: cut bonds along the whole crack; AUTO: a choice between both by rule.
@@ -126,7 +129,10 @@ struct growth_rule {
 
 /* Returns true if the speed of the crack tip in `rule` is not given but controlled, such that the equivalent
  * stress-intensity factor stays at the toughness. */
-static inline bool growth_speed_is_controlled(const struct growth_rule *rule) { return isnan(rule->speed); }
+static inline bool growth_rule_controls_speed_by_toughness(const struct growth_rule *rule)
+{
+    return isnan(rule->speed);
+}
 
 /* ---- probes ------------------------------------------------------------------------------------------------------ */
 

@@ -253,11 +253,11 @@ struct scene_override {
 /* Returns true if the run of the scene s integrates in time, false if it solves one equilibrium or load steps. */
 static inline bool scene_is_dynamic(const struct scene *s) { return s->solver == SOLVER_EXPLICIT; }
 
-/* Returns the number, from 0, of the part of the duration that contains the time t [s], if there are `parts` equal
- * parts. Costly searches for faults of a run are made once in each part. */
-static inline int scene_part_of_duration(const struct scene *s, real t, int parts)
+/* Returns the number, from 0, of the part of the duration that contains the time t [s], if there are `interval_count`
+ * equal parts. Costly searches for faults of a run are made once in each part. */
+static inline int scene_duration_interval_index_at_time(const struct scene *s, real t, int interval_count)
 {
-    return (int)(parts * t / s->duration * (1 + 1e-9));
+    return (int)(interval_count * t / s->duration * (1 + 1e-9));
 }
 
 /* Returns true if the run of the scene s solves a single static equilibrium, without load steps. */
@@ -279,7 +279,7 @@ static inline bool scene_has_moving_rigid_body(const struct scene *s)
 }
 
 /* Returns true if bonds can break in the scene s: at least one material or interface has a finite critical stretch. */
-static inline bool scene_bonds_break(const struct scene *s)
+static inline bool scene_bonds_can_break(const struct scene *s)
 {
     bool breaks = false;
     for (int m = 0; m < s->materials; m++) breaks |= isfinite(s->material[m].critical_stretch);
@@ -296,7 +296,7 @@ static inline bool scene_has_viscosity(const struct scene *s)
 }
 
 /* Returns true if at least one material of the scene s has a random strength, which differs between particles. */
-static inline bool scene_strength_scatters(const struct scene *s)
+static inline bool scene_has_random_strength(const struct scene *s)
 {
     bool scatters = false;
     for (int m = 0; m < s->materials; m++) scatters |= s->material[m].scatter.given;
@@ -304,7 +304,7 @@ static inline bool scene_strength_scatters(const struct scene *s)
 }
 
 /* Returns true if the scene s has a probe that evaluates broken bonds (kinds TIP, BREAK, SPALL, GROWTH). */
-static inline bool scene_probes_broken_bonds(const struct scene *s)
+static inline bool scene_has_probe_of_broken_bonds(const struct scene *s)
 {
     static const bool watches[PROBES] = {
         [PROBE_TIP] = true, [PROBE_BREAK] = true, [PROBE_SPALL] = true, [PROBE_GROWTH] = true};
@@ -320,14 +320,14 @@ static inline bool scene_silences_warning(const struct scene *s, enum accept war
 }
 
 /* Returns true if new surfaces can form in scene s: by pre-cracks, growing cracks, or bonds that break. */
-static inline bool scene_can_crack(const struct scene *s)
+static inline bool scene_can_have_cracks(const struct scene *s)
 {
-    return s->cracks > 0 || s->growths > 0 || scene_bonds_break(s);
+    return s->cracks > 0 || s->growths > 0 || scene_bonds_can_break(s);
 }
 
 /* Returns true if bodies of the scene s can come into contact: there are rigid bodies, or several deformable bodies
  * that interfaces do not join to a single one. */
-static inline bool scene_bodies_can_meet(const struct scene *s)
+static inline bool scene_bodies_can_come_into_contact(const struct scene *s)
 {
     bool several = s->rigids > 0;
     for (int b = 0; b < s->bodies; b++) several |= s->body[b].joined > 0;
@@ -336,18 +336,19 @@ static inline bool scene_bodies_can_meet(const struct scene *s)
 
 /* Returns the factor by which the length (1D), area (2D) or volume (3D) of a region of scene s is multiplied to obtain
  * its volume: the cross-section in 1D [m^2], the thickness in 2D [m], 1 in 3D. */
-static inline real scene_section_or_thickness(const struct scene *s)
+static inline real scene_cross_section_or_thickness(const struct scene *s)
 {
     return s->space == SPACE_LINE ? s->section : s->space == SPACE_SOLID ? 1 : s->thickness;
 }
 
 /* Returns the index, in b->part, of the last part of the body b (region with a material of its own) that contains the
  * position X (s->dim components [m]); -1 if no part contains it. */
-int scene_part_at_position(const struct scene *s, const struct scene_body *b, const real *X);
+int scene_body_part_index_at_position(const struct scene *s, const struct scene_body *b, const real *X);
 
 /* Returns the index of the material at the position X (dim components [m]) in body b of scene s: that of the last part
  * of the body that contains X, or `default_material` if no part does. */
-int scene_material_at_position(const struct scene *s, const struct scene_body *b, const real *X, int default_material);
+int scene_material_index_at_position(const struct scene *s, const struct scene_body *b, const real *X,
+                                     int default_material);
 
 /* Returns true if particles of body b can consist of the material with the index `material`: it is the material of the
  * body or of one of its parts, or the particle list of the body has a column of materials. */
@@ -355,7 +356,7 @@ bool scene_body_can_have_material(const struct scene_body *b, int material);
 
 /* Returns the material with the number `number` in the scene file (0 .. s->materials + s->unused_materials - 1), by
  * which files of a run name it; NULL if there is none. */
-const struct material *scene_material_of_number(const struct scene *s, int number);
+const struct material *scene_find_material_by_number(const struct scene *s, int number);
 
 /* Releases the members of the scene *s, which was read by a function of scene_read.h. */
 void scene_free(struct scene *s);
@@ -363,17 +364,17 @@ void scene_free(struct scene *s);
 /* Adds a location in the file of the scene s to the beginning of the stored message of a refusal (status_message),
  * unless it begins with one. It is the location of the body, boundary, key or group of keys with which the message
  * begins, else the path of the scene file. Does nothing unless `result` is REFUSED. Returns `result`. */
-status scene_prepend_location(const struct scene *s, status result);
+status scene_prepend_location_to_error_message(const struct scene *s, status result);
 
 /* Finds the key, group of keys or named item with which the warning `text` begins, and writes its location in the scene
  * file, as `file:line:column` or `-s key=value`, to place[PLACE_LENGTH]; "" if the warning begins with none. scene: a
  * struct scene. Callback of struct warnings. */
-void scene_find_location_of_message(const void *scene, const char *text, char *place);
+void scene_find_file_location_of_warning(const void *scene, const char *text, char *place);
 
 /* Returns the reason why shape functions of the body with the index `body` cannot be evaluated at the reference
  * positions of its material points (frame `reference`), with the method, solver, coupling and materials of the scene s.
  * Returns NULL if they can. The text is static. */
-const char *scene_why_reference_frame_unsupported(const struct scene *s, int body);
+const char *scene_reason_total_lagrangian_mpm_unsupported(const struct scene *s, int body);
 
 /* Returns true if, with method mpm and explicit time steps, a body of scene s yields whose shape functions are
  * evaluated at the reference positions of its material points (frame `reference`). */
@@ -382,12 +383,12 @@ bool scene_has_yielding_body_on_mesh(const struct scene *s);
 /* Returns the reason why `mpm.frame: auto` does not choose the frame `reference` for the body of s with the index
  * `body`, that is, the evaluation of shape functions at reference positions. Returns NULL if it does. The text is
  * static. */
-const char *scene_why_reference_frame_not_chosen_by_auto(const struct scene *s, int body);
+const char *scene_reason_auto_rejects_total_lagrangian_mpm(const struct scene *s, int body);
 
 /* Returns the reason why messages must not recommend the key `mpm.frame: reference` (shape functions evaluated at
  * reference positions) as a remedy: the reason why `mpm.frame: auto` does not choose it, for the first body of scene s
  * for which there is such a reason. Returns NULL if there is none for any body. The text is static. */
-const char *scene_why_reference_frame_is_no_remedy(const struct scene *s);
+const char *scene_reason_not_to_advise_total_lagrangian_mpm(const struct scene *s);
 
 /* Prints the table of keys of scenes to `out`. key: NULL for all keys, a prefix for the keys below it, or one key.
  * Returns REFUSED for an unknown key, with the most similar key in the message. */
@@ -398,13 +399,13 @@ status scene_print_help_on_keys(FILE *out, const char *key);
 bool scene_help_can_explain_word(const char *key);
 
 /* Prints the units that numbers in scenes may have to `out`. */
-void scene_print_units(FILE *out);
+void scene_print_allowed_units(FILE *out);
 
 /* Prints a JSON schema of scene files to `out`, for editors. Returns FAILED if that is not possible. */
 status scene_print_json_schema(FILE *out);
 
 /* Prints the functions, operators and variables that expressions in scenes may contain to `out`. */
-void scene_print_expressions(FILE *out);
+void scene_print_expression_syntax(FILE *out);
 
 /* Writes the keys of scenes to `out` in troff, for the manual page. */
 void scene_print_keys_for_manual_page(FILE *out);

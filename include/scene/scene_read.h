@@ -18,7 +18,7 @@ status scene_read_text(struct scene *s, const char *text, size_t length, const c
                        const struct scene_override *override, int overrides);
 
 /* Requirements of a scene with `method: auto` on the pilot runs that choose its method and spacing (study/pilot.h). */
-struct pilot_wish {
+struct pilot_requirements {
     bool wanted;           /* the scene has `method: auto` */
     char figure[128];      /* result of summary.json whose error is bounded; "": not given */
     double within, budget; /* largest relative error of this result [1]; time for the runs [s] */
@@ -36,7 +36,7 @@ struct pilot_wish {
  * `method: auto`, sets w->wanted to true, stores in *w what it requires of the pilot runs, and leaves *s empty.
  * Otherwise sets w->wanted to false and stores the scene in *s, which the caller releases with scene_free. Returns
  * REFUSED, with a message, for an invalid scene. */
-status scene_read_or_list_pilot_requirements(struct scene *s, struct pilot_wish *w, const char *path,
-                                             const struct scene_override *override, int overrides);
+status scene_read_unless_pilot_runs_are_needed(struct scene *s, struct pilot_requirements *requirements,
+                                               const char *path, const struct scene_override *override, int overrides);
 
 #endif

@@ -8,7 +8,7 @@
 
 /* Returns the complete neighbourhood of a particle (all neighbours within the horizon) on the lattice of the scene s,
  * with the horizon and the weights of bonds (factors on their forces). */
-struct family scene_family(const struct scene *s);
+struct family scene_make_complete_lattice_family(const struct scene *s);
 
 /* Returns the peridynamic model of the bonds of material m in scene s: bond-based, or state-based with its moduli
  * divided by the modulus E' of uniaxial tension. */
@@ -32,10 +32,10 @@ real scene_softening_horizon_for_stretch_ratio(const struct scene *s, const stru
 /* Returns the horizon [m] below which bonds of material m of scene s begin to soften, in tension and in shear, because
  * the stress reaches the strength surface. With larger horizons they begin to soften earlier, by their own stretch. The
  * material must have an energy release rate. */
-real scene_strength_surface_largest_horizon(const struct scene *s, const struct material *m);
+real scene_largest_horizon_for_strength_surface(const struct scene *s, const struct material *m);
 
 /* Returns the radius [m] within which strains are averaged for the strength surface of material m of scene s: the
  * horizon times sqrt(n + 0.3), where n is the number of successive averages over neighbourhoods. */
-real scene_strength_surface_radius(const struct scene *s, const struct material *m);
+real scene_strength_surface_averaging_radius(const struct scene *s, const struct material *m);
 
 #endif

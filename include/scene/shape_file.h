@@ -21,7 +21,7 @@ struct shape_file {
     struct geometry geometry;          /* STL and MESH: surface or mesh */
     struct voxels voxels;              /* IMAGE: grey values */
     int parts;
-    struct voxel_part **part; /* [parts] ranges of grey values that solids use */
+    struct voxel_solid **part; /* [parts] ranges of grey values that solids use */
 };
 
 /* Releases all shape files in the linked list that begins with `first`, with the surfaces or voxels that were read from

@@ -39,6 +39,7 @@ extern const struct unit_row unit_rows[UNITS];
  * kind of unit that is expected; allow_infinity: true if inf is allowed. Returns false if the text has another form or
  * unit. Then message[capacity] receives what is wrong and what is expected, as the rest of a sentence that begins with
  * the text. */
-bool number_read(real *value, const char *text, enum unit unit, bool allow_infinity, char *message, size_t capacity);
+bool number_parse_with_unit(real *value, const char *text, enum unit unit, bool allow_infinity, char *message,
+                            size_t capacity);
 
 #endif

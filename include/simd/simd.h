@@ -30,6 +30,6 @@ const struct simd_set *simd_current_kernels(void);
 /* Selects the set of kernels named by the environment variable CLEAVE_SIMD, or, if it is not set, the one with the
  * widest vectors that the processor supports. Returns REFUSED, with a message, if no set has that name, or the
  * processor does not support that set or any other. */
-status simd_select_kernels(void);
+status simd_select_kernels_for_processor(void);
 
 #endif

@@ -78,13 +78,13 @@ static_solver_step_fn relaxation_step, cg_step;
 
 /* Returns the largest absolute value of all components of the vectors `vectors`, in the unit of the vectors; 0 if there
  * are none. dim: number of components of a vector; vector_count: number of vectors (particles or nodes). */
-real field_largest_component(const struct field *vectors, int dim, int64_t vector_count);
+real field_largest_absolute_component(const struct field *vectors, int dim, int64_t vector_count);
 
 /* Sets the scale of forces s->scale = max(s->applied, reaction_norm) [N] and the residual s->residual =
  * unbalanced_norm/s->scale [1]. reaction_norm: norm of the forces on constrained components [N]; unbalanced_norm: norm
  * of the forces on free components, which vanish in equilibrium [N]. Without loads, the scale is the largest
  * `unbalanced_norm` so far. The residual is 0 if the unbalanced forces are 0 or, without loads, round-off. */
-void static_solver_set_residual(struct static_solver *s, real reaction_norm, real unbalanced_norm);
+void static_solver_compute_relative_residual(struct static_solver *s, real reaction_norm, real unbalanced_norm);
 
 /* Saves the state of the static iteration *s to the archive `a` (checkpoint file or memory) if a->saving is set, else
  * restores *s from `a`. Returns FAILED if the archive cannot be read or written or a stored size differs. */

@@ -19,7 +19,7 @@ real damping_velocity_increment_factor(real rate_times_dt);
  * without bulk damping [1]; the work of supports is computed with these undamped values. rate_times_dt: c dt [1], with
  * the damping rate c and the time step dt; first_step: true in the first time step of a run, before which velocities
  * are damped by half a step only. */
-struct damping_shares damping_shares_of_step(real rate_times_dt, bool first_step);
+struct undamped_velocity_excess damping_undamped_velocity_excess(real rate_times_dt, bool first_step);
 
 /* Multiplies all velocities of the particles p and of the mesh nodes by exp(-c dt/2) before the first velocity update
  * of the run, and subtracts the momentum that is lost from the impulse of the loads, loads->impulse. rate_times_dt: c
@@ -46,6 +46,7 @@ void damping_apply_full_step(struct particles *p, const struct mesh *mesh, struc
  * rate_times_dt: c dt [1], with the damping rate c and the time step dt. kinetic_energy_before: kinetic energy before
  * that update [J]; leapfrog_kinetic_energy: sum of 1/2 m v- . v+ over all particles, with the mass m and the velocities
  * v- and v+ before and after it [J]. */
-real damping_last_update_energy_loss(real rate_times_dt, real kinetic_energy_before, real leapfrog_kinetic_energy);
+real damping_energy_loss_in_last_velocity_update(real rate_times_dt, real kinetic_energy_before,
+                                                 real leapfrog_kinetic_energy);
 
 #endif

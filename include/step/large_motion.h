@@ -18,13 +18,13 @@ struct large_motion {
  * nothing if the scene has contact within bodies or accepts this by its key `accept`. Only particles whose distance in
  * the reference configuration exceeds `horizon` [m] are compared, since no bond keeps them apart. t: present time [s];
  * m: state of the checks, by which particles are compared at most 25 times per run. */
-void large_motion_warn_of_passing_parts(struct large_motion *m, const struct particles *p, const struct scene *s,
-                                        real horizon, real t, struct warnings *warning_list);
+void large_motion_warn_of_self_penetration(struct large_motion *m, const struct particles *p, const struct scene *s,
+                                           real horizon, real t, struct warnings *warning_list);
 
 /* Adds a warning to `warning_list`, once in a run, if a pressure of the loads l that does not follow the deformation
  * acts on a surface of p that has turned by more than 10 degrees: the pressure keeps the direction normal to the
  * undeformed surface and so does work on the rotation. m: state of the checks; t: present time [s]. */
-void large_motion_warn_of_turned_pressure(struct large_motion *m, const struct particles *p, const struct loads *l,
-                                          real t, struct warnings *warning_list);
+void large_motion_warn_of_non_follower_pressure(struct large_motion *m, const struct particles *p,
+                                                const struct loads *l, real t, struct warnings *warning_list);
 
 #endif

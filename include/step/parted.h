@@ -14,7 +14,7 @@ struct grid_method; /* grid/grid_part.h */
  * 1.1, -30 % at 1.2; gimp, whose domains do not grow with the stretch, -4, -6, -10 % at 1.3, 1.4, 1.5; cpgimp -3, -4,
  * -4 %. In bars that hit a wall up to 0.06 of the pairs of neighbours are stretched as far for a short time, as the
  * foot spreads. */
-struct weak_shape {
+struct weak_shape_function {
     enum shape shape;
     real stretch;       /* stretch of a bar (length divided by initial length) above which the force is too small [1] */
     real pulled, share; /* stretch of the distance of two neighbours above which the pair counts as pulled [1]; fraction
@@ -25,7 +25,7 @@ struct weak_shape {
 
 /* Returns the properties of the shape function `shape` if it transmits too little force between material points of
  * metal under tension, as a row of a constant table; else NULL. */
-const struct weak_shape *shape_properties_if_weak_in_tension(enum shape shape);
+const struct weak_shape_function *shape_function_properties_if_weak_in_tension(enum shape shape);
 
 /* A pair of neighbouring material points with the particle indices a and b. */
 struct point_pair {
@@ -51,8 +51,8 @@ struct grid_method;
  * before the plastic strain of a point exceeds 0.02. cells: search cells of the particles p; grid: grids of the points;
  * t: current time [s]; pairs: pairs of neighbours, found at the first call. Returns true if the warning that points
  * have separated has been printed. warning_list: receives the warning. */
-bool parted_points_warn_if_separated(struct point_pairs *pairs, const struct particles *p, const struct cells *cells,
-                                     const struct grid_method *grid, const struct scene *s, real t,
-                                     struct warnings *warning_list);
+bool material_points_warn_of_numerical_fracture(struct point_pairs *pairs, const struct particles *p,
+                                                const struct cells *cells, const struct grid_method *grid,
+                                                const struct scene *s, real t, struct warnings *warning_list);
 
 #endif

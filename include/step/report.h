@@ -85,29 +85,29 @@ struct run_seconds report_wall_clock_times(const struct run_report *r, const str
  * after `step` time steps or load steps, one bit per series: bit 0 is the whole body, bit k >= 1 is region k of the
  * scene s. clock: time step and number of steps of the run. Returns 0 if out is NULL (a run without files). A run that
  * finds a single equilibrium (`solver: cg, relaxation`) writes frames at its start and its end only. */
-unsigned report_bits_of_frame_series_due(const struct output *out, const struct scene *s, const struct run_clock *clock,
-                                         int64_t step);
+unsigned report_bitmask_of_frame_series_due(const struct output *out, const struct scene *s,
+                                            const struct run_clock *clock, int64_t step);
 
 /* Returns true if a sample (a line of history.csv) is taken in the next time step. s: scene; clock: present step and
  * number of steps of the run. Samples are spread evenly over the run. For a scene without time steps, returns true
- * before the first step only; its equilibria are sampled by sample_take_in_equilibrium. */
-bool report_sample_is_due(const struct scene *s, const struct run_clock *clock);
+ * before the first step only; its equilibria are sampled by history_sample_write_in_equilibrium. */
+bool report_history_sample_is_due(const struct scene *s, const struct run_clock *clock);
 
 /* Starts the reports of the run e before the first time step of this process: opens history.csv and, unless the run is
  * resumed, writes frame 0 and the first checkpoint. Warns of missing frames of a resumed run. Returns FAILED if a file
  * cannot be written or an index of frames cannot be read. */
-status report_start_before_first_step(struct run *e);
+status report_open_history_and_write_first_frame(struct run *e);
 
 /* Reports a finished time step or load step of the run e: takes the last sample after the last step, checks the
- * energies (energy_check_last_sample), and writes frames (states for output), checkpoint and progress line if this step
- * requires them. Returns FAILED if a file cannot be written, a particle has values that are not finite, or
- * energy_check_last_sample fails; INTERRUPTED, after a checkpoint, if a signal or the wall-clock limit time.wall stops
- * the run. */
-status report_finished_step(struct run *e);
+ * energies (run_check_last_sample_for_energy_divergence), and writes frames (states for output), checkpoint and
+ * progress line if this step requires them. Returns FAILED if a file cannot be written, a particle has values that are
+ * not finite, or run_check_last_sample_for_energy_divergence fails; INTERRUPTED, after a checkpoint, if a signal or the
+ * wall-clock limit time.wall stops the run. */
+status report_write_outputs_due_after_step(struct run *e);
 
 /* Ends the reports of the run e after its last step: prints the last progress line, waits for the thread that writes
  * frames, and writes the last checkpoint. Returns FAILED if a file cannot be written. */
-status report_finish_after_last_step(struct run *e);
+status report_write_last_checkpoint_and_finish(struct run *e);
 
 /* Returns the share of all particles p that are still at rest, which time steps skip (data/active_set.h) [1]:
  * peridynamic particles by the bonds b, material points by the mesh. */
@@ -116,7 +116,7 @@ real particles_at_rest_fraction(const struct bonds *b, const struct mesh *mesh, 
 /* Warns at the end of the run e if energy or angular momentum is not conserved, if interface damping (near interfaces
  * of material points and peridynamic particles) dissipated much energy, or if bonds broke in a collision that is too
  * fast for the particle spacing. */
-void warn_of_unconserved_quantities(struct run *e);
+void run_warn_of_unconserved_energy_and_momentum(struct run *e);
 
 struct crack_tips;
 
@@ -129,14 +129,14 @@ void warn_of_tips_above_rayleigh_speed(const struct crack_tips *t, const struct 
 /* Warns, at the first call after a bond of b has yielded, how the yielding of bonds differs from von Mises' law in
  * scene s. The warning is added to *warning_list and printed; *r stores that it has been given, so that later calls do
  * nothing. */
-void warn_of_bond_yielding(struct run_report *r, const struct bonds *b, const struct scene *s,
-                           struct warnings *warning_list);
+void warn_when_bonds_first_yield(struct run_report *r, const struct bonds *b, const struct scene *s,
+                                 struct warnings *warning_list);
 
 /* Computes the fields that the particles of run e do not store (strain, density, plastic work, level of the coarse
  * cell) and stores pointers to them in *extra, from which the frame is written. requested_field_bits: set of these
  * fields, as bits ASK_... (output/output.h). Before the call, the positions and stresses of all particles must be up to
  * date (run_update_particle_motion_and_stress), and extra->more, the material points of coarse cells, must be set. Call
- * frame_fields_free once the frame has been copied by output_frame_begin. */
+ * frame_fields_free once the frame has been copied by output_begin_writing_frame_in_thread. */
 void frame_fields_compute_requested(struct run *e, unsigned requested_field_bits, struct frame_extra *extra);
 
 /* Frees the fields in *extra that frame_fields_compute_requested has allocated for a frame. */

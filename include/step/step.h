@@ -13,15 +13,15 @@ status step(struct run *e);
 
 /* Marks (FLAG_NEAR) the material points of run e that are near other bodies, at their present positions, with rigid
  * bodies at the positions that they will have at pseudo-time t [s]. Marked points become peridynamic at the next call
- * of step_convert_points_at_broken_bonds. present: present pseudo-time [s]; rigid bodies are at its positions again on
- * return. Returns true if positions were examined; does nothing and returns false if no rigid body can touch a material
- * point. */
-bool step_flag_points_before_rigid_bodies_move(struct run *e, real present, real t);
+ * of load_step_convert_points_near_breaks_to_pd. present_pseudo_time: present pseudo-time [s]; rigid bodies are at its
+ * positions again on return. Returns true if positions were examined; does nothing and returns false if no rigid body
+ * can touch a material point. */
+bool load_step_flag_points_near_rigid_bodies(struct run *e, real present_pseudo_time, real t);
 
 /* Converts material points near broken bonds to peridynamic particles between load steps (static equilibria), at fixed
  * positions. e: run; broken_bond_count: number of bonds broken since the last call, each counted once for each of its
  * particles. Returns true if points have been converted. */
-bool step_convert_points_at_broken_bonds(struct run *e, int64_t broken_bond_count);
+bool load_step_convert_points_near_breaks_to_pd(struct run *e, int64_t broken_bond_count);
 
 /* Computes the internal forces of the run e at the current positions without moving anything: forces of bonds in
  * e->part.f, and forces of mesh cells, and of bonds to material points of the mesh, in the nodal forces of the mesh.
@@ -35,10 +35,10 @@ void run_update_particle_motion_and_stress(struct run *e);
 
 /* Computes the critical time step of the run e, and sets the time step dt and the number of steps in e->clock. Returns
  * REFUSED if time.step of the scene is too long for coarse cells, or if the run would have more than 1e12 steps. */
-status time_step_choose_and_count_steps(struct run *e);
+status run_choose_time_step_and_step_count(struct run *e);
 
 /* Returns a read-only view of the run e, from which probes read. All pointers of the view refer to data of e; nothing
  * has to be freed. */
-struct observed_run observed_run_view_of(const struct run *e);
+struct observed_run observed_run_make_read_only_view(const struct run *e);
 
 #endif

@@ -10,7 +10,7 @@ enum { LEVELS_LEAST = 3, LEVELS_MOST = 6, RUNS_MOST = 15 };
 
 /* Statistics of a scalar result over the runs of one spacing level, which have about the same particle spacing. mean,
  * deviation, error: in the unit of the result. */
-struct level_figures {
+struct spacing_level_statistics {
     double spacing, mean; /* mean spacing [m]; mean of the result */
     double deviation;     /* standard deviation of a single run */
     double error;         /* half of the 95 % interval of the mean: Student's t and the resolution of the result */
@@ -33,7 +33,7 @@ extern const char *const verdict_name[VERDICTS];
 /* Convergence of a scalar result over spacing levels; level 0 is the finest. All members but the orders are in units of
  * the result. */
 struct convergence {
-    struct level_figures level[LEVELS_MOST];
+    struct spacing_level_statistics level[LEVELS_MOST];
     int levels;
     enum verdict verdict; /* whether the means converge */
     double bias;          /* half-width of an error that does not decrease with the spacing, for example of irregular
@@ -61,19 +61,19 @@ bool convergence_evaluate_scalar_result(struct convergence *c, const double *spa
 /* Computes mean, standard deviation and error of the mean of a scalar result over runs that differ by chance alone,
  * such as by a random seed, and stores them in *l. value[run_count]: value of the result in each run; values that are
  * not finite are left out. */
-void convergence_summarise_runs(struct level_figures *l, const double *value, int run_count);
+void convergence_compute_mean_over_runs(struct spacing_level_statistics *l, const double *value, int run_count);
 
 /* Returns the half-width of the interval centred at `centre` that contains the true value of the result with
  * probability `probability` [1], from the means of all spacing levels and their errors (convergence_interval.c).
  * `centre` and the result have the unit of the result. */
-double convergence_interval_half_width(const struct convergence *c, double centre, double probability);
+double convergence_confidence_interval_half_width(const struct convergence *c, double centre, double probability);
 
 /* Fits c->level[c->levels], means and errors at several spacings, by value + constant * spacing^order for many orders,
  * and weights these by how well they fit. Computes from them: order_likely and order_error, mean and standard deviation
  * of the order; extrapolated, the mean value at spacing 0; uncertainty, half the width of the 95 % interval around the
  * mean of each level; discretisation, the part of it that is not the error of the mean (members of *c). If the levels
  * do not allow a fit, the orders are NAN, the extrapolated value is the mean of the finest level, the others 0. */
-void convergence_compute_intervals(struct convergence *c);
+void convergence_fit_order_and_uncertainty_intervals(struct convergence *c);
 
 /* Returns the 97.5 % quantile of Student's t distribution with `degrees_of_freedom` >= 1 degrees of freedom. */
 double student_t_quantile_975(int degrees_of_freedom);

@@ -12,18 +12,19 @@ enum { CHOSEN_MOST = 8, CHOSEN_ROOM = 64 };
 
 /* Overrides of keys with which a scene with `method: auto` is read: those of the user, then those that pilot runs have
  * chosen. */
-struct pilot {
+struct pilot_choice {
     struct scene_override *override; /* [overrides] strings of the chosen ones are in key and value */
     int overrides;
     char key[CHOSEN_MOST][CHOSEN_ROOM], value[CHOSEN_MOST][CHOSEN_ROOM];
 };
 
-struct pilot_wish;
+struct pilot_requirements;
 
 /* Prints to `out` which scalar result the pilot runs of a scene (runs at coarse spacings that choose method and
- * spacing) evaluate, which methods and spacings they vary and how much time they take. wish: what the scene requires of
- * its pilot runs; scene: path of the scene file. Returns REFUSED if no pilot runs of the scene are possible. */
-status pilot_plan_print(const struct pilot_wish *wish, const char *scene, FILE *out);
+ * spacing) evaluate, which methods and spacings they vary and how much time they take. requirements: what the scene
+ * requires of its pilot runs; scene: path of the scene file. Returns REFUSED if no pilot runs of the scene are
+ * possible. */
+status pilot_runs_print_plan(const struct pilot_requirements *requirements, const char *scene, FILE *out);
 
 /* Reads the scene (input file) `scene` into *s, with the values of keys that override[overrides] replaces (option -s).
  * If it has `method: auto`, makes pilot runs at coarse spacings in the folder FOLDER_pilot, with FOLDER = folder, the
@@ -32,11 +33,11 @@ status pilot_plan_print(const struct pilot_wish *wish, const char *scene, FILE *
  * all overrides, those of the user and the chosen ones. Returns REFUSED if the scene is invalid, or if no method
  * reaches the requested accuracy (the message states the accuracy of each), INTERRUPTED if options.stop is set; then
  * nothing has to be released. Otherwise release *s with scene_free and *p with pilot_free. */
-status pilot_scene_read_or_choose_method(struct scene *s, struct pilot *p, const char *scene,
-                                         const struct scene_override *override, int overrides, const char *folder,
-                                         struct study_options options);
+status scene_read_and_choose_method_by_pilot_runs(struct scene *s, struct pilot_choice *p, const char *scene,
+                                                  const struct scene_override *override, int overrides,
+                                                  const char *folder, struct study_options options);
 
-/* Frees the overrides (replaced values of keys) in *p, which pilot_scene_read_or_choose_method has stored. */
-void pilot_free(struct pilot *p);
+/* Frees the overrides (replaced values of keys) in *p, which scene_read_and_choose_method_by_pilot_runs has stored. */
+void pilot_free(struct pilot_choice *p);
 
 #endif

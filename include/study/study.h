@@ -60,7 +60,7 @@ void varied_key_free(struct varied_key *k);
 
 /* Returns the number at the beginning of the text `value`; NAN if there is none. Stores in *unit a pointer to the rest
  * of the text after the number and the following spaces, or to the whole text if there is no number. */
-double value_read_number_and_unit(const char *value, const char **unit);
+double value_text_split_number_and_unit(const char *value, const char **unit);
 
 /* ---- cases (study.c) --------------------------------------------------------------------------------------------- */
 
@@ -82,9 +82,9 @@ status study_make_with_keys(struct study *s, const char *scene, const char *fold
  * study_kind, to folder[capacity], cut to capacity - 1 bytes. */
 void study_compose_default_folder(char *folder, size_t capacity, const struct scene *scene, const char *study_kind);
 
-/* Checks that `folder` may be used for a study of the scene with the text `text`. Returns REFUSED if it contains a
- * study of another scene, or files that Cleave did not write. */
-status study_folder_check_is_usable_for_scene(const char *folder, const char *text);
+/* Checks that `folder` may be used for a study of the scene with the text `scene_text`. Returns REFUSED if it contains
+ * a study of another scene, or files that Cleave did not write. */
+status study_folder_check_is_usable_for_scene(const char *folder, const char *scene_text);
 
 /* Makes `folder` recognisable as the folder of a study: writes the file STUDY_SCENE (study.yaml) with its first line
  * only, the text of the scene to follow later. Does nothing if `folder` is already that of a study. Returns REFUSED if
@@ -96,14 +96,15 @@ status study_folder_mark_as_study(const char *folder);
  * Cleave did not write, or if its subfolder `logs` or `pictures` is a symbolic link. */
 status study_folder_check_is_usable(const char *folder);
 
-/* Returns true if `folder` contains the file STUDY_SCENE (study.yaml) of a study of the scene with the text `text`. */
-bool study_folder_is_of_scene(const char *folder, const char *text);
+/* Returns true if `folder` contains the file STUDY_SCENE (study.yaml) of a study of the scene with the text
+ * `scene_text`. */
+bool study_folder_contains_study_of_scene(const char *folder, const char *scene_text);
 
 /* Writes the file STUDY_SCENE (study.yaml) to `folder`: a first line by which Cleave recognises the file, a line with
- * the options of the study, then `text`, the text of the scene. options: options in the form of
+ * the options of the study, then `scene_text`, the text of the scene. options: options in the form of
  * study_options_compose_from_arguments; if NULL, their line is left out. Returns FAILED if the file cannot be
  * written. */
-status study_write_scene_and_options(const char *folder, const char *text, const char *options);
+status study_write_scene_and_options(const char *folder, const char *scene_text, const char *options);
 
 /* Reads why the run called `run` of the study in `folder` has failed, the last line of its log, into line[capacity],
  * cut to capacity - 1 bytes. Stores "it gave no reason" if there is none. */
@@ -119,7 +120,7 @@ char *study_options_compose_from_arguments(int argc, char *const *argv, const ch
 char *study_options_read(const char *folder);
 
 /* Prints `word` to `out` as a word of a shell command, in quotes if it contains characters that a shell interprets. */
-void study_print_shell_word(FILE *out, const char *word);
+void study_print_word_quoted_for_shell(FILE *out, const char *word);
 
 /* Frees the runs, texts and name table of the study *s and unlocks its folder. The files in the folder remain. */
 void study_free(struct study *s);
@@ -132,17 +133,17 @@ struct study_case *study_add_case(struct study *s, const char *name, const struc
                                   int overrides);
 
 /* => */
-status study_add_combinations(struct study *s, const struct varied_key *key, int keys);
+status study_add_cases_of_all_value_combinations(struct study *s, const struct varied_key *key, int keys);
 
 /* Reads the scene of every run of the study s and sets the states of the runs before any of them is started: CASE_SAME
  * if an earlier run of s has an equal scene, whose results are then used; CASE_DONE_BEFORE if the folder of the run
  * holds its results already; CASE_FAILED if the folder holds a failed run and `keep_failed` is true. If `keep_failed`
  * is false, failed runs will be executed again. Returns REFUSED if the scene of a run is invalid. */
-status study_determine_case_states(struct study *s, bool keep_failed);
+status study_find_completed_failed_and_equal_cases(struct study *s, bool keep_failed);
 
 /* Prints to `out` how many runs of the study s have the same scene as another run (CASE_SAME). Prints nothing if there
  * are none. */
-void study_print_equal_scene_count(const struct study *s, FILE *out);
+void study_print_count_of_duplicate_scenes(const struct study *s, FILE *out);
 
 /* Returns the value of the key called `key` among the overrides of the run c, "" if the run does not override that key.
  * The text belongs to the run. */
@@ -151,12 +152,12 @@ const char *study_case_value_of_key(const struct study_case *c, const char *key)
 /* Closes the memory stream `stream` (open_memstream) and writes its contents, *length bytes of *text, to the file
  * `name` in the folder of the study s; then releases *text. stream: NULL if it could not be opened. Returns FAILED if
  * `stream` is NULL or the file cannot be written. */
-status study_write_stream_to_file(const struct study *s, const char *name, FILE *stream, char **text,
-                                  const size_t *length);
+status study_write_memory_stream_to_file(const struct study *s, const char *name, FILE *stream, char **text,
+                                         const size_t *length);
 
 /* Returns the run of study s whose results are used for run c: a run with an equal scene if the state of c is
  * CASE_SAME, else c itself. */
-const struct study_case *study_case_with_results(const struct study *s, const struct study_case *c);
+const struct study_case *study_case_whose_results_are_used(const struct study *s, const struct study_case *c);
 
 /* Returns the path of the folder with the results of run c of study s; if the state of c is CASE_SAME, it is the folder
  * of the run with an equal scene. */
@@ -188,7 +189,8 @@ status study_execute_waiting_runs(struct study *s, struct study_options options)
 
 /* Prints to `out` the shell command that executes run c alone. It is valid in any current folder, with quotes where the
  * shell requires them. options: of the study s. */
-void study_print_command(const struct study *s, const struct study_case *c, struct study_options options, FILE *out);
+void study_print_command_of_case(const struct study *s, const struct study_case *c, struct study_options options,
+                                 FILE *out);
 
 /* ---- results (study_table.c, study_draw.c) ----------------------------------------------------------------------- */
 
@@ -208,7 +210,7 @@ status study_table_read(struct study_table *t, const struct study *s);
 void study_table_free(struct study_table *t);
 
 /* Returns the index in t->figure of the result (number in summary.json) called `name`, or -1 if there is none. */
-int study_index_of_result(const struct study_table *t, const char *name);
+int study_table_index_of_result(const struct study_table *t, const char *name);
 
 /* Checks that runs of the scene s can have a result (a number in summary.json) called `name`. Returns REFUSED if they
  * cannot, with the most similar name in the message. */
@@ -220,7 +222,7 @@ status study_check_result_names(const struct study *s, const char *const *name, 
 
 /* Returns true if the result (number in summary.json) called `name` describes the computation or the discretisation
  * (run time, number of particles) instead of the body. */
-bool study_result_is_technical(const char *name);
+bool result_describes_computation_instead_of_body(const char *name);
 
 /* Reads the header line of history.csv of the first run of the study s that has such a file into header[capacity]; ""
  * if there is none. study_write_unit_of_result takes units from it. */

@@ -10,7 +10,7 @@
 
 /* Returns the factor 1 - T*^m (0 to 1), by which heat reduces the yield stress in the law `law` of Johnson & Cook, for
  * eight points with the temperatures `temperature` [K]. T*: temperature above T_room divided by T_melt - T_room. */
-static ALWAYS_INLINE lanes johnson_cook_softening(const struct law *law, lanes temperature)
+static ALWAYS_INLINE lanes johnson_cook_thermal_softening_factor(const struct law *law, lanes temperature)
 {
     const lanes hot =
         (temperature - law->johnson_cook.T_room) * (1 / (law->johnson_cook.T_melt - law->johnson_cook.T_room));
@@ -24,15 +24,15 @@ static ALWAYS_INLINE lanes johnson_cook_softening(const struct law *law, lanes t
 static ALWAYS_INLINE lanes flow_stress_johnson_cook(const struct law *law, lanes plastic_strain, lanes temperature,
                                                     lanes *slope)
 {
-    const lanes factor = johnson_cook_softening(law, temperature);
-    const lanes power = power_of_strain(law->johnson_cook.B, law->johnson_cook.n, plastic_strain, slope);
+    const lanes factor = johnson_cook_thermal_softening_factor(law, temperature);
+    const lanes power = power_law_stress_and_slope(law->johnson_cook.B, law->johnson_cook.n, plastic_strain, slope);
     *slope *= factor;
     return (law->johnson_cook.A + power) * factor;
 }
 
 /* Returns for eight points the plastic work per volume [J/m^3] up to `plastic_strain` at T_room, by the law `law` of
  * Johnson & Cook: the integral of A + B a^n over the plastic strain a. */
-static ALWAYS_INLINE lanes johnson_cook_cold_work(const struct law *law, lanes plastic_strain)
+static ALWAYS_INLINE lanes johnson_cook_plastic_work_at_room_temperature(const struct law *law, lanes plastic_strain)
 {
     const real n = law->johnson_cook.n;
     return law->johnson_cook.A * plastic_strain + law->johnson_cook.B / (n + 1) * lanes_power(plastic_strain, n + 1);
@@ -43,7 +43,8 @@ static ALWAYS_INLINE lanes johnson_cook_cold_work(const struct law *law, lanes p
 static ALWAYS_INLINE lanes flow_stress_integral_johnson_cook(const struct law *law, lanes plastic_strain,
                                                              lanes temperature)
 {
-    return johnson_cook_cold_work(law, plastic_strain) * johnson_cook_softening(law, temperature);
+    return johnson_cook_plastic_work_at_room_temperature(law, plastic_strain) *
+           johnson_cook_thermal_softening_factor(law, temperature);
 }
 
 /* Number of steps in which johnson_cook_adiabatic_temperature integrates by the midpoint rule. */
@@ -57,7 +58,8 @@ static ALWAYS_INLINE lanes johnson_cook_adiabatic_temperature(const struct law *
                                                               lanes temperature)
 {
     const real room = law->johnson_cook.T_room, range = law->johnson_cook.T_melt - room, m = law->johnson_cook.m;
-    const lanes work = johnson_cook_cold_work(law, to) - johnson_cook_cold_work(law, from);
+    const lanes work = johnson_cook_plastic_work_at_room_temperature(law, to) -
+                       johnson_cook_plastic_work_at_room_temperature(law, from);
     const lanes start = lanes_max(1.0 - (temperature - room) / range, lanes_broadcast(1e-12));
     const lanes more = law->heating / range * work / HEATING_STEPS;
     lanes y = lanes_broadcast(0);
@@ -75,9 +77,10 @@ static ALWAYS_INLINE lanes johnson_cook_adiabatic_temperature(const struct law *
 
 /* Returns for eight points the plastic strain [1] at which the yield stress at the temperature `temperature` [K] is
  * `stress` [Pa]; INFINITY for a law without hardening. */
-static ALWAYS_INLINE lanes plastic_strain_bound_johnson_cook(const struct law *law, lanes stress, lanes temperature)
+static ALWAYS_INLINE lanes plastic_strain_bound_at_stress_johnson_cook(const struct law *law, lanes stress,
+                                                                       lanes temperature)
 {
-    const lanes factor = lanes_max(johnson_cook_softening(law, temperature), lanes_broadcast(1e-12));
+    const lanes factor = lanes_max(johnson_cook_thermal_softening_factor(law, temperature), lanes_broadcast(1e-12));
     if (!(law->johnson_cook.B > 0)) return lanes_broadcast(INFINITY);
     const lanes ratio = (stress / factor - law->johnson_cook.A) / law->johnson_cook.B;
     return lanes_power(lanes_max(ratio, lanes_broadcast(0)), 1 / law->johnson_cook.n);

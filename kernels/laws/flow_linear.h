@@ -33,7 +33,7 @@ static ALWAYS_INLINE lanes flow_stress_integral_linear(const struct law *law, la
 /* Returns INFINITY for eight points, i.e. no upper bound of the plastic strain at which the yield stress is `stress`,
  * since the iteration of load steps (static equilibria) does not need a bound for a linear law. The arguments are not
  * used. */
-static ALWAYS_INLINE lanes plastic_strain_bound_linear(const struct law *law, lanes stress, lanes temperature)
+static ALWAYS_INLINE lanes plastic_strain_bound_at_stress_linear(const struct law *law, lanes stress, lanes temperature)
 {
     return (void)law, (void)stress, (void)temperature, lanes_broadcast(INFINITY);
 }

@@ -9,7 +9,7 @@
 /* Returns coefficient * strain^exponent [Pa] for the plastic strains `strain` of eight points, and stores its
  * derivative by the strain in *slope [Pa], which is large but finite at strain 0. coefficient: [Pa]; exponent: in
  * (0, 1]. */
-static ALWAYS_INLINE lanes power_of_strain(real coefficient, real exponent, lanes strain, lanes *slope)
+static ALWAYS_INLINE lanes power_law_stress_and_slope(real coefficient, real exponent, lanes strain, lanes *slope)
 {
     const lanes least = lanes_max(strain, lanes_broadcast(1e-200)), power = coefficient * lanes_power(least, exponent);
     *slope = exponent * power / least;
@@ -22,7 +22,7 @@ static ALWAYS_INLINE lanes flow_stress_power(const struct law *law, lanes plasti
                                              lanes *slope)
 {
     (void)temperature;
-    return law->yield + power_of_strain(law->power.coefficient, law->power.exponent, plastic_strain, slope);
+    return law->yield + power_law_stress_and_slope(law->power.coefficient, law->power.exponent, plastic_strain, slope);
 }
 
 /* Returns for eight points the integral of the yield stress of the law `law` over the plastic strain from 0 to
@@ -37,7 +37,7 @@ static ALWAYS_INLINE lanes flow_stress_integral_power(const struct law *law, lan
 /* Returns for eight points the plastic strain a [1] at which the yield stress sigma_y + B a^n of the law `law` equals
  * `stress` [Pa]; 0 where `stress` is below sigma_y, the yield stress at plastic strain 0. `temperature` has no
  * effect. */
-static ALWAYS_INLINE lanes plastic_strain_bound_power(const struct law *law, lanes stress, lanes temperature)
+static ALWAYS_INLINE lanes plastic_strain_bound_at_stress_power(const struct law *law, lanes stress, lanes temperature)
 {
     (void)temperature;
     return lanes_power(lanes_max((stress - law->yield) / law->power.coefficient, lanes_broadcast(0)),

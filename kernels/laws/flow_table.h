@@ -43,7 +43,7 @@ static ALWAYS_INLINE lanes flow_stress_integral_table(const struct law *law, lan
 /* Returns INFINITY for eight points, i.e. no upper bound of the plastic strain at which the yield stress is `stress`:
  * load steps (static equilibria) then start their iteration from a bound by the elastic stress. The arguments are not
  * used. */
-static ALWAYS_INLINE lanes plastic_strain_bound_table(const struct law *law, lanes stress, lanes temperature)
+static ALWAYS_INLINE lanes plastic_strain_bound_at_stress_table(const struct law *law, lanes stress, lanes temperature)
 {
     return (void)law, (void)stress, (void)temperature, lanes_broadcast(INFINITY);
 }

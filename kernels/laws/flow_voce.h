@@ -29,7 +29,7 @@ static ALWAYS_INLINE lanes flow_stress_integral_voce(const struct law *law, lane
 /* Returns INFINITY for eight points, i.e. no upper bound of the plastic strain at which the yield stress is `stress`:
  * load steps (static equilibria) then start their iteration from a bound by the elastic stress. The arguments are not
  * used. */
-static ALWAYS_INLINE lanes plastic_strain_bound_voce(const struct law *law, lanes stress, lanes temperature)
+static ALWAYS_INLINE lanes plastic_strain_bound_at_stress_voce(const struct law *law, lanes stress, lanes temperature)
 {
     return (void)law, (void)stress, (void)temperature, lanes_broadcast(INFINITY);
 }

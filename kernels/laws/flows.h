@@ -27,9 +27,10 @@ static ALWAYS_INLINE lanes law_flow_stress(const struct law *law, lanes plastic_
 
 /* Returns for eight points the plastic strain [1] at which the yield stress of the flow law `law` is `stress` [Pa], or
  * an upper bound of this strain; INFINITY if no bound is known. temperature: temperatures [K]. */
-static ALWAYS_INLINE lanes law_plastic_strain_bound(const struct law *law, lanes stress, lanes temperature)
+static ALWAYS_INLINE lanes law_plastic_strain_bound_at_yield_stress(const struct law *law, lanes stress,
+                                                                    lanes temperature)
 {
-#define FLOW_CALL(name) plastic_strain_bound_##name(law, stress, temperature)
+#define FLOW_CALL(name) plastic_strain_bound_at_stress_##name(law, stress, temperature)
     switch (law->flow) {
         FLOWS(FLOW_CASE)
     default:

@@ -254,7 +254,7 @@ static ALWAYS_INLINE lanes solve_load_step(const struct law *law, const struct l
     const real C = law->kinematic.modulus, recall = law->kinematic.recall;
     lanes xi[SYM_MAX], fall, slope, t = lanes_broadcast(0);
     struct flow_equation e = equation_at(law, p, lanes_broadcast(1), lanes_broadcast(0), xi, space);
-    lanes more = law_plastic_strain_bound(law, e.q, p->temperature) - p->a;
+    lanes more = law_plastic_strain_bound_at_yield_stress(law, e.q, p->temperature) - p->a;
     more = lanes_min((e.q - bound) / single_rate(&e, space), more);
     more = lanes_max(more, lanes_broadcast(0));
     back->left = back->added = lanes_broadcast(1);

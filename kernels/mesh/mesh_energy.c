@@ -62,7 +62,7 @@ static void mesh_energy_kick_block(const void *context, int64_t first, int64_t e
         sum[0] += 0.25 * total;
     }
     for (int64_t I = first; I < end && mesh->matched; I++)
-        if (mesh->matched[I] & 1) sum[0] += 0.25 * mesh_blended_mass_quadratic_form(mesh, I);
+        if (mesh->matched[I] & 1) sum[0] += 0.25 * mesh_cell_leapfrog_energy_correction(mesh, I);
 }
 
 real mesh_kick(const struct mesh *mesh, real dt)
@@ -105,21 +105,21 @@ static ALWAYS_INLINE real partial_energy(const struct strain_sum *s, int64_t gro
     const struct mesh *mesh = s->mesh;
     struct mesh_cell cell;
     lanes u[CORNERS_MAX][3];
-    mesh_group_load_displacements(mesh, group, u, dim);
-    cell_strain(&cell, mesh->grid.h, u, dim, finite && dim > 1);
+    mesh_partial_cells_load_corner_displacements(mesh, group, u, dim);
+    cell_compute_rotation_strain_and_modes(&cell, mesh->grid.h, u, dim, finite && dim > 1);
     if (mesh_points_can_yield(s->p)) {
         int32_t eight[LANES];
-        mesh_group_cell_indices(mesh, group, eight);
+        mesh_partial_cells_get_indices(mesh, group, eight);
         return cells_elastic_energy(mesh, s->p, s->elastic, eight, &cell, dim);
     }
-    mesh_partial_compute_stress(mesh, s->p, group, &cell, dim);
-    return lanes_sum(cell_energy(&cell, mesh->volume * (1 << dim), dim));
+    mesh_partial_cells_compute_stress(mesh, s->p, group, &cell, dim);
+    return lanes_sum(cell_elastic_energy(&cell, mesh->volume * (1 << dim), dim));
 }
 
 /* Returns the elastic energy of a row of consecutive cells along x with all points of one material [J], computed for
  * eight cells at a time. s: mesh, particles and elastic constants; run: the row; finite: true for finite strain. Vector
  * lanes beyond the end of the row contribute 0. */
-static ALWAYS_INLINE real run_energy(const struct strain_sum *s, const struct mesh_run *run, const int dim,
+static ALWAYS_INLINE real run_energy(const struct strain_sum *s, const struct mesh_cell_run *run, const int dim,
                                      const bool finite)
 {
     const struct mesh *mesh = s->mesh;
@@ -129,16 +129,16 @@ static ALWAYS_INLINE real run_energy(const struct strain_sum *s, const struct me
     for (int64_t k = 0; k < run->cells; k += LANES) {
         struct mesh_cell cell;
         lanes u[CORNERS_MAX][3];
-        mesh_run_load_displacements(mesh, run, k, u, dim);
-        cell_strain(&cell, mesh->grid.h, u, dim, finite && dim > 1);
+        mesh_cell_run_load_corner_displacements(mesh, run, k, u, dim);
+        cell_compute_rotation_strain_and_modes(&cell, mesh->grid.h, u, dim, finite && dim > 1);
         if (flows) {
             int32_t eight[LANES];
-            mesh_run_cell_indices(run, k, eight);
+            mesh_cell_run_get_indices_of_eight_cells(run, k, eight);
             flowed += cells_elastic_energy(mesh, s->p, s->elastic, eight, &cell, dim);
             continue;
         }
-        cell_compute_stress(&s->elastic[run->material], &cell, dim);
-        sum += cell_energy(&cell, mesh->volume * (1 << dim), dim);
+        cell_compute_stress_and_hourglass_forces(&s->elastic[run->material], &cell, dim);
+        sum += cell_elastic_energy(&cell, mesh->volume * (1 << dim), dim);
     }
     return lanes_sum(sum) + flowed;
 }
@@ -168,6 +168,6 @@ real mesh_strain(const struct mesh *mesh, const struct particles *p, const struc
     struct strain_sum s = {mesh, p, m, finite};
     const int dim = mesh->grid.dim;
     if (mesh->points == 0) return 0;
-    return reproducible_sum(mesh_partial_cell_group_count(mesh), partial[dim][finite], &s) +
+    return reproducible_sum(mesh_count_groups_of_eight_partial_cells(mesh), partial[dim][finite], &s) +
            reproducible_sum(mesh->runs, run[dim][finite], &s);
 }

@@ -26,18 +26,18 @@ static ALWAYS_INLINE bool mesh_points_can_yield(const struct particles *p) { ret
  * Hooke's stress less the plastic stress correction (elastic stress of the plastic strain). strain: dim x dim, row by
  * row, of which only the symmetric part counts; stress: receives symmetric components [Pa]; m: elastic constants of its
  * material. */
-static ALWAYS_INLINE void point_compute_stress(const struct particles *p, const struct elastic *m, int64_t i,
-                                               const real *strain, real *stress, const int dim)
+static ALWAYS_INLINE void point_compute_trial_stress(const struct particles *p, const struct elastic *m, int64_t i,
+                                                     const real *strain, real *stress, const int dim)
 {
     point_hooke_stress(m, strain, stress, dim);
-    for (int k = 0; k < symmetric_component_count(dim); k++) stress[k] -= p->plastic_correction[k][i];
+    for (int k = 0; k < symmetric_tensor_component_count(dim); k++) stress[k] -= p->plastic_correction[k][i];
 }
 
 /* Returns the stretch of the thickness [1] at point i of p in a sheet (plane stress) that yields: elastic strain by
  * Hooke's law, and plastic strain without change of volume. Returns 1 in other spaces and for points that cannot yield.
  * stress: symmetric components [Pa]; m: elastic constants of its material. */
-static ALWAYS_INLINE real thickness_stretch(const struct particles *p, const struct elastic *m, int64_t i,
-                                            const real *stress)
+static ALWAYS_INLINE real mesh_point_plane_stress_thickness_stretch(const struct particles *p, const struct elastic *m,
+                                                                    int64_t i, const real *stress)
 {
     if (m->space != SPACE_PLANE_STRESS || !m->law || !mesh_points_can_yield(p)) return 1;
     const real plastic = (p->plastic_correction[0][i] + p->plastic_correction[1][i]) / (m->c11 + m->c12);
@@ -52,7 +52,7 @@ static ALWAYS_INLINE real point_elastic_energy_density(const struct particles *p
 {
     real sum = 0, squares = 0, shears = 0;
     for (int k = 0; k < dim; k++) sum += stress[k], squares += stress[k] * stress[k];
-    for (int k = dim; k < symmetric_component_count(dim); k++) shears += stress[k] * stress[k];
+    for (int k = dim; k < symmetric_tensor_component_count(dim); k++) shears += stress[k] * stress[k];
     const real mean = m->c12 / (m->c11 + (dim - 1) * m->c12);
     const real across = p->out_of_plane && m->law ? p->out_of_plane[i] : 0;
     return 0.5 * (squares - mean * sum * sum) / (m->c11 - m->c12) + (dim > 1 ? 0.5 * shears / m->shear : 0) +
@@ -63,15 +63,16 @@ static ALWAYS_INLINE real point_elastic_energy_density(const struct particles *p
  * the mean over the points (of p) of the same cell and material. Values of materials without mean dilatation, and of
  * lanes without a cell, become 0. cell: eight cell indices, -1 for a lane without cell; m: elastic constants of all
  * materials. */
-static ALWAYS_INLINE void cells_subtract_from_mean(const struct mesh *mesh, const struct particles *p,
-                                                   const struct elastic *m, const int32_t *cell,
-                                                   lanes value[CORNERS_MAX], const int dim)
+static ALWAYS_INLINE void cells_replace_values_by_mean_minus_value(const struct mesh *mesh, const struct particles *p,
+                                                                   const struct elastic *m, const int32_t *cell,
+                                                                   lanes value[CORNERS_MAX], const int dim)
 {
     static const int32_t none[CORNERS_MAX] = {-1, -1, -1, -1, -1, -1, -1, -1};
     for (int l = 0; l < LANES; l++) {
         real own[CORNERS_MAX];
         for (int q = 0; q < 1 << dim; q++) own[q] = value[q][l];
-        cell_subtract_from_mean(m, p->material, cell[l] < 0 ? none : &mesh->point[(int64_t)cell[l] << dim], own, dim);
+        cell_replace_values_by_mean_minus_value(m, p->material,
+                                                cell[l] < 0 ? none : &mesh->point[(int64_t)cell[l] << dim], own, dim);
         for (int q = 0; q < 1 << dim; q++) value[q][l] = own[q];
     }
 }
@@ -80,10 +81,10 @@ static ALWAYS_INLINE void cells_subtract_from_mean(const struct mesh *mesh, cons
  * eight mesh cells, by which all points of one material in a cell get the mean of their dilatations (against volumetric
  * locking). Returns true; false, without values, if no point of the cells has a material with mean dilatation. cell:
  * eight cell indices, -1 for a lane without cell; s: strain of the cells; m: elastic constants of all materials. */
-static ALWAYS_INLINE bool cells_mean_dilatation_change(const struct mesh *mesh, const struct particles *p,
-                                                       const struct elastic *m, const int32_t *cell,
-                                                       const struct mesh_cell *s, lanes change[CORNERS_MAX],
-                                                       const int dim)
+static ALWAYS_INLINE bool cells_compute_mean_dilatation_correction(const struct mesh *mesh, const struct particles *p,
+                                                                   const struct elastic *m, const int32_t *cell,
+                                                                   const struct mesh_cell *s, lanes change[CORNERS_MAX],
+                                                                   const int dim)
 {
     bool any = false;
     for (int l = 0; l < LANES && dim > 1; l++)
@@ -95,57 +96,59 @@ static ALWAYS_INLINE bool cells_mean_dilatation_change(const struct mesh *mesh, 
         change[q] = lanes_broadcast(0);
         for (int d = 0; d < dim; d++) change[q] += e[d][d] * (1.0 / dim);
     }
-    cells_subtract_from_mean(mesh, p, m, cell, change, dim);
+    cells_replace_values_by_mean_minus_value(mesh, p, m, cell, change, dim);
     return true;
 }
 
 /* Computes the stresses of the points number `point` (0 .. 2^dim - 1; particles of p) of eight mesh cells, one cell in
  * each vector lane. cell: eight cell indices, -1 for a lane without cell; s: strain of the cells; change: added to the
  * normal strains of the points [1], NULL: nothing; m: elastic constants of all materials; stress: receives symmetric
- * components [Pa], 0 in lanes without a point. flows: if true, applies the return mapping of load steps (static
- * equilibria), updates the plastic state of the points and returns 0; if false, returns the sum of the elastic energies
- * per volume of the points [J/m^3]. */
+ * components [Pa], 0 in lanes without a point. apply_return_mapping: if true, applies the return mapping of load steps
+ * (static equilibria), updates the plastic state of the points and returns 0; if false, returns the sum of the elastic
+ * energies per volume of the points [J/m^3]. */
 static ALWAYS_INLINE real cells_compute_point_stress(const struct mesh *mesh, const struct particles *p,
                                                      const struct elastic *m, const int32_t *cell,
                                                      const struct mesh_cell *s, const lanes *change, const int point,
-                                                     lanes *stress, const int dim, const bool flows)
+                                                     lanes *stress, const int dim, const bool apply_return_mapping)
 {
     lanes e[3][3];
     real sum = 0;
     unsigned with_law = 0;
     cells_strain_at_point(s, point, e, dim);
     for (int d = 0; d < dim && change; d++) e[d][d] += *change;
-    for (int k = 0; k < symmetric_component_count(dim); k++) stress[k] = lanes_broadcast(0);
+    for (int k = 0; k < symmetric_tensor_component_count(dim); k++) stress[k] = lanes_broadcast(0);
     for (int l = 0; l < LANES; l++) {
         const int64_t i = mesh_point_of_cell(mesh, cell[l], point, dim);
         real own[SYM_MAX], strain[DIM_MAX * DIM_MAX];
         if (i < 0) continue;
         for (int a = 0; a < dim; a++)
             for (int b = 0; b < dim; b++) strain[a * dim + b] = e[a][b][l];
-        point_compute_stress(p, &m[p->material[i]], i, strain, own, dim);
-        for (int k = 0; k < symmetric_component_count(dim); k++) stress[k][l] = own[k];
+        point_compute_trial_stress(p, &m[p->material[i]], i, strain, own, dim);
+        for (int k = 0; k < symmetric_tensor_component_count(dim); k++) stress[k][l] = own[k];
         if (m[p->material[i]].law && m[p->material[i]].mode == LAW_LOAD_STEP) with_law |= 1u << l;
-        if (!flows) sum += point_elastic_energy_density(p, &m[p->material[i]], i, own, dim);
+        if (!apply_return_mapping) sum += point_elastic_energy_density(p, &m[p->material[i]], i, own, dim);
     }
-    if (flows && with_law) cells_apply_flow_laws(mesh, p, m, cell, point, with_law, 0, stress, dim);
+    if (apply_return_mapping && with_law) cells_apply_flow_laws(mesh, p, m, cell, point, with_law, 0, stress, dim);
     return sum;
 }
 
 /* Adds the stresses of the points number `point` (0 .. 2^dim - 1) of eight mesh cells to the sums over the points of
  * each cell: to s->P, the stress of the mean strain, and to s->force, the forces on the bending (hourglass) modes.
  * stress: symmetric components [Pa], already divided by the number of points of a cell. */
-static ALWAYS_INLINE void cells_add_point_stress(struct mesh_cell *s, const lanes *stress, const int point,
-                                                 const int dim)
+static ALWAYS_INLINE void cells_add_point_stress_to_cell_sums(struct mesh_cell *s, const lanes *stress, const int point,
+                                                              const int dim)
 {
-    for (int k = 0; k < symmetric_component_count(dim); k++) {
+    for (int k = 0; k < symmetric_tensor_component_count(dim); k++) {
         int a, b;
-        symmetric_component_axes(dim, k, &a, &b);
+        symmetric_tensor_component_axes(dim, k, &a, &b);
         s->P[a][b] += stress[k];
         if (a != b) s->P[b][a] += stress[k];
         for (int M = 3; M < 1 << dim; M++) {
             if (!(M & (M - 1))) continue;
-            if (M >> b & 1) s->force[M][a] += point_coordinate_product(M & ~(1 << b), point) * stress[k];
-            if (a != b && M >> a & 1) s->force[M][b] += point_coordinate_product(M & ~(1 << a), point) * stress[k];
+            if (M >> b & 1)
+                s->force[M][a] += cell_point_coordinate_product_along_axes(M & ~(1 << b), point) * stress[k];
+            if (a != b && M >> a & 1)
+                s->force[M][b] += cell_point_coordinate_product_along_axes(M & ~(1 << a), point) * stress[k];
         }
     }
 }
@@ -160,7 +163,7 @@ static ALWAYS_INLINE void cells_return_mapping(const struct mesh *mesh, const st
 {
     const real share = 1.0 / (1 << dim);
     lanes change[CORNERS_MAX], stress[CORNERS_MAX][SYM_MAX];
-    const bool averaged = cells_mean_dilatation_change(mesh, p, m, cell, s, change, dim);
+    const bool averaged = cells_compute_mean_dilatation_correction(mesh, p, m, cell, s, change, dim);
     for (int a = 0; a < dim; a++)
         for (int b = 0; b < dim; b++) s->P[a][b] = lanes_broadcast(0);
     for (int M = 0; M < 1 << dim; M++)
@@ -171,11 +174,11 @@ static ALWAYS_INLINE void cells_return_mapping(const struct mesh *mesh, const st
         change[q] = lanes_broadcast(0);
         for (int d = 0; d < dim; d++) change[q] += stress[q][d] * (1.0 / dim);
     }
-    if (averaged) cells_subtract_from_mean(mesh, p, m, cell, change, dim);
+    if (averaged) cells_replace_values_by_mean_minus_value(mesh, p, m, cell, change, dim);
     for (int q = 0; q < 1 << dim; q++) {
         for (int d = 0; d < dim && averaged; d++) stress[q][d] += change[q];
-        for (int k = 0; k < symmetric_component_count(dim); k++) stress[q][k] *= share;
-        cells_add_point_stress(s, stress[q], q, dim);
+        for (int k = 0; k < symmetric_tensor_component_count(dim); k++) stress[q][k] *= share;
+        cells_add_point_stress_to_cell_sums(s, stress[q], q, dim);
     }
 }
 
@@ -188,7 +191,7 @@ static ALWAYS_INLINE real cells_elastic_energy(const struct mesh *mesh, const st
 {
     lanes stress[SYM_MAX], change[CORNERS_MAX];
     real sum = 0;
-    const bool averaged = cells_mean_dilatation_change(mesh, p, m, cell, s, change, dim);
+    const bool averaged = cells_compute_mean_dilatation_correction(mesh, p, m, cell, s, change, dim);
     for (int q = 0; q < 1 << dim; q++)
         sum += cells_compute_point_stress(mesh, p, m, cell, s, averaged ? &change[q] : NULL, q, stress, dim, false);
     return sum * mesh->volume;
@@ -196,7 +199,8 @@ static ALWAYS_INLINE real cells_elastic_energy(const struct mesh *mesh, const st
 
 /* Writes to cell[8] the indices of eight mesh cells: those number k .. k + 7, counted from 0, of `run`, a row of
  * consecutive cells; -1 for entries beyond its last cell. */
-static ALWAYS_INLINE void mesh_run_cell_indices(const struct mesh_run *run, int64_t k, int32_t *cell)
+static ALWAYS_INLINE void mesh_cell_run_get_indices_of_eight_cells(const struct mesh_cell_run *run, int64_t k,
+                                                                   int32_t *cell)
 {
     for (int l = 0; l < LANES; l++) cell[l] = k + l < run->cells ? (int32_t)(run->cell + k + l) : -1;
 }
@@ -204,7 +208,7 @@ static ALWAYS_INLINE void mesh_run_cell_indices(const struct mesh_run *run, int6
 /* Writes to cell[8] the indices of the eight cells of group number `group` of partial cells of the mesh (cells with
  * missing points, partial stresses, several materials or doubled nodes); -1 for entries beyond the last partial
  * cell. */
-static ALWAYS_INLINE void mesh_group_cell_indices(const struct mesh *mesh, int64_t group, int32_t *cell)
+static ALWAYS_INLINE void mesh_partial_cells_get_indices(const struct mesh *mesh, int64_t group, int32_t *cell)
 {
     for (int64_t l = 0; l < LANES; l++)
         cell[l] = group * LANES + l < mesh->partial_cells ? mesh->partial_cell[group * LANES + l] : -1;

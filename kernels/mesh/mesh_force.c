@@ -1,5 +1,5 @@
 /* Internal forces of the mesh on its nodes. Whole cells (all points, one material) are computed in rows of consecutive
- * cells (struct mesh_run), eight at a time; partial cells have stiffnesses of their own.
+ * cells (struct mesh_cell_run), eight at a time; partial cells have stiffnesses of their own.
  *
  * Rows of cells that add to common nodes must not be computed at the same time: layers of cells are grouped in bands,
  * and bands of equal parity share no node. First even, then odd bands are computed in parallel, which gives equal bits
@@ -46,17 +46,17 @@ static ALWAYS_INLINE void cells_flow_of(const struct mesh *mesh, const struct pa
  * axis i [m]; f[c][i]: receives the force on corner c along axis i; m: elastic constants of all materials; finite:
  * true for finite strain. mesh: mesh of the undeformed body. */
 static ALWAYS_INLINE void run_flow(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
-                                   const struct mesh_run *run, int64_t k, lanes u[CORNERS_MAX][3],
+                                   const struct mesh_cell_run *run, int64_t k, lanes u[CORNERS_MAX][3],
                                    lanes f[CORNERS_MAX][3], const int dim, const bool finite)
 {
     const bool rotates = finite && dim > 1;
     struct mesh_cell s;
     int32_t cell[LANES];
-    cell_strain(&s, mesh->grid.h, u, dim, rotates);
-    mesh_run_cell_indices(run, k, cell);
+    cell_compute_rotation_strain_and_modes(&s, mesh->grid.h, u, dim, rotates);
+    mesh_cell_run_get_indices_of_eight_cells(run, k, cell);
     cells_flow_of(mesh, p, m, cell, &s, dim);
-    if (rotates) cell_balance_finite_moments(&s, (lanes[3]){{0}}, dim);
-    cell_corner_forces(&s, mesh->grid.h, mesh->volume * (1 << dim), f, dim, rotates);
+    if (rotates) cell_stress_balance_moments_at_finite_strain(&s, (lanes[3]){{0}}, dim);
+    cell_compute_corner_forces(&s, mesh->grid.h, mesh->volume * (1 << dim), f, dim, rotates);
 }
 
 /* Adds the forces of the cells of `run`, a row of consecutive cells along x, to the nodes of the mesh. Sets
@@ -65,15 +65,15 @@ static ALWAYS_INLINE void run_flow(const struct mesh *mesh, const struct particl
  * strain; flows: true for a row whose points yield, for which run->stressed becomes false. Neighbouring cells share
  * nodes: the forces on the upper corners along x of eight cells are shifted by one lane and added to those on the
  * lower corners of the next cells, so that each node is written once. p: all particles. */
-static ALWAYS_INLINE void run_force(const struct mesh *mesh, const struct particles *p, struct mesh_run *run,
+static ALWAYS_INLINE void run_force(const struct mesh *mesh, const struct particles *p, struct mesh_cell_run *run,
                                     const struct elastic *all, const int dim, const bool finite, const bool flows)
 {
     const struct grid *g = &mesh->grid;
     const struct elastic *m = &all[run->material];
     const real volume = mesh->volume * (1 << dim);
-    const bool balanced = cells_have_balanced_moments(m, dim);
+    const bool balanced = elastic_is_isotropic_in_2d(m, dim);
     const int64_t row = run->cell / g->count[0], start = run->cell - row * g->count[0];
-    const uint8_t *levels = mesh_row_activity_levels(mesh, row);
+    const uint8_t *levels = mesh_activity_levels_of_node_blocks_in_row(mesh, row);
     lanes carried[CORNERS_MAX][3], tension = lanes_broadcast(-INFINITY);
     for (int c = 0; c < 1 << dim; c++)
         for (int i = 0; i < dim; i++) carried[c][i] = lanes_broadcast(0);
@@ -81,11 +81,11 @@ static ALWAYS_INLINE void run_force(const struct mesh *mesh, const struct partic
         const int64_t I = run->cell + k;
         lanes u[CORNERS_MAX][3], f[CORNERS_MAX][3];
         if (mesh_eight_nodes_are_at_rest(levels, start + k)) continue; /* forces carried from the cells before are 0 */
-        mesh_run_load_displacements(mesh, run, k, u, dim);
+        mesh_cell_run_load_corner_displacements(mesh, run, k, u, dim);
         if (flows)
             run_flow(mesh, p, all, run, k, u, f, dim, finite);
         else
-            mesh_run_corner_forces(m, g->h, volume, u, f, &tension, dim, finite, balanced);
+            whole_cells_compute_corner_forces(m, g->h, volume, u, f, &tension, dim, finite, balanced);
         for (int c = 0; c < 1 << dim; c += 2)
             for (int i = 0; i < dim; i++) {
                 real *to = g->force[i] + I + mesh->corner[c];
@@ -107,7 +107,7 @@ static ALWAYS_INLINE void run_force(const struct mesh *mesh, const struct partic
  * FINITE are compile-time constants in it. */
 #define BANDS(D, FINITE)                                                                                               \
     static NEVER_INLINE void run_flow_##D##_##FINITE(const struct mesh *mesh, const struct particles *p,               \
-                                                     struct mesh_run *run, const struct elastic *m)                    \
+                                                     struct mesh_cell_run *run, const struct elastic *m)               \
     {                                                                                                                  \
         run_force(mesh, p, run, m, D, FINITE, true);                                                                   \
     }                                                                                                                  \
@@ -156,7 +156,7 @@ static ALWAYS_INLINE void partial_mark(struct mesh *mesh, const struct elastic *
     for (int l = 0; l < LANES; l++) {
         if (l == 0 || material[l] != material[l - 1]) {
             hooke_stress(&m[material[l]], s->e, P, dim);
-            tension = cell_principal_stress_bound(&m[material[l]], s, P, dim);
+            tension = cell_largest_principal_stress_upper_bound(&m[material[l]], s, P, dim);
         }
         mesh->partial_stressed[group * LANES + l] = tension[l] > m[material[l]].trigger;
     }
@@ -173,21 +173,21 @@ static ALWAYS_INLINE void partial_force(struct mesh *mesh, const struct particle
     const bool rotates = finite && dim > 1;
     struct mesh_cell s;
     lanes u[CORNERS_MAX][3], f[CORNERS_MAX][3], moment[3] = {{0}};
-    mesh_group_load_displacements(mesh, group, u, dim);
-    cell_strain(&s, mesh->grid.h, u, dim, rotates);
+    mesh_partial_cells_load_corner_displacements(mesh, group, u, dim);
+    cell_compute_rotation_strain_and_modes(&s, mesh->grid.h, u, dim, rotates);
     partial_mark(mesh, m, group, &s, dim);
     if (mesh_points_can_yield(p)) {
         int32_t cell[LANES];
-        mesh_group_cell_indices(mesh, group, cell);
+        mesh_partial_cells_get_indices(mesh, group, cell);
         cells_flow_of(mesh, p, m, cell, &s, dim);
     } else
-        mesh_partial_compute_stress(mesh, p, group, &s, dim);
-    if (mesh->ends && p->end_rotation[0]) mesh_partial_add_bond_moments(mesh, p, group, moment, dim);
+        mesh_partial_cells_compute_stress(mesh, p, group, &s, dim);
+    if (mesh->ends && p->end_rotation[0]) mesh_partial_cells_add_bond_moments(mesh, p, group, moment, dim);
     if (rotates)
-        cell_balance_finite_moments(&s, moment, dim);
+        cell_stress_balance_moments_at_finite_strain(&s, moment, dim);
     else if (dim > 1 && mesh->ends && p->end_rotation[0])
-        cell_balance_small_moments(&s, moment, dim);
-    cell_corner_forces(&s, mesh->grid.h, mesh->volume * (1 << dim), f, dim, rotates);
+        cell_stress_balance_moments_at_small_strain(&s, moment, dim);
+    cell_compute_corner_forces(&s, mesh->grid.h, mesh->volume * (1 << dim), f, dim, rotates);
     lanes *out = (lanes *)mesh->partial_force + group * (1 << dim) * dim;
     for (int c = 0; c < 1 << dim; c++)
         for (int i = 0; i < dim; i++) out[c * dim + i] = f[c][i];
@@ -198,12 +198,12 @@ static ALWAYS_INLINE void partial_force(struct mesh *mesh, const struct particle
  * added by one thread and in order. */
 static ALWAYS_INLINE void cuts_add(struct mesh *mesh, const int dim)
 {
-    for (int64_t group = 0; group < mesh_partial_cell_group_count(mesh); group++) {
+    for (int64_t group = 0; group < mesh_count_groups_of_eight_partial_cells(mesh); group++) {
         const int32_t *cell = mesh->partial_cell + group * LANES;
         const int64_t left = mesh->partial_cells - group * LANES;
         const lanes *f = (const lanes *)mesh->partial_force + group * (1 << dim) * dim;
         if (partial_inactive(mesh, group)) continue;
-        const int32_t *own = mesh_group_corner_nodes_at_slit(mesh, group, dim);
+        const int32_t *own = mesh_eight_partial_cells_corner_nodes_if_at_slit(mesh, group, dim);
         const bool in_line = !own && list_is_consecutive(cell);
         for (int c = 0; c < 1 << dim; c++)
             for (int i = 0; i < dim; i++) {
@@ -229,8 +229,8 @@ enum { FEW = 16 }; /* number of groups that one thread computes in less time tha
     }                                                                                                                  \
     static void cuts_force_##D##_##FINITE(struct mesh *mesh, const struct particles *p, const struct elastic *m)       \
     {                                                                                                                  \
-        TEAM_LOOP(mesh_partial_cell_group_count(mesh) > FEW,                                                           \
-                  for (int64_t k = 0; k < mesh_partial_cell_group_count(mesh); k++)                                    \
+        TEAM_LOOP(mesh_count_groups_of_eight_partial_cells(mesh) > FEW,                                                \
+                  for (int64_t k = 0; k < mesh_count_groups_of_eight_partial_cells(mesh); k++)                         \
                       cut_force_##D##_##FINITE(mesh, p, m, k););                                                       \
         cuts_add(mesh, D);                                                                                             \
     }

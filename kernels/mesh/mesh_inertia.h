@@ -30,7 +30,7 @@ static ALWAYS_INLINE real mesh_consistent_mass_entry(int dim, int corner, int ot
  * the corners by nodal forces f and masses m, the lumped and consistent mass matrices L and C of the cell, and their
  * blending factor alpha = mesh->match. Sums s and differences d along the axes diagonalise both matrices: along one
  * axis a . L a = (s^2 + d^2)/4 and a . C a = (s^2 + d^2/3)/4. */
-static inline real mesh_blended_mass_quadratic_form(const struct mesh *mesh, int64_t cell)
+static inline real mesh_cell_leapfrog_energy_correction(const struct mesh *mesh, int64_t cell)
 {
     static const real less[DIM_MAX + 1] = {0, 2.0 / 3, 8.0 / 9, 26.0 / 27}; /* 1 - 3^-n for n differences */
     const int dim = mesh->grid.dim, corners = 1 << dim;

@@ -41,7 +41,7 @@ struct mesh_cell {
 /* Replaces the values v[c] of a nodal variable at the 2^dim corners of eight cells by the amplitudes of the modes of
  * the cell, without their scale factor, in place: v[M] = sum_c sign(M, c) v[c] for every set of axes M (bit set), where
  * the sign is the product over the axes in M of -1 at the lower and 1 at the upper end. */
-static ALWAYS_INLINE void cell_modes_from_corners(lanes *v, const int dim)
+static ALWAYS_INLINE void cell_transform_corner_values_to_modes(lanes *v, const int dim)
 {
     for (int d = 0; d < dim; d++)
         for (int c = 0; c < 1 << dim; c++)
@@ -52,8 +52,8 @@ static ALWAYS_INLINE void cell_modes_from_corners(lanes *v, const int dim)
 }
 
 /* Replaces values v[M] for all sets of axes M (bit sets) by values at the 2^dim corners of eight cells, in place: v[c]
- * = sum_M sign(M, c) v[M], the transpose of cell_modes_from_corners. */
-static ALWAYS_INLINE void cell_corners_from_modes(lanes *v, const int dim)
+ * = sum_M sign(M, c) v[M], the transpose of cell_transform_corner_values_to_modes. */
+static ALWAYS_INLINE void cell_transform_modes_to_corner_values(lanes *v, const int dim)
 {
     for (int d = 0; d < dim; d++)
         for (int c = 0; c < 1 << dim; c++)
@@ -68,7 +68,7 @@ static ALWAYS_INLINE void cell_corners_from_modes(lanes *v, const int dim)
 /* Computes the rotation R and the strain e = R^T F - 1 of eight cells in 2D from their mean displacement gradient g
  * [1], with F = 1 + g = R U. In e, cos - 1 is computed from the sine, which resolves strains far below the round-off of
  * the rotation. */
-static ALWAYS_INLINE void cell_rotation_2d(const lanes g[3][3], lanes R[3][3], lanes e[3][3])
+static ALWAYS_INLINE void cell_compute_rotation_and_strain_2d(const lanes g[3][3], lanes R[3][3], lanes e[3][3])
 {
     lanes c = 2.0 + g[0][0] + g[1][1], s = g[1][0] - g[0][1];
     const lanes inverse = lanes_inverse_square_root(c * c + s * s);
@@ -81,7 +81,7 @@ static ALWAYS_INLINE void cell_rotation_2d(const lanes g[3][3], lanes R[3][3], l
 }
 
 /* Computes the matrix C of the cofactors of the 3 x 3 matrix A, for eight matrices at a time, one per vector lane. */
-static ALWAYS_INLINE void cofactors_3d(const lanes A[3][3], lanes C[3][3])
+static ALWAYS_INLINE void matrix_cofactors_3x3(const lanes A[3][3], lanes C[3][3])
 {
     for (int a = 0; a < 3; a++)
         for (int b = 0; b < 3; b++) {
@@ -93,13 +93,13 @@ static ALWAYS_INLINE void cofactors_3d(const lanes A[3][3], lanes C[3][3])
 /* Computes the rotation R and the symmetric part e of R^T F - 1 of eight cells in 3D from their mean displacement
  * gradient g [1], with F = 1 + g = R U, by Newton's iteration R <- (R + R^-T)/2 (Higham 1986). Cells are far from
  * singular, so that few iterations are enough; after 12 the last value is used. */
-static ALWAYS_INLINE void cell_rotation_3d(const lanes g[3][3], lanes R[3][3], lanes e[3][3])
+static ALWAYS_INLINE void cell_compute_rotation_and_strain_3d(const lanes g[3][3], lanes R[3][3], lanes e[3][3])
 {
     for (int a = 0; a < 3; a++)
         for (int b = 0; b < 3; b++) R[a][b] = g[a][b] + (a == b ? 1.0 : 0.0);
     for (int step = 0; step < 12; step++) {
         lanes C[3][3], change = lanes_broadcast(0);
-        cofactors_3d(R, C);
+        matrix_cofactors_3x3(R, C);
         const lanes inverse = 0.5 / (R[0][0] * C[0][0] + R[0][1] * C[0][1] + R[0][2] * C[0][2]);
         for (int a = 0; a < 3; a++)
             for (int b = 0; b < 3; b++) {
@@ -134,8 +134,8 @@ static ALWAYS_INLINE void rotate_vector(const lanes R[3][3], lanes *v, const boo
  * strain: in the rotated axes of the cells, strain [1]; moment: moment per volume about each axis [Pa], in 2D moment[2]
  * only. The part is the matrix of the cross product with the vector w that solves (tr U - U) w = moment, with U = 1 +
  * strain. */
-static ALWAYS_INLINE void stress_add_skew_part(lanes stress[3][3], const lanes strain[3][3], const lanes *moment,
-                                               const int dim)
+static ALWAYS_INLINE void stress_add_skew_part_balancing_moment(lanes stress[3][3], const lanes strain[3][3],
+                                                                const lanes *moment, const int dim)
 {
     if (dim == 2) {
         const lanes w = moment[2] / (2.0 + strain[0][0] + strain[1][1]);
@@ -146,7 +146,7 @@ static ALWAYS_INLINE void stress_add_skew_part(lanes stress[3][3], const lanes s
     const lanes trace = 3.0 + strain[0][0] + strain[1][1] + strain[2][2];
     for (int a = 0; a < 3; a++)
         for (int b = 0; b < 3; b++) A[a][b] = (a == b ? trace - 1.0 : lanes_broadcast(0)) - strain[a][b];
-    cofactors_3d(A, C);
+    matrix_cofactors_3x3(A, C);
     const lanes inverse = 1.0 / (A[0][0] * C[0][0] + A[0][1] * C[0][1] + A[0][2] * C[0][2]);
     for (int a = 0; a < 3; a++) w[a] = inverse * (C[a][0] * moment[0] + C[a][1] * moment[1] + C[a][2] * moment[2]);
     for (int k = 0; k < 3; k++) {
@@ -171,7 +171,7 @@ static ALWAYS_INLINE void hooke_stress(const struct elastic *m, const lanes stra
 
 /* Returns the derivative [Pa] of the mean normal stress by the trace of the strain for the elastic constants m, if the
  * points of a cell have one dilatation (m->mean_dilatation); 0 if each point has its own. */
-static ALWAYS_INLINE real mean_dilatation_stiffness(const struct elastic *m, const int dim)
+static ALWAYS_INLINE real elastic_bulk_modulus_if_mean_dilatation(const struct elastic *m, const int dim)
 {
     return m->mean_dilatation ? (m->c11 + (dim - 1) * m->c12) / dim : 0;
 }
@@ -180,10 +180,11 @@ static ALWAYS_INLINE real mean_dilatation_stiffness(const struct elastic *m, con
  * eight cells, in the rotated axes of the cells. m: elastic constants; mode[M][i]: amplitudes of the modes [1]; M: set
  * of two or three axes, as bits. In the displacement gradient d_j u_i, mode {j, l} of component i appears times the
  * coordinate along l, and mode {1, 2, 3} of component i times the two other coordinates. */
-static ALWAYS_INLINE lanes cell_bending_force(const struct elastic *m, lanes mode[CORNERS_MAX][3], const int M,
-                                              const int i, const int dim)
+static ALWAYS_INLINE lanes cell_hourglass_mode_force(const struct elastic *m, lanes mode[CORNERS_MAX][3], const int M,
+                                                     const int i, const int dim)
 {
-    const real averaged = mean_dilatation_stiffness(m, dim), c11 = m->c11 - averaged, c12 = m->c12 - averaged;
+    const real averaged = elastic_bulk_modulus_if_mean_dilatation(m, dim), c11 = m->c11 - averaged,
+               c12 = m->c12 - averaged;
     if (dim == 3 && M == 7) return mode[M][i] * ((c11 + 2 * m->shear) / 256);
     if (dim == 2) return mode[M][i] * ((c11 + m->shear) / 16);
     const int k = M == 6 ? 0 : M == 5 ? 1 : 2; /* the axis that is not in M */
@@ -197,22 +198,22 @@ static ALWAYS_INLINE lanes cell_bending_force(const struct elastic *m, lanes mod
 /* Computes rotation, mean strain and bending (hourglass) modes of eight mesh cells into s, from the displacements
  * u[c][i] of corner c along axis i [m]. h: edge of a cell [m]; rotates: true for finite strain (axes that rotate with
  * the cell), false for small strain. */
-static ALWAYS_INLINE void cell_strain(struct mesh_cell *s, real h, lanes u[CORNERS_MAX][3], const int dim,
-                                      const bool rotates)
+static ALWAYS_INLINE void cell_compute_rotation_strain_and_modes(struct mesh_cell *s, real h, lanes u[CORNERS_MAX][3],
+                                                                 const int dim, const bool rotates)
 {
     const int corners = 1 << dim;
     lanes g[3][3];
     for (int i = 0; i < dim; i++) {
         lanes v[CORNERS_MAX];
         for (int c = 0; c < corners; c++) v[c] = u[c][i];
-        cell_modes_from_corners(v, dim);
+        cell_transform_corner_values_to_modes(v, dim);
         SETS for (int M = 1; M < corners; M++) s->mode[M][i] =
             v[M] * (1.0 / (h * (1 << (dim - __builtin_popcount(M)))));
         for (int b = 0; b < dim; b++) g[i][b] = s->mode[1 << b][i];
     }
     lanes R[3][3], e[3][3]; /* local, so that Newton's loop keeps them in registers */
-    if (rotates && dim == 2) cell_rotation_2d(g, R, e);
-    if (rotates && dim == 3) cell_rotation_3d(g, R, e);
+    if (rotates && dim == 2) cell_compute_rotation_and_strain_2d(g, R, e);
+    if (rotates && dim == 3) cell_compute_rotation_and_strain_3d(g, R, e);
     for (int a = 0; a < dim; a++)
         for (int b = 0; b < dim; b++) {
             s->e[a][b] = rotates ? e[a][b] : 0.5 * (g[a][b] + g[b][a]);
@@ -223,7 +224,7 @@ static ALWAYS_INLINE void cell_strain(struct mesh_cell *s, real h, lanes u[CORNE
 
 /* Returns the product of the coordinates (1/4 or -1/4 edges from the middle) of material point number `point` of a cell
  * along the axes in the bit set `axis_set`, in units of the edge of the cell; 1 for an empty set. */
-static ALWAYS_INLINE real point_coordinate_product(const int axis_set, const int point)
+static ALWAYS_INLINE real cell_point_coordinate_product_along_axes(const int axis_set, const int point)
 {
     const int axes = __builtin_popcount(axis_set), below = __builtin_popcount(axis_set & ~point);
     return (below & 1 ? -1.0 : 1.0) / (1 << 2 * axes);
@@ -240,7 +241,7 @@ static ALWAYS_INLINE void cells_strain_at_point(const struct mesh_cell *s, const
             strain[i][j] = s->e[i][j];
             SETS for (int M = 3; M < 1 << dim; M++) if (M & (M - 1) && M >> j & 1)
             {
-                strain[i][j] += point_coordinate_product(M & ~(1 << j), point) * s->mode[M][i];
+                strain[i][j] += cell_point_coordinate_product_along_axes(M & ~(1 << j), point) * s->mode[M][i];
             }
         }
 }
@@ -248,8 +249,8 @@ static ALWAYS_INLINE void cells_strain_at_point(const struct mesh_cell *s, const
 /* Replaces the trace of the strain `strain` (dim x dim) of eight whole cells at a material point by the trace of the
  * mean strain s->e of the cells, if the points of a cell have one dilatation (m->mean_dilatation); otherwise does
  * nothing. Whole: with all points, of one material. */
-static ALWAYS_INLINE void cells_use_mean_dilatation(const struct elastic *m, const struct mesh_cell *s,
-                                                    lanes strain[3][3], const int dim)
+static ALWAYS_INLINE void cells_replace_dilatation_by_cell_mean(const struct elastic *m, const struct mesh_cell *s,
+                                                                lanes strain[3][3], const int dim)
 {
     lanes change = lanes_broadcast(0);
     if (!m->mean_dilatation) return;
@@ -260,19 +261,20 @@ static ALWAYS_INLINE void cells_use_mean_dilatation(const struct elastic *m, con
 /* Computes the stress of the mean strain, s->P, and the forces on the bending (hourglass) modes, s->force, of eight
  * whole cells (with all points, of one material, without partial stresses) [Pa], from the strain in s. m: elastic
  * constants. */
-static ALWAYS_INLINE void cell_compute_stress(const struct elastic *m, struct mesh_cell *s, const int dim)
+static ALWAYS_INLINE void cell_compute_stress_and_hourglass_forces(const struct elastic *m, struct mesh_cell *s,
+                                                                   const int dim)
 {
     hooke_stress(m, s->e, s->P, dim);
     SETS for (int M = 1; M < 1 << dim; M++) if (M & (M - 1)) for (int i = 0; i < dim; i++) s->force[M][i] =
-        cell_bending_force(m, s->mode, M, i, dim);
+        cell_hourglass_mode_force(m, s->mode, M, i, dim);
 }
 
 /* Returns for eight cells a bound [Pa] that exceeds m->trigger if a point may reach the strength surface at which it
  * becomes peridynamic: an upper bound of sqrt(J2) + g1 I1 (data/strength_surface.h), scaled by
  * m->trigger_mean/m->failure. P: stress [Pa]; further_stress: bound of each component of further stresses that are
  * added to P [Pa]; their sqrt(J2) is at most 2.2 `further_stress`, their I1 at most 3 `further_stress`. */
-static ALWAYS_INLINE lanes cell_strength_bound(const struct elastic *m, const lanes P[3][3], lanes further_stress,
-                                               const int dim)
+static ALWAYS_INLINE lanes cell_drucker_prager_stress_upper_bound(const struct elastic *m, const lanes P[3][3],
+                                                                  lanes further_stress, const int dim)
 {
     const lanes zz = dim == 3 ? P[2][2] : (m->space == SPACE_PLANE_STRAIN ? m->poisson : 0) * (P[0][0] + P[1][1]);
     const lanes a = P[0][0] - P[1][1], b = P[1][1] - zz, c = zz - P[0][0];
@@ -286,9 +288,10 @@ static ALWAYS_INLINE lanes cell_strength_bound(const struct elastic *m, const la
 /* Returns for each of eight cells an upper bound [Pa] of the largest principal stress at its material points, by which
  * cells whose points cannot become peridynamic are skipped: the largest normal stress of P, plus the magnitudes of all
  * its shear stresses (Gershgorin), plus a bound on the stress of the bending modes in s. With a strength surface the
- * larger of this and of cell_strength_bound is returned. P: stress of the mean strain [Pa]; m: elastic constants. */
-static ALWAYS_INLINE lanes cell_principal_stress_bound(const struct elastic *m, const struct mesh_cell *s,
-                                                       const lanes P[3][3], const int dim)
+ * larger of this and of cell_drucker_prager_stress_upper_bound is returned. P: stress of the mean strain [Pa]; m:
+ * elastic constants. */
+static ALWAYS_INLINE lanes cell_largest_principal_stress_upper_bound(const struct elastic *m, const struct mesh_cell *s,
+                                                                     const lanes P[3][3], const int dim)
 {
     lanes largest = lanes_broadcast(0), bound = P[0][0];
     SETS for (int M = 1; M < 1 << dim; M++) if (M & (M - 1)) for (int i = 0; i < dim; i++) largest +=
@@ -298,12 +301,12 @@ static ALWAYS_INLINE lanes cell_principal_stress_bound(const struct elastic *m, 
         for (int b = 0; b < a; b++) bound += lanes_max(P[a][b], -P[a][b]);
     const lanes bending = largest * ((m->c11 + m->shear) * 0.25);
     if (dim == 1 || !(m->surface.g0 > 0)) return bound + bending;
-    return lanes_max(bound + bending, cell_strength_bound(m, P, bending, dim));
+    return lanes_max(bound + bending, cell_drucker_prager_stress_upper_bound(m, P, bending, dim));
 }
 
 /* Returns the elastic energy [J] of each of eight cells from the strains, stresses, bending (hourglass) modes and
  * forces on these modes in s. volume: volume of a cell [m^3]. */
-static ALWAYS_INLINE lanes cell_energy(const struct mesh_cell *s, real volume, const int dim)
+static ALWAYS_INLINE lanes cell_elastic_energy(const struct mesh_cell *s, real volume, const int dim)
 {
     lanes energy = lanes_broadcast(0);
     for (int i = 0; i < dim; i++) {
@@ -317,7 +320,8 @@ static ALWAYS_INLINE lanes cell_energy(const struct mesh_cell *s, real volume, c
  * stresses and of bonds. moment: on entry the moment of bonds at the points of the cell, per volume about each axis
  * [Pa]; on return the total moment, including that of the stresses: the antisymmetric part of P U^T, summed over all
  * modes (U = 1 + e, e: mean strain). */
-static ALWAYS_INLINE void cell_balance_finite_moments(struct mesh_cell *s, lanes *moment, const int dim)
+static ALWAYS_INLINE void cell_stress_balance_moments_at_finite_strain(struct mesh_cell *s, lanes *moment,
+                                                                       const int dim)
 {
     for (int k = dim == 2 ? 2 : 0; k < 3; k++) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
@@ -325,25 +329,26 @@ static ALWAYS_INLINE void cell_balance_finite_moments(struct mesh_cell *s, lanes
         SETS for (int M = 1; M < 1 << dim; M++) if (M & (M - 1)) moment[k] +=
             s->force[M][j] * s->mode[M][i] - s->force[M][i] * s->mode[M][j];
     }
-    stress_add_skew_part(s->P, s->e, moment, dim);
+    stress_add_skew_part_balancing_moment(s->P, s->e, moment, dim);
 }
 
 /* Adds to the stress s->P of eight cells, at small strain, an antisymmetric part. It makes the corner forces balance
  * the moments that state-based bonds exert on the material points of the cells. moment: these moments, per volume about
  * each axis [Pa]; in 2D moment[2] only. */
-static ALWAYS_INLINE void cell_balance_small_moments(struct mesh_cell *s, const lanes *moment, const int dim)
+static ALWAYS_INLINE void cell_stress_balance_moments_at_small_strain(struct mesh_cell *s, const lanes *moment,
+                                                                      const int dim)
 {
     lanes none[3][3];
     for (int a = 0; a < 3; a++)
         for (int b = 0; b < 3; b++) none[a][b] = lanes_broadcast(0);
-    stress_add_skew_part(s->P, none, moment, dim);
+    stress_add_skew_part_balancing_moment(s->P, none, moment, dim);
 }
 
 /* Computes the forces f[c][i] [N] on corner c along axis i of eight cells from the stresses and the forces on bending
  * (hourglass) modes in s. h, volume: edge [m] and volume [m^3] of a cell; rotates: true to rotate s->P and s->force
  * from the axes of the cell to fixed axes first, in place. */
-static ALWAYS_INLINE void cell_corner_forces(struct mesh_cell *s, real h, real volume, lanes f[CORNERS_MAX][3],
-                                             const int dim, const bool rotates)
+static ALWAYS_INLINE void cell_compute_corner_forces(struct mesh_cell *s, real h, real volume, lanes f[CORNERS_MAX][3],
+                                                     const int dim, const bool rotates)
 {
     const int corners = 1 << dim;
     for (int b = 0; b < dim && rotates; b++) {
@@ -361,7 +366,7 @@ static ALWAYS_INLINE void cell_corner_forces(struct mesh_cell *s, real h, real v
             const lanes by = M & (M - 1) ? s->force[M][i] : s->P[i][M == 1 ? 0 : M == 2 ? 1 : 2];
             v[M] = by * (-volume / (h * (1 << (dim - __builtin_popcount(M)))));
         }
-        cell_corners_from_modes(v, dim);
+        cell_transform_modes_to_corner_values(v, dim);
         for (int c = 0; c < corners; c++) f[c][i] = v[c];
     }
 }

@@ -26,10 +26,11 @@ static ALWAYS_INLINE lanes lanes_gather_or_zero(const real *from, const int32_t 
  * numbers, -1 for a lane without a point, which gets zeros; stress: symmetric components of the trial stress [Pa]; dt:
  * duration of an explicit time step [s], 0 in load steps (static equilibria); m: constants of the material whose law is
  * evaluated. */
-static ALWAYS_INLINE void law_points_load(const struct particles *p, const struct elastic *m, const int32_t *point,
-                                          const lanes *stress, real dt, struct law_points *e, const int dim)
+static ALWAYS_INLINE void law_points_load_trial_state(const struct particles *p, const struct elastic *m,
+                                                      const int32_t *point, const lanes *stress, real dt,
+                                                      struct law_points *e, const int dim)
 {
-    const int n = symmetric_component_count(dim);
+    const int n = symmetric_tensor_component_count(dim);
     for (int c = 0; c < SYM_MAX; c++) e->s[c] = e->before[c] = e->back[c] = lanes_broadcast(0);
     for (int k = 0; k < n; k++) {
         e->s[law_place[dim][k]] = stress[k];
@@ -52,11 +53,11 @@ static ALWAYS_INLINE void law_points_load(const struct particles *p, const struc
 /* Stores the result of the return mapping for particle i of p, which is in lane `lane` of *e. Adds the trial stress
  * less the returned stress to the plastic stress correction of the particle, replaces the trial stress in this lane of
  * stress[components] by the returned stress, and stores the plastic state in p. m: constants of the material. */
-static ALWAYS_INLINE void law_points_store_lane(const struct particles *p, const struct elastic *m,
-                                                const struct law_points *e, int lane, int64_t i, lanes *stress,
-                                                const int dim)
+static ALWAYS_INLINE void law_points_store_lane_result_in_particle(const struct particles *p, const struct elastic *m,
+                                                                   const struct law_points *e, int lane, int64_t i,
+                                                                   lanes *stress, const int dim)
 {
-    for (int k = 0; k < symmetric_component_count(dim); k++) {
+    for (int k = 0; k < symmetric_tensor_component_count(dim); k++) {
         const int c = law_place[dim][k];
         p->plastic_correction[k][i] += stress[k][lane] - e->s[c][lane];
         stress[k][lane] = e->s[c][lane];
@@ -68,14 +69,15 @@ static ALWAYS_INLINE void law_points_store_lane(const struct particles *p, const
     if (p->temperature) p->temperature[i] = e->temperature[lane];
 }
 
-/* Stores the stresses of eight material points in p->mesh_stress. point: particle numbers; of_lanes: bit l is set if
- * the stress in lane l is to be stored; stress: symmetric components [Pa]. */
-static ALWAYS_INLINE void mesh_stress_store(const struct particles *p, const int32_t *point, unsigned of_lanes,
-                                            const lanes *stress, const int dim)
+/* Stores the stresses of eight material points in p->mesh_stress. point: particle numbers; selected_lane_bits: bit l is
+ * set if the stress in lane l is to be stored; stress: symmetric components [Pa]. */
+static ALWAYS_INLINE void mesh_points_store_stress_of_lanes(const struct particles *p, const int32_t *point,
+                                                            unsigned selected_lane_bits, const lanes *stress,
+                                                            const int dim)
 {
-    for (int k = 0; k < symmetric_component_count(dim); k++)
+    for (int k = 0; k < symmetric_tensor_component_count(dim); k++)
         for (int l = 0; l < LANES; l++)
-            if (of_lanes >> l & 1) p->mesh_stress[k][point[l]] = stress[k][l];
+            if (selected_lane_bits >> l & 1) p->mesh_stress[k][point[l]] = stress[k][l];
 }
 
 /* Maps the trial stresses of the points number `point_number` (0 .. 2^dim - 1; particles of p) of eight cells of `mesh`
@@ -96,12 +98,13 @@ static NEVER_INLINE void cells_apply_flow_laws(const struct mesh *mesh, const st
         for (int l = 0; l < LANES; l++)
             own |= (unsigned)(yielding_lanes >> l & 1 && p->material[point[l]] == material) << l;
         yielding_lanes &= ~own;
-        law_points_load(p, &m[material], point, stress, dt, &e, dim);
+        law_points_load_trial_state(p, &m[material], point, stress, dt, &e, dim);
         e.active = lanes_mask_from_bits((uint8_t)own);
         const unsigned flowed = law_update(m[material].law, &e, m[material].space, m[material].mode);
         for (int l = 0; l < LANES; l++)
-            if (flowed >> l & 1) law_points_store_lane(p, &m[material], &e, l, point[l], stress, dim);
-        if (p->mesh_stress[0]) mesh_stress_store(p, point, own, stress, dim);
+            if (flowed >> l & 1)
+                law_points_store_lane_result_in_particle(p, &m[material], &e, l, point[l], stress, dim);
+        if (p->mesh_stress[0]) mesh_points_store_stress_of_lanes(p, point, own, stress, dim);
     }
 }
 

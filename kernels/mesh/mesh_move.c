@@ -38,13 +38,13 @@ static void walls_force(struct mesh *mesh, real dt_velocity, real impulse[DIM_MA
 static void dashpots_force(struct mesh *mesh, real dt_velocity)
 {
     struct grid *g = &mesh->grid;
-    g->absorbed = (struct absorbed){0};
+    g->absorbed = (struct dashpot_effect){0};
     for (int64_t k = 0; k < g->dashpots; k++) {
         const int64_t I = g->dashpot[k].node;
         for (int d = 0; d < g->dim && g->mass[I] > 0; d++) {
             const real change = dt_velocity * g->force[d][I] / g->mass[I];
-            g->force[d][I] += dashpot_add_impulse(&g->absorbed, d, dt_velocity * g->dashpot[k].rate[d], g->mass[I],
-                                                  g->velocity[d][I], change) /
+            g->force[d][I] += dashpot_compute_and_add_impulse(&g->absorbed, d, dt_velocity * g->dashpot[k].rate[d],
+                                                              g->mass[I], g->velocity[d][I], change) /
                               dt_velocity;
         }
     }
@@ -73,8 +73,8 @@ static void walls_move(struct mesh *mesh, real dt)
  * rest. row: number of the row of nodes along x, from 0; force: this component at all nodes [N]. */
 static void row_clear(const struct mesh *mesh, int64_t row, real *force)
 {
-    const struct mesh_row_blocks blocks = mesh_blocks_of_row(mesh, row);
-    const uint8_t *levels = mesh_row_activity_levels(mesh, row);
+    const struct mesh_row_blocks blocks = mesh_block_range_with_mass_in_node_row(mesh, row);
+    const uint8_t *levels = mesh_activity_levels_of_node_blocks_in_row(mesh, row);
     for (int64_t b = blocks.first; (b = mesh_next_active_block(levels, b, blocks.end)) < blocks.end; b++)
         lanes_store(force + row * mesh->grid.count[0] + b * LANES, lanes_broadcast(0));
 }
@@ -95,8 +95,8 @@ void mesh_clear(struct mesh *mesh)
 static real row_move(struct mesh *mesh, int64_t row, real dt, real dt_velocity)
 {
     const int64_t start = row * mesh->grid.count[0];
-    const struct mesh_row_blocks blocks = mesh_blocks_of_row(mesh, row);
-    const uint8_t *levels = mesh_row_activity_levels(mesh, row);
+    const struct mesh_row_blocks blocks = mesh_block_range_with_mass_in_node_row(mesh, row);
+    const uint8_t *levels = mesh_activity_levels_of_node_blocks_in_row(mesh, row);
     lanes most = lanes_broadcast(0), sum = lanes_broadcast(0);
     for (int d = 0; d < mesh->grid.dim; d++) {
         real *velocity = mesh->grid.velocity[d], *displacement = mesh->displacement[d];

@@ -12,10 +12,11 @@
 
 /* Loads the displacements u[c][i] [m] of corner c along axis i of the eight cells of group number `group` of partial
  * cells of the mesh: cells with missing points, partial stresses, several materials or doubled nodes. */
-static ALWAYS_INLINE void mesh_group_load_displacements(const struct mesh *mesh, int64_t group, lanes u[CORNERS_MAX][3],
-                                                        const int dim)
+static ALWAYS_INLINE void mesh_partial_cells_load_corner_displacements(const struct mesh *mesh, int64_t group,
+                                                                       lanes u[CORNERS_MAX][3], const int dim)
 {
-    const int32_t *cell = mesh->partial_cell + group * LANES, *own = mesh_group_corner_nodes_at_slit(mesh, group, dim);
+    const int32_t *cell = mesh->partial_cell + group * LANES,
+                  *own = mesh_eight_partial_cells_corner_nodes_if_at_slit(mesh, group, dim);
     const int32_t first = cell[LANES - 1] - cell[0] == LANES - 1 ? cell[0] : -1;
     for (int c = 0; c < 1 << dim && own; c++)
         for (int i = 0; i < dim; i++) u[c][i] = lanes_load_or_gather(mesh->displacement[i], -1, own + c * LANES);
@@ -28,12 +29,12 @@ static ALWAYS_INLINE void mesh_group_load_displacements(const struct mesh *mesh,
 /* Writes the strains and bending (hourglass) modes of eight cells in s as vectors v of cell_deformation_mode_count(dim)
  * numbers [1], one cell per lane: first the components of the mean strain (engineering shear strains), then the bending
  * modes. */
-static ALWAYS_INLINE void cell_strain_vector(const struct mesh_cell *s, lanes *v, const int dim)
+static ALWAYS_INLINE void cell_write_strains_and_modes_as_vector(const struct mesh_cell *s, lanes *v, const int dim)
 {
-    int n = symmetric_component_count(dim);
+    int n = symmetric_tensor_component_count(dim);
     for (int k = 0; k < n; k++) {
         int a, b;
-        symmetric_component_axes(dim, k, &a, &b);
+        symmetric_tensor_component_axes(dim, k, &a, &b);
         v[k] = a == b ? s->e[a][a] : s->e[a][b] + s->e[b][a];
     }
     SETS for (int M = 3; M < 1 << dim; M++) if (M & (M - 1)) for (int i = 0; i < dim; i++) v[n++] = s->mode[M][i];
@@ -56,9 +57,10 @@ static ALWAYS_INLINE void symmetric_matrix_times_vector(const lanes *K, const la
 /* Adds to f [Pa] the forces of state-based bonds on the deformation modes of the cells in group number `group` of eight
  * partial cells of the mesh (cells with missing or bonded points): f += share^T pull for each material point with
  * bonds, with the reaction `pull` of its bonds (p->end_pull) and the derivatives `share` of the strain at the point by
- * the modes (mesh->end_share). f: one value for each mode of cell_strain_vector, one cell per lane. */
-static ALWAYS_INLINE void mesh_partial_add_bond_forces(const struct mesh *mesh, const struct particles *p,
-                                                       int64_t group, lanes *f, const int dim)
+ * the modes (mesh->end_share). f: one value for each mode of cell_write_strains_and_modes_as_vector, one cell per lane.
+ */
+static ALWAYS_INLINE void mesh_partial_cells_add_bond_forces(const struct mesh *mesh, const struct particles *p,
+                                                             int64_t group, lanes *f, const int dim)
 {
     const struct mesh_end *end = mesh->end + mesh->ends[group], *last = mesh->end + mesh->ends[group + 1];
     const int n = cell_deformation_mode_count(dim);
@@ -73,8 +75,8 @@ static ALWAYS_INLINE void mesh_partial_add_bond_forces(const struct mesh *mesh, 
 /* Adds the moments of bonds about the material points (of p) of group number `group` of eight partial cells of the mesh
  * (cells with missing points, partial stresses, several materials or doubled nodes), per volume of the cell, to
  * moment[axis] [Pa]; in 2D moment[2] only. */
-static ALWAYS_INLINE void mesh_partial_add_bond_moments(const struct mesh *mesh, const struct particles *p,
-                                                        int64_t group, lanes *moment, const int dim)
+static ALWAYS_INLINE void mesh_partial_cells_add_bond_moments(const struct mesh *mesh, const struct particles *p,
+                                                              int64_t group, lanes *moment, const int dim)
 {
     const struct mesh_end *end = mesh->end + mesh->ends[group], *last = mesh->end + mesh->ends[group + 1];
     const real inverse = 1 / (mesh->volume * (1 << dim));
@@ -88,18 +90,18 @@ static ALWAYS_INLINE void mesh_partial_add_bond_moments(const struct mesh *mesh,
  * s->force: that which belongs to the hourglass amplitudes, per volume of the cell [Pa]. A partial cell lacks points,
  * has several materials, is crossed by bonds that carry part of its stress, or has nodes that a crack doubles; each has
  * a stiffness matrix of its own. Forces of state-based bonds on points of p are added. */
-static ALWAYS_INLINE void mesh_partial_compute_stress(const struct mesh *mesh, const struct particles *p, int64_t group,
-                                                      struct mesh_cell *s, const int dim)
+static ALWAYS_INLINE void mesh_partial_cells_compute_stress(const struct mesh *mesh, const struct particles *p,
+                                                            int64_t group, struct mesh_cell *s, const int dim)
 {
     const int n = cell_deformation_mode_count(dim), half = n * (n + 1) / 2;
     lanes v[MODES_MAX], f[MODES_MAX];
-    cell_strain_vector(s, v, dim);
+    cell_write_strains_and_modes_as_vector(s, v, dim);
     symmetric_matrix_times_vector((const lanes *)mesh->stiffness + mesh->alike[group] * half, v, f, n);
-    if (mesh->ends) mesh_partial_add_bond_forces(mesh, p, group, f, dim);
-    int k = symmetric_component_count(dim);
+    if (mesh->ends) mesh_partial_cells_add_bond_forces(mesh, p, group, f, dim);
+    int k = symmetric_tensor_component_count(dim);
     for (int t = 0; t < k; t++) {
         int a, b;
-        symmetric_component_axes(dim, t, &a, &b);
+        symmetric_tensor_component_axes(dim, t, &a, &b);
         s->P[a][b] = s->P[b][a] = f[t];
     }
     SETS for (int M = 3; M < 1 << dim; M++) if (M & (M - 1)) for (int i = 0; i < dim; i++) s->force[M][i] = f[k++];

@@ -3,8 +3,8 @@
  *
  * Point number q of a cell is at a quarter or three quarters of the edge along every axis, next to corner q. Values are
  * interpolated from corners to points, and distributed from points to corners, along one axis after the other, as near
- * + (far - near)/4. The factor 1/4 is exact, so cell_interpolate_to_points and cell_interpolate_to_point give equal
- * bits. */
+ * + (far - near)/4. The factor 1/4 is exact, so cell_interpolate_corners_to_points and
+ * cell_interpolate_corners_to_one_point give equal bits. */
 #ifndef CLEAVE_KERNELS_MESH_POINT
 #define CLEAVE_KERNELS_MESH_POINT
 
@@ -24,7 +24,7 @@ static ALWAYS_INLINE void interpolate_to_quarter_points(real *low, real *high)
 /* Replaces the values value[2^dim] at the corners of a cell by the interpolated values at its 2^dim material points, in
  * place. The interpolation matrix is symmetric, so that the same call distributes values of the points to the
  * corners. */
-static ALWAYS_INLINE void cell_interpolate_to_points(real *value, const int dim)
+static ALWAYS_INLINE void cell_interpolate_corners_to_points(real *value, const int dim)
 {
     for (int d = 0; d < dim; d++)
         for (int c = 0; c < 1 << dim; c++)
@@ -33,7 +33,7 @@ static ALWAYS_INLINE void cell_interpolate_to_points(real *value, const int dim)
 
 /* Returns the value at material point number `point` (0 .. 2^dim - 1) of a cell, interpolated linearly from the corners
  * of the cell. value: values at the 2^dim corners, overwritten. */
-static ALWAYS_INLINE real cell_interpolate_to_point(real *value, int point, const int dim)
+static ALWAYS_INLINE real cell_interpolate_corners_to_one_point(real *value, int point, const int dim)
 {
     for (int d = 0; d < dim; d++)
         for (int c = 0; c < 1 << dim; c++)
@@ -49,14 +49,15 @@ static ALWAYS_INLINE real cell_interpolate_to_point(real *value, int point, cons
 static ALWAYS_INLINE void mesh_load_corner_values(const struct mesh *mesh, const real *field, int64_t cell,
                                                   real *corner_value, const int dim)
 {
-    const int32_t *own = mesh_cell_corner_nodes_at_slit(mesh, cell);
+    const int32_t *own = mesh_cell_corner_nodes_if_at_slit(mesh, cell);
     for (int c = 0; c < 1 << dim; c++) corner_value[c] = field[own ? own[c] : cell + mesh->corner[c]];
 }
 
 /* Computes the displacement gradient [1] at each material point of cell `cell` of the mesh: gradient[q][a dim + b] =
  * du_a/dX_b at point q (0 .. 2^dim - 1). */
-static ALWAYS_INLINE void mesh_point_gradients(const struct mesh *mesh, int64_t cell,
-                                               real gradient[CORNERS_MAX][DIM_MAX * DIM_MAX], const int dim)
+static ALWAYS_INLINE void mesh_compute_displacement_gradients_at_points(const struct mesh *mesh, int64_t cell,
+                                                                        real gradient[CORNERS_MAX][DIM_MAX * DIM_MAX],
+                                                                        const int dim)
 {
     const real inverse = 1 / mesh->grid.h;
     for (int a = 0; a < dim; a++) {
@@ -78,11 +79,12 @@ static ALWAYS_INLINE void mesh_point_gradients(const struct mesh *mesh, int64_t 
  * at the point and the rotation R of the mean deformation gradient of the cell. rotation: receives R, dim x dim row by
  * row; the identity if `finite` (finite strain) is false or in 1D. strain[q]: dim x dim row by row for point q; only
  * its symmetric part is strain. */
-static ALWAYS_INLINE void mesh_point_strains(const struct mesh *mesh, int64_t cell, real *rotation,
-                                             real strain[CORNERS_MAX][DIM_MAX * DIM_MAX], const int dim, bool finite)
+static ALWAYS_INLINE void mesh_compute_strains_at_points(const struct mesh *mesh, int64_t cell, real *rotation,
+                                                         real strain[CORNERS_MAX][DIM_MAX * DIM_MAX], const int dim,
+                                                         bool finite)
 {
     real g[CORNERS_MAX][DIM_MAX * DIM_MAX], mean[DIM_MAX * DIM_MAX];
-    mesh_point_gradients(mesh, cell, g, dim);
+    mesh_compute_displacement_gradients_at_points(mesh, cell, g, dim);
     if (!finite || dim == 1) {
         for (int a = 0; a < dim * dim; a++) rotation[a] = a % (dim + 1) == 0;
         for (int q = 0; q < 1 << dim; q++)
@@ -118,8 +120,8 @@ static ALWAYS_INLINE bool cell_uses_mean_dilatation(const struct elastic *m, con
  * points of the cell that have the same material. This is the change that gives all these points the mean. value[q]
  * becomes 0 for materials without mean dilatation, and where there is no point. m: elastic constants of all materials;
  * material: number of the material of every particle; point: the 2^dim points of the cell, -1: none. */
-static ALWAYS_INLINE void cell_subtract_from_mean(const struct elastic *m, const uint8_t *material,
-                                                  const int32_t *point, real *value, const int dim)
+static ALWAYS_INLINE void cell_replace_values_by_mean_minus_value(const struct elastic *m, const uint8_t *material,
+                                                                  const int32_t *point, real *value, const int dim)
 {
     unsigned left = 0;
     for (int q = 0; q < 1 << dim; q++) {
@@ -144,17 +146,19 @@ static ALWAYS_INLINE void cell_subtract_from_mean(const struct elastic *m, const
 
 /* Replaces the traces of the strains of the points (particles of p) of cell `cell` of the mesh by their mean over the
  * points of the same material, where the points of this material have one dilatation (elastic.mean_dilatation). strain:
- * as from mesh_point_strains; m: elastic constants of all materials. */
-static ALWAYS_INLINE void mesh_strains_use_mean_dilatation(const struct mesh *mesh, const struct particles *p,
-                                                           const struct elastic *m, int64_t cell,
-                                                           real strain[CORNERS_MAX][DIM_MAX * DIM_MAX], const int dim)
+ * as from mesh_compute_strains_at_points; m: elastic constants of all materials. */
+static ALWAYS_INLINE void mesh_strains_replace_dilatation_by_cell_mean(const struct mesh *mesh,
+                                                                       const struct particles *p,
+                                                                       const struct elastic *m, int64_t cell,
+                                                                       real strain[CORNERS_MAX][DIM_MAX * DIM_MAX],
+                                                                       const int dim)
 {
     const int32_t *point = &mesh->point[cell << dim];
     real trace[CORNERS_MAX] = {0};
     if (!cell_uses_mean_dilatation(m, p->material, point, dim)) return;
     for (int q = 0; q < 1 << dim; q++)
         for (int d = 0; d < dim; d++) trace[q] += strain[q][d * (dim + 1)];
-    cell_subtract_from_mean(m, p->material, point, trace, dim);
+    cell_replace_values_by_mean_minus_value(m, p->material, point, trace, dim);
     for (int q = 0; q < 1 << dim; q++)
         for (int d = 0; d < dim; d++) strain[q][d * (dim + 1)] += trace[q] / dim;
 }
@@ -168,9 +172,9 @@ static ALWAYS_INLINE void point_hooke_stress(const struct elastic *m, const real
         for (int b = 0; b < dim; b++)
             if (b != a) stress[a] += m->c12 * strain[b * dim + b];
     }
-    for (int k = dim; k < symmetric_component_count(dim); k++) {
+    for (int k = dim; k < symmetric_tensor_component_count(dim); k++) {
         int a, b;
-        symmetric_component_axes(dim, k, &a, &b);
+        symmetric_tensor_component_axes(dim, k, &a, &b);
         stress[k] = m->shear * (strain[a * dim + b] + strain[b * dim + a]);
     }
 }

@@ -33,8 +33,8 @@ static ALWAYS_INLINE void cell_move(const struct mesh *mesh, struct particles *p
         real u[CORNERS_MAX], v[CORNERS_MAX];
         mesh_load_corner_values(mesh, mesh->displacement[a], I, u, dim);
         mesh_load_corner_values(mesh, mesh->grid.velocity[a], I, v, dim);
-        cell_interpolate_to_points(u, dim);
-        cell_interpolate_to_points(v, dim);
+        cell_interpolate_corners_to_points(u, dim);
+        cell_interpolate_corners_to_points(v, dim);
         for (int q = 0; q < 1 << dim; q++) {
             const int32_t i = point[q];
             if (i < 0 || !(places >> q & 1)) continue;
@@ -53,8 +53,8 @@ static ALWAYS_INLINE void point_move(const struct mesh *mesh, struct particles *
         real u[CORNERS_MAX], v[CORNERS_MAX];
         mesh_load_corner_values(mesh, mesh->displacement[a], I, u, dim);
         mesh_load_corner_values(mesh, mesh->grid.velocity[a], I, v, dim);
-        p->x[a][i] = p->X[a][i] + cell_interpolate_to_point(u, q, dim);
-        p->v[a][i] = cell_interpolate_to_point(v, q, dim);
+        p->x[a][i] = p->X[a][i] + cell_interpolate_corners_to_one_point(u, q, dim);
+        p->v[a][i] = cell_interpolate_corners_to_one_point(v, q, dim);
     }
 }
 
@@ -131,7 +131,7 @@ static ALWAYS_INLINE void cells_rotate(const struct mesh_cell *s, lanes *rotatio
         return;
     }
     if (rotates) {
-        rotation_encode(rotation, R, lanes_broadcast(0.5), 3);
+        rotation_encode_with_spring_stiffness(rotation, R, lanes_broadcast(0.5), 3);
         return;
     }
     rotation[3] = lanes_inverse_square_root(1.0 + square);
@@ -147,9 +147,9 @@ static ALWAYS_INLINE void group_ends_update(const struct mesh *mesh, struct part
     lanes u[CORNERS_MAX][3], v[MODES_MAX], rotation[ROTATION];
     const int n = cell_deformation_mode_count(dim);
     if (mesh->ends[group] == mesh->ends[group + 1]) return;
-    mesh_group_load_displacements(mesh, group, u, dim);
-    cell_strain(&s, mesh->grid.h, u, dim, finite);
-    cell_strain_vector(&s, v, dim);
+    mesh_partial_cells_load_corner_displacements(mesh, group, u, dim);
+    cell_compute_rotation_strain_and_modes(&s, mesh->grid.h, u, dim, finite);
+    cell_write_strains_and_modes_as_vector(&s, v, dim);
     if (p->end_rotation[0]) cells_rotate(&s, rotation, dim, finite);
     for (int32_t k = mesh->ends[group]; k < mesh->ends[group + 1]; k++) {
         const struct mesh_end *end = &mesh->end[k];
@@ -169,8 +169,8 @@ static ALWAYS_INLINE void group_ends_update(const struct mesh *mesh, struct part
     }                                                                                                                  \
     static void ends_update_##D##_##FINITE(const struct mesh *mesh, struct particles *p)                               \
     {                                                                                                                  \
-        TEAM_LOOP(mesh_partial_cell_group_count(mesh) > FEW / LANES,                                                   \
-                  for (int64_t k = 0; k < mesh_partial_cell_group_count(mesh); k++)                                    \
+        TEAM_LOOP(mesh_count_groups_of_eight_partial_cells(mesh) > FEW / LANES,                                        \
+                  for (int64_t k = 0; k < mesh_count_groups_of_eight_partial_cells(mesh); k++)                         \
                       group_ends_##D##_##FINITE(mesh, p, k););                                                         \
     }
 ENDS(2, false)
@@ -196,7 +196,7 @@ static ALWAYS_INLINE void cell_pull(struct mesh *mesh, const struct particles *p
     for (int a = 0; a < dim; a++) {
         real f[CORNERS_MAX];
         for (int q = 0; q < 1 << dim; q++) f[q] = places >> q & 1 ? p->f[a][point[q]] : 0;
-        cell_interpolate_to_points(f, dim);
+        cell_interpolate_corners_to_points(f, dim);
         for (int c = 0; c < 1 << dim; c++) mesh->grid.force[a][mesh_cell_corner_node(mesh, I, c)] += f[c];
     }
 }
@@ -223,10 +223,10 @@ void mesh_exposed_force(struct mesh *mesh, const struct particles *p)
 static ALWAYS_INLINE void store_point_stress(struct particles *p, const struct elastic *m, int64_t i, const real *R,
                                              const real *e, const int dim, bool finite)
 {
-    const int n = symmetric_component_count(dim);
+    const int n = symmetric_tensor_component_count(dim);
     real s[SYM_MAX], S[9], T[9], det = 1;
     if (mesh_points_can_yield(p))
-        point_compute_stress(p, m, i, e, s, dim);
+        point_compute_trial_stress(p, m, i, e, s, dim);
     else
         point_hooke_stress(m, e, s, dim);
     if (!finite) {
@@ -235,7 +235,7 @@ static ALWAYS_INLINE void store_point_stress(struct particles *p, const struct e
     }
     for (int k = 0; k < n; k++) {
         int a, b;
-        symmetric_component_axes(dim, k, &a, &b);
+        symmetric_tensor_component_axes(dim, k, &a, &b);
         S[a * dim + b] = S[b * dim + a] = s[k];
     }
     for (int a = 0; a < dim; a++)
@@ -244,14 +244,14 @@ static ALWAYS_INLINE void store_point_stress(struct particles *p, const struct e
             for (int k = 0; k < dim; k++) T[a * dim + b] += S[a * dim + k] * 0.5 * (e[k * dim + b] + e[b * dim + k]);
         }
     if (dim == 1) det = 1 + e[0];
-    if (dim == 2) det = ((1 + e[0]) * (1 + e[3]) - e[1] * e[2]) * thickness_stretch(p, m, i, s);
+    if (dim == 2) det = ((1 + e[0]) * (1 + e[3]) - e[1] * e[2]) * mesh_point_plane_stress_thickness_stretch(p, m, i, s);
     if (dim == 3)
         det = (1 + e[0]) * ((1 + e[4]) * (1 + e[8]) - e[5] * e[7]) - e[1] * (e[3] * (1 + e[8]) - e[5] * e[6]) +
               e[2] * (e[3] * e[7] - (1 + e[4]) * e[6]);
     for (int k = 0; k < n; k++) {
         int a, b;
         real sum = 0;
-        symmetric_component_axes(dim, k, &a, &b);
+        symmetric_tensor_component_axes(dim, k, &a, &b);
         for (int c = 0; c < dim; c++)
             for (int d = 0; d < dim; d++)
                 sum += R[a * dim + c] * 0.5 * (T[c * dim + d] + T[d * dim + c]) * R[b * dim + d];
@@ -265,8 +265,8 @@ static ALWAYS_INLINE void cell_stress(const struct mesh *mesh, struct particles 
                                       const int dim, bool finite)
 {
     real R[9], e[CORNERS_MAX][DIM_MAX * DIM_MAX];
-    mesh_point_strains(mesh, I, R, e, dim, finite);
-    mesh_strains_use_mean_dilatation(mesh, p, m, I, e, dim);
+    mesh_compute_strains_at_points(mesh, I, R, e, dim, finite);
+    mesh_strains_replace_dilatation_by_cell_mean(mesh, p, m, I, e, dim);
     for (int q = 0; q < 1 << dim; q++) {
         const int32_t i = mesh->point[(I << dim) + q];
         if (i >= 0) store_point_stress(p, &m[p->material[i]], i, R, e[q], dim, finite);
@@ -296,7 +296,7 @@ void mesh_points_stress(const struct mesh *mesh, struct particles *p, const stru
 static ALWAYS_INLINE void cell_gradient(const struct mesh *mesh, int64_t I, real *const *to, const int dim)
 {
     real g[CORNERS_MAX][DIM_MAX * DIM_MAX];
-    mesh_point_gradients(mesh, I, g, dim);
+    mesh_compute_displacement_gradients_at_points(mesh, I, g, dim);
     for (int q = 0; q < 1 << dim; q++) {
         const int32_t i = mesh->point[(I << dim) + q];
         for (int a = 0; a < dim * dim && i >= 0; a++) to[a][i] = g[q][a];
@@ -325,19 +325,19 @@ void mesh_points_gradient(const struct mesh *mesh, real *const *to)
 /* ---- conversion -------------------------------------------------------------------------------------------------- */
 
 /* Sets FLAG_STRESSED in p for those points of cell I whose stress, by Hooke's law, exceeds that of conversion to
- * peridynamic particles (stress_converts). m: elastic constants of all materials; finite: true for finite strain. */
+ * peridynamic particles (stress_requires_conversion_to_pd). m: elastic constants; finite: true for finite strain. */
 static ALWAYS_INLINE void cell_points_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m,
                                            int64_t I, const int dim, bool finite)
 {
     real R[9], e[CORNERS_MAX][DIM_MAX * DIM_MAX], s[SYM_MAX];
-    mesh_point_strains(mesh, I, R, e, dim, finite);
-    mesh_strains_use_mean_dilatation(mesh, p, m, I, e, dim);
+    mesh_compute_strains_at_points(mesh, I, R, e, dim, finite);
+    mesh_strains_replace_dilatation_by_cell_mean(mesh, p, m, I, e, dim);
     for (int q = 0; q < 1 << dim; q++) {
         const int32_t i = mesh->point[(I << dim) + q];
         if (i < 0) continue;
         const struct elastic *own = &m[p->material[i]];
         point_hooke_stress(own, e[q], s, dim);
-        if (stress_converts(own, p, i, s, dim)) p->flag[i] |= FLAG_STRESSED;
+        if (stress_requires_conversion_to_pd(own, p, i, s, dim)) p->flag[i] |= FLAG_STRESSED;
     }
 }
 
@@ -362,8 +362,8 @@ static ALWAYS_INLINE void cell_mark(const struct mesh *mesh, struct particles *p
 }
 
 /* Returns upper bounds of the principal stresses at the points of eight cells [Pa], closer than those of mesh_force:
- * the largest row sum of absolute stresses or, with a strength surface, cell_strength_bound. m: elastic constants; s:
- * strain of the cells; there[q]: mask of the cells that have point number q; NULL: all cells have all points. */
+ * the largest row sum of absolute stresses or, with a strength surface, cell_drucker_prager_stress_upper_bound. m:
+ * elastic constants; s: strain of the cells; there[q]: mask of the cells that have point number q; NULL: all points. */
 static ALWAYS_INLINE lanes places_tension(const struct elastic *m, const struct mesh_cell *s, const lanes_mask *there,
                                           const int dim)
 {
@@ -371,13 +371,14 @@ static ALWAYS_INLINE lanes places_tension(const struct elastic *m, const struct 
     SETS for (int q = 0; q < 1 << dim; q++)
     {
         cells_strain_at_point(s, q, e, dim);
-        if (!there) cells_use_mean_dilatation(m, s, e, dim);
+        if (!there) cells_replace_dilatation_by_cell_mean(m, s, e, dim);
         hooke_stress(m, e, P, dim);
         lanes bound = P[0][0];
         for (int a = 1; a < dim; a++) bound = lanes_max(bound, P[a][a]);
         for (int a = 0; a < dim; a++)
             for (int b = 0; b < a; b++) bound += lanes_max(P[a][b], -P[a][b]);
-        if (dim > 1 && m->surface.g0 > 0) bound = lanes_max(bound, cell_strength_bound(m, P, lanes_broadcast(0), dim));
+        if (dim > 1 && m->surface.g0 > 0)
+            bound = lanes_max(bound, cell_drucker_prager_stress_upper_bound(m, P, lanes_broadcast(0), dim));
         most = lanes_max(most, there ? lanes_choose(there[q], bound, most) : bound);
     }
     return most;
@@ -413,20 +414,20 @@ static ALWAYS_INLINE bool cell_mixed(const struct mesh *mesh, const struct parti
 
 /* Returns for the cells k to k + 7 of the row of cells `run` an upper bound of the principal stresses at their points
  * [Pa] (places_tension). m: elastic constants of their material; finite: true for finite strain. */
-static ALWAYS_INLINE lanes run_tension(const struct mesh *mesh, const struct elastic *m, const struct mesh_run *run,
-                                       int64_t k, const int dim, const bool finite)
+static ALWAYS_INLINE lanes run_tension(const struct mesh *mesh, const struct elastic *m,
+                                       const struct mesh_cell_run *run, int64_t k, const int dim, const bool finite)
 {
     struct mesh_cell s;
     lanes u[CORNERS_MAX][3];
-    mesh_run_load_displacements(mesh, run, k, u, dim);
-    cell_strain(&s, mesh->grid.h, u, dim, finite && dim > 1);
+    mesh_cell_run_load_corner_displacements(mesh, run, k, u, dim);
+    cell_compute_rotation_strain_and_modes(&s, mesh->grid.h, u, dim, finite && dim > 1);
     return cells_tension(m, &s, NULL, dim);
 }
 
 /* Sets FLAG_STRESSED in p for points in `run`, a row of consecutive cells, whose principal stress exceeds the stress
  * of conversion to peridynamics; skips cells where its upper bound does not. m: constants of all materials. */
 static ALWAYS_INLINE void run_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m,
-                                   const struct mesh_run *run, const int dim, const bool finite)
+                                   const struct mesh_cell_run *run, const int dim, const bool finite)
 {
     const struct elastic *own = &m[run->material];
     for (int64_t k = 0; k < run->cells; k += LANES) {
@@ -437,10 +438,11 @@ static ALWAYS_INLINE void run_mark(const struct mesh *mesh, struct particles *p,
 }
 
 /* Sets mark[cell] = 1 for the cells of `run`, a row of consecutive cells, in which the principal stress at a point may
- * exceed `share` [1] times the stress of conversion to peridynamics. m: elastic constants of all materials; finite:
- * true for finite strain. */
-static ALWAYS_INLINE void run_mark_cells(const struct mesh *mesh, const struct elastic *m, const struct mesh_run *run,
-                                         real share, uint8_t *mark, const int dim, const bool finite)
+ * exceed `share` [1] times the stress of conversion to peridynamics. m: elastic constants; finite: true for finite
+ * strain. */
+static ALWAYS_INLINE void run_mark_cells(const struct mesh *mesh, const struct elastic *m,
+                                         const struct mesh_cell_run *run, real share, uint8_t *mark, const int dim,
+                                         const bool finite)
 {
     const struct elastic *own = &m[run->material];
     for (int64_t k = 0; k < run->cells; k += LANES) {
@@ -463,8 +465,8 @@ static ALWAYS_INLINE void group_mark(const struct mesh *mesh, struct particles *
     for (int q = 0; q < 1 << dim; q++)
         for (int l = 0; l < LANES; l++)
             there[q][l] = -(int64_t)(mesh->point[((int64_t)mesh->partial_cell[first + l] << dim) + q] >= 0);
-    mesh_group_load_displacements(mesh, group, u, dim);
-    cell_strain(&s, mesh->grid.h, u, dim, finite && dim > 1);
+    mesh_partial_cells_load_corner_displacements(mesh, group, u, dim);
+    cell_compute_rotation_strain_and_modes(&s, mesh->grid.h, u, dim, finite && dim > 1);
     for (int64_t k = first; k < first + LANES && k < mesh->partial_cells; k++) {
         const uint8_t material = mesh->partial_material[k];
         if (k == first || material != mesh->partial_material[k - 1])
@@ -487,7 +489,7 @@ static inline bool group_stressed(const struct mesh *mesh, int64_t group)
 #define MARK(D, FINITE)                                                                                                \
     static void cells_mark_##D##_##FINITE(const struct mesh *mesh, struct particles *p, const struct elastic *m)       \
     {                                                                                                                  \
-        for (int64_t k = 0; k < mesh_partial_cell_group_count(mesh); k++)                                              \
+        for (int64_t k = 0; k < mesh_count_groups_of_eight_partial_cells(mesh); k++)                                   \
             if (group_stressed(mesh, k)) group_mark(mesh, p, m, k, D, FINITE);                                         \
         for (int64_t r = 0; r < mesh->runs; r++)                                                                       \
             if (mesh->run[r].stressed) run_mark(mesh, p, m, &mesh->run[r], D, FINITE);                                 \

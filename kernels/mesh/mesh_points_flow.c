@@ -22,8 +22,8 @@ static ALWAYS_INLINE void cells_step(const struct flow_step *f, const int32_t *c
 {
     struct mesh_cell s;
     lanes change[CORNERS_MAX];
-    cell_strain(&s, f->mesh->grid.h, u, dim, finite && dim > 1);
-    const bool averaged = cells_mean_dilatation_change(f->mesh, f->p, f->elastic, cell, &s, change, dim);
+    cell_compute_rotation_strain_and_modes(&s, f->mesh->grid.h, u, dim, finite && dim > 1);
+    const bool averaged = cells_compute_mean_dilatation_correction(f->mesh, f->p, f->elastic, cell, &s, change, dim);
     for (int q = 0; q < 1 << dim; q++) {
         lanes stress[SYM_MAX];
         int32_t point[LANES];
@@ -37,7 +37,7 @@ static ALWAYS_INLINE void cells_step(const struct flow_step *f, const int32_t *c
             with_law |= (unsigned)(m->law && m->mode == LAW_EXPLICIT) << l;
         }
         if (f->dt == 0)
-            mesh_stress_store(f->p, point, with_law, stress, dim);
+            mesh_points_store_stress_of_lanes(f->p, point, with_law, stress, dim);
         else if (with_law)
             cells_apply_flow_laws(f->mesh, f->p, f->elastic, cell, q, with_law, f->dt, stress, dim);
     }
@@ -49,14 +49,14 @@ static ALWAYS_INLINE void cells_step(const struct flow_step *f, const int32_t *c
     {                                                                                                                  \
         cells_step(f, cell, u, D, FINITE);                                                                             \
     }                                                                                                                  \
-    static void run_step_##D##_##FINITE(const struct flow_step *f, const struct mesh_run *run)                         \
+    static void run_step_##D##_##FINITE(const struct flow_step *f, const struct mesh_cell_run *run)                    \
     {                                                                                                                  \
         int32_t cell[LANES];                                                                                           \
         lanes u[CORNERS_MAX][3];                                                                                       \
         if (!f->elastic[run->material].law) return;                                                                    \
         for (int64_t k = 0; k < run->cells; k += LANES) {                                                              \
-            mesh_run_cell_indices(run, k, cell);                                                                       \
-            mesh_run_load_displacements(f->mesh, run, k, u, D);                                                        \
+            mesh_cell_run_get_indices_of_eight_cells(run, k, cell);                                                    \
+            mesh_cell_run_load_corner_displacements(f->mesh, run, k, u, D);                                            \
             cells_step_##D##_##FINITE(f, cell, u);                                                                     \
         }                                                                                                              \
     }                                                                                                                  \
@@ -64,13 +64,13 @@ static ALWAYS_INLINE void cells_step(const struct flow_step *f, const int32_t *c
     {                                                                                                                  \
         int32_t cell[LANES];                                                                                           \
         lanes u[CORNERS_MAX][3];                                                                                       \
-        mesh_group_cell_indices(f->mesh, group, cell);                                                                 \
-        mesh_group_load_displacements(f->mesh, group, u, D);                                                           \
+        mesh_partial_cells_get_indices(f->mesh, group, cell);                                                          \
+        mesh_partial_cells_load_corner_displacements(f->mesh, group, u, D);                                            \
         cells_step_##D##_##FINITE(f, cell, u);                                                                         \
     }                                                                                                                  \
     static void all_step_##D##_##FINITE(const struct flow_step *f)                                                     \
     {                                                                                                                  \
-        const int64_t groups = mesh_partial_cell_group_count(f->mesh);                                                 \
+        const int64_t groups = mesh_count_groups_of_eight_partial_cells(f->mesh);                                      \
         _Pragma("omp parallel for schedule(static)") for (int64_t k = 0; k < groups + f->mesh->runs; k++)              \
         {                                                                                                              \
             if (k < groups)                                                                                            \

@@ -41,39 +41,42 @@ static ALWAYS_INLINE struct elastic_points points_load_elastic_constants(const s
 
 /* Updates stress [Pa], volume [m^3] and (cpGIMP) stretches of a few points of p in one cell, one per lane, from their
  * velocity gradients L[dim dim] [1/s], and sets FLAG_STRESSED on points whose stress requires conversion to
- * peridynamics (stress_converts). m: elastic constants by lane; point[points]: indices of the points; due: list to
- * which points of yielding materials are appended for the return mapping (points_flow.h); t: inputs of the transfer;
- * shape: shape function. The volume changes by the trace of the strain. In plane stress the elastic strain through the
- * thickness is left out, which changes the volume by less than 0.5 % below 1 % strain; the plastic one is added with
- * the return mapping. */
+ * peridynamics (stress_requires_conversion_to_pd). m: elastic constants by lane; point[points]: indices of the points;
+ * return_queue: list to which points of yielding materials are appended for the return mapping (points_flow.h); t:
+ * inputs of the transfer; shape: shape function. The volume changes by the trace of the strain. In plane stress the
+ * elastic strain through the thickness is left out, which changes the volume by less than 0.5 % below 1 % strain; the
+ * plastic one is added with the return mapping. */
 static ALWAYS_INLINE void points_update_stress(struct particles *p, const struct transfer_data *t,
-                                               struct flow_points *due, const struct elastic_points *m,
-                                               const int32_t *point, int points, const row_of_points *L, const int dim,
-                                               const enum shape shape)
+                                               struct return_mapping_queue *return_queue,
+                                               const struct elastic_points *m, const int32_t *point, int points,
+                                               const row_of_points *L, const int dim, const enum shape shape)
 {
     const int n = dim * (dim + 1) / 2;
     row_of_points stress[SYM_MAX];
     for (int c = 0; c < n; c++) stress[c] = points_load(p->stress[c], point, dim);
-    const row_of_points volume = points_load(p->volume, point, dim), trace = stress_update(stress, L, m, t->dt, dim),
+    const row_of_points volume = points_load(p->volume, point, dim),
+                        trace = stress_update_and_return_strain_trace(stress, L, m, t->dt, dim),
                         after = volume + volume * trace;
     points_store(p->volume, point, after, dim);
     const bool flows = __builtin_expect(t->laws, 0), at_once = POINTS_LANES == 8;
-    if (flows && !at_once) flow_points_append(due, point, points, L, stress, after, dim);
+    if (flows && !at_once) return_mapping_queue_append(return_queue, point, points, L, stress, after, dim);
     for (int c = 0; c < n && !flows; c++) points_store(p->stress[c], point, stress[c], dim);
     if (shape == SHAPE_CPGIMP)
         for (int d = 0; d < dim; d++) {
             const row_of_points stretch = points_load(p->stretch[d], point, dim);
             points_store(p->stretch[d], point, stretch + stretch * (t->dt * L[d * dim + d]), dim);
         }
-    int near = points_sign_bits(m->trigger - stress_principal_bounds(stress, dim));
+    int near = points_sign_bits(m->trigger - stress_largest_principal_upper_bounds(stress, dim));
     if (__builtin_expect(m->surface, 0)) near = (1 << AT_ONCE(dim)) - 1;
     for (int k = 0; k < AT_ONCE(dim) && __builtin_expect(near, 0); k++) {
         real own[SYM_MAX];
         for (int c = 0; c < n; c++) own[c] = stress[c][k];
         const int32_t i = point[k];
-        if (near >> k & 1 && stress_converts(&t->elastic[p->material[i]], p, i, own, dim)) p->flag[i] |= FLAG_STRESSED;
+        if (near >> k & 1 && stress_requires_conversion_to_pd(&t->elastic[p->material[i]], p, i, own, dim))
+            p->flag[i] |= FLAG_STRESSED;
     }
-    if (flows && at_once) flow_points_map(p, t, point, (const lanes *)L, (lanes *)stress, *(const lanes *)&after, dim);
+    if (flows && at_once)
+        points_apply_return_mapping(p, t, point, (const lanes *)L, (lanes *)stress, *(const lanes *)&after, dim);
 }
 
 /* Multiplies the rotations of a few material points with bonds (p->end_rotation), one point per lane, by the rotation
@@ -110,32 +113,34 @@ static ALWAYS_INLINE void points_update_rotation(struct particles *p, const int3
  * to the nodes a second time, remap.h), else 1. This applies to points with bonds, and to all points if
  * t->momentum_only or t->second_map is set or if weights are computed at positions shifted by g->ahead, where nodes may
  * have no other velocity. point: indices of the points. */
-static ALWAYS_INLINE row_of_points points_negative_if_remapped(const struct grid *g, const struct transfer_data *t,
-                                                               const int32_t *point, const int dim)
+static ALWAYS_INLINE row_of_points points_minus_one_if_moved_by_remapped_velocity(const struct grid *g,
+                                                                                  const struct transfer_data *t,
+                                                                                  const int32_t *point, const int dim)
 {
-    const bool all = t->momentum_only || t->second_map || grid_maps_ahead(g, dim);
+    const bool all = t->momentum_only || t->second_map || grid_weights_use_half_step_ahead_positions(g, dim);
     row_of_points bonded = points_broadcast(all ? -1 : 1);
     for (int k = 0; t->bonded && !all && k < AT_ONCE(dim); k++) bonded[k] = t->bonded[point[k]] ? -1 : 1;
     return bonded;
 }
 
 /* Computes velocity[dim] [m/s] and velocity gradient L[dim dim] [1/s] at the points of stencil s (node weights of a few
- * points of cell c), by interpolation from the nodes of g. shape, transfer: shape function and transfer scheme; bonded:
- * negative in lanes of points that move with the velocities after remapping (points_negative_if_remapped). Nodes are
- * summed row by row (along x). */
-static ALWAYS_INLINE void points_interpolate_velocity(const struct grid *g, const struct cell *c,
-                                                      const struct cell_stencil *s, const row_of_points bonded,
-                                                      row_of_points *velocity, row_of_points *L, const int dim,
-                                                      const enum shape shape, const enum transfer transfer)
+ * points of cell c), by interpolation from the nodes of g. shape, transfer: shape function and transfer scheme;
+ * negative_if_remapped: negative in lanes of points that move with the velocities after remapping
+ * (points_minus_one_if_moved_by_remapped_velocity). Nodes are summed row by row (along x). */
+static ALWAYS_INLINE void points_interpolate_velocity(const struct grid *g, const struct grid_cell *c,
+                                                      const struct cell_stencil *s,
+                                                      const row_of_points negative_if_remapped, row_of_points *velocity,
+                                                      row_of_points *L, const int dim, const enum shape shape,
+                                                      const enum transfer transfer)
 {
     const int along = ROW_DIMS(dim, shape);
-    const bool any = transfer == TRANSFER_FLIP && points_sign_bits(bonded) != 0;
+    const bool any = transfer == TRANSFER_FLIP && points_sign_bits(negative_if_remapped) != 0;
     for (int d = 0; d < dim; d++) velocity[d] = points_broadcast(0);
     for (int k = 0; k < dim * dim; k++) L[k] = points_broadcast(0);
     FOR_ANY_TOUCHED(s, dim, shape)
     {
-        const row_of_points weight = stencil_row_factors(s, k1, k2, dim, shape);
-        const int64_t I = cell_row_first_node(c, g, k1, k2, dim);
+        const row_of_points weight = stencil_row_transverse_weights(s, k1, k2, dim, shape);
+        const int64_t I = cell_row_first_node_index(c, g, k1, k2, dim);
         for (int d = 0; d < dim; d++) {
             const real *moving = g->velocity[d] + I,
                        *straining = transfer == TRANSFER_APIC ? moving : g->momentum[d] + I;
@@ -143,56 +148,60 @@ static ALWAYS_INLINE void points_interpolate_velocity(const struct grid *g, cons
                           slope[2] = {points_broadcast(0), points_broadcast(0)};
             FOR_NODES(dim, shape)
             {
-                const int64_t node = row_node_offset(g, k, dim, shape);
+                const int64_t node = grid_row_node_index_offset(g, k, dim, shape);
                 moved += s->N[k] * moving[node];
                 strained += s->N[k] * straining[node];
                 for (int e = 0; e < along; e++) slope[e] += s->D[e][k] * straining[node];
             }
-            velocity[d] += weight * (any ? points_choose_by_sign(bonded, strained, moved) : moved);
+            velocity[d] += weight * (any ? points_choose_by_sign(negative_if_remapped, strained, moved) : moved);
             for (int e = 0; e < dim; e++)
-                L[d * dim + e] +=
-                    e < along ? weight * slope[e] : stencil_row_factor_slopes(s, k1, k2, e, dim, shape) * strained;
+                L[d * dim + e] += e < along ? weight * slope[e]
+                                            : stencil_row_transverse_weight_slopes(s, k1, k2, e, dim, shape) * strained;
         }
     }
 }
 
 /* Computes velocity[dim] [m/s] and velocity gradient L[dim dim] [1/s] at the points of stencil s (node weights of a few
  * points of cell c) by interpolation from the nodes of g, for linear shapes in 2D and 3D. transfer: FLIP or APIC;
- * bonded: negative in lanes of points that move with the velocities after remapping (points_negative_if_remapped). */
-static ALWAYS_INLINE void points_interpolate_velocity_linear(const struct grid *g, const struct cell *c,
-                                                             const struct cell_stencil *s, const row_of_points bonded,
+ * negative_if_remapped: negative in lanes of points that move with the velocities after remapping
+ * (points_minus_one_if_moved_by_remapped_velocity). */
+static ALWAYS_INLINE void points_interpolate_velocity_linear(const struct grid *g, const struct grid_cell *c,
+                                                             const struct cell_stencil *s,
+                                                             const row_of_points negative_if_remapped,
                                                              row_of_points *velocity, row_of_points *L, const int dim,
                                                              const enum transfer transfer)
 {
-    const int strained = transfer == TRANSFER_APIC ? (1 << POINTS) - 1 : points_sign_bits(bonded);
+    const int strained = transfer == TRANSFER_APIC ? (1 << POINTS) - 1 : points_sign_bits(negative_if_remapped);
     for (int d = 0; d < dim; d++) {
         const real *straining = transfer == TRANSFER_APIC ? g->velocity[d] : g->momentum[d];
         row_of_points slope[DIM_MAX];
-        velocity[d] = corners_interpolate(g, straining + c->node, s->t, slope, dim);
+        velocity[d] = corners_interpolate_value_and_slope(g, straining + c->node, s->t, slope, dim);
         for (int e = 0; e < dim; e++) L[d * dim + e] = slope[e] * (1 / g->h);
         if (strained == (1 << POINTS) - 1) continue;
-        const row_of_points moved = corners_interpolate(g, g->velocity[d] + c->node, s->t, slope, dim);
-        velocity[d] = points_choose_by_sign(bonded, velocity[d], moved);
+        const row_of_points moved = corners_interpolate_value_and_slope(g, g->velocity[d] + c->node, s->t, slope, dim);
+        velocity[d] = points_choose_by_sign(negative_if_remapped, velocity[d], moved);
     }
 }
 
 /* Motion of a few points of a cell, one per lane, between interpolation and update. point: numbers of the points; x:
  * positions [m]; velocity [m/s]; L: velocity gradients dv_a/dx_b at [a dim + b] [1/s]. */
 struct points_motion {
-    int32_t point[POINT_NUMBERS]; /* from points_list */
+    int32_t point[POINT_NUMBERS]; /* from points_fill_lanes_from_list */
     row_of_points x[DIM_MAX], velocity[DIM_MAX], L[DIM_MAX * DIM_MAX];
 };
 
 /* Interpolates velocity and velocity gradient of the points list[n] of p (n <= AT_ONCE, which are processed at once) in
  * cell c from the nodes of g into *m. t: inputs of the transfer, with the shape function `shape` and the scheme
  * `transfer`. */
-static ALWAYS_INLINE void g2p_gather(struct points_motion *m, const struct grid *g, const struct cell *c,
-                                     const struct particles *p, const struct transfer_data *t, const int32_t *list,
-                                     int n, const int dim, const enum shape shape, const enum transfer transfer)
+static ALWAYS_INLINE void g2p_gather_velocity_and_gradient(struct points_motion *m, const struct grid *g,
+                                                           const struct grid_cell *c, const struct particles *p,
+                                                           const struct transfer_data *t, const int32_t *list, int n,
+                                                           const int dim, const enum shape shape,
+                                                           const enum transfer transfer)
 {
     struct cell_stencil s;
-    cell_stencil_make(&s, g, c, p, list, n, t->half_width, dim, shape);
-    const row_of_points bonded = points_negative_if_remapped(g, t, s.point, dim);
+    cell_stencil_compute_weights(&s, g, c, p, list, n, t->half_width, dim, shape);
+    const row_of_points bonded = points_minus_one_if_moved_by_remapped_velocity(g, t, s.point, dim);
     if (HAS_CORNERS(dim, shape))
         points_interpolate_velocity_linear(g, c, &s, bonded, m->velocity, m->L, dim, transfer);
     else
@@ -220,19 +229,20 @@ static ALWAYS_INLINE void points_add_dilatation_rate(struct points_motion *m, ro
  * material, each over the points of the same body and material (dilatation.h). t: constants of the materials; motion:
  * motion of these points, AT_ONCE of them (points processed together) in each entry, whose velocity gradients are
  * changed. */
-static NEVER_INLINE void points_average_mixed_dilatation_rates(const struct particles *p, const struct transfer_data *t,
-                                                               const int32_t *list, struct points_motion *motion, int n,
-                                                               const int dim)
+static NEVER_INLINE void points_average_dilatation_rates_by_material(const struct particles *p,
+                                                                     const struct transfer_data *t, const int32_t *list,
+                                                                     struct points_motion *motion, int n, const int dim)
 {
     real change[MEAN_POINTS];
     for (int k = 0; k < n; k += AT_ONCE(dim)) {
         const row_of_points rate = points_dilatation_rate(&motion[k / AT_ONCE(dim)], dim);
-        for (int l = 0; l < points_at_once(n - k, dim); l++) change[k + l] = rate[l];
+        for (int l = 0; l < points_count_of_next_batch(n - k, dim); l++) change[k + l] = rate[l];
     }
-    points_subtract_from_mean(p, t, list, n, change);
+    points_replace_values_by_mean_minus_value(p, t, list, n, change);
     for (int k = 0; k < n; k += AT_ONCE(dim)) {
         row_of_points more;
-        for (int l = 0; l < POINTS; l++) more[l] = change[k + points_entry_of_lane(l, points_at_once(n - k, dim))];
+        for (int l = 0; l < POINTS; l++)
+            more[l] = change[k + points_list_index_of_lane(l, points_count_of_next_batch(n - k, dim))];
         points_add_dilatation_rate(&motion[k / AT_ONCE(dim)], more, dim);
     }
 }
@@ -250,14 +260,14 @@ static ALWAYS_INLINE void points_average_dilatation_rates(const struct particles
         points_store(t->dilatation, m->point, points_dilatation_rate(m, dim), dim);
     }
     if (!points_all_share_mean_dilatation(p, list, n)) {
-        points_average_mixed_dilatation_rates(p, t, list, motion, n, dim);
+        points_average_dilatation_rates_by_material(p, t, list, motion, n, dim);
         return;
     }
     if (!t->elastic[p->material[list[0]]].mean_dilatation) return;
     for (int k = 0; k < n; k += AT_ONCE(dim)) {
         const struct points_motion *m = &motion[k / AT_ONCE(dim)];
         const row_of_points own =
-            points_keep_first_lanes(points_load(p->volume, m->point, dim), points_at_once(n - k, dim));
+            points_keep_first_lanes(points_load(p->volume, m->point, dim), points_count_of_next_batch(n - k, dim));
         volume += own, sum += own * points_dilatation_rate(m, dim);
     }
     const real mean = points_sum(sum) / points_sum(volume);
@@ -270,8 +280,9 @@ static ALWAYS_INLINE void points_average_dilatation_rates(const struct particles
 /* Adds the displacements m->velocity [m], which the caller has already multiplied by the time step, to the positions of
  * the points of m, and stores the new positions in p. Returns a bit mask: bit k is set if point k has left cell c of
  * grid g. */
-static ALWAYS_INLINE int points_move(const struct grid *g, const struct cell *c, struct particles *p,
-                                     const struct points_motion *m, const int dim)
+static ALWAYS_INLINE int points_move_and_find_points_leaving_cell(const struct grid *g, const struct grid_cell *c,
+                                                                  struct particles *p, const struct points_motion *m,
+                                                                  const int dim)
 {
     points_mask inside = (points_mask){0} - 1;
     for (int d = 0; d < dim; d++) {
@@ -284,29 +295,33 @@ static ALWAYS_INLINE int points_move(const struct grid *g, const struct cell *c,
 }
 
 /* Marks in o->left (o: order of the points by cell) the points that have left their cell. list: pointer into
- * o->particle; bits: bit k is set if point list[k] has left its cell. */
-static ALWAYS_INLINE void points_mark_left(const struct transfer_order *o, const int32_t *list, int bits)
+ * o->particle; left_cell_bits: bit k is set if point list[k] has left its cell. */
+static ALWAYS_INLINE void transfer_order_mark_points_that_left_cell(const struct transfer_order *o, const int32_t *list,
+                                                                    int left_cell_bits)
 {
-    for (; __builtin_expect(bits, 0); bits &= bits - 1) o->left[list - o->particle + __builtin_ctz((unsigned)bits)] = 1;
+    for (; __builtin_expect(left_cell_bits, 0); left_cell_bits &= left_cell_bits - 1)
+        o->left[list - o->particle + __builtin_ctz((unsigned)left_cell_bits)] = 1;
 }
 
 /* Updates position, stress, volume, stretch and rotation of the points list[n] of p (n <= AT_ONCE, points processed
  * together) of cell c of grid g from their motion m. t: inputs of the transfer, with the order that contains `list`;
- * shape: shape function. On return m->velocity contains displacements [m]. due: list to which points of yielding
- * materials are appended for the return mapping. Returns the number of points that have left the cell; they are marked
- * in t->order->left. */
-static ALWAYS_INLINE int g2p_update(const struct grid *g, const struct cell *c, struct particles *p,
-                                    const struct transfer_data *t, struct flow_points *due, struct points_motion *m,
-                                    const int32_t *list, int n, const int dim, const enum shape shape)
+ * shape: shape function. On return m->velocity contains displacements [m]. return_queue: list to which points of
+ * yielding materials are appended for the return mapping. Returns the number of points that have left the cell; they
+ * are marked in t->order->left. */
+static ALWAYS_INLINE int g2p_update_points_from_motion(const struct grid *g, const struct grid_cell *c,
+                                                       struct particles *p, const struct transfer_data *t,
+                                                       struct return_mapping_queue *return_queue,
+                                                       struct points_motion *m, const int32_t *list, int n,
+                                                       const int dim, const enum shape shape)
 {
     const struct elastic_points e = points_load_elastic_constants(p, t, m->point, dim);
-    if (!t->momentum_only) points_update_stress(p, t, due, &e, m->point, n, m->L, dim, shape);
+    if (!t->momentum_only) points_update_stress(p, t, return_queue, &e, m->point, n, m->L, dim, shape);
     if (dim > 1 && __builtin_expect(p->end_rotation[0] != NULL, 0))
         points_update_rotation(p, m->point, m->L, t->dt, dim);
     for (int d = 0; d < dim; d++) m->velocity[d] *= t->dt;
-    const int moved = points_move(g, c, p, m, dim) & ((1 << n) - 1);
-    points_mark_left(t->order, list, moved);
-    if (__builtin_expect(due->n >= LANES, 0)) flow_points_return_mapping(p, t, due, dim);
+    const int moved = points_move_and_find_points_leaving_cell(g, c, p, m, dim) & ((1 << n) - 1);
+    transfer_order_mark_points_that_left_cell(t->order, list, moved);
+    if (__builtin_expect(return_queue->n >= LANES, 0)) return_mapping_queue_process_first(p, t, return_queue, dim);
     return __builtin_popcount(moved);
 }
 
@@ -324,45 +339,47 @@ static ALWAYS_INLINE void points_store_velocity_gradient(struct particles *p, co
 static ALWAYS_INLINE void g2p_prefetch_point(const struct particles *p, const int32_t *list, int k, const int dim)
 {
     int64_t i;
-    if (!prefetch_next_point(list, k, &i)) return;
-    prefetch_line(p->volume + i);
-    for (int d = 0; d < dim; d++) prefetch_line(p->x[d] + i);
-    for (int c = 0; c < dim * (dim + 1) / 2; c++) prefetch_line(p->stress[c] + i);
+    if (!point_ahead_needs_prefetch(list, k, &i)) return;
+    prefetch_cache_line(p->volume + i);
+    for (int d = 0; d < dim; d++) prefetch_cache_line(p->x[d] + i);
+    for (int c = 0; c < dim * (dim + 1) / 2; c++) prefetch_cache_line(p->stress[c] + i);
     if (__builtin_expect(p->plastic_work != NULL, 0))
-        prefetch_line(p->plastic_strain + i), prefetch_line(p->plastic_work + i);
-    if (__builtin_expect(p->plastic_work != NULL, 0)) prefetch_line(p->volume0 + i);
-    if (__builtin_expect(p->temperature != NULL, 0)) prefetch_line(p->temperature + i);
+        prefetch_cache_line(p->plastic_strain + i), prefetch_cache_line(p->plastic_work + i);
+    if (__builtin_expect(p->plastic_work != NULL, 0)) prefetch_cache_line(p->volume0 + i);
+    if (__builtin_expect(p->temperature != NULL, 0)) prefetch_cache_line(p->temperature + i);
 }
 
 /* Updates motion, stress and volume of the points list[n] of p in one cell of g (grid to particles). t: materials, time
- * step and other inputs; shape: shape function; transfer: scheme, such as FLIP or APIC; due: list to which points of
- * yielding materials are appended for the return mapping; averaged: true if the points of a cell get the mean of their
- * rates of dilatation (transfer_uses_mean_dilatation); up to MEAN_POINTS points of the cell are then interpolated
- * before the first is updated. Points are processed AT_ONCE(dim) at a time. Returns the number of points that have left
- * the cell. */
+ * step and other inputs; shape: shape function; transfer: scheme, such as FLIP or APIC; return_queue: list to which
+ * points of yielding materials are appended for the return mapping; average_dilatation: true if the points of a cell
+ * get the mean of their rates of dilatation (transfer_uses_mean_dilatation); up to MEAN_POINTS points of the cell are
+ * then interpolated before the first is updated. Points are processed AT_ONCE(dim) at a time. Returns the number of
+ * points that have left the cell. */
 static ALWAYS_INLINE int64_t g2p_update_points_of_cell(const struct grid *g, struct particles *p,
-                                                       const struct transfer_data *t, struct flow_points *due,
-                                                       const int32_t *list, int n, const int dim,
-                                                       const enum shape shape, const enum transfer transfer,
-                                                       const bool averaged)
+                                                       const struct transfer_data *t,
+                                                       struct return_mapping_queue *return_queue, const int32_t *list,
+                                                       int n, const int dim, const enum shape shape,
+                                                       const enum transfer transfer, const bool average_dilatation)
 {
     enum { MOST = MEAN_POINTS / POINTS };
     struct points_motion motion[MOST];
-    const int most = averaged ? MEAN_POINTS : AT_ONCE(dim);
+    const int most = average_dilatation ? MEAN_POINTS : AT_ONCE(dim);
     int64_t moved = 0;
     for (int k = 0; k < n; k++) g2p_prefetch_point(p, list, k, dim);
     for (int from = 0; from < n; from += most) {
-        const struct cell c = cell_containing_point(g, p, list[from], dim, shape);
+        const struct grid_cell c = cell_containing_point(g, p, list[from], dim, shape);
         const int some = int_min(n - from, most);
         struct points_motion *m = motion;
         for (int k = 0; k < some; k += AT_ONCE(dim), m++) {
-            g2p_gather(m, g, &c, p, t, list + from + k, points_at_once(some - k, dim), dim, shape, transfer);
+            g2p_gather_velocity_and_gradient(m, g, &c, p, t, list + from + k, points_count_of_next_batch(some - k, dim),
+                                             dim, shape, transfer);
             if (transfer == TRANSFER_APIC) points_store_velocity_gradient(p, m, dim);
         }
-        if (averaged) points_average_dilatation_rates(p, t, list + from, motion, some, dim);
+        if (average_dilatation) points_average_dilatation_rates(p, t, list + from, motion, some, dim);
         m = motion;
         for (int k = 0; k < some; k += AT_ONCE(dim), m++)
-            moved += g2p_update(g, &c, p, t, due, m, list + from + k, points_at_once(some - k, dim), dim, shape);
+            moved += g2p_update_points_from_motion(g, &c, p, t, return_queue, m, list + from + k,
+                                                   points_count_of_next_batch(some - k, dim), dim, shape);
     }
     return moved;
 }
@@ -379,12 +396,12 @@ static ALWAYS_INLINE int64_t g2p_update_points_of_cell(const struct grid *g, str
             struct grid nodes = *g; /* as in scatter.h */                                                              \
             struct particles points = *p;                                                                              \
             struct transfer_data data = *t;                                                                            \
-            struct flow_points due = {.n = 0};                                                                         \
+            struct return_mapping_queue due = {.n = 0};                                                                \
             _Pragma("omp for schedule(static)") for (int32_t k = 0; k < o->cells; k++) moved +=                        \
                 g2p_update_points_of_cell(&nodes, &points, &data, &due, o->particle + o->cell_start[k],                \
                                           o->cell_start[k + 1] - o->cell_start[k], D, SHAPE_##S, TRANSFER_##T,         \
                                           AVERAGED);                                                                   \
-            if (due.n > 0) flow_points_return_mapping(&points, &data, &due, D);                                        \
+            if (due.n > 0) return_mapping_queue_process_first(&points, &data, &due, D);                                \
         }                                                                                                              \
         return moved;                                                                                                  \
     }

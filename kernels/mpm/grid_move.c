@@ -235,13 +235,13 @@ static void followers_out(struct grid *g)
 static void grid_absorb(struct grid *g, real dt_velocity, real smallest_mass)
 {
     const real least = smallest_mass > g->light_mass ? smallest_mass : g->light_mass;
-    g->absorbed = (struct absorbed){0};
+    g->absorbed = (struct dashpot_effect){0};
     for (int64_t k = 0; k < g->dashpots; k++) {
         const int64_t I = g->dashpot[k].node;
         for (int d = 0; d < g->dim && g->mass[I] >= least; d++) {
             const real change = g->force[d][I], before = g->velocity[d][I] - change;
-            const real given =
-                dashpot_add_impulse(&g->absorbed, d, dt_velocity * g->dashpot[k].rate[d], g->mass[I], before, change);
+            const real given = dashpot_compute_and_add_impulse(&g->absorbed, d, dt_velocity * g->dashpot[k].rate[d],
+                                                               g->mass[I], before, change);
             g->dashpot[k].impulse[d] = given;
             g->force[d][I] += given / g->mass[I];
             g->velocity[d][I] += given / g->mass[I];
@@ -257,7 +257,8 @@ static void grid_absorb_again(struct grid *g)
     for (int64_t k = 0; k < g->dashpots; k++)
         for (int d = 0; d < g->dim; d++) {
             const struct dashpot *c = &g->dashpot[k];
-            dashpot_correct_energy(&g->absorbed, c->impulse[d], g->momentum[d][c->node] - g->velocity[d][c->node]);
+            dashpot_correct_energy_for_velocity_change(&g->absorbed, c->impulse[d],
+                                                       g->momentum[d][c->node] - g->velocity[d][c->node]);
         }
 }
 

@@ -4,7 +4,7 @@
  *     m_I = sum m N,   P_I = sum m v N,   f_I = sum (N f - V sigma_given . grad N)
  *
  * with v + L (x_I - x_p) in place of v for APIC (Jiang et al. 2015) and for points that rotate
- * (rotating_velocity_gradients).
+ * (rotating_group_velocity_gradients).
  *
  * Zeng et al. 2022, eqs. 33-36, with sums over all nodes of a point. Reads about 120 bytes per point in 2D; the nodes
  * of a block stay in cache. */
@@ -37,19 +37,21 @@ static ALWAYS_INLINE int symmetric_component_index(int axis, int other_axis, con
  * shape: shape function. */
 static ALWAYS_INLINE void p2g_add_skew_stress_force(cell_sums sum, const struct particles *p,
                                                     const struct transfer_data *t, const struct cell_stencil *s,
-                                                    const struct touch *row, int at, const int dim,
+                                                    const struct node_row_weights *row, int at, const int dim,
                                                     const enum shape shape)
 {
     static const int first[DIM_MAX] = {0, 1, 2}, second[DIM_MAX] = {1, 2, 0};
     const int64_t i = s->point[at];
     real skew[DIM_MAX];
-    if (dim == 1 || t->momentum_only || !point_skew_stress_on_grid(p, t->partial, i, skew, dim)) return;
+    if (dim == 1 || t->momentum_only || !point_compute_skew_stress_transmitted_to_grid(p, t->partial, i, skew, dim))
+        return;
     FOR_TOUCHED(s, at, dim, shape)
     {
         row_of_nodes grad[DIM_MAX];
         for (int e = 0; e < dim; e++)
-            grad[e] = e < ROW_DIMS(dim, shape) ? row->D[e] * stencil_row_factor(s, at, k1, k2, dim, shape)
-                                               : row->N * stencil_row_factor_slope(s, at, k1, k2, e, dim, shape);
+            grad[e] = e < ROW_DIMS(dim, shape)
+                          ? row->D[e] * stencil_point_row_transverse_weight(s, at, k1, k2, dim, shape)
+                          : row->N * stencil_point_row_transverse_weight_slope(s, at, k1, k2, e, dim, shape);
         for (int c = 0; c < dim * (dim - 1) / 2; c++) {
             const real force = skew[c] * p->volume[i];
             sum[1 + dim + first[c]][PATCH(dim, shape)] -= force * grad[second[c]];
@@ -60,13 +62,13 @@ static ALWAYS_INLINE void p2g_add_skew_stress_force(cell_sums sum, const struct 
 
 /* Stress that a few points of a cell transmit to the grid, one per lane. */
 struct points_stress {
-    int32_t point[POINT_NUMBERS];  /* numbers of the points (points_list) */
+    int32_t point[POINT_NUMBERS];  /* numbers of the points (points_fill_lanes_from_list) */
     row_of_points stress[SYM_MAX]; /* symmetric components [Pa] */
     row_of_points volume;          /* [m^3] */
 };
 
 /* Quantities that a few points of a cell transfer to nodes, one point per lane. */
-struct points_given {
+struct points_transfer_quantities {
     row_of_points mass, v[DIM_MAX], f[DIM_MAX]; /* [kg], [m/s], [N] */
     row_of_points pull[SYM_MAX];                /* stress times volume, symmetric components [N m] */
     row_of_points slope[DIM_MAX * DIM_MAX];     /* velocity gradient by which velocities are extrapolated [1/s] */
@@ -74,82 +76,88 @@ struct points_given {
 
 /* Returns true if points extrapolate their velocity to the positions of the nodes by a velocity gradient: with APIC,
  * and if points rotate in groups (data/turning.h). t: inputs of the transfer; transfer: FLIP or APIC. */
-static ALWAYS_INLINE bool continues(const struct transfer_data *t, const int dim, const enum transfer transfer)
+static ALWAYS_INLINE bool points_extrapolate_velocity_to_nodes(const struct transfer_data *t, const int dim,
+                                                               const enum transfer transfer)
 {
     return transfer == TRANSFER_APIC || (dim > 1 && t->turn[2] && !t->momentum_only);
 }
 
 /* Loads the stresses that the n points `list` of p (n <= AT_ONCE, points processed together) transmit to the grid,
  * without the part that bonds carry, and the volumes of the points into *s. Lanes from n on repeat points of the list
- * (points_entry_of_lane). t: inputs of the transfer; if t->momentum_only is set, the stresses are 0. */
+ * (points_list_index_of_lane). t: inputs of the transfer; if t->momentum_only is set, the stresses are 0. */
 static ALWAYS_INLINE void points_load_stress(struct points_stress *s, const struct particles *p,
                                              const struct transfer_data *t, const int32_t *list, int n, const int dim)
 {
     const int components = dim * (dim + 1) / 2;
-    points_list(s->point, list, n, dim);
+    points_fill_lanes_from_list(s->point, list, n, dim);
     s->volume = points_load(p->volume, s->point, dim);
     for (int c = 0; c < components; c++)
         s->stress[c] = t->momentum_only ? points_broadcast(0) : points_load(p->stress[c], s->point, dim);
     if (t->momentum_only || !t->partial || !t->partial->index) return;
     for (int k = 0; k < AT_ONCE(dim); k++) {
         real own[SYM_MAX];
-        point_stress_on_grid(p, t->partial, s->point[k], own, dim);
+        point_compute_stress_transmitted_to_grid(p, t->partial, s->point[k], own, dim);
         for (int c = 0; c < components; c++) s->stress[c][k] = own[c];
     }
 }
 
 /* Loads the quantities that the points of s transfer to nodes into *q: mass, velocity, force, stress times volume and,
- * if `continued` is true, the velocity gradient by which velocities are extrapolated to nodes. p: particles; t: inputs
- * of the transfer; transfer: FLIP or APIC. */
-static ALWAYS_INLINE void points_load_given(struct points_given *q, const struct particles *p,
-                                            const struct transfer_data *t, const struct points_stress *s, const int dim,
-                                            const enum transfer transfer, const bool continued)
+ * if `extrapolate_velocity` is true, the velocity gradient by which velocities are extrapolated to nodes. p: particles;
+ * t: inputs of the transfer; transfer: FLIP or APIC. */
+static ALWAYS_INLINE void points_load_quantities_to_transfer(struct points_transfer_quantities *q,
+                                                             const struct particles *p, const struct transfer_data *t,
+                                                             const struct points_stress *s, const int dim,
+                                                             const enum transfer transfer,
+                                                             const bool extrapolate_velocity)
 {
     q->mass = points_load(p->mass, s->point, dim);
     for (int d = 0; d < dim; d++)
         q->v[d] = points_load(p->v[d], s->point, dim), q->f[d] = points_load(p->f[d], s->point, dim);
     for (int c = 0; c < dim * (dim + 1) / 2; c++) q->pull[c] = s->stress[c] * s->volume;
-    if (continued && transfer == TRANSFER_FLIP) rotating_velocity_gradients(t, s->point, 0.5 * t->dt, q->slope, dim);
+    if (extrapolate_velocity && transfer == TRANSFER_FLIP)
+        rotating_group_velocity_gradients(t, s->point, 0.5 * t->dt, q->slope, dim);
     for (int k = 0; k < dim * dim && transfer == TRANSFER_APIC; k++)
         q->slope[k] = points_load(p->gradient[k], s->point, dim);
 }
 
 /* Adds mass, momentum and force of point number `at` of stencil s (node weights of a few points of p) to `sum`, the
- * nodal sums over the points of its cell of grid g. q: quantities of the points (points_load_given); t: inputs of the
- * transfer, with the shape function `shape`; continued: true if points extrapolate their velocity to nodes
+ * nodal sums over the points of its cell of grid g. q: quantities of the points (points_load_quantities_to_transfer);
+ * t: inputs of the transfer, with the shape function `shape`; extrapolate_velocity: true if points extrapolate their
+ * velocity to nodes
  * (`continues`). */
 static ALWAYS_INLINE void p2g_add_point(cell_sums sum, const struct grid *g, const struct particles *p,
                                         const struct transfer_data *t, const struct cell_stencil *s,
-                                        const struct points_given *q, int at, const int dim, const enum shape shape,
-                                        const bool continued)
+                                        const struct points_transfer_quantities *q, int at, const int dim,
+                                        const enum shape shape, const bool extrapolate_velocity)
 {
     const int along = ROW_DIMS(dim, shape);
-    const struct touch row = stencil_row_weights(s, at, g->h, dim, shape);
+    const struct node_row_weights row = stencil_row_weights_of_point(s, at, g->h, dim, shape);
     const row_of_nodes mass = q->mass[at] * row.N;
     row_of_nodes momentum[DIM_MAX], force[DIM_MAX], pull[SYM_MAX], far[DIM_MAX];
-    for (int e = 0; e < along && continued; e++) far[e] = stencil_distances_in_row(s, at, g->h, e, dim, shape);
+    for (int e = 0; e < along && extrapolate_velocity; e++)
+        far[e] = stencil_point_distances_to_row_nodes(s, at, g->h, e, dim, shape);
     for (int k = 0; k < dim * (dim + 1) / 2; k++) pull[k] = q->pull[k][at] * row.N;
 #pragma GCC unroll 3
     for (int d = 0; d < dim; d++) {
-        row_of_nodes speed = row_broadcast(q->v[d][at]);
-        for (int e = 0; e < along && continued; e++) speed += q->slope[d * dim + e][at] * far[e];
+        row_of_nodes speed = nodes_broadcast(q->v[d][at]);
+        for (int e = 0; e < along && extrapolate_velocity; e++) speed += q->slope[d * dim + e][at] * far[e];
         momentum[d] = mass * speed;
         force[d] = q->f[d][at] * row.N;
         for (int e = 0; e < along; e++) force[d] -= q->pull[symmetric_component_index(d, e, dim)][at] * row.D[e];
     }
     FOR_TOUCHED(s, at, dim, shape)
     {
-        const real weight = stencil_row_factor(s, at, k1, k2, dim, shape);
+        const real weight = stencil_point_row_transverse_weight(s, at, k1, k2, dim, shape);
         const int k = PATCH(dim, shape);
         sum[0][k] += mass * weight;
         for (int d = 0; d < dim; d++) {
             row_of_nodes carried = momentum[d], pushed = sum[1 + dim + d][k] + force[d] * weight;
             for (int e = along; e < dim; e++) {
-                if (continued)
-                    carried +=
-                        q->slope[d * dim + e][at] * mass * stencil_distance_to_row(s, at, g->h, e, e == 1 ? k1 : k2);
-                pushed -=
-                    pull[symmetric_component_index(d, e, dim)] * stencil_row_factor_slope(s, at, k1, k2, e, dim, shape);
+                if (extrapolate_velocity)
+                    carried += q->slope[d * dim + e][at] * mass *
+                               stencil_point_distance_to_row(s, at, g->h, e, e == 1 ? k1 : k2);
+                pushed -= pull[symmetric_component_index(d, e, dim)] *
+                          stencil_point_row_transverse_weight_slope(s, at, k1, k2, e, dim, shape);
             }
             sum[1 + d][k] += carried * weight;
             sum[1 + dim + d][k] = pushed;
@@ -165,11 +173,11 @@ static ALWAYS_INLINE void p2g_prefetch_point(const struct particles *p, const st
 {
     int64_t i;
     points_prefetch_motion(p, t->turn, list, k, dim);
-    if (!prefetch_next_point(list, k, &i)) return;
-    prefetch_line(p->volume + i);
-    for (int d = 0; d < dim; d++) prefetch_line(p->f[d] + i);
-    for (int c = 0; c < dim * (dim + 1) / 2; c++) prefetch_line(p->stress[c] + i);
-    for (int c = 0; c < dim * dim && transfer == TRANSFER_APIC; c++) prefetch_line(p->gradient[c] + i);
+    if (!point_ahead_needs_prefetch(list, k, &i)) return;
+    prefetch_cache_line(p->volume + i);
+    for (int d = 0; d < dim; d++) prefetch_cache_line(p->f[d] + i);
+    for (int c = 0; c < dim * (dim + 1) / 2; c++) prefetch_cache_line(p->stress[c] + i);
+    for (int c = 0; c < dim * dim && transfer == TRANSFER_APIC; c++) prefetch_cache_line(p->gradient[c] + i);
 }
 
 /* Replaces the mean normal stress of each of the points list[n] of p in a cell, n <= MEAN_POINTS, by its average over
@@ -186,12 +194,13 @@ static ALWAYS_INLINE void points_average_mean_stress(const struct particles *p, 
         row_of_points mean = points_broadcast(0);
         for (int d = 0; d < dim; d++) mean += stress[k].stress[d];
         mean *= 1.0 / dim;
-        const row_of_points own = points_keep_first_lanes(stress[k].volume, points_at_once(n - k * AT_ONCE(dim), dim));
+        const row_of_points own =
+            points_keep_first_lanes(stress[k].volume, points_count_of_next_batch(n - k * AT_ONCE(dim), dim));
         volume += own, sum += own * mean;
         *(points_anywhere *)(change + k * AT_ONCE(dim)) = mean;
     }
     if (!points_all_share_mean_dilatation(p, list, n))
-        points_subtract_from_mean(p, t, list, n, change);
+        points_replace_values_by_mean_minus_value(p, t, list, n, change);
     else if (!t->elastic[p->material[list[0]]].mean_dilatation)
         return;
     else {
@@ -204,48 +213,50 @@ static ALWAYS_INLINE void points_average_mean_stress(const struct particles *p, 
 
 /* Adds mass, momentum and force of the points list[n] of p (n <= AT_ONCE, points processed together) in cell c of grid
  * g to `sum`, the nodal sums over the points of this cell. stress: stress of these points; t: inputs of the transfer,
- * with the shape function `shape` and the scheme `transfer`; continued: true if points extrapolate their velocity to
- * nodes (`continues`). */
-static ALWAYS_INLINE void p2g_add_points(cell_sums sum, const struct grid *g, const struct cell *c,
+ * with the shape function `shape` and the scheme `transfer`; extrapolate_velocity: true if points extrapolate their
+ * velocity to nodes (`continues`). */
+static ALWAYS_INLINE void p2g_add_points(cell_sums sum, const struct grid *g, const struct grid_cell *c,
                                          const struct particles *p, const struct transfer_data *t,
                                          const struct points_stress *stress, const int32_t *list, int n, const int dim,
-                                         const enum shape shape, const enum transfer transfer, const bool continued)
+                                         const enum shape shape, const enum transfer transfer,
+                                         const bool extrapolate_velocity)
 {
     struct cell_stencil s;
-    struct points_given q;
-    cell_stencil_make(&s, g, c, p, list, n, t->half_width, dim, shape);
-    stencil_transpose(&s, dim, shape);
-    points_load_given(&q, p, t, stress, dim, transfer, continued);
+    struct points_transfer_quantities q;
+    cell_stencil_compute_weights(&s, g, c, p, list, n, t->half_width, dim, shape);
+    stencil_transpose_weights_to_node_lanes(&s, dim, shape);
+    points_load_quantities_to_transfer(&q, p, t, stress, dim, transfer, extrapolate_velocity);
     for (int at = 0; at < n; at++) {
         p2g_prefetch_point(p, t, list, at, dim, transfer);
-        p2g_add_point(sum, g, p, t, &s, &q, at, dim, shape, continued);
+        p2g_add_point(sum, g, p, t, &s, &q, at, dim, shape, extrapolate_velocity);
     }
 }
 
 /* Adds mass, momentum and force of the points list[n] of p in one cell to the nodes of the grid g. t: inputs of the
- * transfer, with the shape function `shape` and the scheme `transfer`; averaged: true if the points of a cell get the
- * average of their mean stresses (transfer_uses_mean_dilatation). */
+ * transfer, with the shape function `shape` and the scheme `transfer`; average_mean_stress: true if the points of a
+ * cell get the average of their mean stresses (transfer_uses_mean_dilatation). */
 static ALWAYS_INLINE void p2g_add_points_of_cell(const struct grid *g, const struct particles *p,
                                                  const struct transfer_data *t, const int32_t *list, int n,
                                                  const int dim, const enum shape shape, const enum transfer transfer,
-                                                 const bool averaged)
+                                                 const bool average_mean_stress)
 {
     enum { MOST = MEAN_POINTS / POINTS };
-    const struct cell c = cell_containing_point(g, p, list[0], dim, shape);
-    const int most = averaged ? MEAN_POINTS : AT_ONCE(dim);
+    const struct grid_cell c = cell_containing_point(g, p, list[0], dim, shape);
+    const int most = average_mean_stress ? MEAN_POINTS : AT_ONCE(dim);
     struct points_stress stress[MOST];
     cell_sums sum;
     FOR_ROWS(dim, shape)
-    for (int f = 0; f < 1 + 2 * dim; f++) sum[f][PATCH(dim, shape)] = row_broadcast(0);
+    for (int f = 0; f < 1 + 2 * dim; f++) sum[f][PATCH(dim, shape)] = nodes_broadcast(0);
     for (int from = 0; from < n; from += most) {
         const int some = int_min(n - from, most);
         for (int k = 0; k < some; k += AT_ONCE(dim))
-            points_load_stress(&stress[k / AT_ONCE(dim)], p, t, list + from + k, points_at_once(some - k, dim), dim);
-        if (averaged) points_average_mean_stress(p, t, list + from, stress, some, dim);
+            points_load_stress(&stress[k / AT_ONCE(dim)], p, t, list + from + k,
+                               points_count_of_next_batch(some - k, dim), dim);
+        if (average_mean_stress) points_average_mean_stress(p, t, list + from, stress, some, dim);
         for (int k = 0; k < some; k += AT_ONCE(dim)) {
             const struct points_stress *own = &stress[k / AT_ONCE(dim)];
-            const int points = points_at_once(some - k, dim);
-            const bool continued = continues(t, dim, transfer);
+            const int points = points_count_of_next_batch(some - k, dim);
+            const bool continued = points_extrapolate_velocity_to_nodes(t, dim, transfer);
             if (HAS_CORNERS(dim, shape) && continued) /* a loop of its own, without tests */
                 p2g_add_points(sum, g, &c, p, t, own, list + from + k, points, dim, shape, transfer, true);
             else
@@ -254,12 +265,12 @@ static ALWAYS_INLINE void p2g_add_points_of_cell(const struct grid *g, const str
     }
     FOR_ROWS(dim, shape)
     {
-        const int64_t I = cell_row_first_node(&c, g, k1, k2, dim);
+        const int64_t I = cell_row_first_node_index(&c, g, k1, k2, dim);
         const int k = PATCH(dim, shape);
-        grid_add_node_row(g, g->mass + I, sum[0][k], dim, shape);
+        grid_field_add_values_of_node_row(g, g->mass + I, sum[0][k], dim, shape);
         for (int d = 0; d < dim; d++) {
-            grid_add_node_row(g, g->momentum[d] + I, sum[1 + d][k], dim, shape);
-            grid_add_node_row(g, g->force[d] + I, sum[1 + dim + d][k], dim, shape);
+            grid_field_add_values_of_node_row(g, g->momentum[d] + I, sum[1 + d][k], dim, shape);
+            grid_field_add_values_of_node_row(g, g->force[d] + I, sum[1 + dim + d][k], dim, shape);
         }
     }
 }
@@ -290,14 +301,15 @@ static ALWAYS_INLINE void p2g_spread_point_value(const struct grid *g, const str
                                                  int32_t i, real value, real *field, const int dim,
                                                  const enum shape shape)
 {
-    const struct cell c = cell_containing_point(g, p, i, dim, shape);
+    const struct grid_cell c = cell_containing_point(g, p, i, dim, shape);
     struct cell_stencil s;
-    cell_stencil_make(&s, g, &c, p, &i, 1, half_width, dim, shape);
-    stencil_transpose(&s, dim, shape);
-    const row_of_nodes spread = value * stencil_row_weights(&s, 0, g->h, dim, shape).N;
+    cell_stencil_compute_weights(&s, g, &c, p, &i, 1, half_width, dim, shape);
+    stencil_transpose_weights_to_node_lanes(&s, dim, shape);
+    const row_of_nodes spread = value * stencil_row_weights_of_point(&s, 0, g->h, dim, shape).N;
     FOR_TOUCHED(&s, 0, dim, shape)
-    grid_add_node_row(g, field + cell_row_first_node(&c, g, k1, k2, dim),
-                      spread * stencil_row_factor(&s, 0, k1, k2, dim, shape), dim, shape);
+    grid_field_add_values_of_node_row(g, field + cell_row_first_node_index(&c, g, k1, k2, dim),
+                                      spread * stencil_point_row_transverse_weight(&s, 0, k1, k2, dim, shape), dim,
+                                      shape);
 }
 
 #define SPREAD(D, S)                                                                                                   \

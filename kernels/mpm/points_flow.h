@@ -5,15 +5,15 @@
 #include "kernels/laws/law_update.h"
 #include "stress.h"
 
-/* Length of an array with the numbers of eight points, which ends with the entry PAIRED of points_list; 0 where there
- * are not eight points at once. */
+/* Length of an array with the numbers of eight points, which ends with the entry PAIRED of points_fill_lanes_from_list;
+ * 0 where there are not eight points at once. */
 enum { FLOW_NUMBERS = LANES + 1 };
 
 /* List of n points of materials that yield, which wait for their return mapping, with the input data of the mapping.
  * FLOW_ROOM: capacity. Points are collected from several cells until they fill a vector, since a cell has fewer points
  * than a vector has lanes. */
 enum { FLOW_ROOM = LANES + POINTS };
-struct flow_points {
+struct return_mapping_queue {
     int n;                                /* fewer than LANES between cells */
     int32_t point[FLOW_ROOM];             /* numbers of the points */
     real stress[SYM_MAX][FLOW_ROOM];      /* trial stresses [Pa] */
@@ -21,15 +21,17 @@ struct flow_points {
     real L[DIM_MAX * DIM_MAX][FLOW_ROOM]; /* velocity gradients of the step [1/s] */
 };
 
-/* The motion of eight points in a step. strain: strain increment xx yy zz xy yz zx as in stress_update [1]; trace: its
- * trace [1]; spin: components xy, yz, zx of the antisymmetric matrix of rotation [rad], in 2D xy only. */
+/* The motion of eight points in a step. strain: strain increment xx yy zz xy yz zx as in
+ * stress_update_and_return_strain_trace [1]; trace: its trace [1]; spin: components xy, yz, zx of the antisymmetric
+ * matrix of rotation [rad], in 2D xy only. */
 struct flow_motion {
     lanes strain[SYM_MAX], trace, spin[3];
 };
 
 /* Computes strain increments and spins of eight points in a step of dt [s] into *m from their velocity gradients L[a
  * dim + b] = dv_a/dx_b [1/s]. */
-static ALWAYS_INLINE void flow_motion_of(struct flow_motion *m, const lanes *L, real dt, const int dim)
+static ALWAYS_INLINE void flow_motion_compute_strain_and_spin(struct flow_motion *m, const lanes *L, real dt,
+                                                              const int dim)
 {
     const lanes none = lanes_broadcast(0);
     lanes D[SYM_MAX] = {L[0], none, none, none, none, none};
@@ -52,10 +54,10 @@ static ALWAYS_INLINE void flow_motion_of(struct flow_motion *m, const lanes *L, 
 
 /* Returns a vector whose lane l is from[point[l]]. Eight loads take half the time of a gather instruction. point: with
  * FLOW_NUMBERS entries. */
-static ALWAYS_INLINE lanes flow_gather_points(const real *from, const int32_t *point)
+static ALWAYS_INLINE lanes flow_gather_values_of_points(const real *from, const int32_t *point)
 {
 #if POINTS_LANES == 8
-    if (point[PAIRED]) return (lanes)points_load_pairs(from, point);
+    if (point[PAIRED]) return (lanes)points_load_consecutive_pairs(from, point);
 #endif
     return (lanes){from[point[0]], from[point[1]], from[point[2]], from[point[3]],
                    from[point[4]], from[point[5]], from[point[6]], from[point[7]]};
@@ -63,7 +65,7 @@ static ALWAYS_INLINE lanes flow_gather_points(const real *from, const int32_t *p
 
 /* Stores lane l of a in to[point[l]]. Lanes that hold the same point must have equal values. point: with FLOW_NUMBERS
  * entries. */
-static ALWAYS_INLINE void flow_scatter_points(real *to, const int32_t *point, lanes a)
+static ALWAYS_INLINE void flow_scatter_values_to_points(real *to, const int32_t *point, lanes a)
 {
 #if POINTS_LANES == 8
     points_store(to, point, (row_of_points)a, DIM_MAX);
@@ -73,7 +75,7 @@ static ALWAYS_INLINE void flow_scatter_points(real *to, const int32_t *point, la
 }
 
 /* Returns the lanes l to l + POINTS - 1 of the vector *a as a vector of POINTS entries. */
-static ALWAYS_INLINE row_of_points lanes_extract_points(const lanes *a, int l)
+static ALWAYS_INLINE row_of_points lanes_extract_row_of_points(const lanes *a, int l)
 {
     return (row_of_points) * (const points_anywhere *)((const real *)a + l);
 }
@@ -87,8 +89,8 @@ static NEVER_INLINE void flow_load_back_stress(const struct particles *p, const 
     for (int c = 0; c < n; c++) e->back[law_place[dim][c]] = lanes_gather(p->back_stress[c], point);
     for (int l = 0; l < LANES && dim > 1; l += POINTS) {
         row_of_points back[SYM_MAX], spin[3];
-        for (int c = 0; c < n; c++) back[c] = lanes_extract_points(&e->back[law_place[dim][c]], l);
-        for (int c = 0; c < 3; c++) spin[c] = lanes_extract_points(&motion->spin[c], l);
+        for (int c = 0; c < n; c++) back[c] = lanes_extract_row_of_points(&e->back[law_place[dim][c]], l);
+        for (int c = 0; c < 3; c++) spin[c] = lanes_extract_row_of_points(&motion->spin[c], l);
         stress_rotate(back, spin, dim);
         for (int c = 0; c < n; c++) *(points_anywhere *)((real *)&e->back[law_place[dim][c]] + l) = back[c];
     }
@@ -98,9 +100,10 @@ static NEVER_INLINE void flow_load_back_stress(const struct particles *p, const 
 /* Loads the plastic state and the stresses of eight points of p into *e, for law_update. point: numbers of the points;
  * m: constants of their material; stress[components], volume: trial stresses [Pa] and volumes [m^3]; motion: motion in
  * the step of dt [s]. */
-static ALWAYS_INLINE void flow_load_points(const struct particles *p, const struct elastic *m, const int32_t *point,
-                                           const lanes *stress, lanes volume, const struct flow_motion *motion, real dt,
-                                           struct law_points *e, const int dim)
+static ALWAYS_INLINE void flow_load_stress_and_plastic_state(const struct particles *p, const struct elastic *m,
+                                                             const int32_t *point, const lanes *stress, lanes volume,
+                                                             const struct flow_motion *motion, real dt,
+                                                             struct law_points *e, const int dim)
 {
     const int n = dim * (dim + 1) / 2;
     const lanes none = lanes_broadcast(0);
@@ -116,28 +119,30 @@ static ALWAYS_INLINE void flow_load_points(const struct particles *p, const stru
         e->back[c] = none;
     }
     if (p->back_stress[0]) flow_load_back_stress(p, point, motion, e, dim);
-    e->volume = volume / flow_gather_points(p->volume0, point);
+    e->volume = volume / flow_gather_values_of_points(p->volume0, point);
     e->volume_before = e->volume / (1.0 + motion->trace), e->thins = true;
     e->duration = dt;
-    e->a = flow_gather_points(p->plastic_strain, point), e->work = flow_gather_points(p->plastic_work, point);
-    e->temperature =
-        p->temperature ? flow_gather_points(p->temperature, point) : lanes_broadcast(m->law->johnson_cook.T_room);
+    e->a = flow_gather_values_of_points(p->plastic_strain, point),
+    e->work = flow_gather_values_of_points(p->plastic_work, point);
+    e->temperature = p->temperature ? flow_gather_values_of_points(p->temperature, point)
+                                    : lanes_broadcast(m->law->johnson_cook.T_room);
 }
 
 /* Clears the flag that a point is stressed enough to become peridynamic (FLAG_STRESSED), which was set by the trial
  * stress, of those of eight points of p whose stress after plastic flow no longer exceeds the stress at which they
  * become peridynamic. flowed: bit l is set if point[l] has yielded; m: material of the points; e: their state after the
  * return mapping. */
-static ALWAYS_INLINE void flow_clear_conversion_flags(struct particles *p, const struct elastic *m,
-                                                      const struct law_points *e, unsigned flowed, const int32_t *point,
-                                                      const int dim)
+static ALWAYS_INLINE void flow_clear_conversion_flags_below_threshold(struct particles *p, const struct elastic *m,
+                                                                      const struct law_points *e, unsigned flowed,
+                                                                      const int32_t *point, const int dim)
 {
     for (int l = 0; l < LANES; l++) {
         if (!(flowed >> l & 1 && p->flag[point[l]] & FLAG_STRESSED)) continue;
-        const real trigger = point_conversion_stress(m, p, point[l]);
+        const real trigger = point_pd_conversion_stress_threshold(m, p, point[l]);
         real stress[SYM_MAX];
         for (int c = 0; c < dim * (dim + 1) / 2; c++) stress[c] = e->s[law_place[dim][c]][l];
-        if (!(stress_principal_bound(stress, dim) > trigger && stress_largest_principal(stress, dim) > trigger))
+        if (!(stress_largest_principal_upper_bound(stress, dim) > trigger &&
+              stress_largest_principal(stress, dim) > trigger))
             p->flag[point[l]] &= (uint8_t)~FLAG_STRESSED;
     }
 }
@@ -145,9 +150,9 @@ static ALWAYS_INLINE void flow_clear_conversion_flags(struct particles *p, const
 /* Stores the stress normal to the plane (plane strain) or the volume (plane stress, 1D) of those of the points
  * point[LANES] of p that have yielded. flowed: bit l is set if point[l] has yielded; m: material of the points; e:
  * their state after the return mapping. */
-static NEVER_INLINE void flow_store_normal_stress_or_volume(struct particles *p, const struct elastic *m,
-                                                            const struct law_points *e, unsigned flowed,
-                                                            const int32_t *point)
+static NEVER_INLINE void flow_store_out_of_plane_stress_or_volume(struct particles *p, const struct elastic *m,
+                                                                  const struct law_points *e, unsigned flowed,
+                                                                  const int32_t *point)
 {
     const lanes across = e->s[2] - m->poisson * (e->s[0] + e->s[1]);
     for (int l = 0; l < LANES; l++)
@@ -160,15 +165,17 @@ static NEVER_INLINE void flow_store_normal_stress_or_volume(struct particles *p,
 /* Stores in p the state e of eight points of material m after the return mapping. flowed: bit l is set if point[l] has
  * yielded; all other points keep their stress. stress[components] [Pa]: receives the stresses of the points that have
  * yielded. */
-static ALWAYS_INLINE void flow_store_points(struct particles *p, const struct elastic *m, const struct law_points *e,
-                                            unsigned flowed, const int32_t *point, lanes *stress, const int dim)
+static ALWAYS_INLINE void flow_store_stress_and_plastic_state(struct particles *p, const struct elastic *m,
+                                                              const struct law_points *e, unsigned flowed,
+                                                              const int32_t *point, lanes *stress, const int dim)
 {
     const lanes_mask own = lanes_mask_from_bits((uint8_t)flowed);
     for (int c = 0; c < dim * (dim + 1) / 2; c++) stress[c] = lanes_choose(own, e->s[law_place[dim][c]], stress[c]);
-    if (m->space != SPACE_SOLID) flow_store_normal_stress_or_volume(p, m, e, flowed, point);
-    flow_scatter_points(p->plastic_strain, point, e->a), flow_scatter_points(p->plastic_work, point, e->work);
-    if (p->temperature) flow_scatter_points(p->temperature, point, e->temperature);
-    flow_clear_conversion_flags(p, m, e, flowed, point, dim);
+    if (m->space != SPACE_SOLID) flow_store_out_of_plane_stress_or_volume(p, m, e, flowed, point);
+    flow_scatter_values_to_points(p->plastic_strain, point, e->a),
+        flow_scatter_values_to_points(p->plastic_work, point, e->work);
+    if (p->temperature) flow_scatter_values_to_points(p->temperature, point, e->temperature);
+    flow_clear_conversion_flags_below_threshold(p, m, e, flowed, point, dim);
 }
 
 /* Stores the back stresses e->back of those of the eight points point[0] .. point[7] in p whose bits are set in
@@ -182,18 +189,18 @@ static NEVER_INLINE void flow_store_back_stress(struct particles *p, const struc
             p->back_stress[c][point[l]] = e->back[law_place[dim][c]][l];
 }
 
-/* Removes the first n points (at most LANES) from the list `due` of points that wait for their return mapping. Moves
+/* Removes the first n points (at most LANES) from the list `queue` of points that wait for their return mapping. Moves
  * the remaining ones, at most POINTS (as many as a vector of points holds), to the beginning of the list, with their
  * velocity gradients due->L, trial stresses and volumes. */
-static ALWAYS_INLINE void flow_points_remove_first(struct flow_points *due, int n, const int dim)
+static ALWAYS_INLINE void return_mapping_queue_remove_first(struct return_mapping_queue *queue, int n, const int dim)
 {
-    due->n -= n;
-    if (due->n == 0) return;
-    for (int k = 0; k < due->n; k++) due->point[k] = due->point[n + k];
-    for (int k = 0; k < dim * dim; k++) *(points_anywhere *)due->L[k] = *(const points_anywhere *)(due->L[k] + n);
+    queue->n -= n;
+    if (queue->n == 0) return;
+    for (int k = 0; k < queue->n; k++) queue->point[k] = queue->point[n + k];
+    for (int k = 0; k < dim * dim; k++) *(points_anywhere *)queue->L[k] = *(const points_anywhere *)(queue->L[k] + n);
     for (int c = 0; c < dim * (dim + 1) / 2; c++)
-        *(points_anywhere *)due->stress[c] = *(const points_anywhere *)(due->stress[c] + n);
-    *(points_anywhere *)due->volume = *(const points_anywhere *)(due->volume + n);
+        *(points_anywhere *)queue->stress[c] = *(const points_anywhere *)(queue->stress[c] + n);
+    *(points_anywhere *)queue->volume = *(const points_anywhere *)(queue->volume + n);
 }
 
 /* Return mapping: maps the trial stresses of eight points of p back to their yield surfaces if their materials yield,
@@ -202,13 +209,14 @@ static ALWAYS_INLINE void flow_points_remove_first(struct flow_points *due, int 
  * volumes must have been stored in p. point[FLOW_NUMBERS]: numbers of the points; lanes may repeat a point with all its
  * values. L: velocity gradients [1/s]; stress[components], volume: trial stresses [Pa], which are changed, and volumes
  * [m^3]; t: time step and constants of the materials. Points of several materials are mapped material by material. */
-static NEVER_INLINE void flow_points_map(struct particles *p, const struct transfer_data *t, const int32_t *point,
-                                         const lanes *L, lanes *stress, lanes volume, const int dim)
+static NEVER_INLINE void points_apply_return_mapping(struct particles *p, const struct transfer_data *t,
+                                                     const int32_t *point, const lanes *L, lanes *stress, lanes volume,
+                                                     const int dim)
 {
     struct flow_motion motion;
     struct law_points e;
     unsigned left = (1u << LANES) - 1;
-    flow_motion_of(&motion, L, t->dt, dim);
+    flow_motion_compute_strain_and_spin(&motion, L, t->dt, dim);
     while (left) {
         const struct elastic *m = &t->elastic[p->material[point[__builtin_ctz(left)]]];
         unsigned own = 0;
@@ -216,53 +224,54 @@ static NEVER_INLINE void flow_points_map(struct particles *p, const struct trans
             own |= (unsigned)(left >> l & 1 && &t->elastic[p->material[point[l]]] == m) << l;
         left &= ~own;
         if (!m->law) continue;
-        flow_load_points(p, m, point, stress, volume, &motion, t->dt, &e, dim);
+        flow_load_stress_and_plastic_state(p, m, point, stress, volume, &motion, t->dt, &e, dim);
         e.active = lanes_mask_from_bits((uint8_t)own);
         const unsigned flowed = law_update(m->law, &e, m->space, LAW_EXPLICIT);
         if (p->back_stress[0]) flow_store_back_stress(p, &e, own, point, dim);
-        if (flowed) flow_store_points(p, m, &e, flowed, point, stress, dim);
+        if (flowed) flow_store_stress_and_plastic_state(p, m, &e, flowed, point, stress, dim);
     }
-    for (int c = 0; c < dim * (dim + 1) / 2; c++) flow_scatter_points(p->stress[c], point, stress[c]);
+    for (int c = 0; c < dim * (dim + 1) / 2; c++) flow_scatter_values_to_points(p->stress[c], point, stress[c]);
 }
 
-/* Fills the n < LANES points of the list `due` up to LANES by repeating the last one. */
-static NEVER_INLINE void flow_points_fill(struct flow_points *due, int n, const int dim)
+/* Fills the n < LANES points of the list `queue` up to LANES by repeating the last one. */
+static NEVER_INLINE void return_mapping_queue_pad_with_last_point(struct return_mapping_queue *queue, int n,
+                                                                  const int dim)
 {
     for (int l = n; l < LANES; l++) {
-        due->point[l] = due->point[n - 1], due->volume[l] = due->volume[n - 1];
-        for (int k = 0; k < dim * dim; k++) due->L[k][l] = due->L[k][n - 1];
-        for (int c = 0; c < dim * (dim + 1) / 2; c++) due->stress[c][l] = due->stress[c][n - 1];
+        queue->point[l] = queue->point[n - 1], queue->volume[l] = queue->volume[n - 1];
+        for (int k = 0; k < dim * dim; k++) queue->L[k][l] = queue->L[k][n - 1];
+        for (int c = 0; c < dim * (dim + 1) / 2; c++) queue->stress[c][l] = queue->stress[c][n - 1];
     }
 }
 
-/* Applies the return mapping (flow_points_map) to the first points in the list `due`, at most LANES, and removes them
- * from the list. p: particles; t: time step and constants of the materials. */
-static NEVER_INLINE void flow_points_return_mapping(struct particles *p, const struct transfer_data *t,
-                                                    struct flow_points *due, const int dim)
+/* Applies the return mapping (points_apply_return_mapping) to the first points in the list `queue`, at most LANES, and
+ * removes them from the list. p: particles; t: time step and constants of the materials. */
+static NEVER_INLINE void return_mapping_queue_process_first(struct particles *p, const struct transfer_data *t,
+                                                            struct return_mapping_queue *queue, const int dim)
 {
-    const int n = int_min(due->n, LANES);
+    const int n = int_min(queue->n, LANES);
     int32_t point[FLOW_NUMBERS] __attribute__((aligned(LANES * sizeof(int32_t)))) = {0};
     lanes L[DIM_MAX * DIM_MAX], stress[SYM_MAX];
-    if (n < LANES) flow_points_fill(due, n, dim);
-    for (int l = 0; l < LANES; l++) point[l] = due->point[l];
-    for (int k = 0; k < dim * dim; k++) L[k] = lanes_load(due->L[k]);
-    for (int c = 0; c < dim * (dim + 1) / 2; c++) stress[c] = lanes_load(due->stress[c]);
-    flow_points_map(p, t, point, L, stress, lanes_load(due->volume), dim);
-    flow_points_remove_first(due, n, dim);
+    if (n < LANES) return_mapping_queue_pad_with_last_point(queue, n, dim);
+    for (int l = 0; l < LANES; l++) point[l] = queue->point[l];
+    for (int k = 0; k < dim * dim; k++) L[k] = lanes_load(queue->L[k]);
+    for (int c = 0; c < dim * (dim + 1) / 2; c++) stress[c] = lanes_load(queue->stress[c]);
+    points_apply_return_mapping(p, t, point, L, stress, lanes_load(queue->volume), dim);
+    return_mapping_queue_remove_first(queue, n, dim);
 }
 
-/* Appends n points to the list `due` of points that wait for their return mapping. point: numbers of the points, filled
- * up to AT_ONCE (points processed together); L: velocity gradients [1/s]; stress[components], volume: trial stresses
- * [Pa] and volumes [m^3]. */
-static ALWAYS_INLINE void flow_points_append(struct flow_points *due, const int32_t *point, int n,
-                                             const row_of_points *L, const row_of_points *stress, row_of_points volume,
-                                             const int dim)
+/* Appends n points to the list `queue` of points that wait for their return mapping. point: numbers of the points,
+ * filled up to AT_ONCE (points processed together); L: velocity gradients [1/s]; stress[components], volume: trial
+ * stresses [Pa] and volumes [m^3]. */
+static ALWAYS_INLINE void return_mapping_queue_append(struct return_mapping_queue *queue, const int32_t *point, int n,
+                                                      const row_of_points *L, const row_of_points *stress,
+                                                      row_of_points volume, const int dim)
 {
-    for (int c = 0; c < dim * (dim + 1) / 2; c++) *(points_anywhere *)(due->stress[c] + due->n) = stress[c];
-    *(points_anywhere *)(due->volume + due->n) = volume;
-    for (int k = 0; k < AT_ONCE(dim); k++) due->point[due->n + k] = point[k];
-    for (int k = 0; k < dim * dim; k++) *(points_anywhere *)(due->L[k] + due->n) = L[k];
-    due->n += n;
+    for (int c = 0; c < dim * (dim + 1) / 2; c++) *(points_anywhere *)(queue->stress[c] + queue->n) = stress[c];
+    *(points_anywhere *)(queue->volume + queue->n) = volume;
+    for (int k = 0; k < AT_ONCE(dim); k++) queue->point[queue->n + k] = point[k];
+    for (int k = 0; k < dim * dim; k++) *(points_anywhere *)(queue->L[k] + queue->n) = L[k];
+    queue->n += n;
 }
 
 #endif

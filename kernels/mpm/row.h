@@ -36,7 +36,7 @@ typedef real points_anywhere __attribute__((vector_size(POINTS * sizeof(real)), 
 typedef int64_t points_mask __attribute__((vector_size(POINTS * sizeof(int64_t))));
 
 /* Returns a vector of ROW entries, one for each node of a row of grid nodes, that are all equal to a. */
-static ALWAYS_INLINE row_of_nodes row_broadcast(real a) { return a - (row_of_nodes){0}; }
+static ALWAYS_INLINE row_of_nodes nodes_broadcast(real a) { return a - (row_of_nodes){0}; }
 
 /* Returns a vector of POINTS entries, one for each material point processed together, that are all equal to a. */
 static ALWAYS_INLINE row_of_points points_broadcast(real a) { return a - (row_of_points){0}; }
@@ -122,25 +122,29 @@ static ALWAYS_INLINE real points_sum(row_of_points a)
 static ALWAYS_INLINE int int_min(int a, int b) { return a < b ? a : b; }
 
 /* Returns how many of `points_left` remaining points of a cell are processed at once: at most AT_ONCE. */
-static ALWAYS_INLINE int points_at_once(int points_left, const int dim) { return int_min(points_left, AT_ONCE(dim)); }
+static ALWAYS_INLINE int points_count_of_next_batch(int points_left, const int dim)
+{
+    return int_min(points_left, AT_ONCE(dim));
+}
 
-/* Length of the arrays that points_list fills: the numbers of POINTS points, then at PAIRED not 0 if the points come in
- * pairs of consecutive numbers, as neighbours along x have: two of them are then loaded or stored at once. */
+/* Length of the arrays that points_fill_lanes_from_list fills: the numbers of POINTS points, then at PAIRED not 0 if
+ * the points come in pairs of consecutive numbers, as neighbours along x have: two of them are then loaded or stored at
+ * once. */
 enum { PAIRED = POINTS, POINT_NUMBERS = POINTS + 1 };
 
 /* Returns the index in a list of n points (n <= AT_ONCE, points processed together) of the point that vector lane
  * `lane` holds. Lanes beyond the last point repeat the last point or, if n is even, the last two, so that pairs stay
  * together. */
-static ALWAYS_INLINE int points_entry_of_lane(int lane, int n)
+static ALWAYS_INLINE int points_list_index_of_lane(int lane, int n)
 {
     return lane < n ? lane : n % 2 == 1 ? n - 1 : n - 2 + lane % 2;
 }
 
 /* Stores the indices list[n] of n points (n <= AT_ONCE, points processed together) in point[0] .. point[POINTS - 1],
- * one per lane, with repeated points in further lanes (points_entry_of_lane). Sets point[PAIRED] to 1 if the points are
- * pairs of consecutive indices, else to 0. list: must have POINTS entries, of which those from n on are not used,
- * unless n is 1. */
-static ALWAYS_INLINE void points_list(int32_t *point, const int32_t *list, int n, const int dim)
+ * one per lane, with repeated points in further lanes (points_list_index_of_lane). Sets point[PAIRED] to 1 if the
+ * points are pairs of consecutive indices, else to 0. list: must have POINTS entries, of which those from n on are not
+ * used, unless n is 1. */
+static ALWAYS_INLINE void points_fill_lanes_from_list(int32_t *point, const int32_t *list, int n, const int dim)
 {
     if (n == 1) {
         for (int k = 0; k < POINTS; k++) point[k] = list[0];
@@ -157,7 +161,7 @@ static ALWAYS_INLINE void points_list(int32_t *point, const int32_t *list, int n
     point[PAIRED] = (_mm256_cmpeq_epi32_mask(next, other) & 0x55) == 0x55;
     (void)dim;
 #else
-    for (int k = 0; k < POINTS; k++) point[k] = list[points_entry_of_lane(k, n)];
+    for (int k = 0; k < POINTS; k++) point[k] = list[points_list_index_of_lane(k, n)];
     point[PAIRED] = dim > 1;
     for (int k = 0; k < POINTS; k += 2) point[PAIRED] &= point[k + 1] == point[k] + 1;
 #endif
@@ -165,14 +169,14 @@ static ALWAYS_INLINE void points_list(int32_t *point, const int32_t *list, int n
 
 /* Returns true if all lanes of a vector of points hold the same point, as in cells with one point (2D and 3D). The
  * branch saves time there, and costs none where cells have four points. point: numbers of the points. */
-static ALWAYS_INLINE bool points_are_the_same(const int32_t *point, const int dim)
+static ALWAYS_INLINE bool points_lanes_hold_same_point(const int32_t *point, const int dim)
 {
     return dim > 1 && point[0] == point[POINTS - 1];
 }
 
 /* Returns a vector whose lane k, 0 <= k < POINTS, is from[point[k]], for points in pairs of consecutive indices:
  * point[k + 1] = point[k] + 1 for even k. */
-static ALWAYS_INLINE row_of_points points_load_pairs(const real *from, const int32_t *point)
+static ALWAYS_INLINE row_of_points points_load_consecutive_pairs(const real *from, const int32_t *point)
 {
 #if POINTS_LANES == 2
     return *(const points_anywhere *)(from + point[0]);
@@ -188,12 +192,12 @@ static ALWAYS_INLINE row_of_points points_load_pairs(const real *from, const int
 }
 
 /* Returns a vector whose lane k, 0 <= k < POINTS, is from[point[k]], the value of a point in the particle array `from`.
- * point: as set by points_list, the indices of the points (in 1D of at most two, which further lanes repeat), then in
- * point[PAIRED] not 0 if they are pairs of consecutive indices, which are loaded together. */
+ * point: as set by points_fill_lanes_from_list, the indices of the points (in 1D of at most two, which further lanes
+ * repeat), then in point[PAIRED] not 0 if they are pairs of consecutive indices, which are loaded together. */
 static ALWAYS_INLINE row_of_points points_load(const real *from, const int32_t *point, const int dim)
 {
-    if (dim > 1 && point[PAIRED]) return points_load_pairs(from, point);
-    if (points_are_the_same(point, dim)) return points_broadcast(from[point[0]]);
+    if (dim > 1 && point[PAIRED]) return points_load_consecutive_pairs(from, point);
+    if (points_lanes_hold_same_point(point, dim)) return points_broadcast(from[point[0]]);
 #if POINTS_LANES == 8
     return (row_of_points){from[point[0]], from[point[1]], from[point[2]], from[point[3]],
                            from[point[4]], from[point[5]], from[point[6]], from[point[7]]};
@@ -204,9 +208,9 @@ static ALWAYS_INLINE row_of_points points_load(const real *from, const int32_t *
 #endif
 }
 
-/* Stores lane k of the vector a in to[point[k]], 0 <= k < POINTS. to: particle array; point: as set by points_list, the
- * indices of the points, then in point[PAIRED] not 0 if they are pairs of consecutive indices. Lanes that hold the same
- * point must have equal values. */
+/* Stores lane k of the vector a in to[point[k]], 0 <= k < POINTS. to: particle array; point: as set by
+ * points_fill_lanes_from_list, the indices of the points, then in point[PAIRED] not 0 if they are pairs of consecutive
+ * indices. Lanes that hold the same point must have equal values. */
 static ALWAYS_INLINE void points_store(real *to, const int32_t *point, row_of_points a, const int dim)
 {
     if (dim > 1 && point[PAIRED]) {
@@ -214,7 +218,7 @@ static ALWAYS_INLINE void points_store(real *to, const int32_t *point, row_of_po
         return;
     }
     to[point[0]] = a[0];
-    if (points_are_the_same(point, dim)) return;
+    if (points_lanes_hold_same_point(point, dim)) return;
     for (int k = 1; k < AT_ONCE(dim); k++) to[point[k]] = a[k];
 }
 
@@ -224,7 +228,7 @@ typedef real four_points __attribute__((vector_size(4 * sizeof(real))));
 typedef int64_t four_mask __attribute__((vector_size(4 * sizeof(int64_t))));
 
 /* Transposes four vectors of four entries: entry j of to[i] is entry i of from[j]. */
-static ALWAYS_INLINE void fours_transpose(const four_points from[4], four_points to[4])
+static ALWAYS_INLINE void matrix_transpose_4x4(const four_points from[4], four_points to[4])
 {
 #define EVEN(u, v) VECTOR_PICK(four_mask, u, v, 0, 4, 2, 6)
 #define ODD(u, v) VECTOR_PICK(four_mask, u, v, 1, 5, 3, 7)
@@ -243,7 +247,7 @@ static ALWAYS_INLINE void fours_transpose(const four_points from[4], four_points
 
 /* Transposes ROW vectors with one lane per point to POINTS vectors with one lane per node: entry j of to[i] is entry i
  * of from[j]. */
-static ALWAYS_INLINE void rows_transpose(const row_of_points from[ROW], row_of_nodes to[POINTS])
+static ALWAYS_INLINE void rows_transpose_points_to_nodes(const row_of_points from[ROW], row_of_nodes to[POINTS])
 {
 #if POINTS_LANES == 8
     four_points half[2][ROW];
@@ -251,9 +255,9 @@ static ALWAYS_INLINE void rows_transpose(const row_of_points from[ROW], row_of_n
         half[0][k] = (four_points)_mm512_castpd512_pd256((__m512d)from[k]);
         half[1][k] = (four_points)_mm512_extractf64x4_pd((__m512d)from[k], 1);
     }
-    fours_transpose(half[0], to), fours_transpose(half[1], to + 4);
+    matrix_transpose_4x4(half[0], to), matrix_transpose_4x4(half[1], to + 4);
 #elif POINTS_LANES == 4
-    fours_transpose(from, to);
+    matrix_transpose_4x4(from, to);
 #else
     for (int k = 0; k < POINTS; k++) to[k] = (row_of_nodes){from[0][k], from[1][k], from[2][k], from[3][k]};
 #endif

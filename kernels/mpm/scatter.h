@@ -8,14 +8,14 @@
 /* Returns true if the data of the point list[k + ORDER_AHEAD] should be prefetched, which is so for one point per cache
  * line. *i receives the number of this point. The points of a row of cells occupy two (in 3D four) lines in many
  * arrays, more than the hardware prefetcher follows. */
-static ALWAYS_INLINE bool prefetch_next_point(const int32_t *list, int k, int64_t *i)
+static ALWAYS_INLINE bool point_ahead_needs_prefetch(const int32_t *list, int k, int64_t *i)
 {
     *i = list[k + ORDER_AHEAD];
     return *i % LANES == 0;
 }
 
 /* Prefetches the cache line of the number at the address `at` for reading. */
-static ALWAYS_INLINE void prefetch_line(const real *at) { __builtin_prefetch(at, 0, 3); }
+static ALWAYS_INLINE void prefetch_cache_line(const real *at) { __builtin_prefetch(at, 0, 3); }
 
 /* Prefetches mass, position, velocity and spin of the point list[k + ORDER_AHEAD] of p, once per cache line. turn:
  * spins (angular velocities) of the points (transfer_data.turn); turn[2] NULL: no spins. */
@@ -23,10 +23,10 @@ static ALWAYS_INLINE void points_prefetch_motion(const struct particles *p, real
                                                  int k, const int dim)
 {
     int64_t i;
-    if (!prefetch_next_point(list, k, &i)) return;
-    prefetch_line(p->mass + i);
-    for (int d = 0; d < dim; d++) prefetch_line(p->x[d] + i), prefetch_line(p->v[d] + i);
-    for (int c = dim == 2 ? 2 : 0; c < 3 && turn[2]; c++) prefetch_line(turn[c] + i);
+    if (!point_ahead_needs_prefetch(list, k, &i)) return;
+    prefetch_cache_line(p->mass + i);
+    for (int d = 0; d < dim; d++) prefetch_cache_line(p->x[d] + i), prefetch_cache_line(p->v[d] + i);
+    for (int c = dim == 2 ? 2 : 0; c < 3 && turn[2]; c++) prefetch_cache_line(turn[c] + i);
 }
 
 /* Body of an instance for dimension D: evaluates CALL, an expression in `nodes`, `points`, `data`, `list` and `n`, for

@@ -63,7 +63,7 @@ static ALWAYS_INLINE void shape_cubic(row_of_points t, row_of_points N[ROW], row
  * have the same round-off, so that an error would grow with the number of steps. The missing part is added to the
  * nearer node of the cell, whose weight is never small. t: distance from the lower node of the cell, in node
  * distances. */
-static ALWAYS_INLINE void weights_normalise(row_of_points t, row_of_points N[ROW])
+static ALWAYS_INLINE void shape_weights_normalise_sum(row_of_points t, row_of_points N[ROW])
 {
     const row_of_points missing = 1 - ((N[0] + N[2]) + (N[1] + N[3]));
     N[1] += points_choose_by_sign(t - 0.5, missing, points_broadcast(0));
@@ -74,9 +74,9 @@ static ALWAYS_INLINE void weights_normalise(row_of_points t, row_of_points N[ROW
  * along one axis), for a few points, one per lane. t: distance from the lower node of the cell, l: half width of the
  * particle, inverse_width: 1/(2 l), in node distances; l and inverse_width are read for GIMP and cpGIMP only. The
  * quadratic B-spline is GIMP with l = 1/2, the mean of a hat over a whole cell. */
-static ALWAYS_INLINE void shape_functions_of_row(const enum shape shape, row_of_points t, row_of_points l,
-                                                 row_of_points inverse_width, row_of_points N[ROW],
-                                                 row_of_points dN[ROW])
+static ALWAYS_INLINE void shape_functions_evaluate_at_row_nodes(const enum shape shape, row_of_points t,
+                                                                row_of_points l, row_of_points inverse_width,
+                                                                row_of_points N[ROW], row_of_points dN[ROW])
 {
     switch (shape) {
     case SHAPE_LINEAR:
@@ -91,7 +91,7 @@ static ALWAYS_INLINE void shape_functions_of_row(const enum shape shape, row_of_
     default:
         shape_gimp(t, l, inverse_width, N, dN);
     }
-    weights_normalise(t, N);
+    shape_weights_normalise_sum(t, N);
 }
 
 /* ---- nodes of a cell ---------------------------------------------------------------------------------------------
@@ -135,17 +135,17 @@ enum { ACROSS = 4, ROWS_MAX = ACROSS * ACROSS };
 #define PATCH(dim, shape) (k2 * ROWS_Y(dim, shape) + k1)
 
 /* A cell of the background grid and the lowest of the nodes that points in the cell reach. */
-struct cell {
+struct grid_cell {
     int64_t node;        /* index of the lowest of these nodes */
     real place[DIM_MAX]; /* lower corner of the cell, in node distances from the anchor */
 };
 
 /* Returns the cell of grid g that contains point i of p, with the lowest node at which a point of the cell has a
  * weight. shape: shape function of the grid. */
-static ALWAYS_INLINE struct cell cell_containing_point(const struct grid *g, const struct particles *p, int64_t i,
-                                                       const int dim, const enum shape shape)
+static ALWAYS_INLINE struct grid_cell cell_containing_point(const struct grid *g, const struct particles *p, int64_t i,
+                                                            const int dim, const enum shape shape)
 {
-    struct cell c = {0};
+    struct grid_cell c = {0};
     for (int d = 0; d < dim; d++) {
         const int64_t k = grid_cell_index_at(g, d, p->x[d][i]);
         c.place[d] = (real)k;
@@ -156,35 +156,36 @@ static ALWAYS_INLINE struct cell cell_containing_point(const struct grid *g, con
 
 /* Returns the index in grid g of the first node of a row (along x) of the nodes at which points of cell c have weights.
  * k1, k2: number of the row along y and along z, from 0. */
-static ALWAYS_INLINE int64_t cell_row_first_node(const struct cell *c, const struct grid *g, int k1, int k2,
-                                                 const int dim)
+static ALWAYS_INLINE int64_t cell_row_first_node_index(const struct grid_cell *c, const struct grid *g, int k1, int k2,
+                                                       const int dim)
 {
     return c->node + (dim > 1 ? k1 * g->stride[1] : 0) + (dim > 2 ? k2 * g->stride[2] : 0);
 }
 
 /* Returns the index of node k (from 0) of a row of nodes of a cell of grid g, less the index of the first node of the
  * row. A row is four nodes along x or, for linear shape functions (shape) in 2D and 3D, all corners of the cell. */
-static ALWAYS_INLINE int64_t row_node_offset(const struct grid *g, int k, const int dim, const enum shape shape)
+static ALWAYS_INLINE int64_t grid_row_node_index_offset(const struct grid *g, int k, const int dim,
+                                                        const enum shape shape)
 {
     return HAS_CORNERS(dim, shape) ? k % 2 + k / 2 % 2 * g->stride[1] + k / 4 * g->stride[2] : k;
 }
 
 /* Adds the values a of the ROW nodes of a row of nodes to a nodal array of grid g. to: entry of the first node of the
  * row in this array; shape: shape function, which determines the row. */
-static ALWAYS_INLINE void grid_add_node_row(const struct grid *g, real *to, row_of_nodes a, const int dim,
-                                            const enum shape shape)
+static ALWAYS_INLINE void grid_field_add_values_of_node_row(const struct grid *g, real *to, row_of_nodes a,
+                                                            const int dim, const enum shape shape)
 {
     if (!HAS_CORNERS(dim, shape)) {
         *(row_anywhere *)to += a;
         return;
     }
     for (int k = 0; k < ROW; k += 2)
-        *(pair_anywhere *)(to + row_node_offset(g, k, dim, shape)) += (pair_of_nodes){a[k], a[k + 1]};
+        *(pair_anywhere *)(to + grid_row_node_index_offset(g, k, dim, shape)) += (pair_of_nodes){a[k], a[k + 1]};
 }
 
 /* Returns for the eight (3D) or four (2D) corners of a cell, one per lane, 1 if the corner is on the upper side along
  * axis `axis`, 0 if it is on the lower side. */
-static ALWAYS_INLINE row_of_nodes corners_upper_side_of_axis(int axis)
+static ALWAYS_INLINE row_of_nodes cell_corners_upper_side_indicator(int axis)
 {
 #if ROW_NODES == 8
     return axis == 0   ? (row_of_nodes){0, 1, 0, 1, 0, 1, 0, 1}
@@ -199,8 +200,9 @@ static ALWAYS_INLINE row_of_nodes corners_upper_side_of_axis(int axis)
  * points in the cell, in node distances. at: entry of the nodal field, an array over the nodes of g, at the lowest
  * corner of the cell. Stores the derivatives by t_d in slope[dim] and returns the values. Coefficients are scalars: as
  * an array the compiler would keep them in memory. */
-static ALWAYS_INLINE row_of_points corners_interpolate(const struct grid *g, const real *at, const row_of_points *t,
-                                                       row_of_points *slope, const int dim)
+static ALWAYS_INLINE row_of_points corners_interpolate_value_and_slope(const struct grid *g, const real *at,
+                                                                       const row_of_points *t, row_of_points *slope,
+                                                                       const int dim)
 {
     const real *next = at + g->stride[1];
     const real a = at[0], a_x = at[1] - a, a_y = next[0] - a, a_xy = (next[1] - next[0]) - a_x;
@@ -223,7 +225,7 @@ static ALWAYS_INLINE row_of_points corners_interpolate(const struct grid *g, con
  * node is N, which depends on the position of the node in its row, times the factors A of the row in the directions
  * across. */
 struct cell_stencil {
-    int32_t point[POINT_NUMBERS];                /* indices of the points (points_list) */
+    int32_t point[POINT_NUMBERS];                /* indices of the points (points_fill_lanes_from_list) */
     row_of_points x[DIM_MAX];                    /* position [m] */
     row_of_points t[DIM_MAX];                    /* position in the cell, in cell edges from the lower node [1] */
     row_of_points N[ROW], D[DIM_MAX][ROW];       /* of the nodes of a row: weights [1], slopes along it [1/m] */
@@ -236,7 +238,7 @@ struct cell_stencil {
 
 /* Shape functions of the nodes of a row at one point, one node per lane. N: weights [1]; D: slopes along the axes along
  * which the nodes of the row differ [1/m]. */
-struct touch {
+struct node_row_weights {
     row_of_nodes N, D[DIM_MAX];
 };
 
@@ -265,7 +267,7 @@ static ALWAYS_INLINE void stencil_compute_corner_weights(struct cell_stencil *s,
  * outer row. Stores the first row with a weight of each point in s->low[d], the first and the end of the rows with
  * weights of any point in s->lowest[d] and s->end[d]. l: half widths in node distances. The code has no branches,
  * because on a lattice t = l up to round-off and the result is unpredictable. */
-static ALWAYS_INLINE void stencil_find_touched_rows(struct cell_stencil *s, row_of_points l, int d)
+static ALWAYS_INLINE void stencil_find_node_rows_with_weights(struct cell_stencil *s, row_of_points l, int d)
 {
     const int all = (1 << POINTS) - 1, upper = ~points_sign_bits(s->t[d] - l) & all;
     for (int k = 0; k < POINTS; k++) s->low[d][k] = upper >> k & 1;
@@ -285,19 +287,20 @@ static ALWAYS_INLINE void stencil_compute_axis_weights(struct cell_stencil *s, c
         l = points_min(l * points_load(p->stretch[d], s->point, dim), points_broadcast(HALF_WIDTH_MOST));
         inverse_width = 0.5 / l;
     }
-    shape_functions_of_row(shape, s->t[d], l, inverse_width, N, dN);
+    shape_functions_evaluate_at_row_nodes(shape, s->t[d], l, inverse_width, N, dN);
     for (int k = 0; k < ROW; k++) {
         if (d == 0)
             s->N[k] = N[k], s->D[0][k] = dN[k] * inverse;
         else
             s->A[d][k] = N[k], s->B[d][k] = dN[k] * inverse;
     }
-    if (SKIPS(dim, shape) && d > 0) stencil_find_touched_rows(s, shape == SHAPE_GIMP ? l : points_broadcast(0.5), d);
+    if (SKIPS(dim, shape) && d > 0)
+        stencil_find_node_rows_with_weights(s, shape == SHAPE_GIMP ? l : points_broadcast(0.5), d);
 }
 
 /* Returns true if the weights of points on grid g are computed at positions ahead of the actual ones, shifted by the
  * mean motion of all points in half a time step (g->ahead is not 0). */
-static ALWAYS_INLINE bool grid_maps_ahead(const struct grid *g, const int dim)
+static ALWAYS_INLINE bool grid_weights_use_half_step_ahead_positions(const struct grid *g, const int dim)
 {
     bool ahead = false;
     for (int d = 0; d < dim; d++) ahead |= g->ahead[d] != 0;
@@ -306,12 +309,13 @@ static ALWAYS_INLINE bool grid_maps_ahead(const struct grid *g, const int dim)
 
 /* Computes the stencil s: weights and slopes of the shape functions of the n points `list` of p (n <= AT_ONCE, points
  * processed together) in cell c of grid g. half_width: half the reference edge of a particle, l_p [m]. */
-static ALWAYS_INLINE void cell_stencil_make(struct cell_stencil *s, const struct grid *g, const struct cell *c,
-                                            const struct particles *p, const int32_t *list, int n, real half_width,
-                                            const int dim, const enum shape shape)
+static ALWAYS_INLINE void cell_stencil_compute_weights(struct cell_stencil *s, const struct grid *g,
+                                                       const struct grid_cell *c, const struct particles *p,
+                                                       const int32_t *list, int n, real half_width, const int dim,
+                                                       const enum shape shape)
 {
     const real inverse = 1 / g->h;
-    points_list(s->point, list, n, dim);
+    points_fill_lanes_from_list(s->point, list, n, dim);
     for (int d = 0; d < dim; d++) {
         s->x[d] = points_load(p->x[d], s->point, dim);
         s->t[d] = (s->x[d] - g->anchor[d]) * inverse - c->place[d] + g->ahead[d]; /* grid_coordinate_in_cells */
@@ -325,29 +329,31 @@ static ALWAYS_INLINE void cell_stencil_make(struct cell_stencil *s, const struct
 /* Transposes the weights and slopes of a row of nodes in stencil s (node weights of a few points) from one lane per
  * point to one lane per node (s->from_N, s->from_D), for maps that add to nodes. Does nothing for linear shape
  * functions (shape) in 2D and 3D. */
-static ALWAYS_INLINE void stencil_transpose(struct cell_stencil *s, const int dim, const enum shape shape)
+static ALWAYS_INLINE void stencil_transpose_weights_to_node_lanes(struct cell_stencil *s, const int dim,
+                                                                  const enum shape shape)
 {
 #if ROW_NODES == 4
     if (HAS_CORNERS(dim, shape)) return;
-    rows_transpose(s->N, s->from_N);
-    rows_transpose(s->D[0], s->from_D);
+    rows_transpose_points_to_nodes(s->N, s->from_N);
+    rows_transpose_points_to_nodes(s->D[0], s->from_D);
 #else
     (void)s, (void)dim, (void)shape;
 #endif
 }
 
 /* Returns weights and slopes of the nodes of a row (along x) for point number `at` of stencil s (node weights of a few
- * points), one node per lane. stencil_transpose must have been called. h: node distance [m]. For linear shape functions
- * (shape) in 2D and 3D weights and slopes are computed anew, which is cheaper than transposing. */
-static ALWAYS_INLINE struct touch stencil_row_weights(const struct cell_stencil *s, int at, real h, const int dim,
-                                                      const enum shape shape)
+ * points), one node per lane. stencil_transpose_weights_to_node_lanes must have been called. h: node distance [m]. For
+ * linear shape functions (shape) in 2D and 3D weights and slopes are computed anew, which is cheaper than transposing.
+ */
+static ALWAYS_INLINE struct node_row_weights stencil_row_weights_of_point(const struct cell_stencil *s, int at, real h,
+                                                                          const int dim, const enum shape shape)
 {
-    if (!HAS_CORNERS(dim, shape)) return (struct touch){s->from_N[at], {s->from_D[at]}};
-    struct touch own = {.N = row_broadcast(1)};
+    if (!HAS_CORNERS(dim, shape)) return (struct node_row_weights){s->from_N[at], {s->from_D[at]}};
+    struct node_row_weights own = {.N = nodes_broadcast(1)};
     row_of_nodes hat[DIM_MAX], sign[DIM_MAX];
     for (int d = 0; d < dim; d++) {
-        sign[d] = 2 * corners_upper_side_of_axis(d) - 1;
-        hat[d] = (1 - corners_upper_side_of_axis(d)) + s->t[d][at] * sign[d];
+        sign[d] = 2 * cell_corners_upper_side_indicator(d) - 1;
+        hat[d] = (1 - cell_corners_upper_side_indicator(d)) + s->t[d][at] * sign[d];
     }
     for (int d = 0; d < dim; d++) {
         own.N *= hat[d];
@@ -361,8 +367,8 @@ static ALWAYS_INLINE struct touch stencil_row_weights(const struct cell_stencil 
 /* Returns the product [1] of the shape functions along y and z for the row of nodes number k1 along y and k2 along z;
  * times s->N, the shape function along the row, it is the weight of a node. s: node weights of a few points, one per
  * lane; shape: shape function. */
-static ALWAYS_INLINE row_of_points stencil_row_factors(const struct cell_stencil *s, int k1, int k2, const int dim,
-                                                       const enum shape shape)
+static ALWAYS_INLINE row_of_points stencil_row_transverse_weights(const struct cell_stencil *s, int k1, int k2,
+                                                                  const int dim, const enum shape shape)
 {
     row_of_points weight = points_broadcast(1);
     if (dim > 1 && !HAS_CORNERS(dim, shape)) weight *= s->A[1][k1];
@@ -370,11 +376,11 @@ static ALWAYS_INLINE row_of_points stencil_row_factors(const struct cell_stencil
     return weight;
 }
 
-/* Returns the derivative [1/m] along axis d (1 or 2) of stencil_row_factors, the product of the shape functions along y
- * and z for a row of nodes. s: node weights of a few points, one per lane; k1, k2: number of the row along y and z;
- * shape: shape function. */
-static ALWAYS_INLINE row_of_points stencil_row_factor_slopes(const struct cell_stencil *s, int k1, int k2, int d,
-                                                             const int dim, const enum shape shape)
+/* Returns the derivative [1/m] along axis d (1 or 2) of stencil_row_transverse_weights, the product of the shape
+ * functions along y and z for a row of nodes. s: node weights of a few points, one per lane; k1, k2: number of the row
+ * along y and z; shape: shape function. */
+static ALWAYS_INLINE row_of_points stencil_row_transverse_weight_slopes(const struct cell_stencil *s, int k1, int k2,
+                                                                        int d, const int dim, const enum shape shape)
 {
     row_of_points slope = points_broadcast(1);
     if (dim > 1 && !HAS_CORNERS(dim, shape)) slope *= d == 1 ? s->B[1][k1] : s->A[1][k1];
@@ -384,8 +390,8 @@ static ALWAYS_INLINE row_of_points stencil_row_factor_slopes(const struct cell_s
 
 /* Returns the product [1] of the shape functions along y and z for the row of nodes number k1 along y and k2 along z,
  * for point number `at` of stencil s (node weights of a few points). shape: shape function. */
-static ALWAYS_INLINE real stencil_row_factor(const struct cell_stencil *s, int at, int k1, int k2, const int dim,
-                                             const enum shape shape)
+static ALWAYS_INLINE real stencil_point_row_transverse_weight(const struct cell_stencil *s, int at, int k1, int k2,
+                                                              const int dim, const enum shape shape)
 {
     real weight = 1;
     if (dim > 1 && !HAS_CORNERS(dim, shape)) weight *= s->A[1][k1][at];
@@ -393,11 +399,12 @@ static ALWAYS_INLINE real stencil_row_factor(const struct cell_stencil *s, int a
     return weight;
 }
 
-/* Returns the derivative [1/m] along axis d (1 or 2) of stencil_row_factor, the product of shape functions that all
- * nodes of a row (nodes along x) share, for point number `at` of stencil s (node weights of a few points). k1, k2:
- * number of the row along y and z. */
-static ALWAYS_INLINE real stencil_row_factor_slope(const struct cell_stencil *s, int at, int k1, int k2, int d,
-                                                   const int dim, const enum shape shape)
+/* Returns the derivative [1/m] along axis d (1 or 2) of stencil_point_row_transverse_weight, the product of shape
+ * functions that all nodes of a row (nodes along x) share, for point number `at` of stencil s (node weights of a few
+ * points). k1, k2: number of the row along y and z. */
+static ALWAYS_INLINE real stencil_point_row_transverse_weight_slope(const struct cell_stencil *s, int at, int k1,
+                                                                    int k2, int d, const int dim,
+                                                                    const enum shape shape)
 {
     real slope = 1;
     if (dim > 1 && !HAS_CORNERS(dim, shape)) slope *= d == 1 ? s->B[1][k1][at] : s->A[1][k1][at];
@@ -408,13 +415,14 @@ static ALWAYS_INLINE real stencil_row_factor_slope(const struct cell_stencil *s,
 /* Returns the signed distances [m] along axis d from point number `at` of stencil s (node weights of a few points) to
  * the nodes of a row (along x), one node per lane. d: an axis along which the nodes of a row differ; h: node distance
  * [m]; shape: shape function. */
-static ALWAYS_INLINE row_of_nodes stencil_distances_in_row(const struct cell_stencil *s, int at, real h, int d,
-                                                           const int dim, const enum shape shape)
+static ALWAYS_INLINE row_of_nodes stencil_point_distances_to_row_nodes(const struct cell_stencil *s, int at, real h,
+                                                                       int d, const int dim, const enum shape shape)
 {
 #if ROW_NODES == 4
-    const row_of_nodes nodes = HAS_CORNERS(dim, shape) ? corners_upper_side_of_axis(d) : (row_of_nodes){-1, 0, 1, 2};
+    const row_of_nodes nodes =
+        HAS_CORNERS(dim, shape) ? cell_corners_upper_side_indicator(d) : (row_of_nodes){-1, 0, 1, 2};
 #else
-    const row_of_nodes nodes = corners_upper_side_of_axis(d);
+    const row_of_nodes nodes = cell_corners_upper_side_indicator(d);
     (void)shape, (void)dim;
 #endif
     return (nodes - s->t[d][at]) * h;
@@ -423,14 +431,15 @@ static ALWAYS_INLINE row_of_nodes stencil_distances_in_row(const struct cell_ste
 /* Returns the signed distances [m] along axis d from all points of stencil s (node weights of a few points), one per
  * lane, to node k of a row (along x) or, if d is y or z, to row number k; not for linear shapes in 2D and 3D. h: node
  * distance [m]. */
-static ALWAYS_INLINE row_of_points stencil_distances_of_points(const struct cell_stencil *s, int k, real h, int d)
+static ALWAYS_INLINE row_of_points stencil_all_point_distances_to_node(const struct cell_stencil *s, int k, real h,
+                                                                       int d)
 {
     return (k - 1 - s->t[d]) * h;
 }
 
 /* Returns the signed distance [m] along axis d from point number `at` of stencil s (node weights of a few points) to
  * the row of nodes (along x) number k. d: axis y or z, across the rows; h: node distance [m]. */
-static ALWAYS_INLINE real stencil_distance_to_row(const struct cell_stencil *s, int at, real h, int d, int k)
+static ALWAYS_INLINE real stencil_point_distance_to_row(const struct cell_stencil *s, int at, real h, int d, int k)
 {
     return (k - 1 - s->t[d][at]) * h;
 }

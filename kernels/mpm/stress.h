@@ -149,8 +149,10 @@ struct elastic_points {
 /* Updates the stresses stress[components] [Pa] of a few points (one per lane) for a time step dt [s]: rotation by the
  * spin, then Hooke's law. velocity_gradient[a dim + b]: velocity gradient dv_a/dx_b [1/s]; m: elastic constants.
  * Returns the trace of the strain increment [1]. */
-static ALWAYS_INLINE row_of_points stress_update(row_of_points *stress, const row_of_points *velocity_gradient,
-                                                 const struct elastic_points *m, real dt, const int dim)
+static ALWAYS_INLINE row_of_points stress_update_and_return_strain_trace(row_of_points *stress,
+                                                                         const row_of_points *velocity_gradient,
+                                                                         const struct elastic_points *m, real dt,
+                                                                         const int dim)
 {
     if (dim == 1) {
         stress[0] += m->c11 * velocity_gradient[0] * dt;
@@ -206,7 +208,7 @@ static ALWAYS_INLINE real stress_largest_principal(const real *stress, const int
 /* Returns an upper bound [Pa] of the largest principal stress of the stress `stress` (components xx yy xy in 2D, xx yy
  * zz xy yz zx in 3D). The principal stress itself is computed only where this bound exceeds the conversion stress (at
  * which a point becomes peridynamic). */
-static ALWAYS_INLINE real stress_principal_bound(const real *stress, const int dim)
+static ALWAYS_INLINE real stress_largest_principal_upper_bound(const real *stress, const int dim)
 {
     if (dim == 1) return stress[0];
     if (dim == 2) return 0.5 * (stress[0] + stress[1]) + 0.5 * fabs(stress[0] - stress[1]) + fabs(stress[2]);
@@ -217,7 +219,7 @@ static ALWAYS_INLINE real stress_principal_bound(const real *stress, const int d
 
 /* Returns upper bounds [Pa] of the largest principal stresses of a few points, one per lane. stress: components xx yy
  * xy in 2D, xx yy zz xy yz zx in 3D. */
-static ALWAYS_INLINE row_of_points stress_principal_bounds(const row_of_points *stress, const int dim)
+static ALWAYS_INLINE row_of_points stress_largest_principal_upper_bounds(const row_of_points *stress, const int dim)
 {
     if (dim == 1) return stress[0];
     if (dim == 2) return points_max(stress[0], stress[1]) + points_absolute(stress[2]);
@@ -230,17 +232,18 @@ static ALWAYS_INLINE row_of_points stress_principal_bounds(const row_of_points *
 static ALWAYS_INLINE real stress_drucker_prager_measure(const struct elastic *m, const real *stress, const int dim)
 {
     const real across = m->space == SPACE_PLANE_STRAIN ? m->poisson : 0;
-    return strength_surface_stress_ratio_of_tensor(&m->surface, stress, across, dim) * m->surface.g0;
+    return strength_surface_tensor_stress_to_strength_ratio(&m->surface, stress, across, dim) * m->surface.g0;
 }
 
 /* Returns true if material point i of p, of material m, converts to a peridynamic particle at the stress `stress`: if
  * the largest principal stress exceeds its conversion stress, or if the stress exceeds the strength surface of the
  * material. stress: symmetric components [Pa]. */
-static ALWAYS_INLINE bool stress_converts(const struct elastic *m, const struct particles *p, int64_t i,
-                                          const real *stress, const int dim)
+static ALWAYS_INLINE bool stress_requires_conversion_to_pd(const struct elastic *m, const struct particles *p,
+                                                           int64_t i, const real *stress, const int dim)
 {
-    const real most = point_conversion_stress(m, p, i);
-    if (stress_principal_bound(stress, dim) > most && stress_largest_principal(stress, dim) > most) return true;
+    const real most = point_pd_conversion_stress_threshold(m, p, i);
+    if (stress_largest_principal_upper_bound(stress, dim) > most && stress_largest_principal(stress, dim) > most)
+        return true;
     if (dim == 1 || !(m->surface.g0 > 0)) return false;
     return stress_drucker_prager_measure(m, stress, dim) > m->failure * (p->strength ? p->strength[i] : 1);
 }
@@ -248,8 +251,9 @@ static ALWAYS_INLINE bool stress_converts(const struct elastic *m, const struct 
 /* Computes into `stress` (symmetric components [Pa]) the stress that material point i of p transmits to the grid: all
  * of its stress, or the part that bonds to peridynamic particles do not carry. partial: matrices that give the part
  * carried by bonds; NULL: bonds carry no stress. */
-static ALWAYS_INLINE void point_stress_on_grid(const struct particles *p, const struct partial_stress *partial,
-                                               int64_t i, real *stress, const int dim)
+static ALWAYS_INLINE void point_compute_stress_transmitted_to_grid(const struct particles *p,
+                                                                   const struct partial_stress *partial, int64_t i,
+                                                                   real *stress, const int dim)
 {
     const int n = dim * (dim + 1) / 2;
     for (int s = 0; s < n; s++) stress[s] = p->stress[s][i];
@@ -285,8 +289,9 @@ static inline void quaternion_rotate_vector(const real *quaternion, real *vector
  * components sigma_ab in the order xy, yz, zx, in 2D xy only [Pa]. partial: partial stresses, which tell the points
  * that have bonds. This part balances the moment of the state-based bonds of the point. Returns true, or false if there
  * is none. */
-static ALWAYS_INLINE bool point_skew_stress_on_grid(const struct particles *p, const struct partial_stress *partial,
-                                                    int64_t i, real *skew, const int dim)
+static ALWAYS_INLINE bool point_compute_skew_stress_transmitted_to_grid(const struct particles *p,
+                                                                        const struct partial_stress *partial, int64_t i,
+                                                                        real *skew, const int dim)
 {
     if (!partial || !partial->local || !p->end_moment[0] || partial->index[i] < 0) return false;
     const real half = 0.5 / p->volume[i];

@@ -46,7 +46,7 @@ static ALWAYS_INLINE void spin_add(const lanes *moment, const lanes *v, lanes *s
 /* Stores in *g the sums over the points of p in group g: mass, first and second moments, momentum and angular
  * momentum. A group consists of neighbouring material points that rotate together; t: all groups. Moments are about
  * g->about, the position of one of the points of g. */
-static ALWAYS_INLINE void sum_moments(const struct rotation_groups *t, struct turning_group *g,
+static ALWAYS_INLINE void sum_moments(const struct corotating_groups *t, struct turning_group *g,
                                       const struct particles *p, const int dim)
 {
     const lanes none = lanes_broadcast(0);
@@ -84,8 +84,8 @@ static ALWAYS_INLINE void sum_moments(const struct rotation_groups *t, struct tu
  * lost in the transfer to nodes and back [kg m^2/s], the sum of t->turn. Stores in g->angular their angular momentum
  * about the centre of mass of the root of g. The root of a group is the group that it has joined, or the group itself.
  * p: all particles. */
-static ALWAYS_INLINE void sum_lack(const struct rotation_groups *t, struct turning_group *g, const struct particles *p,
-                                   const int dim)
+static ALWAYS_INLINE void sum_lack(const struct corotating_groups *t, struct turning_group *g,
+                                   const struct particles *p, const int dim)
 {
     const lanes none = lanes_broadcast(0);
     const real *centre = t->group[g->root].moment;
@@ -109,7 +109,7 @@ static ALWAYS_INLINE void sum_lack(const struct rotation_groups *t, struct turni
 /* Stores in t->turn, for all points of group g (neighbouring points that rotate together), the angular velocity with
  * which the points rotate [1/s]: that of the group that g has joined, or of g itself if it has joined none. p: all
  * particles. */
-static ALWAYS_INLINE void spins_store(struct rotation_groups *t, const struct turning_group *g,
+static ALWAYS_INLINE void spins_store(struct corotating_groups *t, const struct turning_group *g,
                                       const struct particles *p, const int dim)
 {
     const real *spin = t->group[g->root].spin;
@@ -124,7 +124,7 @@ static ALWAYS_INLINE void spins_store(struct rotation_groups *t, const struct tu
 /* Adds a rotation to the velocities in p of the points of group g (neighbouring points that rotate together): that by
  * the gain of angular velocity of the root of g, which restores lost angular momentum. Stores the angular velocity of
  * the root in t->turn for these points [1/s]. The root is the group that g has joined, or g itself; t: all groups. */
-static ALWAYS_INLINE void spin_apply(const struct rotation_groups *t, struct turning_group *g, struct particles *p,
+static ALWAYS_INLINE void spin_apply(const struct corotating_groups *t, struct turning_group *g, struct particles *p,
                                      const int dim)
 {
     const struct turning_group *root = &t->group[g->root];
@@ -147,7 +147,7 @@ static ALWAYS_INLINE void spin_apply(const struct rotation_groups *t, struct tur
 
 /* Returns the root of group g of t: the last group in the chain of groups that it has joined, or g itself if it has
  * joined none. A group consists of points that rotate together. */
-static int32_t group_root(const struct rotation_groups *t, int32_t g)
+static int32_t group_root(const struct corotating_groups *t, int32_t g)
 {
     while (t->group[g].root != g) g = t->group[g].root;
     return g;
@@ -161,7 +161,7 @@ static int axes_of_near(int k) { return k < 6 ? 1 : k < 18 ? 2 : 3; }
 /* Joins each group of t (points that rotate together) of fewer than TURNING_FEW points to the neighbouring group with
  * the most points, so that both rotate together. Among neighbours with equally many points, those across a face precede
  * those across an edge or a corner; among these, the one nearest to the middle of the body is chosen. */
-static void few_join(struct rotation_groups *t)
+static void few_join(struct corotating_groups *t)
 {
     for (int32_t g = 0; g < t->groups; g++) t->group[g].root = g;
     for (int32_t g = 0; g < t->groups; g++) {
@@ -204,7 +204,7 @@ static void spin_solve(const real J[3][3], const real *sum, int dim, real *w)
 
 /* Adds the angular momentum g->sum of each group of t to that of its root, the group that it has joined (points of a
  * group rotate together). */
-static void sums_join(struct rotation_groups *t)
+static void sums_join(struct corotating_groups *t)
 {
     for (int32_t g = 0; g < t->groups; g++) {
         const struct turning_group *own = &t->group[g];
@@ -214,7 +214,7 @@ static void sums_join(struct rotation_groups *t)
 
 /* Returns true if the points of group g of t rotate with an angular velocity of this group: g has mass, has not joined
  * another group, and no support constrains its body. */
-static bool group_turns(const struct rotation_groups *t, int32_t g)
+static bool group_turns(const struct corotating_groups *t, int32_t g)
 {
     return t->group[g].root == g && t->group[g].joined > 0 && !t->group[g].held;
 }
@@ -222,7 +222,7 @@ static bool group_turns(const struct rotation_groups *t, int32_t g)
 /* Computes the angular velocity of each root of t (a group of points that has joined no other group) from the angular
  * momentum g->sum of all groups that have joined it. It is 0 for a root without mass and in bodies that a support
  * constrains. */
-static void spins_find(struct rotation_groups *t, int dim)
+static void spins_find(struct corotating_groups *t, int dim)
 {
     sums_join(t);
     for (int32_t g = 0; g < t->groups; g++) {
@@ -236,7 +236,7 @@ static void spins_find(struct rotation_groups *t, int dim)
  * restores the lost angular momentum g->sum of its points: J gain = g->sum, with the inertia J = g->inertia. Then
  * computes the angular velocity with this gain, g->spin: J spin = g->angular + (J - g->added) gain. g->added is the
  * part of J that was added to a thin group to keep J regular. */
-static void gains_find(struct rotation_groups *t, int dim)
+static void gains_find(struct corotating_groups *t, int dim)
 {
     spins_find(t, dim);
     for (int32_t g = 0; g < t->groups; g++) {
@@ -256,7 +256,7 @@ static void gains_find(struct rotation_groups *t, int dim)
 
 /* Computes mass (`joined`) and centre of mass (`moment`) of each root of t, a group of points that has joined no other
  * group, from masses and first moments of all groups that have joined it. */
-static void centres_find(struct rotation_groups *t)
+static void centres_find(struct corotating_groups *t)
 {
     for (int32_t g = 0; g < t->groups; g++) {
         struct turning_group *own = &t->group[g];
@@ -277,7 +277,7 @@ static void centres_find(struct rotation_groups *t)
 /* Converts the angular momentum g->sum and the second moments of each group of t (points that rotate together) from the
  * position g->about to the centre of mass of its root, the group that it has joined. Also computes the inertia
  * g->inertia about this centre. */
-static void moments_shift(struct rotation_groups *t)
+static void moments_shift(struct corotating_groups *t)
 {
     for (int32_t k = 0; k < t->groups; k++) {
         struct turning_group *g = &t->group[k];
@@ -299,7 +299,7 @@ static void moments_shift(struct rotation_groups *t)
 /* Adds the inertia of each group of t (points that rotate together) to that of its root, the group that it has joined.
  * If the inertia of a root about some axis is less than about that of its mass at a radius of LEAST_ARM spacings, adds
  * this inertia about all axes (g->added). spacing: distance of the particles [m]. */
-static void inertias_find(struct rotation_groups *t, real spacing, int dim)
+static void inertias_find(struct corotating_groups *t, real spacing, int dim)
 {
     for (int32_t g = 0; g < t->groups; g++) {
         const struct turning_group *own = &t->group[g];
@@ -327,7 +327,7 @@ static void inertias_find(struct rotation_groups *t, real spacing, int dim)
             EACH_GROUP_OF(SUM, t, p, 3);                                                                               \
     } while (0)
 
-void rotation_groups_compute_spins(struct rotation_groups *t, struct particles *p, real spacing)
+void corotating_groups_compute_spins(struct corotating_groups *t, struct particles *p, real spacing)
 {
     EACH_GROUP(sum_moments, t, p);
     few_join(t);
@@ -338,7 +338,7 @@ void rotation_groups_compute_spins(struct rotation_groups *t, struct particles *
     EACH_GROUP(spins_store, t, p);
 }
 
-void rotation_groups_restore_angular_momentum(struct rotation_groups *t, struct particles *p)
+void corotating_groups_restore_angular_momentum(struct corotating_groups *t, struct particles *p)
 {
     EACH_GROUP(sum_lack, t, p);
     gains_find(t, p->dim);

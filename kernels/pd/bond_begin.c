@@ -70,7 +70,7 @@ static bool is_candidate(struct candidate *c, const struct bonds *b, const struc
  * only some of the neighbours, as the row of a material point does. p: particles and images. */
 static int64_t row_of_dilatation(const struct bonds *b, const struct particles *p, int32_t j)
 {
-    const int64_t row = b->row_of[image_source_particle(p, b->soft.image, j)];
+    const int64_t row = b->row_of[mirror_image_source_particle(p, b->soft.image, j)];
     return row >= 0 && b->whole[row] ? row : -1;
 }
 
@@ -80,7 +80,7 @@ static int64_t row_of_dilatation(const struct bonds *b, const struct particles *
 static void mark_needed(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t g)
 {
     for (int64_t row = g * LANES; row < b->rows && row < (g + 1) * LANES; row++)
-        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
+        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_iterator_advance(&it);) {
             struct candidate c;
             if (!is_candidate(&c, b, p, limit, g, &it.bond, b->particle[row])) continue;
             const int64_t ends[] = {row_of_dilatation(b, p, c.i), row_of_dilatation(b, p, c.j)};
@@ -104,7 +104,7 @@ static void strain_fit_add(struct strain_fit *fit, const real *e, int dim, real 
     real product[SYM_MAX];
     for (int s = 0; s < fit->n; s++) {
         int a, b;
-        symmetric_component_axes(dim, s, &a, &b);
+        symmetric_tensor_component_axes(dim, s, &a, &b);
         product[s] = (a == b ? 1 : 2) * e[a] * e[b];
     }
     for (int s = 0; s < fit->n; s++) {
@@ -148,8 +148,8 @@ static real lame_ratio(const struct bonds *b, const struct particles *p, int32_t
 static real row_dilatation(const struct bonds *b, const struct particles *p, int64_t row)
 {
     const int32_t i = b->particle[row];
-    struct strain_fit fit = {.n = symmetric_component_count(p->dim)};
-    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
+    struct strain_fit fit = {.n = symmetric_tensor_component_count(p->dim)};
+    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_iterator_advance(&it);) {
         const struct bond *bond = &it.bond;
         real e[DIM_MAX];
         if (bond->w == 0) continue;
@@ -169,7 +169,7 @@ static void row_measure_rate(struct bonds *b, const struct particles *p, int64_t
 {
     const real from = b->trigger[row], onset = from / RATE_FROM;
     real most = -1;
-    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);)
+    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_iterator_advance(&it);)
         if (it.bond.w != 0)
             most = real_max(most,
                             bond_stretch_at_earlier_time(p, it.bond.inverse_length, b->particle[row], it.bond.nbr, 0));
@@ -231,7 +231,7 @@ static bool is_beyond_at_rate(const struct bonds *b, const struct particles *p, 
                       : one < 0          ? known[two]
                       : two < 0          ? known[one]
                                          : 0.5 * (known[one] + known[two]);
-    c->range = bond_softening_range_at_rate(p, limit, c->i, c->j, rate);
+    c->range = bond_softening_range_at_strain_rate(p, limit, c->i, c->j, rate);
     return c->stretch > c->range.onset;
 }
 
@@ -243,14 +243,15 @@ static void bond_begin(struct bonds *b, const struct particles *p, int64_t row, 
                        real dt)
 {
     const struct softening_range range = {(float)c->range.onset, (float)c->range.end};
-    bond_softness_store(
-        b, q, (struct bond_softness){(float)range.onset, (float)range.onset, (float)range.end, (float)b->w[q]});
+    bond_softening_state_write(
+        b, q, (struct bond_softening_state){(float)range.onset, (float)range.onset, (float)range.end, (float)b->w[q]});
     if (b->soft.settled || b->soft.whole) return;
     const real before = bond_stretch_at_earlier_time(p, b->inverse_length[q], c->i, c->j, dt);
     const real kept = bond_remaining_stiffness_fraction(b, row / LANES, q, c->stretch);
     const real counted = /* what will be counted for the bond from the onset to its stretch */
-        c->stretch > range.end ? softening_energy_to_end(b->soft.curve, range.onset, range.end, before, c->stretch)
-                               : 0.5 * range.onset * c->stretch * (1 - kept);
+        c->stretch > range.end
+            ? bond_softening_energy_dissipated_at_failure(b->soft.curve, range.onset, range.end, before, c->stretch)
+            : 0.5 * range.onset * c->stretch * (1 - kept);
     const real lost = 0.5 * before * c->stretch * (1 - kept) - counted;
     b->fracture_energy[row] += 0.5 * b->stiffness * b->w[q] * lost / b->inverse_length[q];
 }
@@ -274,7 +275,7 @@ static void row_block_examine(struct bonds *b, struct particles *p, const struct
             if (!is_beyond_at_rate(b, p, limit, &c)) continue;
             if (!b->soft.begun[g]) bond_row_block_initialise_softening(b, p, limit, g);
             bond_begin(b, p, row, bond.entry, &c, limit->dt);
-            softening_mark_point_for_conversion(b, p, c.i);
+            softening_flag_material_point_for_conversion(b, p, c.i);
         }
     if (denied) __atomic_fetch_or(&b->soft.due[g], DUE_DENIED, __ATOMIC_RELAXED);
 }

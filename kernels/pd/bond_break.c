@@ -32,7 +32,7 @@ static void set_flag(struct particles *p, int32_t i, int flag)
  * [1]; the other half belongs to the row of its other particle. Only for bond-based models. b: all bonds. */
 static real half_energy(const struct bonds *b, int64_t row, int64_t q, real stretch)
 {
-    return 0.5 * b->stiffness * b->w[q] * bond_entry_normalised_energy(b, row / LANES, q, stretch) /
+    return 0.5 * b->stiffness * b->w[q] * bond_at_index_normalised_energy(b, row / LANES, q, stretch) /
            fabs(b->inverse_length[q]);
 }
 
@@ -41,7 +41,7 @@ void bond_end(struct bonds *b, struct particles *p, int64_t row, int64_t q)
     const int32_t i = b->particle[row], j = b->nbr[q];
     b->w[q] = 0;
     b->inverse_length[q] = -b->inverse_length[q];
-    bond_column_update_after_bond_change(b, row, q);
+    bond_update_cached_data_after_modification(b, row, q);
     b->broken[row]++;
     b->broken_volume[row] += (float)p->volume0[j];
     set_flag(p, i, is_driven(p, i) || is_driven(p, j) ? FLAG_LOST_BOND : FLAG_LOST_BOND | FLAG_CRACKED);
@@ -65,8 +65,8 @@ static void row_changed(struct bonds *b, int64_t row)
 static void last_force(const struct bonds *b, struct particles *p, const struct bond *bond, int32_t i, real share)
 {
     real given[DIM_MAX], f[DIM_MAX];
-    bond_force_of_any_model(b, p, bond, i, true, given);
-    bond_force_of_any_model(b, p, bond, i, false, f);
+    bond_force_vector_of_any_model(b, p, bond, i, true, given);
+    bond_force_vector_of_any_model(b, p, bond, i, false, f);
     for (int d = 0; d < p->dim; d++) p->f[d][i] += share * f[d] - given[d];
 }
 
@@ -79,7 +79,7 @@ static real half_energy_of_softening_to_end(const struct bonds *b, const struct 
     const real before = bond_stretch_at_earlier_time(p, b->inverse_length[q], i, j, dt),
                now = bond_stretch_at_earlier_time(p, b->inverse_length[q], i, j, 0);
     return 0.5 * b->stiffness * b->w[q] / fabs(b->inverse_length[q]) *
-           softening_energy_to_end(b->soft.curve, b->soft.onset[q], b->soft.end[q], before, now);
+           bond_softening_energy_dissipated_at_failure(b->soft.curve, b->soft.onset[q], b->soft.end[q], before, now);
 }
 
 /* Ends the softening of bond q of row `row` (bonds of one particle): adds `energy`, half of what the bond has
@@ -101,7 +101,7 @@ int64_t bonds_end_softened(struct bonds *b, struct particles *p)
             const int64_t q = (b->column[row / LANES] + k) * LANES + row % LANES;
             if (b->w[q] == 0 || !bond_is_softening(b, row / LANES, q) || b->soft.most[q] < b->soft.end[q]) continue;
             b->soft.most[q] = b->soft.end[q];
-            bond_finish(b, p, row, q, bond_half_softening_energy(b, row / LANES, q));
+            bond_finish(b, p, row, q, bond_softening_dissipation_per_particle(b, row / LANES, q));
             ended++;
         }
     return ended;
@@ -116,7 +116,7 @@ static real stretch_at_break(const struct bonds *b, const struct particles *p, c
                              int64_t q, int32_t i, int32_t j)
 {
     const real inverse = b->inverse_length[q];
-    const real lag = bond_break_moment_of_stored(b, p, limit, q, i, j).lag;
+    const real lag = bond_at_index_find_break_time_and_force_fraction(b, p, limit, q, i, j).lag;
     if (!limit->softening || limit->last_force != LAST_FORCE_MOMENT)
         return bond_stretch_at_earlier_time(p, inverse, i, j, lag);
     return sqrt(real_max(0, bond_stretch_at_earlier_time(p, inverse, i, j, limit->dt) *
@@ -130,13 +130,13 @@ static real stretch_at_break(const struct bonds *b, const struct particles *p, c
 static void bond_break(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q)
 {
     const int32_t i = b->particle[row], j = b->nbr[q];
-    const struct bond_break_moment last = bond_break_moment_of_stored(b, p, limit, q, i, j);
+    const struct bond_break_moment last = bond_at_index_find_break_time_and_force_fraction(b, p, limit, q, i, j);
     const struct bond bond = {q, j, b->inverse_length[q], b->w[q]};
     const bool state = b->state.modulus != NULL;
     last_force(b, p, &bond, i, last.share);
     b->fracture_energy[row] +=
         state ? state_row_energy(b, p, row, last.lag) : half_energy(b, row, q, stretch_at_break(b, p, limit, q, i, j));
-    if (b->plastic_path) b->plastic_work[row] += 0.5 * bond_plastic_work_of(b, &bond);
+    if (b->plastic_path) b->plastic_work[row] += 0.5 * bond_dissipated_plastic_work(b, &bond);
     bond_end(b, p, row, q);
     row_changed(b, row);
     if (state) b->fracture_energy[row] -= state_row_energy(b, p, row, last.lag);
@@ -154,26 +154,26 @@ void bond_fade(struct bonds *b, struct particles *p, int64_t row, int64_t q, rea
     const bool state = b->state.modulus != NULL;
     const real stretch = bond_stretch_at_earlier_time(p, b->inverse_length[q], i, j, 0);
     const real before = state ? state_row_energy(b, p, row, 0) : half_energy(b, row, q, stretch);
-    const real spent = bond_half_softening_energy(b, row / LANES, q);
+    const real spent = bond_softening_dissipation_per_particle(b, row / LANES, q);
     const struct bond lost = {q, j, fabs(b->inverse_length[q]), b->w[q] - w};
-    if (b->plastic_path) b->plastic_work[row] += 0.5 * (0.5 * bond_plastic_work_of(b, &lost));
+    if (b->plastic_path) b->plastic_work[row] += 0.5 * (0.5 * bond_dissipated_plastic_work(b, &lost));
     if (w > 0)
         b->w[q] = w;
     else if (b->inverse_length[q] > 0)
         bond_end(b, p, row, q);
     else
         b->w[q] = 0;
-    bond_column_update_after_bond_change(b, row, q);
+    bond_update_cached_data_after_modification(b, row, q);
     row_changed(b, row);
     b->fracture_energy[row] +=
         0.5 * (before - (state ? state_row_energy(b, p, row, 0) : half_energy(b, row, q, stretch)));
-    b->fracture_energy[row] += spent - bond_half_softening_energy(b, row / LANES, q);
+    b->fracture_energy[row] += spent - bond_softening_dissipation_per_particle(b, row / LANES, q);
 }
 
 void bond_break_entry(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q)
 {
     if (__atomic_load_n(&b->implicit[row / LANES], __ATOMIC_ACQUIRE))
-        bond_row_block_write_columns_from_stencil(b, row / LANES);
+        bond_row_block_copy_bonds_from_stencil(b, row / LANES);
     bond_break(b, p, limit, row, q);
 }
 
@@ -184,7 +184,7 @@ void bond_restore_entry(struct bonds *b, struct particles *p, int64_t row, int64
     b->inverse_length[q] = -b->inverse_length[q];
     b->broken[row]--;
     b->broken_volume[row] -= (float)p->volume0[b->nbr[q]];
-    bond_column_update_after_bond_change(b, row, q);
+    bond_update_cached_data_after_modification(b, row, q);
     row_changed(b, row);
 }
 
@@ -212,7 +212,7 @@ static int64_t break_row(struct bonds *b, struct particles *p, const struct bond
     const int32_t i = b->particle[row];
     int64_t broken = 0;
     for (int64_t k = 0; k < b->column_count[row / LANES]; k++) {
-        const int64_t q = bond_index_for_writing(b, row / LANES, k, (int)(row % LANES));
+        const int64_t q = bond_copy_on_write_and_return_array_index(b, row / LANES, k, (int)(row % LANES));
         if (b->w[q] == 0) continue;
         const int32_t j = b->nbr[q];
         if (!is_past(b, p, limit, row, q, i, j)) continue;
@@ -238,15 +238,15 @@ static real least_limit(const struct bond_limit *limit)
  * vectors y at present and xi in the reference configuration. s: column of bonds, one of each of eight particles;
  * x[dim]: positions of these particles [m]. Broken bonds count as negative. p: all particles. */
 static ALWAYS_INLINE lanes bond_break_largest_of(lanes largest, const struct particles *p, const lanes *x,
-                                                 const struct column s, const int dim)
+                                                 const struct bond_column_view s, const int dim)
 {
-    const lanes inverse = column_inverse_length(s);
+    const lanes inverse = bond_column_inverse_lengths(s);
     lanes distance2 = lanes_broadcast(0);
     for (int d = 0; d < dim; d++) {
-        const lanes y = column_gather_neighbours(s, p->x[d]) - x[d];
+        const lanes y = bond_column_gather_neighbour_values(s, p->x[d]) - x[d];
         distance2 += y * y;
     }
-    return column_max_of_intact_bonds(s, largest, distance2 * (inverse * lanes_absolute(inverse)));
+    return bond_column_max_where_intact(s, largest, distance2 * (inverse * lanes_absolute(inverse)));
 }
 
 /* Returns in lane l the largest squared elongation |y|^2/|xi|^2 [1] of the bonds of particle l of row block g, which

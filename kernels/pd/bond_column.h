@@ -19,7 +19,7 @@ enum column_kind { COLUMN_FREE, COLUMN_SHELL, COLUMN_ALIKE, COLUMN_STENCIL, COLU
  * rows of b). number: index of the column among all columns, so that its bonds have the indices number * LANES + l in
  * the bond arrays, for the particles l = 0 .. 7; kind: what the eight bonds have in common, a compile-time constant
  * wherever a column is used. */
-struct column {
+struct bond_column_view {
     const struct bonds *b;
     int64_t number;
     int64_t first; /* particle number of the neighbour of lane 0; COLUMN_FREE: may be < 0 (not consecutive) */
@@ -31,14 +31,14 @@ struct column {
 /* Returns a view of the stored column number `column_number` of b (one bond of each of eight particles), and prefetches
  * the column COLUMNS_AHEAD columns behind it. kind: what the eight bonds have in common: nothing (COLUMN_FREE),
  * consecutive neighbours and a tabulated length (SHELL), also one weight (ALIKE). */
-static ALWAYS_INLINE struct column column_load_stored(const struct bonds *b, int64_t column_number,
-                                                      const enum column_kind kind)
+static ALWAYS_INLINE struct bond_column_view bond_column_view_stored_bonds(const struct bonds *b, int64_t column_number,
+                                                                           const enum column_kind kind)
 {
     const int64_t q = (column_number + COLUMNS_AHEAD) * LANES;
     __builtin_prefetch(b->common + column_number + COLUMNS_AHEAD);
     if (kind == COLUMN_FREE) __builtin_prefetch(b->inverse_length + q), __builtin_prefetch(b->nbr + q);
     if (kind != COLUMN_ALIKE) __builtin_prefetch(b->w + q);
-    return (struct column){b, column_number, b->common[column_number].first, NULL, NULL, kind};
+    return (struct bond_column_view){b, column_number, b->common[column_number].first, NULL, NULL, kind};
 }
 
 /* Returns a view of a column (one bond of each of eight consecutive particles) whose bonds b does not store, but which
@@ -46,17 +46,17 @@ static ALWAYS_INLINE struct column column_load_stored(const struct bonds *b, int
  * the column in the stencil; first_particle: first of the eight particles; column_number: index of the column among all
  * columns; kind: what the stencil determines: all but the weights (COLUMN_STENCIL), also the weights (WHOLE), which are
  * 1 (UNIT). */
-static ALWAYS_INLINE struct column column_from_stencil(const struct bonds *b, int64_t column_number,
-                                                       const struct stencil *stencil, int64_t column_in_stencil,
-                                                       int64_t first_particle, const enum column_kind kind)
+static ALWAYS_INLINE struct bond_column_view
+bond_column_view_bonds_of_stencil(const struct bonds *b, int64_t column_number, const struct stencil *stencil,
+                                  int64_t column_in_stencil, int64_t first_particle, const enum column_kind kind)
 {
     const struct stencil_column *column = stencil->column + column_in_stencil;
-    return (struct column){b,
-                           column_number,
-                           first_particle + column->offset,
-                           column,
-                           kind >= COLUMN_WHOLE ? NULL : stencil->w[column_in_stencil],
-                           kind};
+    return (struct bond_column_view){b,
+                                     column_number,
+                                     first_particle + column->offset,
+                                     column,
+                                     kind >= COLUMN_WHOLE ? NULL : stencil->w[column_in_stencil],
+                                     kind};
 }
 
 /* Calls VISIT(column) for every column with an intact bond in block number ROW_BLOCK of eight rows of the bonds B. A
@@ -72,20 +72,20 @@ static ALWAYS_INLINE struct column column_from_stencil(const struct bonds *b, in
                 if ((B)->common[k_].intact == 0)                                                                       \
                     continue;                                                                                          \
                 else if ((B)->common[k_].alike)                                                                        \
-                    VISIT(column_load_stored(B, k_, COLUMN_ALIKE));                                                    \
+                    VISIT(bond_column_view_stored_bonds(B, k_, COLUMN_ALIKE));                                         \
                 else if ((B)->common[k_].shell)                                                                        \
-                    VISIT(column_load_stored(B, k_, COLUMN_SHELL));                                                    \
+                    VISIT(bond_column_view_stored_bonds(B, k_, COLUMN_SHELL));                                         \
                 else                                                                                                   \
-                    VISIT(column_load_stored(B, k_, COLUMN_FREE));                                                     \
+                    VISIT(bond_column_view_stored_bonds(B, k_, COLUMN_FREE));                                          \
         else if (stencil_->unit)                                                                                       \
             for (int64_t k_ = 0; k_ < columns_; k_++)                                                                  \
-                VISIT(column_from_stencil(B, from_ + k_, stencil_, k_, own_, COLUMN_UNIT));                            \
+                VISIT(bond_column_view_bonds_of_stencil(B, from_ + k_, stencil_, k_, own_, COLUMN_UNIT));              \
         else if (stencil_->whole)                                                                                      \
             for (int64_t k_ = 0; k_ < columns_; k_++)                                                                  \
-                VISIT(column_from_stencil(B, from_ + k_, stencil_, k_, own_, COLUMN_WHOLE));                           \
+                VISIT(bond_column_view_bonds_of_stencil(B, from_ + k_, stencil_, k_, own_, COLUMN_WHOLE));             \
         else                                                                                                           \
             for (int64_t k_ = 0; k_ < columns_; k_++)                                                                  \
-                VISIT(column_from_stencil(B, from_ + k_, stencil_, k_, own_, COLUMN_STENCIL));                         \
+                VISIT(bond_column_view_bonds_of_stencil(B, from_ + k_, stencil_, k_, own_, COLUMN_STENCIL));           \
     } while (0)
 
 /* Calls VISIT(column) for every column of a block of eight rows (the bonds of eight particles) as FOR_COLUMNS does, or
@@ -101,7 +101,7 @@ static ALWAYS_INLINE struct column column_from_stencil(const struct bonds *b, in
 /* Returns, one per lane, the values from[j] for the eight particles j to which the bonds of `column` lead (one bond of
  * each of eight particles). from: array with a value for each particle and mirror image. If the column has another kind
  * than COLUMN_FREE, the indices j are consecutive and the values are loaded as one vector, else they are gathered. */
-static ALWAYS_INLINE lanes column_gather_neighbours(const struct column column, const real *from)
+static ALWAYS_INLINE lanes bond_column_gather_neighbour_values(const struct bond_column_view column, const real *from)
 {
     return column.kind ? lanes_load(from + column.first)
                        : lanes_load_or_gather(from, (int32_t)column.first, column.b->nbr + column.number * LANES);
@@ -110,18 +110,18 @@ static ALWAYS_INLINE lanes column_gather_neighbours(const struct column column, 
 /* Returns component `axis` of the reference bond vectors X_j - X_i [m] of the eight bonds of `column` (one bond of each
  * of eight particles of p). X: component `axis` of the reference positions X_i of the eight particles to which these
  * bonds belong [m]. */
-static ALWAYS_INLINE lanes column_reference_vectors(const struct column column, const struct particles *p, int axis,
-                                                    lanes X)
+static ALWAYS_INLINE lanes bond_column_reference_vector_component(const struct bond_column_view column,
+                                                                  const struct particles *p, int axis, lanes X)
 {
     return column.stencil ? lanes_broadcast(column.stencil->xi[axis])
-                          : column_gather_neighbours(column, p->X[axis]) - X;
+                          : bond_column_gather_neighbour_values(column, p->X[axis]) - X;
 }
 
 /* Returns, for the eight bonds of `column` (one bond of each of eight particles), component `axis` of the reference
  * bond vector times the weight (factor on its force) of the bond [m]. w: weights of the bonds [1]; reference_vector:
  * component `axis` of their reference vectors [m]. */
-static ALWAYS_INLINE lanes column_weighted_vectors(const struct column column, int axis, lanes w,
-                                                   lanes reference_vector)
+static ALWAYS_INLINE lanes bond_column_weighted_vector_component(const struct bond_column_view column, int axis,
+                                                                 lanes w, lanes reference_vector)
 {
     return column.kind == COLUMN_WHOLE  ? lanes_broadcast(column.stencil->w_xi[axis])
            : column.kind == COLUMN_UNIT ? reference_vector
@@ -130,7 +130,7 @@ static ALWAYS_INLINE lanes column_weighted_vectors(const struct column column, i
 
 /* Returns the inverse reference lengths 1/|X_j - X_i| [1/m] of the eight bonds of `column` (one bond of each of eight
  * particles); negative for some broken bonds. */
-static ALWAYS_INLINE lanes column_inverse_length(const struct column column)
+static ALWAYS_INLINE lanes bond_column_inverse_lengths(const struct bond_column_view column)
 {
     if (column.stencil) return lanes_broadcast(column.stencil->inverse_length);
     const struct bond_column *c = &column.b->common[column.number];
@@ -140,14 +140,14 @@ static ALWAYS_INLINE lanes column_inverse_length(const struct column column)
 
 /* Returns eight bits: bit l (0 to 7) is set if the bond of particle l in `column` (one bond of each of eight particles)
  * is intact. */
-static ALWAYS_INLINE uint8_t column_intact_bits(const struct column column)
+static ALWAYS_INLINE uint8_t bond_column_intact_bits(const struct bond_column_view column)
 {
     return column.stencil ? column.stencil->intact : column.b->common[column.number].intact;
 }
 
 /* Returns the weights (factors on the bond forces) [1] of the eight bonds of `column` (one bond of each of eight
  * particles), 0 for broken bonds. */
-static ALWAYS_INLINE lanes column_weight(const struct column column)
+static ALWAYS_INLINE lanes bond_column_weights(const struct bond_column_view column)
 {
     if (column.kind == COLUMN_UNIT) return lanes_broadcast(1);
     if (column.kind == COLUMN_WHOLE) return lanes_broadcast(column.stencil->w);
@@ -168,18 +168,19 @@ static ALWAYS_INLINE lanes column_weight(const struct column column)
 /* Returns in each lane the larger of a and `other` if the bond of `column` in that lane is intact, else a; a column
  * holds one bond of each of eight particles, one particle per lane. In columns of the kind COLUMN_FREE no mask is
  * needed: their broken bonds have negative lengths, which make `other` smaller than a. */
-static ALWAYS_INLINE lanes column_max_of_intact_bonds(const struct column column, lanes a, lanes other)
+static ALWAYS_INLINE lanes bond_column_max_where_intact(const struct bond_column_view column, lanes a, lanes other)
 {
     return column.kind == COLUMN_FREE || column.kind >= COLUMN_WHOLE
                ? lanes_max(a, other)
-               : lanes_max_selected(column_intact_bits(column), a, other);
+               : lanes_max_selected(bond_column_intact_bits(column), a, other);
 }
 
 /* Returns in each lane the smaller of a and `other` if the bond of `column` in that lane is intact, else a; a column
  * holds one bond of each of eight particles, one particle per lane. */
-static ALWAYS_INLINE lanes column_min_of_intact_bonds(const struct column column, lanes a, lanes other)
+static ALWAYS_INLINE lanes bond_column_min_where_intact(const struct bond_column_view column, lanes a, lanes other)
 {
-    return column.kind >= COLUMN_WHOLE ? lanes_min(a, other) : lanes_min_selected(column_intact_bits(column), a, other);
+    return column.kind >= COLUMN_WHOLE ? lanes_min(a, other)
+                                       : lanes_min_selected(bond_column_intact_bits(column), a, other);
 }
 
 /* Stores `value`, one value for each of the eight particles of a block of eight rows, in the particle array `to`. row:

@@ -26,17 +26,17 @@
 /* A bond that is so strongly compressed that its repulsive core acts. ratio: present length divided by reference
  * length, |y|/|xi| (1 if the core does not act); K: force of the bond per stretch [N]; y: vector from i to j [m];
  * distance: |y| [m]. */
-struct core {
+struct repulsive_core {
     real ratio, K, y[DIM_MAX], distance;
 };
 
 /* Returns length ratio, stiffness and present vector of `bond`, a bond in b of particle i of p, from which the force of
  * its repulsive core follows (additional repulsion of strongly compressed bonds). The member `ratio` is 1 if the core
  * does not act, because the bond is broken or longer than CORE_FROM times its reference length. */
-static inline struct core bond_repulsive_core_of(const struct bonds *b, const struct particles *p,
-                                                 const struct bond *bond, int32_t i)
+static inline struct repulsive_core bond_evaluate_repulsive_core(const struct bonds *b, const struct particles *p,
+                                                                 const struct bond *bond, int32_t i)
 {
-    struct core c = {.ratio = 1};
+    struct repulsive_core c = {.ratio = 1};
     const real *spring = b->state.spring;
     real distance2 = 0;
     if (bond->w == 0) return c;
@@ -54,8 +54,8 @@ RARE void bond_row_block_add_repulsive_core_forces(const struct bonds *b, struct
 {
     for (int64_t row = row_block * LANES; row < b->rows && row < (row_block + 1) * LANES; row++) {
         const int32_t i = b->particle[row];
-        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
-            const struct core c = bond_repulsive_core_of(b, p, &it.bond, i);
+        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_iterator_advance(&it);) {
+            const struct repulsive_core c = bond_evaluate_repulsive_core(b, p, &it.bond, i);
             if (!(c.ratio < CORE_FROM)) continue;
             for (int d = 0; d < p->dim; d++) p->f[d][i] -= c.K * b->core * (CORE_FROM - c.ratio) * c.y[d] / c.distance;
         }
@@ -71,8 +71,8 @@ RARE real bond_row_block_repulsive_core_energy(const struct bonds *b, const stru
 {
     real sum = 0;
     for (int64_t row = row_block * LANES; row < b->rows && row < (row_block + 1) * LANES; row++)
-        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
-            const struct core c = bond_repulsive_core_of(b, p, &it.bond, b->particle[row]);
+        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_iterator_advance(&it);) {
+            const struct repulsive_core c = bond_evaluate_repulsive_core(b, p, &it.bond, b->particle[row]);
             if (!(c.ratio < CORE_FROM)) continue;
             const real energy = 0.25 * c.K / it.bond.inverse_length * b->core * square(CORE_FROM - c.ratio);
             sum += energy;

@@ -23,7 +23,7 @@
  * positions of the eight particles [m]; f0, f1, f2: forces on them, divided by the stiffness; stretch, press: largest
  * and smallest stretch of their bonds [1]. Where bonds soften, `stretch` is the largest excess over the end of
  * softening, of bonds beyond `trigger`, the least limit of each row, and `lost` sums what they lose at kinks of their
- * softening curve, divided by the stiffness [m] (bonds_loss_at_kinks). */
+ * softening curve, divided by the stiffness [m] (bonds_excess_dissipation_at_softening_kinks). */
 struct bond_sums {
     lanes x0, x1, x2, f0, f1, f2, stretch, press, trigger, lost;
 };
@@ -33,25 +33,28 @@ struct bond_sums {
  * constant. The force is computed from the stretch. As a difference of inverse lengths it would be cheaper, but a body
  * in free fall would have three times the round-off. p: all particles. */
 static ALWAYS_INLINE struct bond_sums bond_force_column(struct bond_sums sum, const struct particles *p,
-                                                        const struct column s, const int dim, const enum pd_model model)
+                                                        const struct bond_column_view s, const int dim,
+                                                        const enum pd_model model)
 {
-    const lanes d0 = column_gather_neighbours(s, p->x[0]) - sum.x0;
-    const lanes d1 = dim > 1 ? column_gather_neighbours(s, p->x[1]) - sum.x1 : d0;
-    const lanes d2 = dim > 2 ? column_gather_neighbours(s, p->x[2]) - sum.x2 : d0;
+    const lanes d0 = bond_column_gather_neighbour_values(s, p->x[0]) - sum.x0;
+    const lanes d1 = dim > 1 ? bond_column_gather_neighbour_values(s, p->x[1]) - sum.x1 : d0;
+    const lanes d2 = dim > 2 ? bond_column_gather_neighbour_values(s, p->x[2]) - sum.x2 : d0;
     lanes distance2 = d0 * d0 + TINY;
     if (dim > 1) distance2 += d1 * d1;
     if (dim > 2) distance2 += d2 * d2;
-    const lanes inverse = lanes_inverse_square_root(distance2), w = column_weight(s);
-    const lanes stretch = STRETCH_OF(distance2 * inverse, column_inverse_length(s));
+    const lanes inverse = lanes_inverse_square_root(distance2), w = bond_column_weights(s);
+    const lanes stretch = STRETCH_OF(distance2 * inverse, bond_column_inverse_lengths(s));
     if (model == PD_BOND_SOFT)
-        sum.lost += bonds_loss_at_kinks(s.b, s.number * LANES, stretch, w, column_inverse_length(s));
-    const lanes force = bonds_normalised_force(model, s.b, s.number * LANES, stretch, w) * (w * inverse);
+        sum.lost += bonds_excess_dissipation_at_softening_kinks(s.b, s.number * LANES, stretch, w,
+                                                                bond_column_inverse_lengths(s));
+    const lanes force =
+        bonds_update_state_and_get_normalised_force(model, s.b, s.number * LANES, stretch, w) * (w * inverse);
     if (model != PD_BOND_SOFT)
-        sum.stretch = column_max_of_intact_bonds(s, sum.stretch, stretch);
+        sum.stretch = bond_column_max_where_intact(s, sum.stretch, stretch);
     else if (lanes_any_less(sum.trigger, stretch))
         sum.stretch =
-            column_max_of_intact_bonds(s, sum.stretch, stretch - lanes_load_floats(s.b->soft.end + s.number * LANES));
-    sum.press = column_min_of_intact_bonds(s, sum.press, stretch);
+            bond_column_max_where_intact(s, sum.stretch, stretch - lanes_load_floats(s.b->soft.end + s.number * LANES));
+    sum.press = bond_column_min_where_intact(s, sum.press, stretch);
     sum.f0 += force * d0;
     if (dim > 1) sum.f1 += force * d1;
     if (dim > 2) sum.f2 += force * d2;
@@ -68,7 +71,7 @@ static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct par
 {
     const int32_t *row = b->particle + g * LANES;
     const bool aligned = b->aligned[g];
-    const int rows = count_of_eight_indices_below(g * LANES, b->rows);
+    const int rows = count_of_eight_consecutive_indices_below(g * LANES, b->rows);
     const int32_t own = aligned ? row[0] : -1;
     const lanes zero = lanes_broadcast(0), x0 = lanes_load_or_gather(p->x[0], own, row);
     struct bond_sums sum = {x0,
@@ -87,7 +90,7 @@ static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct par
     bond_row_block_store_values(p->f[0], row, rows, aligned, sum.f0 * b->stiffness);
     if (dim > 1) bond_row_block_store_values(p->f[1], row, rows, aligned, sum.f1 * b->stiffness);
     if (dim > 2) bond_row_block_store_values(p->f[2], row, rows, aligned, sum.f2 * b->stiffness);
-    if (model == PD_BOND_SOFT) bond_row_block_add_loss_at_kinks(b, g, sum.lost);
+    if (model == PD_BOND_SOFT) bond_row_block_add_excess_dissipation_at_kinks(b, g, sum.lost);
     *pressed = lanes_mask_any(sum.press < CORE_FROM - 1);
     if (b->soft.near && model != PD_BOND_SOFT && lanes_mask_any(sum.stretch > b->soft.gate)) b->soft.near[g] = 1;
     return lanes_mask_any(sum.stretch > (model == PD_BOND_SOFT ? zero : sum.trigger));

@@ -29,7 +29,8 @@ static inline real bond_stretch_at_earlier_time(const struct particles *p, real 
  * and length of the bond (dimensionless), when it passes the end of its softening in the leap-frog step from the
  * stretch `before` to `now` [1]: in this step it loses the energy before now (1 - d)/2 with the damage d at its start.
  * c: softening curve; onset, end: stretches at which the bond begins to soften and breaks [1]. */
-static inline real softening_energy_to_end(const struct softening_curve *c, real onset, real end, real before, real now)
+static inline real bond_softening_energy_dissipated_at_failure(const struct softening_curve *c, real onset, real end,
+                                                               real before, real now)
 {
     const real most = real_min(real_max(before, onset), end);
     const real kept = before > 0 ? softening_remaining_stiffness_fraction(c, onset, end, most) : 1;
@@ -65,8 +66,10 @@ struct bond_break_moment {
  *
  * for a force linear in e. Both shares agree to first order in dt, so impulse and energy of breaking are of second
  * order. */
-static inline struct bond_break_moment bond_break_moment_of(const struct particles *p, const struct bond_limit *limit,
-                                                            real inverse_length, real plastic, int32_t i, int32_t j)
+static inline struct bond_break_moment bond_find_break_time_and_force_fraction(const struct particles *p,
+                                                                               const struct bond_limit *limit,
+                                                                               real inverse_length, real plastic,
+                                                                               int32_t i, int32_t j)
 {
     const real most = bond_breaking_stretch(p, limit, i, j);
     const real now = bond_stretch_at_earlier_time(p, inverse_length, i, j, 0);
@@ -88,14 +91,15 @@ static inline struct bond_break_moment bond_break_moment_of(const struct particl
 }
 
 /* Returns, for the bond with index `bond` in the arrays of b between particles i and j of p, when in the last step it
- * exceeded its breaking stretch, and which share of its force acts in this step (bond_break_moment_of). limit: breaking
- * stretches and rule for the share. Inverse length and plastic stretch are read from b. */
-static inline struct bond_break_moment bond_break_moment_of_stored(const struct bonds *b, const struct particles *p,
-                                                                   const struct bond_limit *limit, int64_t bond,
-                                                                   int32_t i, int32_t j)
+ * exceeded its breaking stretch, and which share of its force acts in this step
+ * (bond_find_break_time_and_force_fraction). limit: breaking stretches and rule for the share. Inverse length and
+ * plastic stretch are read from b. */
+static inline struct bond_break_moment
+bond_at_index_find_break_time_and_force_fraction(const struct bonds *b, const struct particles *p,
+                                                 const struct bond_limit *limit, int64_t bond, int32_t i, int32_t j)
 {
-    return bond_break_moment_of(p, limit, b->inverse_length[bond], b->plastic_stretch ? b->plastic_stretch[bond] : 0, i,
-                                j);
+    return bond_find_break_time_and_force_fraction(p, limit, b->inverse_length[bond],
+                                                   b->plastic_stretch ? b->plastic_stretch[bond] : 0, i, j);
 }
 
 #endif

@@ -37,8 +37,8 @@ static ALWAYS_INLINE lanes bonds_return_mapping(const struct bonds *b, int64_t f
 /* Returns stretch times remaining stiffness fraction [1] of the eight bonds with indices `first_bond` to `first_bond` +
  * 7 in the arrays of b, in a block of eight rows that softens (data/softening.h). stretch: present stretches of these
  * bonds [1]; largest_stretch: their largest stretches so far, the present ones included [1]. */
-static ALWAYS_INLINE lanes bonds_softened_stretch(const struct bonds *b, int64_t first_bond, lanes stretch,
-                                                  lanes largest_stretch)
+static ALWAYS_INLINE lanes bonds_scale_stretch_by_remaining_stiffness(const struct bonds *b, int64_t first_bond,
+                                                                      lanes stretch, lanes largest_stretch)
 {
     const struct softening_curve *c = b->soft.curve;
     const lanes onset = lanes_load_floats(b->soft.onset + first_bond);
@@ -53,7 +53,8 @@ static ALWAYS_INLINE lanes bonds_softened_stretch(const struct bonds *b, int64_t
  * 7 in the arrays of b, i.e. of one column (one bond of each of eight particles). Raises the stored largest stretches
  * of these bonds to their present stretches `stretch`, except in load steps (quasi-static solutions). If none of the
  * eight bonds has begun to soften, returns `stretch` and stores nothing. */
-static ALWAYS_INLINE lanes bonds_update_softened_stretch(const struct bonds *b, int64_t first_bond, lanes stretch)
+static ALWAYS_INLINE lanes bonds_update_softening_and_scale_stretch(const struct bonds *b, int64_t first_bond,
+                                                                    lanes stretch)
 {
     lanes most = lanes_load_floats(b->soft.most + first_bond);
     if (!b->common[first_bond / LANES].begun) return stretch;
@@ -61,7 +62,7 @@ static ALWAYS_INLINE lanes bonds_update_softened_stretch(const struct bonds *b, 
         most = lanes_max(most, stretch);
         lanes_store_floats(b->soft.most + first_bond, most);
     }
-    return bonds_softened_stretch(b, first_bond, stretch, most);
+    return bonds_scale_stretch_by_remaining_stiffness(b, first_bond, stretch, most);
 }
 
 /* Returns the energies, divided by the stiffness [m], by which eight bonds dissipate more in this leap-frog step than
@@ -71,9 +72,9 @@ static ALWAYS_INLINE lanes bonds_update_softened_stretch(const struct bonds *b, 
  * grows by a, it is larger by a (k_1 - k_m) (k_m - k_0)/2 times weight and length. Returns 0 for bonds beyond their
  * end, whose energy is computed elsewhere (half_energy_of_softening_to_end), and in load steps. stretch: stretches
  * after the step [1]; w: weights, 0 for broken bonds [1]; inverse_length: inverse reference lengths [1/m]. Call this
- * function before bonds_update_softened_stretch. */
-static ALWAYS_INLINE lanes bonds_loss_at_kinks(const struct bonds *b, int64_t first_bond, lanes stretch, lanes w,
-                                               lanes inverse_length)
+ * function before bonds_update_softening_and_scale_stretch. */
+static ALWAYS_INLINE lanes bonds_excess_dissipation_at_softening_kinks(const struct bonds *b, int64_t first_bond,
+                                                                       lanes stretch, lanes w, lanes inverse_length)
 {
     const struct softening_curve *c = b->soft.curve;
     const lanes zero = lanes_broadcast(0), most = lanes_load_floats(b->soft.most + first_bond);
@@ -90,9 +91,10 @@ static ALWAYS_INLINE lanes bonds_loss_at_kinks(const struct bonds *b, int64_t fi
                         0.5 * w * sum * onset / (span * inverse_length), zero);
 }
 
-/* Adds the energies `lost` of bonds_loss_at_kinks, summed for each of the eight rows of block g (the bonds of eight
- * particles), to the fracture energies of these rows: one half, because each bond is in two rows. */
-static ALWAYS_INLINE void bond_row_block_add_loss_at_kinks(const struct bonds *b, int64_t g, lanes lost)
+/* Adds the energies `lost` of bonds_excess_dissipation_at_softening_kinks, summed for each of the eight rows of block g
+ * (the bonds of eight particles), to the fracture energies of these rows: one half, because each bond is in two rows.
+ */
+static ALWAYS_INLINE void bond_row_block_add_excess_dissipation_at_kinks(const struct bonds *b, int64_t g, lanes lost)
 {
     real *energy = b->fracture_energy + g * LANES;
     if (b->soft.curve->pieces > 1) lanes_store(energy, lanes_load(energy) + 0.5 * b->stiffness * lost);
@@ -103,11 +105,11 @@ static ALWAYS_INLINE void bond_row_block_add_loss_at_kinks(const struct bonds *b
  * 2005; Zeng et al. 2022, eqs. 17, 29), its elastic part where bonds yield, and stretch times remaining stiffness
  * fraction where they soften. Updates the plastic or softening state. stretch: total stretch [1]; w: weights, 0 for
  * broken bonds [1]. */
-static ALWAYS_INLINE lanes bonds_normalised_force(const enum pd_model model, const struct bonds *b, int64_t first_bond,
-                                                  lanes stretch, lanes w)
+static ALWAYS_INLINE lanes bonds_update_state_and_get_normalised_force(const enum pd_model model, const struct bonds *b,
+                                                                       int64_t first_bond, lanes stretch, lanes w)
 {
     return model == PD_BOND_PLASTIC ? bonds_return_mapping(b, first_bond, stretch, w > 0.0)
-           : model == PD_BOND_SOFT  ? bonds_update_softened_stretch(b, first_bond, stretch)
+           : model == PD_BOND_SOFT  ? bonds_update_softening_and_scale_stretch(b, first_bond, stretch)
                                     : stretch;
 }
 
@@ -120,7 +122,8 @@ static ALWAYS_INLINE lanes bonds_elastic_stretch(const enum pd_model model, cons
     if (model == PD_BOND_SOFT) {
         const lanes most = lanes_load_floats(b->soft.most + first_bond);
         if (!b->common[first_bond / LANES].begun) return stretch;
-        return bonds_softened_stretch(b, first_bond, stretch, b->soft.settled ? most : lanes_max(most, stretch));
+        return bonds_scale_stretch_by_remaining_stiffness(b, first_bond, stretch,
+                                                          b->soft.settled ? most : lanes_max(most, stretch));
     }
     return model == PD_BOND_PLASTIC ? stretch - lanes_load(b->plastic_stretch + first_bond) : stretch;
 }
@@ -128,7 +131,7 @@ static ALWAYS_INLINE lanes bonds_elastic_stretch(const enum pd_model model, cons
 /* Returns the elastic part [1] of the stretch `stretch` of the bond with index `bond` in the arrays of b: `stretch`
  * less the plastic stretch where bonds yield, times the remaining stiffness fraction where they soften. row_block:
  * block of eight rows (the bonds of eight particles) that contains the bond. */
-static inline real bond_entry_elastic_stretch(const struct bonds *b, int64_t row_block, int64_t bond, real stretch)
+static inline real bond_at_index_elastic_stretch(const struct bonds *b, int64_t row_block, int64_t bond, real stretch)
 {
     if (b->soft.curve) return stretch * bond_remaining_stiffness_fraction(b, row_block, bond, stretch);
     return b->plastic_stretch ? stretch - b->plastic_stretch[bond] : stretch;
@@ -137,9 +140,9 @@ static inline real bond_entry_elastic_stretch(const struct bonds *b, int64_t row
 /* Returns the elastic energy of the bond with index `bond` in the arrays of b at the stretch `stretch` [1], divided by
  * stiffness, weight (factor on its force) and reference length of the bond (dimensionless). row_block: block of eight
  * rows (the bonds of eight particles) that contains the bond. */
-static inline real bond_entry_normalised_energy(const struct bonds *b, int64_t row_block, int64_t bond, real stretch)
+static inline real bond_at_index_normalised_energy(const struct bonds *b, int64_t row_block, int64_t bond, real stretch)
 {
-    const real elastic = bond_entry_elastic_stretch(b, row_block, bond, stretch);
+    const real elastic = bond_at_index_elastic_stretch(b, row_block, bond, stretch);
     return 0.5 * ((b->soft.curve ? stretch : elastic) * elastic);
 }
 
@@ -154,7 +157,7 @@ static ALWAYS_INLINE lanes bonds_normalised_energy(const enum pd_model model, la
 /* ---- one bond, for samples and frames ---------------------------------------------------------------------- */
 
 /* Returns the stretch [1] of `bond`, a bond of particle i, at the present positions p->x. */
-static inline real bond_stretch_of(const struct particles *p, const struct bond *bond, int32_t i)
+static inline real bond_present_stretch(const struct particles *p, const struct bond *bond, int32_t i)
 {
     real distance2 = 0;
     for (int d = 0; d < p->dim; d++) distance2 += square(p->x[d][bond->nbr] - p->x[d][i]);
@@ -163,36 +166,39 @@ static inline real bond_stretch_of(const struct particles *p, const struct bond 
 
 /* Returns the elastic part [1] of the present stretch of `bond`, a bond in b of particle i of p. It equals the force of
  * the bond divided by stiffness and weight. */
-static inline real bond_elastic_stretch_of(const struct bonds *b, const struct particles *p, const struct bond *bond,
-                                           int32_t i)
+static inline real bond_present_elastic_stretch(const struct bonds *b, const struct particles *p,
+                                                const struct bond *bond, int32_t i)
 {
-    return bond_entry_elastic_stretch(b, b->row_of[i] / LANES, bond->entry, bond_stretch_of(p, bond, i));
+    return bond_at_index_elastic_stretch(b, b->row_of[i] / LANES, bond->entry, bond_present_stretch(p, bond, i));
 }
 
 /* Returns the force [N] of `bond`, a bond in b of particle i of p in a bond-based model, as the force kernel computes
  * it; tension is positive. Returns 0 if the bond is broken. */
-static inline real bond_force_of(const struct bonds *b, const struct particles *p, const struct bond *bond, int32_t i)
+static inline real bond_based_signed_force(const struct bonds *b, const struct particles *p, const struct bond *bond,
+                                           int32_t i)
 {
-    return bond->w == 0 ? 0 : b->stiffness * bond->w * bond_elastic_stretch_of(b, p, bond, i);
+    return bond->w == 0 ? 0 : b->stiffness * bond->w * bond_present_elastic_stretch(b, p, bond, i);
 }
 
 /* Stores in f[dim] the force vector [N] that `bond`, a bond in b of particle i of p, exerts on this particle.
  * Bond-based models only. */
-static inline void bond_force_vector(const struct bonds *b, const struct particles *p, const struct bond *bond,
-                                     int32_t i, real *f)
+static inline void bond_based_force_vector(const struct bonds *b, const struct particles *p, const struct bond *bond,
+                                           int32_t i, real *f)
 {
     real distance2 = 0;
     for (int d = 0; d < p->dim; d++) f[d] = p->x[d][bond->nbr] - p->x[d][i], distance2 += square(f[d]);
-    const real force = bond_force_of(b, p, bond, i) / sqrt(distance2);
+    const real force = bond_based_signed_force(b, p, bond, i) / sqrt(distance2);
     for (int d = 0; d < p->dim; d++) f[d] *= force;
 }
 
 /* Returns the elastic energy [J] of `bond`, a bond in b of particle i of p in a bond-based model; 0 if the bond is
  * broken. */
-static inline real bond_energy_of(const struct bonds *b, const struct particles *p, const struct bond *bond, int32_t i)
+static inline real bond_based_elastic_energy(const struct bonds *b, const struct particles *p, const struct bond *bond,
+                                             int32_t i)
 {
     if (bond->w == 0) return 0;
-    const real energy = bond_entry_normalised_energy(b, b->row_of[i] / LANES, bond->entry, bond_stretch_of(p, bond, i));
+    const real energy =
+        bond_at_index_normalised_energy(b, b->row_of[i] / LANES, bond->entry, bond_present_stretch(p, bond, i));
     return b->stiffness * bond->w * energy / bond->inverse_length;
 }
 
@@ -200,7 +206,7 @@ static inline real bond_energy_of(const struct bonds *b, const struct particles 
  * yielded. The closed form holds since hardening is linear and the plastic path (accumulated absolute plastic stretch,
  * b->plastic_path at the index bond->entry) never decreases. Call only if b->plastic_path is not NULL, i.e. in models
  * whose bonds yield. */
-static inline real bond_plastic_work_of(const struct bonds *b, const struct bond *bond)
+static inline real bond_dissipated_plastic_work(const struct bonds *b, const struct bond *bond)
 {
     const int64_t q = bond->entry;
     if (bond->w == 0 || b->plastic_path[q] == 0) return 0;

@@ -14,29 +14,29 @@
 /* Computes bond vectors y[dim] [m] and stretches *stretch [1] of the eight bonds of column s, one for each particle of
  * a block of eight rows. x[dim]: positions of these eight particles [m]. Returns the inverse lengths 1/|y| [1/m]. p:
  * all particles. */
-static ALWAYS_INLINE lanes bond_measure_store(const struct column s, const struct particles *p, const lanes *x,
-                                              lanes *y, lanes *stretch, const int dim)
+static ALWAYS_INLINE lanes bond_measure_store(const struct bond_column_view s, const struct particles *p,
+                                              const lanes *x, lanes *y, lanes *stretch, const int dim)
 {
     lanes distance2 = lanes_broadcast(TINY);
     for (int d = 0; d < dim; d++) {
-        y[d] = column_gather_neighbours(s, p->x[d]) - x[d];
+        y[d] = bond_column_gather_neighbour_values(s, p->x[d]) - x[d];
         distance2 += y[d] * y[d];
     }
     const lanes inverse = lanes_inverse_square_root(distance2);
-    *stretch = STRETCH_OF(distance2 * inverse, column_inverse_length(s));
+    *stretch = STRETCH_OF(distance2 * inverse, bond_column_inverse_lengths(s));
     return inverse;
 }
 
 /* Returns the elastic energies, divided by the stiffness, of the eight bonds of column s (one bond of each of eight
  * particles). x[dim]: positions of these particles [m]; *press: lowered to the smallest stretch of the intact bonds
  * [1]. model: bond law, a compile-time constant. p: all particles. */
-static ALWAYS_INLINE lanes bond_energy_column(const struct column s, const struct particles *p, const lanes *x,
-                                              lanes *press, const int dim, const enum pd_model model)
+static ALWAYS_INLINE lanes bond_energy_column(const struct bond_column_view s, const struct particles *p,
+                                              const lanes *x, lanes *press, const int dim, const enum pd_model model)
 {
     lanes y[DIM_MAX], stretch;
     bond_measure_store(s, p, x, y, &stretch, dim);
-    *press = column_min_of_intact_bonds(s, *press, stretch);
-    const lanes w = column_weight(s), inverse = column_inverse_length(s);
+    *press = bond_column_min_where_intact(s, *press, stretch);
+    const lanes w = bond_column_weights(s), inverse = bond_column_inverse_lengths(s);
     const lanes length = lanes_inverse_square_root(inverse * inverse); /* cheaper than a division */
     const lanes elastic = bonds_elastic_stretch(model, s.b, s.number * LANES, stretch);
     return lanes_choose(w > 0.0, w * bonds_normalised_energy(model, stretch, elastic) * length, lanes_broadcast(0));
@@ -70,12 +70,12 @@ static ALWAYS_INLINE real bond_energy_row_block(const struct bonds *b, const str
  * (xx, yy, zz, xy, yz, zx in 3D). s: column of bonds, one of each of eight particles; F_ij: force of the bond on the
  * particle of the row; x[dim]: positions of the eight particles [m]. model: bond law, a compile-time constant. p: all
  * particles. */
-static ALWAYS_INLINE void bond_stress_column(lanes *sum, const struct column s, const struct particles *p,
+static ALWAYS_INLINE void bond_stress_column(lanes *sum, const struct bond_column_view s, const struct particles *p,
                                              const lanes *x, const int dim, const enum pd_model model)
 {
     lanes y[DIM_MAX], stretch;
     const lanes inverse = bond_measure_store(s, p, x, y, &stretch, dim);
-    const lanes share = column_weight(s) * bonds_elastic_stretch(model, s.b, s.number * LANES, stretch) * inverse;
+    const lanes share = bond_column_weights(s) * bonds_elastic_stretch(model, s.b, s.number * LANES, stretch) * inverse;
     for (int d = 0; d < dim; d++) sum[d] += share * y[d] * y[d];
     if (dim > 1) sum[dim] += share * y[0] * y[1];
     if (dim > 2) sum[4] += share * y[1] * y[2], sum[5] += share * y[2] * y[0];
@@ -104,14 +104,15 @@ static ALWAYS_INLINE void bond_stress_row_block(const struct bonds *b, struct pa
 /* Raises the largest stretches so far of eight softening bonds, column s of a block of eight rows (one bond of each of
  * eight particles), to their present stretches where these are larger. x[dim]: positions of the eight particles [m].
  * p: all particles. Returns what the bonds lose at kinks of their softening curve, divided by the stiffness [m]
- * (bonds_loss_at_kinks). */
-static ALWAYS_INLINE lanes bond_soften_column(const struct column s, const struct particles *p, const lanes *x,
-                                              const int dim)
+ * (bonds_excess_dissipation_at_softening_kinks). */
+static ALWAYS_INLINE lanes bond_soften_column(const struct bond_column_view s, const struct particles *p,
+                                              const lanes *x, const int dim)
 {
     lanes y[DIM_MAX], stretch;
     bond_measure_store(s, p, x, y, &stretch, dim);
-    const lanes lost = bonds_loss_at_kinks(s.b, s.number * LANES, stretch, column_weight(s), column_inverse_length(s));
-    bonds_update_softened_stretch(s.b, s.number * LANES, stretch);
+    const lanes lost = bonds_excess_dissipation_at_softening_kinks(
+        s.b, s.number * LANES, stretch, bond_column_weights(s), bond_column_inverse_lengths(s));
+    bonds_update_softening_and_scale_stretch(s.b, s.number * LANES, stretch);
     return lost;
 }
 
@@ -127,7 +128,7 @@ static ALWAYS_INLINE void bond_soften_row_block(const struct bonds *b, const str
 #define VISIT(COLUMN) lost += bond_soften_column(COLUMN, p, x, dim)
     FOR_COLUMNS(b, g, VISIT);
 #undef VISIT
-    bond_row_block_add_loss_at_kinks(b, g, lost);
+    bond_row_block_add_excess_dissipation_at_kinks(b, g, lost);
 }
 
 void bonds_update_softening(struct bonds *b, const struct particles *p)
@@ -144,15 +145,15 @@ void bonds_update_softening(struct bonds *b, const struct particles *p)
 real bond_row_plastic_work(const struct bonds *b, int64_t row)
 {
     real sum = b->plastic_work[row];
-    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);)
-        sum += 0.5 * bond_plastic_work_of(b, &it.bond);
+    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_iterator_advance(&it);)
+        sum += 0.5 * bond_dissipated_plastic_work(b, &it.bond);
     return sum;
 }
 
 real bond_row_plastic_path(const struct bonds *b, int64_t row)
 {
     real sum = 0, all = 0;
-    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
+    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_iterator_advance(&it);) {
         if (it.bond.w == 0) continue;
         const real weight = it.bond.w / it.bond.inverse_length;
         sum += weight * b->plastic_path[it.bond.entry], all += weight;

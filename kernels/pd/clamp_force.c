@@ -82,7 +82,7 @@ static ALWAYS_INLINE void state_reactions(const struct bonds *b, const struct pa
         effective[d] = rotates ? spring * (a.y[d] - xi[d]) : lanes_broadcast(0);
     }
     for (int e = 0; rotates && e < ROTATION; e++) rotation[e] = lanes_gather(t->rotation[e], c->from + k);
-    if (rotates) rotation_subtract_product(effective, rotation, xi, dim);
+    if (rotates) encoded_rotation_subtract_product_with_vector(effective, rotation, xi, dim);
     for (int d = 0; d < dim; d++) lanes_store(c->reaction[d] + k, -a.w * (along * a.inverse * a.y[d] + effective[d]));
 }
 
@@ -131,9 +131,10 @@ static void reactions_last(const struct bonds *b, const struct particles *p, con
     for (int64_t k = 0; k < c->n; k++) {
         const struct bond bond = {c->entry[k], c->to[k], c->inverse_length[k], c->w[k]};
         if (bond.w == 0 || b->w[bond.entry] > 0) continue;
-        const real share = bond_break_moment_of_stored(b, p, limit, bond.entry, c->from[k], bond.nbr).share;
+        const real share =
+            bond_at_index_find_break_time_and_force_fraction(b, p, limit, bond.entry, c->from[k], bond.nbr).share;
         real f[DIM_MAX];
-        bond_force_of_any_model(b, p, &bond, c->from[k], false, f);
+        bond_force_vector_of_any_model(b, p, &bond, c->from[k], false, f);
         for (int d = 0; d < p->dim; d++) c->reaction[d][k] = -share * (b->state.modulus ? 1 : 0.5) * f[d];
     }
 }

@@ -11,8 +11,8 @@
         _Pragma("omp parallel for schedule(static) reduction(+ : diverged)") for (int64_t k = 0; k < n; k += LANES)    \
         {                                                                                                              \
             _Alignas(sizeof(lanes)) int32_t room[LANES];                                                               \
-            diverged += pd_move_eight(p, list_eight_entries(list, k, n, room), count_of_eight_indices_below(k, n),     \
-                                      NULL, m, D);                                                                     \
+            diverged += pd_advance_up_to_eight_particles(p, list_get_eight_padded_entries(list, k, n, room),           \
+                                                         count_of_eight_consecutive_indices_below(k, n), NULL, m, D);  \
         }                                                                                                              \
         return diverged > 0;                                                                                           \
     }

@@ -8,8 +8,8 @@
 /* Returns a bit for each of the particles list[0] .. list[n - 1] of p, n <= 8: bit l is set if particle list[l] is
  * moved now, i.e. if it is peridynamic, not moved by the grid, and loaded[i] is 0 for its index i. loaded: [particles]
  * not 0 for particles that are moved later, after the loads are applied; NULL: none. */
-static ALWAYS_INLINE unsigned pd_particles_to_move(const struct particles *p, const int32_t *list, int n,
-                                                   const uint8_t *loaded)
+static ALWAYS_INLINE unsigned pd_select_movable_particles(const struct particles *p, const int32_t *list, int n,
+                                                          const uint8_t *loaded)
 {
     const int32_t first = list[0];
     unsigned bits = 0;
@@ -18,13 +18,14 @@ static ALWAYS_INLINE unsigned pd_particles_to_move(const struct particles *p, co
         !(loaded && eight_bytes_as_word(loaded + first)))
         return UINT8_MAX;
     for (int l = 0; l < n; l++)
-        bits |= (unsigned)(!particle_moves_with_nodes(p, list[l]) && !(loaded && loaded[list[l]])) << l;
+        bits |= (unsigned)(!particle_is_moved_by_grid_or_mesh_nodes(p, list[l]) && !(loaded && loaded[list[l]])) << l;
     return bits;
 }
 
 /* Stores a[l] in to[list[l]] for those of eight particles list[l], l = 0 to 7, whose bit l is set in `movers`.
  * consecutive: true if all bits are set and the particle numbers are consecutive. */
-static ALWAYS_INLINE void pd_store_selected(real *to, const int32_t *list, bool consecutive, unsigned movers, lanes a)
+static ALWAYS_INLINE void pd_store_values_of_selected_particles(real *to, const int32_t *list, bool consecutive,
+                                                                unsigned movers, lanes a)
 {
     if (consecutive)
         lanes_store(to + list[0], a);
@@ -37,8 +38,9 @@ static ALWAYS_INLINE void pd_store_selected(real *to, const int32_t *list, bool 
  * al. 2022, eq. 21). Only the particles whose bit is set in `movers` are changed. consecutive: true if all bits are set
  * and the particle numbers are consecutive; m: step sizes, and the speed above which a particle has diverged. Returns
  * true if one of the moved particles has diverged. */
-static ALWAYS_INLINE bool pd_leapfrog_step(struct particles *p, const int32_t *list, unsigned movers,
-                                           const struct pd_motion *m, const int dim, const bool consecutive)
+static ALWAYS_INLINE bool pd_leapfrog_step_and_check_divergence(struct particles *p, const int32_t *list,
+                                                                unsigned movers, const struct pd_motion *m,
+                                                                const int dim, const bool consecutive)
 {
     const int32_t first = consecutive ? list[0] : -1;
     const lanes inverse_mass = m->dt_velocity / lanes_load_or_gather(p->mass, first, list);
@@ -49,10 +51,10 @@ static ALWAYS_INLINE bool pd_leapfrog_step(struct particles *p, const int32_t *l
         speed2 += v[d] * v[d], place += lanes_absolute(x[d]);
     }
     for (int d = 0; d < dim; d++) {
-        pd_store_selected(p->v[d], list, consecutive, movers, v[d]);
-        pd_store_selected(p->x[d], list, consecutive, movers, x[d]);
+        pd_store_values_of_selected_particles(p->v[d], list, consecutive, movers, v[d]);
+        pd_store_values_of_selected_particles(p->x[d], list, consecutive, movers, x[d]);
     }
-    const lanes_mask diverged = lanes_diverged_mask(speed2, place, square(m->fastest));
+    const lanes_mask diverged = lanes_mask_of_diverged_particles(speed2, place, square(m->fastest));
     bool any = consecutive && lanes_mask_any(diverged);
     for (int l = 0; l < LANES && !consecutive; l++) any |= (movers >> l & 1) && diverged[l];
     return any;
@@ -62,13 +64,15 @@ static ALWAYS_INLINE bool pd_leapfrog_step(struct particles *p, const int32_t *l
  * moved by the grid and not marked in `loaded`. list: eight entries, ascending, aligned to 32 bytes; m: step sizes;
  * loaded: [particles] not 0 for particles that are moved later; NULL: none. Returns true if one of the moved particles
  * has diverged. */
-static ALWAYS_INLINE bool pd_move_eight(struct particles *p, const int32_t *list, int n, const uint8_t *loaded,
-                                        const struct pd_motion *m, const int dim)
+static ALWAYS_INLINE bool pd_advance_up_to_eight_particles(struct particles *p, const int32_t *list, int n,
+                                                           const uint8_t *loaded, const struct pd_motion *m,
+                                                           const int dim)
 {
-    const unsigned movers = pd_particles_to_move(p, list, n, loaded);
+    const unsigned movers = pd_select_movable_particles(p, list, n, loaded);
     if (movers == 0) return false;
-    if (movers == UINT8_MAX && list_is_consecutive(list)) return pd_leapfrog_step(p, list, movers, m, dim, true);
-    return pd_leapfrog_step(p, list, movers, m, dim, false);
+    if (movers == UINT8_MAX && list_is_consecutive(list))
+        return pd_leapfrog_step_and_check_divergence(p, list, movers, m, dim, true);
+    return pd_leapfrog_step_and_check_divergence(p, list, movers, m, dim, false);
 }
 
 #endif

@@ -18,7 +18,7 @@
 /* Computes, for eight rotations R (row major, one per lane) with the unit quaternions (q, q0), the row of the matrix 4
  * (q, q0) (q, q0)^T with the largest diagonal entry, from which the quaternion follows without division by a small
  * number (Shepperd 1978). row: receives the four entries of this row. Returns its diagonal entry. */
-static ALWAYS_INLINE lanes quaternion_largest_row(const lanes *R, lanes *row)
+static ALWAYS_INLINE lanes rotation_quaternion_outer_product_largest_row(const lanes *R, lanes *row)
 {
     const lanes odd[3] = {R[7] - R[5], R[2] - R[6], R[3] - R[1]}, even[3] = {R[1] + R[3], R[5] + R[7], R[6] + R[2]};
     const lanes size[ROTATION] = {1.0 + R[0] - R[4] - R[8], 1.0 - R[0] + R[4] - R[8], 1.0 - R[0] - R[4] + R[8],
@@ -36,23 +36,25 @@ static ALWAYS_INLINE lanes quaternion_largest_row(const lanes *R, lanes *row)
 }
 
 /* Computes the four numbers rotation[ROTATION] by which the rotations R (row major) of eight particles are stored, with
- * g = `spring`, the spring stiffnesses (force by extension) of the neighbourhoods of these particles [N/m]: in 2D the
- * entries of g (R - 1), row by row; in 3D sqrt(2 g) times the unit quaternion of R, its scalar last. */
-static ALWAYS_INLINE void rotation_encode(lanes *rotation, const lanes *R, lanes spring, const int dim)
+ * g = `spring_stiffness`, the spring stiffnesses (force by extension) of the neighbourhoods of these particles [N/m]:
+ * in 2D the entries of g (R - 1), row by row; in 3D sqrt(2 g) times the unit quaternion of R, its scalar last. */
+static ALWAYS_INLINE void rotation_encode_with_spring_stiffness(lanes *rotation, const lanes *R, lanes spring_stiffness,
+                                                                const int dim)
 {
     if (dim == 2) {
-        for (int c = 0; c < ROTATION; c++) rotation[c] = spring * (R[c] - (c % 3 == 0 ? 1.0 : 0.0));
+        for (int c = 0; c < ROTATION; c++) rotation[c] = spring_stiffness * (R[c] - (c % 3 == 0 ? 1.0 : 0.0));
         return;
     }
-    const lanes size = quaternion_largest_row(R, rotation),
-                scale = spring * lanes_inverse_square_root(2.0 * spring * size + TURN_TINY);
+    const lanes size = rotation_quaternion_outer_product_largest_row(R, rotation),
+                scale = spring_stiffness * lanes_inverse_square_root(2.0 * spring_stiffness * size + TURN_TINY);
     for (int c = 0; c < ROTATION; c++) rotation[c] *= scale;
 }
 
 /* Subtracts the product of the matrix g (R - 1) with the vector `arm` from the vector f, for eight particles with
  * rotations R and spring stiffnesses g (force by extension). f, arm: dim components; rotation: numbers stored by
- * rotation_encode. In 2D the matrix is (a, -c; c, a) with a = rotation[0] and c = rotation[2]. */
-static ALWAYS_INLINE void rotation_subtract_product(lanes *f, const lanes *rotation, const lanes *arm, const int dim)
+ * rotation_encode_with_spring_stiffness. In 2D the matrix is (a, -c; c, a) with a = rotation[0] and c = rotation[2]. */
+static ALWAYS_INLINE void encoded_rotation_subtract_product_with_vector(lanes *f, const lanes *rotation,
+                                                                        const lanes *arm, const int dim)
 {
     if (dim == 2) {
         f[0] += rotation[2] * arm[1] - rotation[0] * arm[0];
@@ -70,17 +72,17 @@ static ALWAYS_INLINE void rotation_subtract_product(lanes *f, const lanes *rotat
     }
 }
 
-/* Returns true if rotation_subtract_product reads number `component` (0 to 3) of a stored rotation, so that it must be
- * loaded: in 3D all numbers, in 2D numbers 0 and 2. */
-static ALWAYS_INLINE bool rotation_component_is_read(int component, const int dim)
+/* Returns true if encoded_rotation_subtract_product_with_vector reads number `component` (0 to 3) of a stored rotation,
+ * so that it must be loaded: in 3D all numbers, in 2D numbers 0 and 2. */
+static ALWAYS_INLINE bool encoded_rotation_component_is_needed(int component, const int dim)
 {
     return dim > 2 || component % 2 == 0;
 }
 
-/* Returns true if number `component` (0 to 3) of a stored rotation (rotation_encode) changes sign when the particle is
- * reflected in a plane normal to axis `axis` (-1: no plane). dim: dimension of the body. All components of a rotation
- * vector change sign except the one along the normal. */
-static inline bool rotation_component_changes_sign(int component, int axis, int dim)
+/* Returns true if number `component` (0 to 3) of a stored rotation (rotation_encode_with_spring_stiffness) changes sign
+ * when the particle is reflected in a plane normal to axis `axis` (-1: no plane). dim: dimension of the body. All
+ * components of a rotation vector change sign except the one along the normal. */
+static inline bool encoded_rotation_component_flips_on_reflection(int component, int axis, int dim)
 {
     return axis >= 0 && (dim == 2 ? component == 1 || component == 2 : component < 3 && component != axis);
 }

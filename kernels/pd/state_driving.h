@@ -11,8 +11,8 @@
  * by the weight of the bond (factor on its force), at the present states (pressure, spring stiffness, rotation) of the
  * neighbourhoods of both particles. Damage may grow only if the result is positive. i: particle of p to whose bonds
  * `bond` belongs; the result for the other particle is bitwise equal. */
-static inline real bond_driving_energy(const struct bonds *b, const struct particles *p, const struct bond *bond,
-                                       int32_t i)
+static inline real bond_damage_driving_energy(const struct bonds *b, const struct particles *p, const struct bond *bond,
+                                              int32_t i)
 {
     const struct state *t = &b->state;
     const int32_t at[2] = {i, bond->nbr};
@@ -32,9 +32,9 @@ static inline real bond_driving_energy(const struct bonds *b, const struct parti
         for (int d = 0; d < dim; d++) turned[d] = lanes_broadcast(0), arm[d] = lanes_broadcast(xi[d]);
         for (int c = 0; c < ROTATION; c++) rotation[c] = lanes_broadcast(t->rotation[c][at[end]]);
         if (dim == 2)
-            rotation_subtract_product(turned, rotation, arm, 2);
+            encoded_rotation_subtract_product_with_vector(turned, rotation, arm, 2);
         else
-            rotation_subtract_product(turned, rotation, arm, 3);
+            encoded_rotation_subtract_product_with_vector(turned, rotation, arm, 3);
         for (int d = 0; d < dim; d++) own[end] += square(g * (y[d] - xi[d]) + turned[d][0]) / g;
     }
     return r * e * (t->pressure[at[0]] + t->pressure[at[1]]) + 0.5 * (own[0] + own[1]);

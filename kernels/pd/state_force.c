@@ -31,18 +31,18 @@ struct family_sums {
  * x[dim], X[dim]: present and reference positions of the eight particles [m]; model: state-based model, a compile-time
  * constant. p: all particles. */
 static ALWAYS_INLINE void precompute_column(struct family_sums *sum, const struct particles *p,
-                                            const struct column column, const lanes *x, const lanes *X, const int dim,
-                                            const enum pd_model model)
+                                            const struct bond_column_view column, const lanes *x, const lanes *X,
+                                            const int dim, const enum pd_model model)
 {
-    struct state_bond s;
-    state_bond_compute_vectors(&s, p, column, x, X, dim, model);
-    const lanes w = column_weight(column), stretch = STRETCH_OF(lanes_square_root(s.distance2), s.inverse_length);
-    sum->stretch = column_max_of_intact_bonds(column, sum->stretch, stretch);
-    sum->press = column_min_of_intact_bonds(column, sum->press, stretch);
-    sum->extension += state_weighted_length(column, w, s.inverse_length, true) * stretch;
+    struct state_bond_vectors s;
+    state_bonds_compute_vectors_and_lengths(&s, p, column, x, X, dim, model);
+    const lanes w = bond_column_weights(column), stretch = STRETCH_OF(lanes_square_root(s.distance2), s.inverse_length);
+    sum->stretch = bond_column_max_where_intact(column, sum->stretch, stretch);
+    sum->press = bond_column_min_where_intact(column, sum->press, stretch);
+    sum->extension += state_bonds_weighted_reference_length(column, w, s.inverse_length, true) * stretch;
     if (!state_model_has_rotations(model)) return;
     for (int c = 0; c < dim; c++) {
-        const lanes weighted = column_weighted_vectors(column, c, w, s.xi[c]);
+        const lanes weighted = bond_column_weighted_vector_component(column, c, w, s.xi[c]);
         const lanes_mask moved = (lanes_mask)s.y[c] ^ (lanes_mask)s.xi[c];
         sum->moved |= column.kind >= COLUMN_WHOLE ? moved : moved & (w > 0.0); /* padding may point to any particle */
         for (int d = 0; d < dim; d++) sum->moment[d * dim + c] += weighted * s.y[d];
@@ -59,7 +59,7 @@ static ALWAYS_INLINE void family_rotation(lanes *rotation, const lanes *moment, 
     lanes R[DIM_MAX * DIM_MAX];
     polar_rotation_lanes(moment, R, dim);
     for (int c = 0; c < dim * dim; c++) R[c] = lanes_choose(moved != 0, R[c], lanes_broadcast(c % (dim + 1) == 0));
-    rotation_encode(rotation, R, spring, dim);
+    rotation_encode_with_spring_stiffness(rotation, R, spring, dim);
 }
 
 /* Moduli and weighted volumes Q = sum w |xi|^2 of the neighbourhoods (all bonds) of eight particles. Members inverse
@@ -99,7 +99,7 @@ static ALWAYS_INLINE void precompute_store(struct bonds *b, int64_t g, const str
                                            const enum pd_model model)
 {
     const int32_t *row = b->particle + g * LANES;
-    const int rows = count_of_eight_indices_below(g * LANES, b->rows);
+    const int rows = count_of_eight_consecutive_indices_below(g * LANES, b->rows);
     struct state *t = &b->state;
     bond_row_block_store_values(t->pressure, row, rows, b->aligned[g], k->pressure);
     bond_row_block_store_values(t->spring, row, rows, b->aligned[g], k->spring);
@@ -151,7 +151,7 @@ static ALWAYS_INLINE void ends_moment(struct particles *p, const int32_t *row, i
          c++) { /* N = g R^T M column by column: g times the column plus g (R^T - 1) times the column */
         lanes less[DIM_MAX], column[DIM_MAX];
         for (int d = 0; d < dim; d++) column[d] = sum->moment[d * dim + c], less[d] = lanes_broadcast(0);
-        rotation_subtract_product(less, rotation, column, dim);
+        encoded_rotation_subtract_product_with_vector(less, rotation, column, dim);
         for (int d = 0; d < dim; d++) N[d][c] = spring * column[d] - less[d];
     }
     const lanes_mask any = end & ((sum->moved != 0) | (turned != 0.0)); /* exactly zero where nothing has moved */
@@ -173,7 +173,7 @@ static __attribute__((noinline)) void ends_update(struct bonds *b, struct partic
 {
     const lanes_mask end = ends_of(b, p, g);
     const int32_t *row = b->particle + g * LANES, own = b->aligned[g] ? row[0] : -1;
-    const int rows = count_of_eight_indices_below(g * LANES, b->rows);
+    const int rows = count_of_eight_consecutive_indices_below(g * LANES, b->rows);
     k->pressure +=
         f->A * f->share * lanes_choose(end, lanes_load_or_gather(p->end_strain, own, row), lanes_broadcast(0));
     const lanes pull = lanes_choose(end, k->pressure * lanes_load(b->state.weighted + g * LANES), lanes_broadcast(0));
@@ -234,7 +234,7 @@ static ALWAYS_INLINE void precompute_row_block(struct bonds *b, struct particles
     b->state.past[g] = lanes_mask_any(sum.stretch > lanes_load(b->trigger + g * LANES));
     b->state.pressed[g] = lanes_mask_any(sum.press < CORE_FROM - 1);
     precompute_by_family(b, p, g, &sum, dim, model);
-    if (b->state.past[g] && !limit->softening) state_blend_breaking_rows(b, p, limit, g);
+    if (b->state.past[g] && !limit->softening) bond_row_block_blend_states_for_breaking_bonds(b, p, limit, g);
 }
 
 /* Sets the states (pressure, spring stiffness, rotation) of mirror images in b->state to the states of the particles of
@@ -249,9 +249,10 @@ static void state_of_images(struct bonds *b, const struct particles *p, int dim,
         b->state.pressure[g] = has_state ? b->state.pressure[i] : 0;
         b->state.spring[g] = has_state ? b->state.spring[i] : 0;
         for (int c = 0; rotates && c < ROTATION; c++)
-            b->state.rotation[c][g] = !has_state                                      ? 0
-                                      : rotation_component_changes_sign(c, axis, dim) ? -b->state.rotation[c][i]
-                                                                                      : b->state.rotation[c][i];
+            b->state.rotation[c][g] = !has_state ? 0
+                                      : encoded_rotation_component_flips_on_reflection(c, axis, dim)
+                                          ? -b->state.rotation[c][i]
+                                          : b->state.rotation[c][i];
     }
 }
 
@@ -270,33 +271,34 @@ struct state_sums {
  * than the stretch. With rotations the effective displacement Y - R xi is computed as (Y - xi) - (R - 1) xi, which is
  * exactly 0 where nothing has moved; the part of the rotations of the eight particles themselves is added in
  * force_row_block. p: all particles. */
-static ALWAYS_INLINE void force_column(struct state_sums *sum, const struct particles *p, const struct column column,
-                                       const int dim, const enum pd_model model)
+static ALWAYS_INLINE void force_column(struct state_sums *sum, const struct particles *p,
+                                       const struct bond_column_view column, const int dim, const enum pd_model model)
 {
     const struct state *t = &column.b->state;
-    struct state_bond s;
-    state_bond_compute_vectors(&s, p, column, sum->x, sum->X, dim, model);
+    struct state_bond_vectors s;
+    state_bonds_compute_vectors_and_lengths(&s, p, column, sum->x, sum->X, dim, model);
     const lanes inverse = lanes_inverse_square_root(s.distance2);
-    const lanes w = column_weight(column);
-    const lanes pressure = sum->pressure + column_gather_neighbours(column, t->pressure);
-    const lanes spring = sum->spring + column_gather_neighbours(column, t->spring);
+    const lanes w = bond_column_weights(column);
+    const lanes pressure = sum->pressure + bond_column_gather_neighbour_values(column, t->pressure);
+    const lanes spring = sum->spring + bond_column_gather_neighbour_values(column, t->spring);
     if (!state_model_has_rotations(model)) {
-        const lanes share = SHARE_OF(state_reference_length(column, s.inverse_length), inverse);
+        const lanes share = SHARE_OF(state_bonds_reference_length(column, s.inverse_length), inverse);
         const lanes along = w * (pressure + (spring - pressure) * share);
         for (int d = 0; d < dim; d++) sum->f[d] += along * s.y[d];
         return;
     }
-    const lanes along = state_weighted_length(column, w, s.inverse_length, false) * pressure * inverse,
+    const lanes along = state_bonds_weighted_reference_length(column, w, s.inverse_length, false) * pressure * inverse,
                 weighted = w * spring;
     lanes rotation[ROTATION], arm[DIM_MAX], f[DIM_MAX];
     for (int c = 0; c < ROTATION; c++)
-        if (rotation_component_is_read(c, dim)) rotation[c] = column_gather_neighbours(column, t->rotation[c]);
+        if (encoded_rotation_component_is_needed(c, dim))
+            rotation[c] = bond_column_gather_neighbour_values(column, t->rotation[c]);
     for (int d = 0; d < dim; d++) {
-        arm[d] = column_weighted_vectors(column, d, w, s.xi[d]);
+        arm[d] = bond_column_weighted_vector_component(column, d, w, s.xi[d]);
         sum->arm[d] += arm[d];
         f[d] = along * s.y[d] + weighted * (s.y[d] - s.xi[d]);
     }
-    rotation_subtract_product(f, rotation, arm, dim);
+    encoded_rotation_subtract_product_with_vector(f, rotation, arm, dim);
     for (int d = 0; d < dim; d++)
         sum->f[d] += f[d]; /* one addition per column: shortest chain of dependent additions */
 }
@@ -309,7 +311,7 @@ static ALWAYS_INLINE void force_row_block(const struct bonds *b, struct particle
 {
     const int32_t *row = b->particle + g * LANES;
     const int32_t own = b->aligned[g] ? row[0] : -1;
-    const int rows = count_of_eight_indices_below(g * LANES, b->rows);
+    const int rows = count_of_eight_consecutive_indices_below(g * LANES, b->rows);
     const struct state *t = &b->state;
     struct state_sums sum;
     sum.pressure = lanes_load_or_gather(t->pressure, own, row), sum.spring = lanes_load_or_gather(t->spring, own, row);
@@ -323,7 +325,7 @@ static ALWAYS_INLINE void force_row_block(const struct bonds *b, struct particle
     if (state_model_has_rotations(model)) {
         lanes rotation[ROTATION];
         for (int c = 0; c < ROTATION; c++) rotation[c] = lanes_load_or_gather(t->rotation[c], own, row);
-        rotation_subtract_product(sum.f, rotation, sum.arm, dim);
+        encoded_rotation_subtract_product_with_vector(sum.f, rotation, sum.arm, dim);
     }
     for (int d = 0; d < dim; d++) bond_row_block_store_values(p->f[d], row, rows, own >= 0, sum.f[d]);
 }

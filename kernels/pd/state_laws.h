@@ -33,7 +33,7 @@
 
 /* Vectors and lengths of the eight bonds of a column (one bond of each particle of a block of eight rows), for both
  * loops of a state-based force. */
-struct state_bond {
+struct state_bond_vectors {
     lanes y[DIM_MAX], xi[DIM_MAX]; /* deformed and reference vector [m]; xi only in models with rotations */
     lanes distance2;               /* |Y|^2 [m^2] */
     lanes inverse_length;          /* 1/|xi|; may be negative for broken bonds [1/m] */
@@ -46,24 +46,26 @@ static ALWAYS_INLINE bool state_model_has_rotations(const enum pd_model model) {
 /* Computes vectors and lengths of the eight bonds of `column` (one bond of each of eight particles of p) into *s.
  * model: peridynamic model; x, X: [dim] present and reference positions of these eight particles [m]; X is read only in
  * models with rotations of the particles. */
-static ALWAYS_INLINE void state_bond_compute_vectors(struct state_bond *s, const struct particles *p,
-                                                     const struct column column, const lanes *x, const lanes *X,
-                                                     const int dim, const enum pd_model model)
+static ALWAYS_INLINE void state_bonds_compute_vectors_and_lengths(struct state_bond_vectors *s,
+                                                                  const struct particles *p,
+                                                                  const struct bond_column_view column, const lanes *x,
+                                                                  const lanes *X, const int dim,
+                                                                  const enum pd_model model)
 {
     s->distance2 = lanes_broadcast(STATE_TINY);
     for (int d = 0; d < dim; d++) {
-        s->y[d] = column_gather_neighbours(column, p->x[d]) - x[d];
+        s->y[d] = bond_column_gather_neighbour_values(column, p->x[d]) - x[d];
         s->distance2 += s->y[d] * s->y[d];
-        if (state_model_has_rotations(model)) s->xi[d] = column_reference_vectors(column, p, d, X[d]);
+        if (state_model_has_rotations(model)) s->xi[d] = bond_column_reference_vector_component(column, p, d, X[d]);
     }
-    s->inverse_length = column_inverse_length(column);
+    s->inverse_length = bond_column_inverse_lengths(column);
 }
 
 /* Returns weight (factor on the force) times reference length, w |xi| [m], of the eight bonds of `column` (one bond of
  * each of eight particles), or w |xi|^2 [m^2] if `square` is true. On a lattice |xi| is the exact length of the lattice
  * shell, without the round-off of positions. w, inverse_length: weights [1] and inverse lengths [1/m] of the bonds. */
-static ALWAYS_INLINE lanes state_weighted_length(const struct column column, lanes w, lanes inverse_length,
-                                                 const bool square)
+static ALWAYS_INLINE lanes state_bonds_weighted_reference_length(const struct bond_column_view column, lanes w,
+                                                                 lanes inverse_length, const bool square)
 {
     if (column.kind >= COLUMN_WHOLE)
         return lanes_broadcast(square ? column.stencil->squared : column.stencil->weighted);
@@ -77,7 +79,7 @@ static ALWAYS_INLINE lanes state_weighted_length(const struct column column, lan
 /* Returns the reference lengths |xi| [m] of the eight bonds of `column` (one bond of each of eight particles) from
  * their inverses `inverse_length` [1/m], so that |xi| divided by the present length is 1 up to round-off where nothing
  * has moved. Lengths of broken bonds may be negative. */
-static ALWAYS_INLINE lanes state_reference_length(const struct column column, lanes inverse_length)
+static ALWAYS_INLINE lanes state_bonds_reference_length(const struct bond_column_view column, lanes inverse_length)
 {
     if (column.stencil) return lanes_broadcast(column.stencil->length);
     return 1.0 /

@@ -40,17 +40,17 @@ static ALWAYS_INLINE struct own_state own_state_of(const struct bonds *b, const 
  * not of its neighbour [N], 0 for broken bonds; y[dim]: receives the bond vector [m]. rotates: true in models with
  * rotations. Returns the elastic energies of the bonds in the neighbourhoods of the eight particles [J]. p: all
  * particles. */
-static ALWAYS_INLINE lanes own_force_column(const struct own_state *s, const struct column column,
+static ALWAYS_INLINE lanes own_force_column(const struct own_state *s, const struct bond_column_view column,
                                             const struct particles *p, lanes *T, lanes *y, const int dim,
                                             const bool rotates)
 {
-    const lanes w = column_weight(column), inverse_length = column_inverse_length(column);
+    const lanes w = bond_column_weights(column), inverse_length = bond_column_inverse_lengths(column);
     const lanes r =
         lanes_inverse_square_root(lanes_choose(w > 0.0, inverse_length * inverse_length, lanes_broadcast(1)));
     lanes xi[DIM_MAX], effective[DIM_MAX], distance2 = lanes_broadcast(STATE_TINY), effective2 = lanes_broadcast(0);
     for (int d = 0; d < dim; d++) {
-        y[d] = column_gather_neighbours(column, p->x[d]) - s->x[d],
-        xi[d] = column_reference_vectors(column, p, d, s->X[d]);
+        y[d] = bond_column_gather_neighbour_values(column, p->x[d]) - s->x[d],
+        xi[d] = bond_column_reference_vector_component(column, p, d, s->X[d]);
         distance2 += y[d] * y[d];
     }
     const lanes inverse = lanes_inverse_square_root(distance2);
@@ -60,7 +60,7 @@ static ALWAYS_INLINE lanes own_force_column(const struct own_state *s, const str
     lanes energy = along * e;
     for (int d = 0; d < dim; d++) T[d] = along * y[d] * inverse;
     for (int d = 0; d < dim; d++) effective[d] = s->spring * (y[d] - xi[d]);
-    if (rotates) rotation_subtract_product(effective, s->rotation, xi, dim);
+    if (rotates) encoded_rotation_subtract_product_with_vector(effective, s->rotation, xi, dim);
     for (int d = 0; rotates && d < dim; d++) T[d] += effective[d], effective2 += effective[d] * effective[d];
     /* w last: a weight of exactly one leaves the sums unchanged */
     for (int d = 0; d < dim; d++) T[d] = w * T[d];
@@ -91,7 +91,7 @@ static ALWAYS_INLINE real energy_row_block(const struct bonds *b, const struct p
  * one lane for each of their eight particles. T: part of the bond force that follows from the state of that particle
  * alone [N]; y: bond vector [m]. column: the eight bonds, entry k of the bond lists of the eight particles; s:
  * positions and states of the particles; model: state-based model, a compile-time constant. p: all particles. */
-static ALWAYS_INLINE void stress_column(lanes *sum, const struct own_state *s, const struct column column,
+static ALWAYS_INLINE void stress_column(lanes *sum, const struct own_state *s, const struct bond_column_view column,
                                         const struct particles *p, const int dim, const enum pd_model model)
 {
     lanes T[DIM_MAX], y[DIM_MAX];
@@ -177,7 +177,7 @@ static real row_effective(const struct bonds *b, const struct particles *p, int6
     const int dim = p->dim;
     real M[DIM_MAX * DIM_MAX] = {0}, R[DIM_MAX * DIM_MAX], sum = 0;
     for (int pass = 0; pass < 2; pass++) {
-        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
+        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_iterator_advance(&it);) {
             const int32_t j = it.bond.nbr;
             const real w = it.bond.w;
             if (w == 0) continue;
@@ -199,7 +199,7 @@ real state_row_energy(const struct bonds *b, const struct particles *p, int64_t 
     const int32_t i = b->particle[row];
     const struct state_modulus *m = &b->state.modulus[p->material[i]];
     real Q = 0, S = 0, e2 = 0;
-    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
+    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_iterator_advance(&it);) {
         const real w = it.bond.w, r = fabs(1 / it.bond.inverse_length);
         real y2 = 0;
         if (w == 0) continue;

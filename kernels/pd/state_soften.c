@@ -31,7 +31,7 @@ static int64_t bond_damage(struct bonds *b, struct particles *p, int64_t row, in
     }
     b->w[q] = soft->whole[q] *
               softening_remaining_stiffness_fraction(soft->curve, soft->onset[q], soft->end[q], soft->most[q]);
-    bond_column_update_after_bond_change(b, row, q);
+    bond_update_cached_data_after_modification(b, row, q);
     return 0;
 }
 
@@ -65,7 +65,7 @@ static int64_t row_soften(struct bonds *b, struct particles *p, const struct bon
             continue;
         }
         if (p->kind[i] != KIND_PD || p->kind[bond.nbr] != KIND_PD) continue;
-        if (!(stretch > b->soft.most[bond.entry]) || !(bond_driving_energy(b, p, &bond, i) > 0)) continue;
+        if (!(stretch > b->soft.most[bond.entry]) || !(bond_damage_driving_energy(b, p, &bond, i) > 0)) continue;
         if (isnan(before)) before = row_energy_of_step(b, p, row, limit->dt);
         ended += bond_damage(b, p, row, bond.entry, stretch);
     }

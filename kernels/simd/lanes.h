@@ -60,7 +60,8 @@ static ALWAYS_INLINE lanes lanes_gather(const real *from, const int32_t *index)
 /* Returns a pointer to the eight entries of list[n] from list[k] on. If fewer than eight are left, copies these to
  * `padded`, fills the rest of `padded` with copies of list[k] and returns `padded`, so that fewer than eight entries
  * never count as consecutive (list_is_consecutive). */
-static ALWAYS_INLINE const int32_t *list_eight_entries(const int32_t *list, int64_t k, int64_t n, int32_t padded[LANES])
+static ALWAYS_INLINE const int32_t *list_get_eight_padded_entries(const int32_t *list, int64_t k, int64_t n,
+                                                                  int32_t padded[LANES])
 {
     if (k + LANES <= n) return list + k;
     for (int l = 0; l < LANES; l++) padded[l] = list[k + l < n ? k + l : k];
@@ -68,7 +69,7 @@ static ALWAYS_INLINE const int32_t *list_eight_entries(const int32_t *list, int6
 }
 
 /* Returns true if the eight entries list[0 .. 7] are consecutive numbers. The entries must be strictly ascending, or
- * copies of list[0] may follow the ascending ones, as list_eight_entries fills them up. */
+ * copies of list[0] may follow the ascending ones, as list_get_eight_padded_entries fills them up. */
 static ALWAYS_INLINE bool list_is_consecutive(const int32_t *list) { return list[LANES - 1] - list[0] == LANES - 1; }
 
 /* Returns eight values of the array `from`: from[first] .. from[first + 7] or, if first < 0, from[index[0]] ..
@@ -226,7 +227,7 @@ static ALWAYS_INLINE bool lanes_any_less(lanes a, lanes b)
 /* Returns estimates of 1/sqrt(a) in each lane, of 14 bits or more. Without AVX-512: halving the exponent and mantissa
  * bits and subtracting from a constant is accurate to 3.5 % for normal numbers (the constant minimises the largest
  * error); one step of the series of lanes_inverse_square_root leaves 6e-6. */
-static ALWAYS_INLINE lanes lanes_estimate_inverse_root(lanes a)
+static ALWAYS_INLINE lanes lanes_estimate_inverse_square_root(lanes a)
 {
 #ifdef __AVX512F__
     return (lanes)_mm512_rsqrt14_pd((__m512d)a);
@@ -241,7 +242,7 @@ static ALWAYS_INLINE lanes lanes_estimate_inverse_root(lanes a)
  * third of the time of a root and a division, and fewer operations than two Newton steps. */
 static ALWAYS_INLINE lanes lanes_inverse_square_root(lanes a)
 {
-    const lanes y = lanes_estimate_inverse_root(a), c = 1.0 - (a * y) * y;
+    const lanes y = lanes_estimate_inverse_square_root(a), c = 1.0 - (a * y) * y;
     return y + (y * c) * (0.5 + c * (0.375 + c * 0.3125));
 }
 
@@ -249,7 +250,7 @@ static ALWAYS_INLINE lanes lanes_inverse_square_root(lanes a)
  * lanes_inverse_square_root. */
 static ALWAYS_INLINE lanes lanes_square_root(lanes a)
 {
-    const lanes y = lanes_estimate_inverse_root(a), root = a * y, c = 1.0 - root * y;
+    const lanes y = lanes_estimate_inverse_square_root(a), root = a * y, c = 1.0 - root * y;
     return root + (root * c) * (0.5 + c * (0.375 + c * 0.3125));
 }
 

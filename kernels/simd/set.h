@@ -16,8 +16,8 @@
     X(bond_restore_entry) X(bond_break_entry) X(bond_row_block_stretch) X(state_row_energy)                            \
     X(bond_plastic_work) X(pd_move_table) X(kernels_choose) X(particles_diverged)                                      \
     X(p2g_table) X(remap_table) X(turn_gather_table) X(turn_scatter_table) X(g2p_table) X(spread_table)                \
-    X(rotation_groups_compute_spins) X(rotation_groups_restore_angular_momentum) X(law_update) X(grid_clear)           \
-    X(points_add_mean_dilatation)                                                                                      \
+    X(corotating_groups_compute_spins) X(corotating_groups_restore_angular_momentum)                                   \
+    X(law_update) X(grid_clear) X(points_add_mean_dilatation)                                                          \
     X(grid_advance) X(grid_constrain) X(grid_remapped) X(mesh_clear) X(mesh_force) X(mesh_move) X(mesh_points_move)    \
     X(mesh_exposed_move) X(mesh_listed_move)                                                                           \
     X(mesh_exposed_force) X(mesh_points_stress) X(mesh_points_mark) X(mesh_kinetic) X(mesh_kick) X(mesh_strain)        \

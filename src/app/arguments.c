@@ -85,7 +85,7 @@ status option_check_has_value(const char *option, bool has_value, const char *us
     return has_value ? OK : status_set(REFUSED, "%s needs a value; usage: cleave %s", option, usage);
 }
 
-bool option_is_of_study_pictures(const char *option)
+bool option_is_size_dpi_or_format(const char *option)
 {
     return !strcmp(option, "--size") || !strcmp(option, "--dpi") || !strcmp(option, "--format");
 }
@@ -96,7 +96,7 @@ status option_read_size_dpi_or_format(struct picture_size *size, const char *opt
     TRY(option_check_has_value(option, option_value != NULL, usage));
     if (strcmp(option, "--size") == 0) return option_read_picture_size(size, option, option_value);
     if (strcmp(option, "--dpi") == 0) return option_read_dpi(size, option, option_value);
-    if (picture_format_named(&size->format, option_value) && !picture_is_film(size->format)) return OK;
+    if (picture_format_find_by_ending(&size->format, option_value) && !picture_format_is_video(size->format)) return OK;
     return status_set(REFUSED, "%s %s: give png, svg or pdf", option, printable_name(option_value).text);
 }
 

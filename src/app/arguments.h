@@ -32,7 +32,7 @@ status option_read_dpi(struct picture_size *size, const char *option, const char
 
 /* Returns true if `option`, a word of the command line, is an option of the pictures of a study: --size, --dpi or
  * --format. */
-bool option_is_of_study_pictures(const char *option);
+bool option_is_size_dpi_or_format(const char *option);
 
 /* Reads the value `option_value` of the option `option` of a study, --size, --dpi or --format, into *size.
  * option_value: NULL if the option has no value; usage: usage line for the message. Returns REFUSED, with a message, if

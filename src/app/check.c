@@ -131,7 +131,7 @@ static void say_notches(const struct run *e)
 static void say_time_step(const struct run *e)
 {
     if (scene_has_load_steps(e->scene))
-        print_load_step_solver(e);
+        print_load_step_settings(e);
     else if (scene_is_single_equilibrium(e->scene))
         printf("solver         static equilibrium to a residual of %.3g of the load, in at most %lld iterations\n",
                e->scene->solver_tolerance, (long long)e->clock.steps);
@@ -244,7 +244,8 @@ static void say_materials(const struct run *e)
         if (material_has_softening_bonds(a))
             printf(", bonds soften");
         else if (isfinite(a->critical_stretch))
-            printf(", bonds break at a stretch of %.4g", a->critical_stretch), print_brittle_strength(e->scene, a);
+            printf(", bonds break at a stretch of %.4g", a->critical_stretch),
+                print_tensile_strength_of_brittle_bonds(e->scene, a);
         else
             printf("; its bonds %s: neither energy_release_rate nor critical_stretch is given",
                    breaks_at_interface(e->scene, m) ? "break only at the interface" : "never break");
@@ -286,7 +287,7 @@ static void warnings_of_trial(struct warnings *found, const struct warnings *tri
 static void say_busy(double load, int threads)
 {
     char text[256];
-    if (machine_describe_overload_if_any(text, sizeof text, load, machine_physical_core_count(), threads))
+    if (machine_compose_warning_if_overloaded(text, sizeof text, load, machine_physical_core_count(), threads))
         printf("load           %s\n", text);
 }
 
@@ -298,7 +299,7 @@ static status check_cost(struct run *e, const struct run_arguments *a, int threa
 {
     struct cost cost = {.make = made};
     const double load = machine_load_average();
-    const status result = cost_measure_by_trial_steps(&cost, e, a);
+    const status result = run_cost_measure_by_trial_steps(&cost, e, a);
     warnings_of_trial(found, &cost.found);
     warnings_free(&cost.found);
     TRY(result);
@@ -362,14 +363,14 @@ static void say_settings(const struct run *e)
     say_particles(e);
     print_volume_filled_by_particles(e);
     print_shape_file_volumes(e);
-    print_bodies_of_separate_pieces(e);
+    print_bodies_in_several_unbonded_pieces(e);
     say_materials(e);
     say_interfaces(e->scene);
     print_smallest_precrack_length(e);
     say_frames(e);
-    print_coarse_cells(e);
+    print_coarse_cell_sizes_and_counts(e);
     say_notches(e);
-    print_loads(e);
+    print_loads_and_supports(e);
     say_time_step(e);
     say_contact(e);
 }
@@ -381,19 +382,19 @@ static void say_settings(const struct run *e)
 static status check_sound(struct scene *s, const struct run_arguments *a, int threads, double start, bool trial)
 {
     struct run e = {0};
-    struct warnings hints = {0}, found = {.locate = scene_find_location_of_message, .scene = s};
+    struct warnings hints = {0}, found = {.locate = scene_find_file_location_of_warning, .scene = s};
     int remarks = 0;
     s->active_set = false;           /* cost with the whole body active */
     s->accept |= 1u << ACCEPT_SHOCK; /* trial steps stay silent about collisions that advise_shocks announces */
-    engine_announce_long_set_up(s);
-    status result = engine_set_up_run(&e, s, NULL);
+    run_print_notice_if_set_up_takes_long(s);
+    status result = run_set_up_from_scene(&e, s, NULL);
     const double made = thread_cpu_clock_seconds() - start;
     if (result == OK) {
         say_settings(&e);
-        engine_warn_of_suspicious_input(&e);
-        warn_of_bond_plasticity(e.scene, &e.warnings);
-        warnings_append_new_from_list(&found, &e.warnings, 0);
-        cost_hints_add_to_warnings(&e, &hints);
+        run_warn_of_suspicious_input(&e);
+        warn_that_bond_plasticity_is_not_von_mises(e.scene, &e.warnings);
+        warnings_append_missing_from_list(&found, &e.warnings, 0);
+        hint_needless_cost_and_unused_settings(&e, &hints);
         result = say_accuracy(&e, &remarks);
         if (result == OK && trial) result = check_cost(&e, a, threads, made, &found);
         say_list(&hints, "hints");
@@ -403,22 +404,22 @@ static status check_sound(struct scene *s, const struct run_arguments *a, int th
     }
     warnings_free(&hints);
     warnings_free(&found);
-    engine_free_run(&e);
+    run_free_memory(&e);
     return result;
 }
 
 status command_check_main(int argc, char **argv)
 {
     struct run_arguments a;
-    struct pilot_wish pilot;
+    struct pilot_requirements pilot;
     const bool trial = !arguments_remove_option(&argc, argv, "--no-trial");
     TRY(arguments_read(&a, argc, argv, "check " CHECK_WORDS));
-    const int threads = team_set_thread_count(a.threads);
+    const int threads = threads_set_count_and_bind_to_cores(a.threads);
     const double start = thread_cpu_clock_seconds();
     struct scene s = {0};
-    status result = scene_read_or_list_pilot_requirements(&s, &pilot, a.scene, a.override, a.overrides);
+    status result = scene_read_unless_pilot_runs_are_needed(&s, &pilot, a.scene, a.override, a.overrides);
     if (result == OK && pilot.wanted) {
-        result = pilot_plan_print(&pilot, a.scene, stdout);
+        result = pilot_runs_print_plan(&pilot, a.scene, stdout);
         scene_free(&pilot.provisional);
     } else if (result == OK) {
         result = check_sound(&s, &a, threads, start, trial);

@@ -56,7 +56,7 @@ static real mirrored_edge(const struct scene *scene, const struct bond_source *s
 real solid_smallest_edge(const struct run *e, const struct solid *solid)
 {
     real least = INFINITY;
-    for (int d = 0; d < e->scene->dim && solid_is_of_kind_and_not_moved(solid, SOLID_BOX); d++)
+    for (int d = 0; d < e->scene->dim && solid_is_untransformed_and_of_kind(solid, SOLID_BOX); d++)
         least = real_min(least, mirrored_edge(e->scene, &e->source, solid, d));
     return real_min(least, solid_least_thickness(solid, e->scene->dim));
 }
@@ -93,7 +93,7 @@ static const int *stiffness_errors(const struct scene *s, enum surface_rule surf
                                     : stiffness_off[row].mospd;
 }
 
-void print_stiffness_error(const struct scene *s, enum surface_rule surface, double layer_count, FILE *out)
+void print_stiffness_error_of_thin_part(const struct scene *s, enum surface_rule surface, double layer_count, FILE *out)
 {
     const int *off = stiffness_errors(s, surface, layer_count);
     if (s->dim < 3)
@@ -112,7 +112,7 @@ static void advise_thin(const struct scene *s, double layers, FILE *out)
         return;
     }
     fprintf(out, "; its stiffness is off by up to ");
-    print_stiffness_error(s, s->surface, layers, out);
+    print_stiffness_error_of_thin_part(s, s->surface, layers, out);
     fprintf(out, "%s",
             fabs(s->horizon - 3.015) <= USUAL_HORIZON ? ""
             : s->model == MODEL_MOSPD ? " at a horizon of 3.015 spacings, several times as much at others"
@@ -135,7 +135,7 @@ static void advise_features(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
     for (int b = 0; b < s->bodies && s->dim > 1 && s->method != METHOD_MPM; b++) {
-        const double layers = count_layers_across_thin_parts(e, b, ENOUGH * FEATURE * s->horizon),
+        const double layers = count_particle_layers_across_thin_parts(e, b, ENOUGH * FEATURE * s->horizon),
                      size = layers * s->spacing;
         if (!isfinite(layers)) continue;
         fprintf(out,
@@ -195,7 +195,7 @@ static void advise_faces(const struct scene *s, FILE *out)
     for (int k = 0; k < s->probes && s->method != METHOD_PD && s->dim > 1; k++)
         for (int b = 0; b < s->bodies && s->probe[k].kind == PROBE_POINT; b++) {
             const struct region *shape = &s->body[b].shape;
-            if (s->body[b].file || shape->n == 0 || region_contains_infinite_box_solid(shape, s->dim)) continue;
+            if (s->body[b].file || shape->n == 0 || region_has_box_with_infinite_side(shape, s->dim)) continue;
             if (at_stepped_face(s, shape, s->probe[k].at))
                 fprintf(out,
                         "accuracy       probe %s: it is at a curved or slanted face of body %s, which the lattice "
@@ -274,7 +274,7 @@ static void advise_levels(const struct run *e, FILE *out)
 {
     const struct levels_choice c = mesh_levels_choose_level_count(e->frame, &e->part, e->scene, e->clock.dt_critical);
     char text[1024];
-    if (mesh_levels_of_scene_exceed_limit(&c, e->frame, e->scene, text, sizeof text))
+    if (mesh_levels_given_by_scene_are_too_many(&c, e->frame, e->scene, text, sizeof text))
         fprintf(out, "accuracy       %s\n", text);
 }
 
@@ -295,7 +295,7 @@ static void advise_formulas(const struct run *e, FILE *out)
 static void pulled_span(const struct load *l, const struct particles *p, int d, real t, real *least, real *most)
 {
     if (l->boundary->kind != BOUNDARY_VELOCITY || !(l->boundary->components & 1 << d) || l->boundary->rotates) return;
-    if (boundary_check_displacement_known(l->boundary) != OK) return;
+    if (boundary_check_displacement_has_closed_form(l->boundary) != OK) return;
     for (int64_t k = 0; k < l->n; k += 1 + l->n / PULL_PLACES) {
         real u[DIM_MAX];
         load_displacement_of_particle(l, p, k, t, u);
@@ -327,7 +327,7 @@ static real pulled_stretch(const struct loads *l, const struct particles *p, rea
  * them, so that the body separates there. */
 static void advise_pulled_metal(const struct scene *s, real stretch, FILE *out)
 {
-    const struct weak_shape *weak = shape_properties_if_weak_in_tension(s->shape);
+    const struct weak_shape_function *weak = shape_function_properties_if_weak_in_tension(s->shape);
     if (weak && stretch > weak->stretch)
         fprintf(out,
                 "accuracy       metal is pulled to %.3g times its length: with mpm.shape: %s it carries %s %% too "
@@ -422,8 +422,8 @@ static void hint_frame(const struct run *e, struct warnings *to)
         for (int m = 0; m < e->scene->materials; m++)
             if (scene_body_can_have_material(&e->scene->body[b], m))
                 strain = real_max(strain, reached / e->scene->material[m].young);
-        if (e->frame->choice[b].reference || scene_why_reference_frame_not_chosen_by_auto(e->scene, b)) continue;
-        if (!reference_frame_is_possible(e->frame, &e->part, e->scene, e->grid)) continue;
+        if (e->frame->choice[b].reference || scene_reason_auto_rejects_total_lagrangian_mpm(e->scene, b)) continue;
+        if (!lagrangian_mesh_can_be_made_for_scene(e->frame, &e->part, e->scene, e->grid)) continue;
         if (strain < LITTLE) snprintf(text, sizeof text, ", and waves strain it by at most %.2g", strain);
         warnings_add_if_new(to,
                             "body %s touches no other body%s%s: set mpm.frame: %s in place of current, which reduces "
@@ -475,7 +475,7 @@ static void hint_symmetry(const struct run *e, struct warnings *to)
     for (int axis = 0; axis < e->part.dim && e->part.dim > 1; axis++) {
         const size_t used = strlen(planes);
         real at;
-        if (!scene_is_symmetric_about_mid_plane(e, axis, &at)) continue;
+        if (!run_is_symmetric_about_mid_plane(e, axis, &at)) continue;
         snprintf(planes + used, sizeof planes - used, "%s%c = %.6g m", n++ ? " and " : "", 'x' + axis, at);
     }
     if (n > 0)
@@ -491,11 +491,11 @@ void print_accuracy_advice(const struct run *e, FILE *out)
     advise_features(e, out);
     advise_narrow_holes(e, out);
     print_advice_on_widths_of_narrow_parts(e, out);
-    advise_on_close_crack_tips(e->scene, e->fracture, out);
+    print_advice_on_close_crack_tips(e->scene, e->fracture, out);
     print_advice_on_incompressible_bodies(e, out);
-    print_advice_on_held_layers(e, out);
+    print_advice_on_stiffening_by_prescribed_layers(e, out);
     advise_faces(e->scene, out);
-    print_particle_list_advice(e, out);
+    print_advice_on_stiffness_of_particle_lists(e, out);
     advise_waves(e->scene, &e->tables, out);
     advise_shocks(e->scene, out);
     print_advice_on_unbalanced_loads(e, out);
@@ -503,16 +503,16 @@ void print_accuracy_advice(const struct run *e, FILE *out)
     advise_formulas(e, out);
     advise_levels(e, out);
     advise_separation(e->scene, &e->loads, &e->part, out);
-    print_wall_advice(e, out);
+    print_advice_on_gaps_to_mirror_planes(e, out);
 }
 
-void cost_hints_add_to_warnings(const struct run *e, struct warnings *warning_list)
+void hint_needless_cost_and_unused_settings(const struct run *e, struct warnings *warning_list)
 {
     hint_precrack_ends_exactly_on_bonds(e, warning_list);
     hint_model(e->scene, warning_list);
     hint_frame(e, warning_list);
     hint_method(e, warning_list);
     hint_symmetry(e, warning_list);
-    hint_unlikely_signs_and_sizes(e, warning_list);
+    hint_implausible_load_signs_and_magnitudes(e, warning_list);
     hint_keys_without_effect(e->scene, warning_list);
 }

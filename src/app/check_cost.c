@@ -53,9 +53,9 @@ static status time_steps(struct run *e, struct quartiles *step, double *bytes)
     double spent[PERIODS_MOST], all = 0;
     int n = 0;
     e->report->quiet = e->warnings.silent = true;
-    TRY(report_start_before_first_step(e));
+    TRY(report_open_history_and_write_first_frame(e));
     const double begun = thread_cpu_clock_seconds();
-    TRY(engine_adapt_refinement_and_step(e));
+    TRY(run_adapt_mesh_and_advance_one_step(e));
     const double first = thread_cpu_clock_seconds() - begun;
     while (n < PERIODS_MOST && all < SECONDS_MOST && (n < WINDOWS_LEAST || all < SECONDS_ENOUGH)) {
         const double start = thread_cpu_clock_seconds();
@@ -63,7 +63,7 @@ static status time_steps(struct run *e, struct quartiles *step, double *bytes)
         for (;
              taken < period && e->clock.step < e->clock.steps - 1 && thread_cpu_clock_seconds() - start < SECONDS_MOST;
              taken++)
-            TRY(engine_adapt_refinement_and_step(e));
+            TRY(run_adapt_mesh_and_advance_one_step(e));
         if (taken == 0) break;
         all += thread_cpu_clock_seconds() - start;
         spent[n++] = (thread_cpu_clock_seconds() - start) / (double)taken;
@@ -120,7 +120,7 @@ static status make_other(struct scene *s, struct run *e, const struct run_argume
     TRY(read);
     s->active_set = s->active_set && rest;
     s->accept |= 1u << ACCEPT_SHOCK; /* as in check_sound */
-    return engine_set_up_run(e, s, NULL);
+    return run_set_up_from_scene(e, s, NULL);
 }
 
 /* Runs all steps of e and returns their processor time [s]. Returns NAN if a step fails, if the processor time exceeds
@@ -129,16 +129,16 @@ static double all_steps(struct run *e)
 {
     const double start = thread_cpu_clock_seconds(), began = wall_clock_seconds();
     e->report->quiet = e->warnings.silent = true;
-    if (report_start_before_first_step(e) != OK) return NAN;
+    if (report_open_history_and_write_first_frame(e) != OK) return NAN;
     timers_start(&e->timers);
     while (e->clock.step < e->clock.steps) {
-        if (engine_adapt_refinement_and_step(e) != OK || stability_check_after_step(e) != OK ||
-            report_finished_step(e) != OK)
+        if (run_adapt_mesh_and_advance_one_step(e) != OK || run_check_stability_after_step(e) != OK ||
+            report_write_outputs_due_after_step(e) != OK)
             return NAN;
         if (thread_cpu_clock_seconds() - start > PATIENCE * SECONDS_WHOLE || wall_clock_seconds() - began > WALL_MOST)
             return NAN;
     }
-    return engine_run_mpm_baseline_for_pulse_probe(e) == OK ? thread_cpu_clock_seconds() - start : NAN;
+    return run_repeat_with_mpm_only_for_pulse_probe(e) == OK ? thread_cpu_clock_seconds() - start : NAN;
 }
 
 /* Runs the scene of the arguments a with the additional override key=value (none if key is NULL). whole: true to run
@@ -159,8 +159,8 @@ static double try_other(const struct run_arguments *a, const char *key, const ch
             seconds = step.median * (double)e.clock.steps;
     }
     memory_set_reuse_of_freed_arrays(false);
-    if (found) warnings_append_new_from_list(found, &e.warnings, 0);
-    engine_free_run(&e);
+    if (found) warnings_append_missing_from_list(found, &e.warnings, 0);
+    run_free_memory(&e);
     scene_free(&s);
     return seconds;
 }
@@ -221,7 +221,7 @@ static void cost_run(struct cost *c, const struct run_clock *clock, const struct
     c->basis = COST_TRIED;
     if (!isnan(loop)) { /* includes the warnings of the first steps, whose time may differ in the last digits */
         warnings_free(&c->found);
-        warnings_append_new_from_list(&c->found, &found, 0);
+        warnings_append_missing_from_list(&c->found, &found, 0);
     }
     warnings_free(&found);
     if (isnan(loop)) {
@@ -251,7 +251,7 @@ static double step_peridynamic(const struct run_arguments *a, double spacing)
     if (make_other(&s, &e, &coarse, "method", "pd", false) == OK && time_steps(&e, &step, NULL) == OK)
         seconds = step.median / (double)e.part.n;
     memory_free(coarse.override);
-    engine_free_run(&e);
+    run_free_memory(&e);
     scene_free(&s);
     return seconds;
 }
@@ -282,7 +282,7 @@ static double output_bytes(int64_t n, const struct scene *scene)
     return OUTPUT_BYTES + (double)n * (frame[scene->dim] + (scene->method == METHOD_MPM ? 0 : PARTS_BYTES));
 }
 
-status cost_measure_by_trial_steps(struct cost *c, struct run *e, const struct run_arguments *a)
+status run_cost_measure_by_trial_steps(struct cost *c, struct run *e, const struct run_arguments *a)
 {
     const int known = e->warnings.n;
     c->particles_at_start = e->part.n;
@@ -290,22 +290,22 @@ status cost_measure_by_trial_steps(struct cost *c, struct run *e, const struct r
     e->warnings.silent = true;
     if (scene_has_load_steps(e->scene)) {
         c->output = output_seconds(e) + FILE_SECONDS * e->scene->steps.number; /* one checkpoint after each load step */
-        const status result = cost_estimate_load_steps(c, e);
-        warnings_append_new_from_list(&c->found, &e->warnings, known);
+        const status result = load_steps_estimate_run_cost(c, e);
+        warnings_append_missing_from_list(&c->found, &e->warnings, known);
         TRY(result);
         c->bytes = (double)memory_peak_resident_size() + output_bytes(c->particles_at_start, e->scene);
         return OK;
     }
     if (scene_is_single_equilibrium(e->scene)) {
         /* conjugate gradients use central differences of forces: two evaluations per iteration
-         * (static_body_compute_tangent_product) */
+         * (static_body_compute_tangent_stiffness_product) */
         c->step = (e->scene->solver == SOLVER_CG ? 2 : 1) * time_force(e);
         c->bytes = (double)memory_peak_resident_size() + output_bytes(c->particles_at_start, e->scene);
         return OK;
     }
     struct quartiles step;
     const status result = time_steps(e, &step, &c->bytes);
-    warnings_append_new_from_list(&c->found, &e->warnings, known);
+    warnings_append_missing_from_list(&c->found, &e->warnings, known);
     TRY(result);
     c->step = step.median, c->spread = real_max(step.upper / step.median, step.median / step.lower);
     c->contact = time_contact(e) / c->step;

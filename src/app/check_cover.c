@@ -11,11 +11,12 @@ enum {
     PLACES = 64
 }; /* number of points that are sampled in a cell which a face crosses; errors average out over several cells */
 
-bool piece_contains(const struct piece *p, const real *X, real tolerance)
+bool piece_contains_point(const struct piece *p, const real *X, real tolerance)
 {
     const struct scene_body *b = &p->scene->body[p->body];
     return region_contains(&b->shape, X, p->scene->dim, tolerance) &&
-           (p->material == ANY_MATERIAL || scene_material_at_position(p->scene, b, X, b->material) == p->material);
+           (p->material == ANY_MATERIAL ||
+            scene_material_index_at_position(p->scene, b, X, b->material) == p->material);
 }
 
 /* Returns true if the point X[dim] [m] is inside the piece p (a body, or its part of one material) or within `distance`
@@ -30,7 +31,7 @@ static bool piece_near(const struct piece *p, const real *X, real distance)
     return near && region_contains(&b->shape, X, p->scene->dim, distance);
 }
 
-bool piece_bounding_box(const struct piece *p, real lower[DIM_MAX], real upper[DIM_MAX])
+bool piece_compute_bounding_box(const struct piece *p, real lower[DIM_MAX], real upper[DIM_MAX])
 {
     const struct scene_body *b = &p->scene->body[p->body];
     const int dim = p->scene->dim;
@@ -58,7 +59,7 @@ static int64_t cover_index(const struct cover *c, const int64_t *at)
     return (at[2] * c->n[1] + at[1]) * c->n[0] + at[0];
 }
 
-void piece_coverage_compute_cell_indices(const struct cover *c, int64_t cell, int64_t *index)
+void piece_cell_coverage_compute_cell_indices(const struct cover *c, int64_t cell, int64_t *index)
 {
     index[0] = cell % c->n[0], index[1] = cell / c->n[0] % c->n[1], index[2] = cell / c->n[0] / c->n[1];
 }
@@ -66,7 +67,7 @@ void piece_coverage_compute_cell_indices(const struct cover *c, int64_t cell, in
 static void cell_middle(const struct cover *c, int64_t cell, real *X)
 {
     int64_t at[DIM_MAX];
-    piece_coverage_compute_cell_indices(c, cell, at);
+    piece_cell_coverage_compute_cell_indices(c, cell, at);
     for (int d = 0; d < c->dim; d++) X[d] = c->first[d] + (real)at[d] * c->spacing;
 }
 
@@ -79,7 +80,7 @@ static bool is_crossed(const struct cover *c, const struct piece *p, int64_t cel
     int64_t at[DIM_MAX];
     real X[DIM_MAX];
     bool beside = false;
-    piece_coverage_compute_cell_indices(c, cell, at);
+    piece_cell_coverage_compute_cell_indices(c, cell, at);
     for (int k = 0; k < 27; k++) {
         const int64_t near[DIM_MAX] = {at[0] + k % 3 - 1, at[1] + k / 3 % 3 - 1, at[2] + k / 9 - 1};
         bool within = true;
@@ -103,7 +104,7 @@ static bool is_thin(const struct cover *c, int64_t cell)
 {
     int64_t at[DIM_MAX], stride = 1;
     bool thin = false, beside = false;
-    piece_coverage_compute_cell_indices(c, cell, at);
+    piece_cell_coverage_compute_cell_indices(c, cell, at);
     for (int d = 0; d < c->dim; stride *= c->n[d], d++) {
         const bool before = at[d] > 0 && c->filled[cell - stride];
         const bool after = at[d] + 1 < c->n[d] && c->filled[cell + stride];
@@ -153,7 +154,7 @@ static real share_within_cell(const struct cover *c, const struct piece *p, int6
             const real turn = step[c->dim - 2][d] * (real)(cell % 65521 * PLACES + k) + 0.5;
             X[d] = middle[d] + (turn - floor(turn) - 0.5) * c->spacing;
         }
-        inside += piece_contains(p, X, 0);
+        inside += piece_contains_point(p, X, 0);
     }
     return (real)inside / PLACES;
 }
@@ -165,7 +166,8 @@ bool piece_cell_coverage_make(struct cover *c, const struct piece *p)
     real from[DIM_MAX], to[DIM_MAX], all = 1;
     *c = (struct cover){.dim = s->dim, .spacing = s->spacing, .n = {1, 1, 1}};
     if (s->body[p->body].file || s->dim < 2 || !(s->spacing > 0)) return false;
-    if (!piece_bounding_box(p, from, to) || fill_compute_lattice_site_position(s, p->body, c->first) != OK)
+    if (!piece_compute_bounding_box(p, from, to) ||
+        body_lattice_compute_first_site_position(s, p->body, c->first) != OK)
         return false;
     for (int d = 0; d < s->dim; d++) {
         c->first[d] += real_max(0, floor((from[d] - c->first[d]) / s->spacing) - 1) * s->spacing;
@@ -180,7 +182,7 @@ bool piece_cell_coverage_make(struct cover *c, const struct piece *p)
     for (int64_t k = 0; k < c->cells; k++) {
         real X[DIM_MAX];
         cell_middle(c, k, X);
-        c->filled[k] = piece_contains(p, X, ON_SURFACE * s->spacing);
+        c->filled[k] = piece_contains_point(p, X, ON_SURFACE * s->spacing);
     }
 #pragma omp parallel for schedule(dynamic, 1024)
     for (int64_t k = 0; k < c->cells; k++)

@@ -13,11 +13,11 @@ enum { ANY_MATERIAL = -1 }; /* piece.material: all materials of the body */
 
 /* Returns true if the piece p (a body, or its part of one material) contains the point X[dim] [m]. The shape of the
  * body is enlarged by `tolerance` [m] for this test. */
-bool piece_contains(const struct piece *p, const real *X, real tolerance);
+bool piece_contains_point(const struct piece *p, const real *X, real tolerance);
 
 /* Computes a bounding box of the piece p (a body, or its part of one material). Stores its lower and upper corners [m]
  * in `lower` and `upper`. Returns false if the piece is unbounded, or empty as far as the boxes of its regions show. */
-bool piece_bounding_box(const struct piece *p, real lower[DIM_MAX], real upper[DIM_MAX]);
+bool piece_compute_bounding_box(const struct piece *p, real lower[DIM_MAX], real upper[DIM_MAX]);
 
 /* The lattice cells in the bounding box of a piece (a body, or its part of one material), one cell per possible
  * particle position. n[d]: number of cells along axis d; in the arrays, the index along x varies fastest. */
@@ -37,7 +37,7 @@ bool piece_cell_coverage_make(struct cover *c, const struct piece *piece);
 
 /* Computes the indices index[DIM_MAX] along the axes of cell number `cell` (0 .. c->cells - 1) of the lattice cells c.
  */
-void piece_coverage_compute_cell_indices(const struct cover *c, int64_t cell, int64_t *index);
+void piece_cell_coverage_compute_cell_indices(const struct cover *c, int64_t cell, int64_t *index);
 
 /* Frees the arrays of the covered cells *c, which piece_cell_coverage_make has allocated. */
 void piece_cell_coverage_free(struct cover *c);

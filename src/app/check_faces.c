@@ -151,7 +151,7 @@ static bool has_normals(const struct scene *s, const struct boundary *b)
         const struct region *shape = &s->body[k].shape;
         if (b->body >= 0 && s->body[k].joined != b->body) continue;
         all &= !s->body[k].file && s->body[k].joined == k && shape->n > 0 &&
-               !region_contains_infinite_box_solid(shape, s->dim);
+               !region_has_box_with_infinite_side(shape, s->dim);
         for (int j = 0; j < shape->n; j++)
             all &= shape->solid[j].kind != SOLID_VOXELS && shape->solid[j].kind != SOLID_ALL;
         for (int j = 0; j < s->bodies; j++) all &= j == k || s->body[j].joined != k;
@@ -196,7 +196,7 @@ static void print_places_of_face(const struct particles *p, real spacing, const 
     memory_free(one);
 }
 
-void print_oblique_share_of_loaded_face(const struct run *e, const struct boundary *b)
+void print_oblique_fraction_of_loaded_face(const struct run *e, const struct boundary *b)
 {
     const struct scene *s = e->scene;
     struct elsewhere w = {0};
@@ -205,8 +205,8 @@ void print_oblique_share_of_loaded_face(const struct run *e, const struct bounda
     struct exposed_face f;
     if (s->dim == 1 || !(s->spacing > 0)) return;
     uint8_t *selected = NEW("check.selected", e->part.n, uint8_t);
-    load_mark_particles_in_region(b, &e->part, s->spacing, selected);
-    exposed_face_compute_areas(&f, b, &e->part, selected, s->spacing, false);
+    boundary_select_particles_in_region(b, &e->part, s->spacing, selected);
+    exposed_face_compute_particle_areas(&f, b, &e->part, selected, s->spacing, false);
     if (has_normals(s, b) || ends_make(&c, &e->part, e->scene, b, &f))
         w = elsewhere_from(&e->part, e->scene, b, &f, &c, -INFINITY), cut = elsewhere_cut(&e->part, s, b, &f, &c, &w);
     memory_free(c.height);

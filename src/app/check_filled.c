@@ -12,7 +12,7 @@ static bool all_boxes(const struct region *shape)
 {
     bool boxes = true;
     for (int k = 0; k < shape->n; k++)
-        boxes &= solid_is_of_kind_and_not_moved(&shape->solid[k], SOLID_BOX) && !shape->solid[k].intersect;
+        boxes &= solid_is_untransformed_and_of_kind(&shape->solid[k], SOLID_BOX) && !shape->solid[k].intersect;
     return boxes;
 }
 
@@ -37,7 +37,8 @@ void print_volume_filled_by_particles(const struct run *e)
         if (s->body[b].file || joined || all_boxes(shape) ||
             !region_compute_bounding_box_if_finite(shape, s->dim, from, to))
             continue;
-        const real exact = region_volume_within_box(shape, s->dim, from, to), section = scene_section_or_thickness(s);
+        const real exact = region_volume_within_box(shape, s->dim, from, to),
+                   section = scene_cross_section_or_thickness(s);
         const real filled = (real)particles_of(e->scene, &e->part, b) * pow(s->spacing, s->dim);
         if (fabs(filled / exact - 1) < OFF_LEAST) continue;
         printf("filled         body %s: its particles fill %.4g m^3, %.2f %% %s than its shape; a smaller "

@@ -13,7 +13,7 @@ static bool without_iterations(const struct scene *s) { return scene_has_load_st
 static bool with_given_step(const struct scene *s) { return s->time_step > 0; }
 static bool with_regular_lattice(const struct scene *s) { return !(s->irregularity > 0); }
 static bool without_opening(const struct scene *s) { return s->steps.control != CONTROL_OPENING; }
-static bool without_tips(const struct scene *s) { return !scene_can_crack(s) || !scene_is_dynamic(s); }
+static bool without_tips(const struct scene *s) { return !scene_can_have_cracks(s) || !scene_is_dynamic(s); }
 
 /* Returns true if scene s makes no time steps, neither from the start nor after an unstable crack increment. */
 static bool without_time_steps(const struct scene *s)

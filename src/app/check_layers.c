@@ -117,7 +117,7 @@ static double body_layers(const struct run *e, int body, double most)
     return (double)thin < SHARE_LEAST * (double)all ? INFINITY : half;
 }
 
-double count_layers_across_thin_parts(const struct run *e, int body_index, double max_layers)
+double count_particle_layers_across_thin_parts(const struct run *e, int body_index, double max_layers)
 {
     const struct scene *s = e->scene;
     real least = INFINITY;
@@ -174,7 +174,7 @@ void print_advice_on_incompressible_bodies(const struct run *e, FILE *out)
     for (int b = 0; b < s->bodies; b++) {
         const real poisson = largest_poisson_ratio(s, b, families);
         if (!(poisson > 0) || s->body[b].joined != b) continue;
-        const double layers = fmin(count_layers_across_thin_parts(e, b, 2 * RUNS_MOST), RUNS_MOST);
+        const double layers = fmin(count_particle_layers_across_thin_parts(e, b, 2 * RUNS_MOST), RUNS_MOST);
         const double off = families ? soft_families(poisson, layers) : soft_cells(poisson, layers);
         if (!(off >= SOFT_MOST)) continue;
         fprintf(out,
@@ -202,11 +202,11 @@ static bool holds_layer_of_bonds(const struct scene *s, const struct load *l, co
     bool bonds = l->n > 0;
     if (b->kind != BOUNDARY_VELOCITY || b->side == 0 || !(b->components >> b->face & 1)) return false;
     if (fabs(b->depth / (s->horizon * s->spacing) - 1) > 1e-9 || boundary_motion_varies_in_space(b)) return false;
-    for (int64_t k = 0; k < l->n && bonds; k++) bonds = !particle_moves_with_nodes(p, l->particle[k]);
+    for (int64_t k = 0; k < l->n && bonds; k++) bonds = !particle_is_moved_by_grid_or_mesh_nodes(p, l->particle[k]);
     return bonds;
 }
 
-void print_advice_on_held_layers(const struct run *e, FILE *out)
+void print_advice_on_stiffening_by_prescribed_layers(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
     const struct particles *p = &e->part;

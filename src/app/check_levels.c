@@ -6,7 +6,7 @@
 #include "mesh/mesh_part.h"
 #include "mesh/levels.h"
 
-void print_coarse_cells(const struct run *e)
+void print_coarse_cell_sizes_and_counts(const struct run *e)
 {
     const struct mesh_levels *l = &e->frame->levels;
     char text[1024];
@@ -16,7 +16,7 @@ void print_coarse_cells(const struct run *e)
     printf("levels         %s\n", text);
     for (int level = 0; level <= l->n && l->n > 0; level++)
         printf("%s%lld cells with edges of %d spacings%s", level == 0 ? "levels         " : ", ",
-               (long long)levels_count_cells_of_level(l, level), 2 << level, level == l->n ? "\n" : "");
+               (long long)mesh_levels_count_cells_of_level(l, level), 2 << level, level == l->n ? "\n" : "");
 }
 
 /* Writes the number n to text[32]: with all digits or, if `millions`, in millions, such as "52 million". Returns
@@ -57,7 +57,7 @@ static double points_in_coarse_cells(const struct mesh_levels *l, int dim)
 {
     double n = 0;
     for (int level = 1; level <= l->n; level++)
-        n += (double)levels_count_cells_of_level(l, level) * pow(2 << level, dim);
+        n += (double)mesh_levels_count_cells_of_level(l, level) * pow(2 << level, dim);
     return n;
 }
 
@@ -67,7 +67,7 @@ void print_coarse_cells_saving(const struct run *e, const struct cost *c)
     char all[32], made[32], few[32], memory[32], whole[32], now[32], then[32];
     const bool millions = e->part.n_body >= 1000000;
     double cells = 0;
-    for (int level = 1; level <= l->n; level++) cells += (double)levels_count_cells_of_level(l, level);
+    for (int level = 1; level <= l->n; level++) cells += (double)mesh_levels_count_cells_of_level(l, level);
     if (l->n == 0 || cells == 0) return;
     if (c->particles_at_start < e->part.n_body)
         printf("levels         %s particles would fill the body; coarse cells reduce them to %s at the start",

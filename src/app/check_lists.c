@@ -82,7 +82,7 @@ static void print_weight_advice(const struct scene *s, FILE *out)
     }
 }
 
-void print_particle_list_advice(const struct run *e, FILE *out)
+void print_advice_on_stiffness_of_particle_lists(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
     if (s->method != METHOD_PD || s->dim == 1 || !(s->spacing > 0)) return;
@@ -96,9 +96,9 @@ void print_particle_list_advice(const struct run *e, FILE *out)
                 "accuracy       body %s: parts of it (from a particle list) are only %d layers of particles thick, so "
                 "with pd.surface: %s their stiffness is off by up to ",
                 s->body[b].name, layers, s->surface == SURFACE_VOLUME ? "volume" : "none");
-        print_stiffness_error(s, s->surface, layers, out);
+        print_stiffness_error_of_thin_part(s, s->surface, layers, out);
         fprintf(out, "; with pd.surface: moments by ");
-        print_stiffness_error(s, SURFACE_MOMENTS, layers, out);
+        print_stiffness_error_of_thin_part(s, SURFACE_MOMENTS, layers, out);
         fprintf(out, "%s\n",
                 s->body[b].list.lattice ? ""
                                         : ", but this needs a list that is a lattice (positions at whole spacings, "

@@ -139,7 +139,7 @@ struct faced {
 static bool has_distance(const struct scene *s, int body)
 {
     const struct region *shape = &s->body[body].shape;
-    bool has = !s->body[body].file && shape->n > 0 && !region_contains_infinite_box_solid(shape, s->dim);
+    bool has = !s->body[body].file && shape->n > 0 && !region_has_box_with_infinite_side(shape, s->dim);
     for (int b = 0; b < s->bodies; b++) has &= b == body || s->body[b].joined != body;
     for (int k = 0; k < shape->n; k++)
         has &= shape->solid[k].kind != SOLID_VOXELS && shape->solid[k].kind != SOLID_HULL &&
@@ -150,7 +150,7 @@ static bool has_distance(const struct scene *s, int body)
 /* Adds one exposed face of particle i to three sums in *context, a struct faced: the area of the face, the area
  * projected on the surface of the body's shape [m^2], and the projected area times the signed distance of the face from
  * this surface [m^3]. The face is normal to `axis`, outwards in the direction `side` (1 or -1). area: area of the face
- * [m^2]. pressure_visit_faces calls it for each face. */
+ * [m^2]. pressure_boundary_visit_free_faces calls it for each face. */
 static void face_beside_shape(void *context, int32_t i, int axis, int side, real area)
 {
     struct faced *f = context;
@@ -179,9 +179,9 @@ static void say_pressed(const struct run *e, int which)
     const real spacing = e->scene->spacing;
     struct faced f = {.e = e};
     uint8_t *selected = NEW("check.selected", e->part.n, uint8_t);
-    load_mark_particles_in_region(l->boundary, &e->part, spacing, selected);
-    pressure_visit_faces(e->loads.load[0].boundary, e->loads.n, which, &e->part, spacing, selected, face_beside_shape,
-                         &f);
+    boundary_select_particles_in_region(l->boundary, &e->part, spacing, selected);
+    pressure_boundary_visit_free_faces(e->loads.load[0].boundary, e->loads.n, which, &e->part, spacing, selected,
+                                       face_beside_shape, &f);
     memory_free(selected);
     if (f.unknown || !(f.along > 0)) {
         printf(", %.4g m^2 of faces of particles", f.area);
@@ -202,8 +202,8 @@ static bool face_exact(const struct scene *s, const struct boundary *b, real *ar
     const int body = b->body >= 0 ? b->body : 0;
     const struct region *shape = &s->body[body].shape, *region = &b->region;
     if ((b->body < 0 && s->bodies > 1) || s->body[body].file || shape->n != 1 || region->n > 1) return false;
-    if (!solid_is_of_kind_and_not_moved(&shape->solid[0], SOLID_BOX) ||
-        (region->n == 1 && !solid_is_of_kind_and_not_moved(&region->solid[0], SOLID_BOX)))
+    if (!solid_is_untransformed_and_of_kind(&shape->solid[0], SOLID_BOX) ||
+        (region->n == 1 && !solid_is_untransformed_and_of_kind(&region->solid[0], SOLID_BOX)))
         return false;
     *area = b->section > 0 ? b->section : 1;
     for (int d = 0; d < s->dim; d++) {
@@ -293,7 +293,7 @@ static void say_displacement(const struct scene *scene, const struct particles *
     }
     say_mean_displacement(part, l, end);
     printf(" at the end");
-    const real speed = explicit ? load_largest_displacement_speed(l, part, scene->duration) : INFINITY;
+    const real speed = explicit ? load_largest_speed_of_prescribed_displacement(l, part, scene->duration) : INFINITY;
     if (isfinite(speed)) printf(", at most %.3g m/s", speed);
 }
 
@@ -318,7 +318,7 @@ static void say_load(const struct run *e, int which)
     if (b->kind == BOUNDARY_PRESSURE) say_pressed(e, which);
     if (force) say_force(&e->part, e->scene, l);
     if (b->displaces) say_displacement(e->scene, &e->part, l);
-    if (faces) print_oblique_share_of_loaded_face(e, b);
+    if (faces) print_oblique_fraction_of_loaded_face(e, b);
     putchar('\n');
 }
 
@@ -435,7 +435,7 @@ static void say_balance_of_loads(const struct run *e)
     putchar('\n');
 }
 
-void print_loads(const struct run *e)
+void print_loads_and_supports(const struct run *e)
 {
     for (int b = 0; b < e->loads.n && b < SAID; b++) say_load(e, b);
     if (e->loads.n > SAID) printf("load           and %d more loads and supports\n", e->loads.n - SAID);

@@ -52,7 +52,7 @@ static bool run_goes_on(const struct necks *k, int64_t cell, int way)
     const struct cover *c = k->cover;
     const int64_t next = cell + way * k->stride[k->axis];
     int64_t at[DIM_MAX];
-    piece_coverage_compute_cell_indices(c, cell, at);
+    piece_cell_coverage_compute_cell_indices(c, cell, at);
     if (at[k->axis] + way < 0 || at[k->axis] + way >= c->n[k->axis]) return false;
     return c->filled[next] == c->filled[cell] && (c->filled[next] || c->share[next] > COVERED);
 }
@@ -72,7 +72,7 @@ static bool run_touches(const struct necks *k, int64_t from, int64_t n)
 {
     const struct cover *c = k->cover;
     int64_t at[DIM_MAX];
-    piece_coverage_compute_cell_indices(c, from, at);
+    piece_cell_coverage_compute_cell_indices(c, from, at);
     return (at[k->axis] > 0 && c->filled[from - k->stride[k->axis]]) ||
            (at[k->axis] + n < c->n[k->axis] && c->filled[from + n * k->stride[k->axis]]);
 }
@@ -101,7 +101,7 @@ static int64_t run_beside(const struct necks *k, int64_t cell, int across, int w
 {
     const struct cover *c = k->cover;
     int64_t at[DIM_MAX], found = -1, from = cell;
-    piece_coverage_compute_cell_indices(c, cell, at);
+    piece_cell_coverage_compute_cell_indices(c, cell, at);
     if (at[across] + way < 0 || at[across] + way >= c->n[across]) return -1;
     while (run_goes_on(k, from, -1)) from -= k->stride[k->axis];
     const int64_t n = run_span(k, from);
@@ -119,7 +119,7 @@ static bool at_mirror(const struct necks *k, int64_t cell, int across, int way)
     const struct run *e = k->engine;
     int64_t at[DIM_MAX];
     bool found = false;
-    piece_coverage_compute_cell_indices(k->cover, cell, at);
+    piece_cell_coverage_compute_cell_indices(k->cover, cell, at);
     const real X = k->cover->first[across] + (real)at[across] * k->cover->spacing;
     for (int m = 0; m < e->source.mirrors; m++)
         found |= e->source.mirror[m].axis == across && e->source.mirror[m].outside == way &&
@@ -130,7 +130,7 @@ static bool at_mirror(const struct necks *k, int64_t cell, int across, int way)
 static void cell_point(const struct cover *c, int64_t cell, real *X)
 {
     int64_t at[DIM_MAX];
-    piece_coverage_compute_cell_indices(c, cell, at);
+    piece_cell_coverage_compute_cell_indices(c, cell, at);
     for (int d = 0; d < DIM_MAX; d++) X[d] = d < c->dim ? c->first[d] + (real)at[d] * c->spacing : 0;
 }
 
@@ -140,7 +140,7 @@ static void cell_point(const struct cover *c, int64_t cell, real *X)
 static bool chord_measure(const struct necks *k, const real *X, struct chord *chord)
 {
     const real h = k->cover->spacing, most = 2 * NARROW * h;
-    if (!piece_contains(k->piece, X, -WITHIN * h)) return false;
+    if (!piece_contains_point(k->piece, X, -WITHIN * h)) return false;
     const real down = piece_distance_to_surface_along_axis(k->piece, X, k->axis, -0.25 * h, most);
     const real up = piece_distance_to_surface_along_axis(k->piece, X, k->axis, 0.25 * h, most);
     chord->middle = X[k->axis] + 0.5 * (up - down), chord->width = up + down;
@@ -259,7 +259,7 @@ static real neck_off(struct chords *p, const struct necks *k, int narrowest)
 
 /* Returns the number of the lattice cell of k that contains u->at, the centre of a neck; -1 if the centre is outside
  * all cells, or if the cell contains no particle (its k->rows is 0). */
-static int64_t neck_cell(const struct necks *k, const struct uneven *u)
+static int64_t neck_cell(const struct necks *k, const struct narrow_part *u)
 {
     int64_t cell = 0;
     for (int d = 0; d < k->cover->dim; d++) {
@@ -306,11 +306,11 @@ static bool is_least_across(const struct necks *k, int64_t cell, int third, real
  * this width. The width is reduced if a parabola through the widths of this chord and its two neighbours has its
  * minimum between them, and the piece is narrower there. p: chords (widths on parallel lines) across the neck; rows:
  * number of particle rows across the neck. */
-static struct uneven neck_at(struct chords *p, const struct necks *k, int narrowest, real rows)
+static struct narrow_part neck_at(struct chords *p, const struct necks *k, int narrowest, real rows)
 {
     const real h = k->cover->spacing;
     struct chord best = *chord_of(p, narrowest), other;
-    struct uneven u = {.filled = rows * h, .axis = k->axis, .across = p->across, .measured = true};
+    struct narrow_part u = {.filled = rows * h, .axis = k->axis, .across = p->across, .measured = true};
     for (int d = 0; d < DIM_MAX; d++) u.at[d] = p->X[d];
     u.at[p->across] += narrowest * h / SAMPLES, u.at[k->axis] = best.middle;
     if (narrowest > p->first && narrowest < p->last) {
@@ -331,7 +331,8 @@ static struct uneven neck_at(struct chords *p, const struct necks *k, int narrow
  * width by more than OFF_LEAST, or OFF_CURVED between curved sides (relative errors). cell: a cell of the first line of
  * cells across the neck; columns: number of consecutive lines of cells with the same number of rows. p: memory for the
  * chords across the neck, in which p->across and p->mirrored are set. */
-static void neck_judge(struct uneven_list *list, const struct necks *k, struct chords *p, int64_t cell, int columns)
+static void neck_judge(struct width_misfit_list *list, const struct necks *k, struct chords *p, int64_t cell,
+                       int columns)
 {
     const real h = k->cover->spacing, rows = k->rows[cell] - 1;
     const int reach = SAMPLES * (int)(2 * rows + 4), past = (columns - 1) * SAMPLES;
@@ -342,14 +343,14 @@ static void neck_judge(struct uneven_list *list, const struct necks *k, struct c
     const int from = p->first > -SAMPLES ? p->first : -SAMPLES;
     const int to = p->last < past + SAMPLES ? p->last : past + SAMPLES;
     const int narrowest = chords_narrowest(p, from, to, 1e-3 * h);
-    const struct uneven u = neck_at(p, k, narrowest, rows);
+    const struct narrow_part u = neck_at(p, k, narrowest, rows);
     if (!(u.width < NARROW * h) || !is_neck(p, k, narrowest, &even)) return;
     const real least = even ? OFF_LEAST : OFF_CURVED, mean = neck_off(p, k, narrowest);
     if (!(u.off * mean > 0 && fabs(u.off) > least && fabs(mean) > OFF_LEAST)) return;
     const int64_t middle = neck_cell(k, &u);
     for (int d = 0; d < k->cover->dim; d++)
         if (d != p->across && d != k->axis && (middle < 0 || !is_least_across(k, middle, d, u.width))) return;
-    uneven_list_add_narrow_part(list, &u, false);
+    width_misfit_list_add_narrow_part(list, &u, false);
 }
 
 /* Marks a neck as examined: sets k->seen to 1 for the lattice cell number `cell` and all cells that are connected to it
@@ -361,7 +362,7 @@ static void neck_mark(struct necks *k, int64_t cell)
     while (top > 0) {
         const int64_t here = k->stack[--top];
         int64_t at[DIM_MAX];
-        piece_coverage_compute_cell_indices(k->cover, here, at);
+        piece_cell_coverage_compute_cell_indices(k->cover, here, at);
         for (int way = -1; way <= 1; way += 2)
             for (int d = 0; d < k->cover->dim; d++) {
                 const int64_t next = here + way * k->stride[d];
@@ -377,7 +378,7 @@ static void neck_mark(struct necks *k, int64_t cell)
  * with more rows must follow, or on one side a plane of symmetry. Adds the neck to `list` if its width differs from its
  * number of particle rows times the spacing by more than neck_judge tolerates. k: cells of the piece (a body, or its
  * part of one material). */
-static void neck_follow(struct uneven_list *list, struct necks *k, int64_t cell, int across)
+static void neck_follow(struct width_misfit_list *list, struct necks *k, int64_t cell, int across)
 {
     const int64_t before = run_beside(k, cell, across, -1);
     bool mirrored[2] = {before < 0 && at_mirror(k, cell, across, -1)};
@@ -397,8 +398,8 @@ static void neck_follow(struct uneven_list *list, struct necks *k, int64_t cell,
     memory_free(p);
 }
 
-void uneven_list_add_necks_of_piece(struct uneven_list *list, const struct run *e, const struct cover *c,
-                                    uint8_t *listed_axes)
+void width_misfit_list_add_necks_of_piece(struct width_misfit_list *list, const struct run *e, const struct cover *c,
+                                          uint8_t *listed_axes)
 {
     struct necks k = {.cover = c, .engine = e, .piece = &list->piece};
     k.stride[0] = 1, k.stride[1] = c->n[0], k.stride[2] = c->n[0] * c->n[1];
@@ -423,29 +424,29 @@ void uneven_list_add_necks_of_piece(struct uneven_list *list, const struct run *
 /* Compares the length of a part of a 1D body, from `low` to `high` [m], with the length that its particles represent:
  * their number times the spacing. Appends the part to `list` if the relative difference exceeds OFF_LEAST. first:
  * coordinate of a particle of the body's lattice [m]. */
-static void length_judge(struct uneven_list *list, real low, real high, real first)
+static void length_judge(struct width_misfit_list *list, real low, real high, real first)
 {
     const real h = list->piece.scene->spacing;
     const real rows = floor((high - first) / h + ON_SURFACE) - ceil((low - first) / h - ON_SURFACE) + 1;
-    const struct uneven u = {.off = rows * h / (high - low) - 1,
-                             .width = high - low,
-                             .filled = rows * h,
-                             .at = {0.5 * (low + high)},
-                             .measured = true};
-    if (fabs(u.off) > OFF_LEAST) uneven_list_add_narrow_part(list, &u, false);
+    const struct narrow_part u = {.off = rows * h / (high - low) - 1,
+                                  .width = high - low,
+                                  .filled = rows * h,
+                                  .at = {0.5 * (low + high)},
+                                  .measured = true};
+    if (fabs(u.off) > OFF_LEAST) width_misfit_list_add_narrow_part(list, &u, false);
 }
 
-void uneven_list_add_parts_of_1d_body(struct uneven_list *list)
+void width_misfit_list_add_parts_of_1d_body(struct width_misfit_list *list)
 {
     const struct piece *p = &list->piece;
     const struct scene *s = p->scene;
     real from[DIM_MAX], to[DIM_MAX], first[DIM_MAX], X[DIM_MAX] = {0};
-    if (s->body[p->body].file || !(s->spacing > 0) || !piece_bounding_box(p, from, to)) return;
+    if (s->body[p->body].file || !(s->spacing > 0) || !piece_compute_bounding_box(p, from, to)) return;
     const real step = 0.25 * s->spacing, steps = (to[0] - from[0]) / step;
-    if (!(steps < POINTS_MOST) || fill_compute_lattice_site_position(s, p->body, first) != OK) return;
+    if (!(steps < POINTS_MOST) || body_lattice_compute_first_site_position(s, p->body, first) != OK) return;
     for (real m = 0.5; m < steps; m++) {
         X[0] = from[0] + m * step;
-        if (!piece_contains(p, X, 0)) continue;
+        if (!piece_contains_point(p, X, 0)) continue;
         const real low = X[0] - piece_distance_to_surface_along_axis(p, X, 0, -step, INFINITY),
                    high = X[0] + piece_distance_to_surface_along_axis(p, X, 0, step, INFINITY);
         length_judge(list, low, high, first[0]);

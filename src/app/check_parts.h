@@ -50,7 +50,7 @@ struct cost {
 /* Estimates the cost c (time and memory) of a run by trial steps, on the number of OpenMP threads that is set. a:
  * arguments by which the input file was read, so that variants of it can be run for comparison. The run cannot be used
  * afterwards. Returns FAILED if one of the first steps fails. */
-status cost_measure_by_trial_steps(struct cost *c, struct run *run, const struct run_arguments *a);
+status run_cost_measure_by_trial_steps(struct cost *c, struct run *run, const struct run_arguments *a);
 
 /* ---- check_strength.c -------------------------------------------------------------------------------------------- */
 
@@ -61,7 +61,7 @@ void print_softening_and_horizon_limits(const struct scene *s, const struct mate
 /* Prints, as a part of a sentence, the tensile strength that follows from the critical stretch of brittle bonds of
  * material m at the horizon of scene s (the input file), Young's modulus times critical stretch. Prints nothing for
  * other models than the bond-based one, and for materials that yield. */
-void print_brittle_strength(const struct scene *s, const struct material *m);
+void print_tensile_strength_of_brittle_bonds(const struct scene *s, const struct material *m);
 
 /* Size of a part or length of a crack [horizons] below which the two faces of the part, or the two tips of the crack,
  * affect each other. */
@@ -76,7 +76,7 @@ void print_smallest_precrack_length(const struct run *e);
 /* Writes a remark to `out` for each 2D crack of scene s (the input file) whose two tips are less than FEATURE (4)
  * horizons apart, so that they affect each other. A crack that begins at a face or a plane of symmetry has one tip. It
  * counts as half of a crack of twice its length. fracture: holds the crack tips. */
-void advise_on_close_crack_tips(const struct scene *s, const struct fracture_state *fracture, FILE *out);
+void print_advice_on_close_crack_tips(const struct scene *s, const struct fracture_state *fracture, FILE *out);
 
 /* Adds a hint to *warning_list for each 2D pre-crack of run e that ends exactly on bonds, so that rounding decides
  * whether it cuts them. */
@@ -86,7 +86,7 @@ void hint_precrack_ends_exactly_on_bonds(const struct run *e, struct warnings *w
 
 /* Prints to standard output the number, control and tolerance of the load steps (successive static equilibria) of run
  * e, and the rule by which cracks grow if bonds can break. */
-void print_load_step_solver(const struct run *e);
+void print_load_step_settings(const struct run *e);
 
 /* Writes a line to `out` for each setting of loads, supports or lengths of cracks of run e that reduces the accuracy of
  * load steps (successive static equilibria). */
@@ -94,7 +94,7 @@ void print_load_step_accuracy_advice(const struct run *e, FILE *out);
 
 /* Estimates the cost of a run with load steps (successive static equilibria) from the time of its first equilibrium,
  * into *c. The run cannot be continued afterwards. Returns FAILED if no equilibrium is found. */
-status cost_estimate_load_steps(struct cost *c, struct run *run);
+status load_steps_estimate_run_cost(struct cost *c, struct run *run);
 
 /* Prints the estimated run time of load steps (successive static equilibria) with `threads` threads, and a line if no
  * bond will break. cost: the estimate for run e. */
@@ -107,7 +107,7 @@ void print_load_steps_cost(const struct run *e, const struct cost *cost, int thr
 void print_shape_file_volumes(const struct run *e);
 
 /* Prints a line for each body of run e that consists of several pieces without bonds between them (check_pieces.c). */
-void print_bodies_of_separate_pieces(const struct run *e);
+void print_bodies_in_several_unbonded_pieces(const struct run *e);
 
 /* ---- check_layers.c ---------------------------------------------------------------------------------------------- */
 
@@ -120,7 +120,7 @@ real solid_smallest_edge(const struct run *e, const struct solid *solid);
  * is less than `max_layers` spacings; this number of spacings is returned. Any other body is thin if across at least
  * half of its particles it has fewer layers than max_layers / 2; the median number of layers there is returned. Returns
  * INFINITY for a body that is joined to a body of lower index. */
-double count_layers_across_thin_parts(const struct run *e, int body_index, double max_layers);
+double count_particle_layers_across_thin_parts(const struct run *e, int body_index, double max_layers);
 
 /* Writes a line to `out` for each body of run e of nearly incompressible material whose particles near faces are too
  * stiff, or whose mesh cells are too soft, in bending. */
@@ -128,13 +128,13 @@ void print_advice_on_incompressible_bodies(const struct run *e, FILE *out);
 
 /* Writes a line to `out` for each support of run e that prescribes the motion of a layer of particles behind a face, a
  * horizon deep by default, if this layer stiffens a body of bonds in equilibrium by more than a few percent. */
-void print_advice_on_held_layers(const struct run *e, FILE *out);
+void print_advice_on_stiffening_by_prescribed_layers(const struct run *e, FILE *out);
 
 /* ---- check_levels.c ---------------------------------------------------------------------------------------------- */
 
 /* Prints size and number of the coarse mesh cells of the run e (larger cells, in which no particles are made), and why
  * they are used or not. */
-void print_coarse_cells(const struct run *e);
+void print_coarse_cell_sizes_and_counts(const struct run *e);
 
 /* Prints the memory and time that coarse cells of the mesh (larger cells, in which no particles are made) save in run
  * e. cost: measured cost of the run. */
@@ -148,7 +148,7 @@ void print_advice_on_widths_of_narrow_parts(const struct run *e, FILE *out);
 
 /* Writes a line to `out` for each body of run e of material points on the background grid that starts apart from a
  * plane of symmetry, with the distance [m] from the plane at which the grid stops the body (check_walls.c). */
-void print_wall_advice(const struct run *e, FILE *out);
+void print_advice_on_gaps_to_mirror_planes(const struct run *e, FILE *out);
 
 /* Text of a length with its unit, for messages; a struct, so that functions can return it by value. */
 struct length_text {
@@ -162,7 +162,7 @@ struct length_text length_text_with_unit(real length, int digits, real spacing);
 /* ---- check_loads.c ----------------------------------------------------------------------------------------------- */
 
 /* Prints a line for each load and support of run e: its number of particles, area, force and moment. */
-void print_loads(const struct run *e);
+void print_loads_and_supports(const struct run *e);
 
 /* Writes a line to `out` if the loads on a single body of run e do not balance along an axis along which no support
  * holds it, and act until the end of the run. The line states the velocity and the displacement that the body gains by
@@ -172,7 +172,7 @@ void print_advice_on_unbalanced_loads(const struct run *e, FILE *out);
 /* Prints which share of the loaded or supported face of boundary b of run e is not perpendicular to the axis of the
  * boundary, the mean angle between normal and axis there, and a region that would exclude this part of the face. Prints
  * instead where the face lies if it is in several planes and the boundary has no region. */
-void print_oblique_share_of_loaded_face(const struct run *e, const struct boundary *b);
+void print_oblique_fraction_of_loaded_face(const struct run *e, const struct boundary *b);
 
 /* Prints, for the bodies of run e that are not boxes, the volume of the particles compared with the volume of the shape
  * (check_filled.c). */
@@ -189,7 +189,7 @@ void hint_keys_without_effect(const struct scene *s, struct warnings *warning_li
 
 /* Adds a line to *warning_list for each load of run e whose sign is probably not intended, and for each setting whose
  * size is probably not intended. */
-void hint_unlikely_signs_and_sizes(const struct run *e, struct warnings *warning_list);
+void hint_implausible_load_signs_and_magnitudes(const struct run *e, struct warnings *warning_list);
 
 /* ---- check_advice.c ---------------------------------------------------------------------------------------------- */
 
@@ -199,22 +199,23 @@ void print_accuracy_advice(const struct run *e, FILE *out);
 
 /* Adds a line to *warning_list for each setting of the input file of run e that costs more than necessary or has no
  * effect, and for each end of a crack that is exactly on bonds. The run must not have taken a step. */
-void cost_hints_add_to_warnings(const struct run *e, struct warnings *warning_list);
+void hint_needless_cost_and_unused_settings(const struct run *e, struct warnings *warning_list);
 
 /* Writes to `out` by how much the stiffness of a part of scene s (the input file) that is `layer_count` particle layers
  * thick differs at most from that of the material, for example "about 2 % in bending and tension". In 3D, torsion is
  * included. The values are from a table. surface: correction of bonds near faces. */
-void print_stiffness_error(const struct scene *s, enum surface_rule surface, double layer_count, FILE *out);
+void print_stiffness_error_of_thin_part(const struct scene *s, enum surface_rule surface, double layer_count,
+                                        FILE *out);
 
 /* Writes lines about inexact stiffness to `out` for those bodies of the peridynamic run e whose particles are read from
  * a list: bodies whose list is no lattice along the axes although `pd.weights: isotropic` assumes one, and, without
  * `pd.surface: moments`, bodies with parts of less than 16 layers of particles. Writes nothing for other methods and in
  * 1D. */
-void print_particle_list_advice(const struct run *e, FILE *out);
+void print_advice_on_stiffness_of_particle_lists(const struct run *e, FILE *out);
 
 /* Returns true if the set-up of run e (bodies, loads, cracks) equals its mirror image in the plane normal to axis
  * `normal_axis` through the middle of its particles. *plane_position receives the position of this plane along the axis
  * [m] (check_symmetry.c). */
-bool scene_is_symmetric_about_mid_plane(const struct run *e, int normal_axis, real *plane_position);
+bool run_is_symmetric_about_mid_plane(const struct run *e, int normal_axis, real *plane_position);
 
 #endif

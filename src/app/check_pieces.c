@@ -41,7 +41,7 @@ static void say_body(const struct scene *s, const struct fragments *f, const boo
            pass ? "; parts that touch pass through each other; set contact.between: all to prevent this" : "");
 }
 
-void print_bodies_of_separate_pieces(const struct run *e)
+void print_bodies_in_several_unbonded_pieces(const struct run *e)
 {
     struct fragments f;
     if (e->scene->method != METHOD_PD) return;

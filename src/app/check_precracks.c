@@ -27,12 +27,12 @@ static real crack_share_within(const struct scene *s, const real *from, const re
     return (real)within / PLACES;
 }
 
-void advise_on_close_crack_tips(const struct scene *s, const struct fracture_state *fracture, FILE *out)
+void print_advice_on_close_crack_tips(const struct scene *s, const struct fracture_state *fracture, FILE *out)
 {
     for (int k = 0; k < s->cracks && s->method != METHOD_MPM && s->dim == 2; k++) {
         const real *from = s->crack[k].corner[0], *to = s->crack[k].corner[1];
-        const bool tip[2] = {tips_start_at_precrack_end(&fracture->tips, from),
-                             tips_start_at_precrack_end(&fracture->tips, to)};
+        const bool tip[2] = {tips_any_started_at_precrack_end(&fracture->tips, from),
+                             tips_any_started_at_precrack_end(&fracture->tips, to)};
         const real share = tip[0] && tip[1] ? 1 : crack_share_within(s, from, to);
         const real length = share * hypot(to[0] - from[0], to[1] - from[1]);
         if (tip[0] != tip[1] && length < 0.5 * s->spacing) {
@@ -97,7 +97,7 @@ void hint_precrack_ends_exactly_on_bonds(const struct run *e, struct warnings *w
     int32_t found[ROOM];
     for (int k = 0; k < e->scene->cracks && e->part.dim == 2 && e->scene->method != METHOD_MPM; k++) {
         int64_t tied[2];
-        if (cells_neighbour_count_bound(&e->cells, e->source.family.cutoff) > ROOM) return;
+        if (cells_neighbour_count_upper_bound(&e->cells, e->source.family.cutoff) > ROOM) return;
         for (int end = 0; end < 2; end++) tied[end] = tied_bonds(e, &e->scene->crack[k], end, found, ROOM);
         const bool both = tied[0] > 0 && tied[1] > 0;
         if (tied[0] > 0 || tied[1] > 0)

@@ -56,7 +56,7 @@ static void section_flood(struct sections *s, int64_t slice, int64_t first, int6
         const int64_t cell = stack[--top];
         int64_t at[DIM_MAX];
         section->n++, section->area += c->share[cell], section->filled += c->filled[cell];
-        piece_coverage_compute_cell_indices(c, cell, at);
+        piece_cell_coverage_compute_cell_indices(c, cell, at);
         for (int k = 0; k < 4; k++) {
             const int d = s->across[k / 2], way = k % 2 ? 1 : -1;
             const int64_t next = cell + way * s->side[k / 2];
@@ -90,14 +90,14 @@ static void sections_make(struct sections *s, const struct cover *c, int axis, u
     for (int64_t k = 0; k < c->cells; k++) {
         int64_t at[DIM_MAX];
         if (s->of[k] >= 0 || !is_covered(c, k)) continue;
-        piece_coverage_compute_cell_indices(c, k, at);
+        piece_cell_coverage_compute_cell_indices(c, k, at);
         section_flood(s, at[axis], k, stack);
     }
     memory_free(stack);
     for (int64_t k = 0; k + s->stride < c->cells; k++) {
         const int64_t next = k + s->stride;
         int64_t at[DIM_MAX];
-        piece_coverage_compute_cell_indices(c, k, at);
+        piece_cell_coverage_compute_cell_indices(c, k, at);
         if (at[axis] + 1 == c->n[axis] || s->of[k] < 0 || s->of[next] < 0) continue;
         struct section *here = &s->section[s->of[k]], *there = &s->section[s->of[next]];
         here->after = larger(s, here->after, s->of[next]);
@@ -143,10 +143,10 @@ static real width_along(const struct sections *s, int32_t number, int k, bool fi
 /* Returns the description of section number `number` of s (connected cells in a slice), whose number of particle rows
  * is wrong: its centre, and the widths of shape and particles along the axis on which they differ most. off: relative
  * error of its area [1]. */
-static struct uneven uneven_of(const struct sections *s, int32_t number, real off)
+static struct narrow_part uneven_of(const struct sections *s, int32_t number, real off)
 {
     const struct cover *c = s->cover;
-    struct uneven u = {.off = off, .across = s->axis};
+    struct narrow_part u = {.off = off, .across = s->axis};
     real worst = -1, sum = 0;
     for (int k = 0; k < 2; k++) {
         if (c->n[s->across[k]] == 1) continue;
@@ -161,7 +161,7 @@ static struct uneven uneven_of(const struct sections *s, int32_t number, real of
             const int64_t cell = base + a * s->side[0] + b * s->side[1];
             int64_t at[DIM_MAX];
             if (s->of[cell] != number) continue;
-            piece_coverage_compute_cell_indices(c, cell, at);
+            piece_cell_coverage_compute_cell_indices(c, cell, at);
             sum += c->share[cell];
             for (int d = 0; d < c->dim; d++) u.at[d] += c->share[cell] * (c->first[d] + (real)at[d] * c->spacing);
         }
@@ -218,7 +218,7 @@ static void part_mark(const struct sections *s, int32_t from, int axis)
  * is larger for slanting faces. Both areas are summed over SLICES consecutive sections. If the areas of these sections
  * are not equal, as in parts with slanting faces, they are summed over SLICES_SLANTING sections, because errors by
  * steps of such faces average out. */
-static void part_judge(const struct sections *s, int32_t first, struct uneven_list *list)
+static void part_judge(const struct sections *s, int32_t first, struct width_misfit_list *list)
 {
     const struct section *begin = &s->section[first];
     struct stretch t = stretch_from(s, first, SLICES);
@@ -227,18 +227,20 @@ static void part_judge(const struct sections *s, int32_t first, struct uneven_li
         t.slices < SLICES && (t.slices < SLICES_LEAST || goes_on_alike(s, begin->before, begin->area));
     if (t.slices == 0 || (t.even ? short_one : t.slices < SLICES_SLANTING)) return;
     const real off = t.filled / t.area - 1;
-    if (!(fabs(off) > (t.even ? OFF_LEAST : OFF_SLANTING)) || !uneven_list_accepts_part_with_error(list, off)) return;
-    const struct uneven u = uneven_of(s, t.middle, off);
+    if (!(fabs(off) > (t.even ? OFF_LEAST : OFF_SLANTING)) ||
+        !width_misfit_list_error_is_large_enough_to_add(list, off))
+        return;
+    const struct narrow_part u = uneven_of(s, t.middle, off);
     if (!(u.width > 0)) return;
     const bool known = s->named[s->section[t.middle].cell] & 1 << u.axis;
     if (!known) part_mark(s, t.middle, u.axis);
-    uneven_list_add_narrow_part(list, &u, known);
+    width_misfit_list_add_narrow_part(list, &u, known);
 }
 
 /* Examines the sections of the piece list->piece across each axis and adds to the list the narrow parts whose particles
  * have a wrong area. c: lattice cells of the piece; named[cells]: bit d is set for cells of a listed part whose width
  * along axis d is wrong. */
-static void piece_sections(struct uneven_list *list, const struct cover *c, uint8_t *named)
+static void piece_sections(struct width_misfit_list *list, const struct cover *c, uint8_t *named)
 {
     for (int axis = 0; axis < c->dim; axis++) {
         struct sections s;
@@ -251,14 +253,14 @@ static void piece_sections(struct uneven_list *list, const struct cover *c, uint
 /* Appends to `list` the narrow parts of list->piece that have a wrong number of particle rows. The piece is a body of
  * run e, or all its parts of one material. Appends nothing if the bounding box of the body has too many cells
  * (piece_cell_coverage_make). */
-static void piece_judge(struct uneven_list *list, const struct run *e)
+static void piece_judge(struct width_misfit_list *list, const struct run *e)
 {
     struct cover c;
-    if (e->scene->dim == 1) uneven_list_add_parts_of_1d_body(list);
+    if (e->scene->dim == 1) width_misfit_list_add_parts_of_1d_body(list);
     if (e->scene->dim == 1 || !piece_cell_coverage_make(&c, &list->piece)) return;
     uint8_t *named = NEW("check.named", c.cells, uint8_t);
     piece_sections(list, &c, named);
-    uneven_list_add_necks_of_piece(list, e, &c, named);
+    width_misfit_list_add_necks_of_piece(list, e, &c, named);
     memory_free(named);
     piece_cell_coverage_free(&c);
 }
@@ -267,13 +269,13 @@ void print_advice_on_widths_of_narrow_parts(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
     for (int b = 0; b < s->bodies; b++) {
-        struct uneven_list list = {.piece = {.scene = s, .body = b, .material = ANY_MATERIAL}};
+        struct width_misfit_list list = {.piece = {.scene = s, .body = b, .material = ANY_MATERIAL}};
         if (s->body[b].file) continue;
         piece_judge(&list, e);
         for (int m = 0; m < s->materials && s->body[b].parts > 0; m++) {
             list.piece.material = m;
             if (scene_body_can_have_material(&s->body[b], m)) piece_judge(&list, e);
         }
-        print_parts_of_uneven_width(&list, out);
+        print_parts_whose_width_misfits_spacing(&list, out);
     }
 }

@@ -12,7 +12,7 @@ static int hull_slits(const struct hull *h)
 {
     struct crack *slit = NULL;
     int n = 0;
-    geometry_append_slits_as_precracks(h, &slit, &n);
+    geometry_append_mesh_slits_as_precracks(h, &slit, &n);
     for (int k = 0; k < n; k++) memory_free(slit[k].corner);
     memory_free(slit);
     return n;

@@ -78,7 +78,7 @@ static void hint_frames(const struct run *e, struct warnings *to)
                             frames, (long long)e->part.n, 1e-9 * bytes);
 }
 
-void hint_unlikely_signs_and_sizes(const struct run *e, struct warnings *warning_list)
+void hint_implausible_load_signs_and_magnitudes(const struct run *e, struct warnings *warning_list)
 {
     hint_pushed(e->scene, warning_list);
     hint_sizes(e, warning_list);

@@ -35,7 +35,7 @@ static int tips_of_cracks(const struct fracture_state *fracture)
 
 static bool is_sif_driven(const struct run *e)
 {
-    return tips_of_cracks(e->fracture) > 0 && sif_growth_why_impossible(e, NULL) == NULL;
+    return tips_of_cracks(e->fracture) > 0 && sif_growth_reason_direction_undetermined(e, NULL) == NULL;
 }
 
 /* Returns the distance from a crack tip to the end of the body in a straight line [m]. side: 1 for the distance ahead
@@ -70,7 +70,7 @@ static real crack_behind(const struct scene *s, const struct particles *part, co
     return INFINITY;
 }
 
-void print_load_step_solver(const struct run *e)
+void print_load_step_settings(const struct run *e)
 {
     static const char *const by[] = {[CONTROL_LOAD] = "of equal length",
                                      [CONTROL_ENERGY] = "at most, by energy",
@@ -81,7 +81,7 @@ void print_load_step_solver(const struct run *e)
         "solver         static: %d load steps %s, pseudo-time from 0 to %.4g s, each in equilibrium to a residual of "
         "%.3g of the load\n",
         s->steps.number, by[s->steps.control], s->duration, s->solver_tolerance);
-    if (!scene_bonds_break(s) || s->method == METHOD_MPM) return;
+    if (!scene_bonds_can_break(s) || s->method == METHOD_MPM) return;
     if (e->bonds.soft.curve) {
         printf("cracks         grow where bonds soften; %s\n",
                s->steps.control != CONTROL_ENERGY
@@ -102,7 +102,7 @@ void print_load_step_solver(const struct run *e)
             "cracks         grow where bonds exceed their critical stretch, about 2 spacings in each increment%s%s\n",
             tips == 0 ? "; the scene has no pre-crack that could be extended by the hoop stress"
                       : "; they are not extended by the hoop stress, because ",
-            tips == 0 ? "" : sif_growth_why_impossible(e, NULL));
+            tips == 0 ? "" : sif_growth_reason_direction_undetermined(e, NULL));
 }
 
 /* ---- advice ------------------------------------------------------------------------------------------------------ */
@@ -219,7 +219,7 @@ void print_load_step_accuracy_advice(const struct run *e, FILE *out)
     if (!scene_has_load_steps(e->scene)) return;
     advise_growth(e, out);
     advise_supports(e, out);
-    if (scene_bonds_break(e->scene) && !e->bonds.soft.curve) advise_lengths(e, out);
+    if (scene_bonds_can_break(e->scene) && !e->bonds.soft.curve) advise_lengths(e, out);
 }
 
 /* ---- cost -------------------------------------------------------------------------------------------------------- */
@@ -251,21 +251,21 @@ static double advances_of(const struct run *e)
 {
     const struct scene *s = e->scene;
     double way = 0;
-    if (!scene_bonds_break(s)) return 0;
+    if (!scene_bonds_can_break(s)) return 0;
     if (s->steps.control == CONTROL_ENERGY) return s->steps.number;
     for (int k = 0; k < e->fracture->tips.n; k++) way += way_within(e->scene, &e->part, &e->fracture->tips.tip[k], 1);
     if (way == 0) way = particles_bounding_box_longest_edge(&e->part);
     return way / (SPACINGS * s->spacing);
 }
 
-status cost_estimate_load_steps(struct cost *c, struct run *e)
+status load_steps_estimate_run_cost(struct cost *c, struct run *e)
 {
     const double began = thread_cpu_clock_seconds();
     const real first = e->scene->duration / e->scene->steps.number;
-    TRY(engine_find_equilibrium_for_cost_estimate(e, first));
+    TRY(run_find_equilibrium_for_cost_estimate(e, first));
     c->step = thread_cpu_clock_seconds() - began;
     c->equilibria = e->scene->steps.number + advances_of(e) * equilibria_of_advance(e);
-    if (engine_predict_largest_stretch_ratio(e, first, &c->overload_at, &c->overload) != OK) c->overload = 0;
+    if (run_predict_largest_stretch_to_critical_ratio(e, first, &c->overload_at, &c->overload) != OK) c->overload = 0;
     c->most = c->make + SLOWER * c->step * c->equilibria + c->output;
     c->run = c->make + LEAST_SHARE * (c->most - c->make), c->least = c->run, c->basis = COST_FIRST;
     return OK;

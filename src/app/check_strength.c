@@ -79,20 +79,20 @@ static void say_horizons(const struct scene *s, const struct material *m, real k
 static void print_surface(const struct scene *s, const struct material *m)
 {
     const struct softening_curve curve = softening_curve_of_law(m->softening);
-    const struct surface_strengths surface = material_strength_surface_strengths(m, s->space);
+    const struct surface_strengths surface = material_strengths_from_strength_surface(m, s->space);
     const real unit = material_uniaxial_tension_modulus(m, s->space) * m->onset_stretch;
     const struct softening_strength own =
-        softening_curve_normalised_strengths(&curve, s->space, square(m->critical_stretch / m->onset_stretch));
+        softening_curve_normalised_peak_stresses(&curve, s->space, square(m->critical_stretch / m->onset_stretch));
     const real own_shear = isnan(own.shear) ? m->young * m->onset_stretch / (1 + m->poisson) : unit * own.shear;
     printf("strength       %s: %.4g Pa in tension, %.4g Pa in equal biaxial tension, %.4g Pa in shear", m->name,
            surface.tension, surface.biaxial, surface.shear);
     if (isfinite(surface.compression)) printf(", %.4g Pa in uniaxial compression", surface.compression);
     if (s->dim == 3) printf(", %.4g Pa in hydrostatic tension", surface.hydrostatic);
     printf(", from a strength surface; strains are averaged over %.4g m (%d means over neighbourhoods)\n",
-           scene_strength_surface_radius(s, m), m->surface_means);
+           scene_strength_surface_averaging_radius(s, m), m->surface_means);
     say_horizon(s, m);
     printf("; with a horizon of %.4g m or more the stress does not reach the surface",
-           scene_strength_surface_largest_horizon(s, m));
+           scene_largest_horizon_for_strength_surface(s, m));
     if (surface.tension > unit)
         printf("; in tension bonds soften at about %.4g Pa already, before the surface is reached", unit);
     if (surface.shear > own_shear)
@@ -123,13 +123,14 @@ void print_softening_and_horizon_limits(const struct scene *s, const struct mate
     const real kappa = square(m->critical_stretch / m->onset_stretch);
     const real unit = material_uniaxial_tension_modulus(m, s->space) * m->onset_stretch;
     const struct softening_model model = scene_softening_model_of_bonds(s, m);
-    const struct softening_strength strength = softening_model_normalised_strengths(&curve, s->space, kappa, &model);
+    const struct softening_strength strength =
+        softening_model_normalised_peak_stresses(&curve, s->space, kappa, &model);
     printf("strength       %s: %.4g Pa in tension", m->name, unit * strength.tension);
     if (s->dim > 1) printf(", %.4g Pa in equal biaxial tension", unit * strength.biaxial);
     if (s->dim == 2) printf(", %.4g Pa in shear", unit * strength.shear);
     printf("; bonds soften %s from a stretch of %.4g to %.4g (kappa %.3g, phi %.3g)\n", law[m->softening],
-           m->onset_stretch, softening_end_stretch(&curve, m->onset_stretch, m->critical_stretch), kappa,
-           strength.tension);
+           m->onset_stretch, softening_breaking_stretch_of_equal_energy(&curve, m->onset_stretch, m->critical_stretch),
+           kappa, strength.tension);
     say_horizons(s, m, kappa);
     if (s->surface == SURFACE_VOLUME && s->dim > 1 && s->model == MODEL_BOND)
         printf("               with pd.surface: volume bonds at faces are stronger: a strip without a notch carries "
@@ -137,7 +138,7 @@ void print_softening_and_horizon_limits(const struct scene *s, const struct mate
     print_rate(m);
 }
 
-void print_brittle_strength(const struct scene *s, const struct material *m)
+void print_tensile_strength_of_brittle_bonds(const struct scene *s, const struct material *m)
 {
     const real nu = s->dim == 2 ? 1.0 / 3 : 0.25; /* of bonds; in plane strain nu/(1 - nu) */
     if (s->model != MODEL_BOND || s->method == METHOD_MPM || material_yields(m)) return;

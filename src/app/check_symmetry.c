@@ -205,7 +205,7 @@ static bool growths_agree(const struct scene *s, const struct particles *part, i
  * over which a probe of run e integrates stress-intensity factors. */
 static bool rings_clear(const struct run *e, int axis, real at)
 {
-    const struct observed_run seen = observed_run_view_of(e);
+    const struct observed_run seen = observed_run_make_read_only_view(e);
     for (int k = 0; k < e->probing->probes.n; k++) {
         real place[2], radius;
         if (!probes_locate_sif_contour(&e->probing->probes, k, &seen, place, &radius)) continue;
@@ -214,7 +214,7 @@ static bool rings_clear(const struct run *e, int axis, real at)
     return true;
 }
 
-bool scene_is_symmetric_about_mid_plane(const struct run *e, int normal_axis, real *plane_position)
+bool run_is_symmetric_about_mid_plane(const struct run *e, int normal_axis, real *plane_position)
 {
     const struct particles *p = &e->part;
     real low, high;

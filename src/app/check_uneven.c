@@ -14,14 +14,14 @@ enum { TRIED = 8 };     /* number of row counts for which a spacing is tried */
  * |error| exceeds 0.9 times the smallest |error| in it. error: relative error of the width of the part's particles [1].
  * The factor 0.9 allows for errors of equal parts, which differ by up to a tenth because they are estimated from
  * samples. */
-bool uneven_list_accepts_part_with_error(const struct uneven_list *list, real error)
+bool width_misfit_list_error_is_large_enough_to_add(const struct width_misfit_list *list, real error)
 {
     return list->n < UNEVEN_MOST || fabs(error) > 0.9 * fabs(list->part[list->n - 1].off);
 }
 
 /* Returns true if the narrow parts a and b differ in width by less than the fraction SAME_WIDTH, and both have too many
  * rows of particles or both have too few. */
-static bool same_width(const struct uneven *a, const struct uneven *b)
+static bool same_width(const struct narrow_part *a, const struct narrow_part *b)
 {
     return fabs(a->width - b->width) < SAME_WIDTH * b->width && a->off * b->off > 0;
 }
@@ -29,22 +29,22 @@ static bool same_width(const struct uneven *a, const struct uneven *b)
 /* Returns true if the narrow parts a and b have their widths along the same axis and positions within SAME_PLACE
  * spacings of scene s. They are then one part that was found twice: in the whole body, and in its piece of one
  * material. */
-static bool same_place(const struct uneven *a, const struct uneven *b, const struct scene *s)
+static bool same_place(const struct narrow_part *a, const struct narrow_part *b, const struct scene *s)
 {
     real r2 = 0;
     for (int d = 0; d < s->dim; d++) r2 += square(a->at[d] - b->at[d]);
     return a->axis == b->axis && r2 < square(SAME_PLACE * s->spacing);
 }
 
-void uneven_list_add_narrow_part(struct uneven_list *list, const struct uneven *u, bool already_listed)
+void width_misfit_list_add_narrow_part(struct width_misfit_list *list, const struct narrow_part *u, bool already_listed)
 {
-    struct uneven *part = list->part, added = *u;
+    struct narrow_part *part = list->part, added = *u;
     int place = list->n;
     added.material = list->piece.material;
     for (int k = 0; k < list->n && place == list->n; k++)
         if (same_width(&part[k], u)) place = k;
     if (place < list->n) {
-        struct uneven *like = &part[place];
+        struct narrow_part *like = &part[place];
         already_listed = already_listed || (like->material != added.material && same_place(like, u, list->piece.scene));
         like->more += !already_listed;
         if (fabs(like->off) >= fabs(u->off)) return;
@@ -57,7 +57,7 @@ void uneven_list_add_narrow_part(struct uneven_list *list, const struct uneven *
     }
     part[place] = added;
     for (int k = place; k > 0 && fabs(part[k].off) > fabs(part[k - 1].off); k--) {
-        const struct uneven other = part[k];
+        const struct narrow_part other = part[k];
         part[k] = part[k - 1], part[k - 1] = other;
     }
 }
@@ -70,13 +70,13 @@ real piece_distance_to_surface_along_axis(const struct piece *p, const real *X, 
     for (int k = 1;; k++, inside += step) {
         if (fabs(inside) >= max_distance) return max_distance;
         Y[axis] = X[axis] + k * step;
-        if (!piece_contains(p, Y, 0)) break;
+        if (!piece_contains_point(p, Y, 0)) break;
     }
     real outside = inside + step;
     for (int k = 0; k < HALVINGS; k++) {
         const real middle = 0.5 * (inside + outside);
         Y[axis] = X[axis] + middle;
-        if (piece_contains(p, Y, 0))
+        if (piece_contains_point(p, Y, 0))
             inside = middle;
         else
             outside = middle;
@@ -86,7 +86,7 @@ real piece_distance_to_surface_along_axis(const struct piece *p, const real *X, 
 
 /* Computes the coordinates at which the piece p (a body, or its part of one material) ends below and above the point
  * u->at, along the axis u->axis of the width, and stores them in *low and *high [m]. */
-static void width_ends(const struct piece *p, const struct uneven *u, real *low, real *high)
+static void width_ends(const struct piece *p, const struct narrow_part *u, real *low, real *high)
 {
     const real h = p->scene->spacing, most = 4000 * h;
     *low = u->at[u->axis] - piece_distance_to_surface_along_axis(p, u->at, u->axis, -0.05 * h, most);
@@ -97,10 +97,10 @@ static void width_ends(const struct piece *p, const struct uneven *u, real *low,
  * hold an estimate from areas. The measured width replaces it, and u->measured is set, if the two differ by less than
  * 10 % and if the measured width also differs from u->filled, the width of the rows of particles, by more than half the
  * estimated error. */
-static void width_measure(struct uneven *u, const struct piece *p)
+static void width_measure(struct narrow_part *u, const struct piece *p)
 {
     real low, high;
-    if (u->measured || !piece_contains(p, u->at, 0)) return;
+    if (u->measured || !piece_contains_point(p, u->at, 0)) return;
     width_ends(p, u, &low, &high);
     const real width = high - low;
     u->measured = fabs(width - u->width) < 0.1 * u->width && fabs(u->filled - width) > 0.5 * fabs(u->off) * width;
@@ -115,7 +115,7 @@ static int64_t rows_at(const struct piece *p, int axis, real low, real high, rea
     struct scene other = *p->scene;
     real X[DIM_MAX] = {0};
     other.spacing = spacing;
-    if (fill_compute_lattice_site_position(&other, p->body, X) != OK) return -1;
+    if (body_lattice_compute_first_site_position(&other, p->body, X) != OK) return -1;
     const real first = ceil((low - X[axis]) / spacing - ON_SURFACE);
     const real last = floor((high - X[axis]) / spacing + ON_SURFACE);
     return (int64_t)(last - first) + 1;
@@ -139,7 +139,7 @@ static struct length_unit unit_of_spacing(real spacing)
 /* Prints to `out` the nearest smaller and the nearest larger spacing with which the narrow part u of piece p gets the
  * right number of lattice rows: its width is then a whole number of spacings. Spacings are truncated to six digits. If
  * the present spacing divides the width already, prints how the part can be moved to fit the lattice. */
-static void say_spacings(const struct uneven *u, const struct piece *p, FILE *out)
+static void say_spacings(const struct narrow_part *u, const struct piece *p, FILE *out)
 {
     const struct length_unit unit = unit_of_spacing(p->scene->spacing);
     const real cells = u->width / p->scene->spacing, more = ceil(cells * (1 - 1e-3));
@@ -179,18 +179,18 @@ static void say_place(const real *at, int dim, FILE *out)
 
 /* Prints the beginning of a remark on the narrow part u of the piece p (a body, or its part of one material) to `out`:
  * the name of the body and, if the piece is of one material, the name of the material. */
-static void say_owner(const struct uneven *u, const struct piece *p, FILE *out)
+static void say_owner(const struct narrow_part *u, const struct piece *p, FILE *out)
 {
     fprintf(out, "accuracy       body %s: ", p->scene->body[p->body].name);
     if (u->material != ANY_MATERIAL) fprintf(out, "material %s: ", p->scene->material[u->material].name);
 }
 
-void print_parts_of_uneven_width(struct uneven_list *list, FILE *out)
+void print_parts_whose_width_misfits_spacing(struct width_misfit_list *list, FILE *out)
 {
     const int dim = list->piece.scene->dim;
     int measured = 0;
     for (int k = 0; k < list->n; k++) {
-        struct uneven *u = &list->part[k];
+        struct narrow_part *u = &list->part[k];
         const struct piece p = {list->piece.scene, list->piece.body, u->material};
         width_measure(u, &p);
         if (!u->measured) continue;
@@ -211,7 +211,7 @@ void print_parts_of_uneven_width(struct uneven_list *list, FILE *out)
         measured++;
     }
     if (measured > 0 || list->n == 0) return;
-    const struct uneven *worst = &list->part[0];
+    const struct narrow_part *worst = &list->part[0];
     say_owner(worst, &list->piece, out);
     fprintf(out, "its section across %c at ", "xyz"[worst->across]);
     say_place(worst->at, dim, out);

@@ -25,7 +25,7 @@ static real gap_at_plane(const struct particles *p, int body, const struct bound
     return nearest - 0.5 * spacing;
 }
 
-void print_wall_advice(const struct run *e, FILE *out)
+void print_advice_on_gaps_to_mirror_planes(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
     const real early = s->cell * stopping_distance(s->shape) * s->spacing;

@@ -43,7 +43,7 @@ status command_find_by_name(const char *name, const struct command **found)
         if (!strcmp(name, commands[k].name)) return OK;
         if (edit_distance(name, commands[k].name) < edit_distance(name, nearest->name)) nearest = &commands[k];
     }
-    if (words_are_similar(name, nearest->name))
+    if (word_is_probable_misspelling_of(name, nearest->name))
         return status_set(REFUSED, "unknown command %.40s; did you mean %s?", name, nearest->name);
     return status_set(REFUSED, "unknown command %.40s; `cleave --help` lists the commands", name);
 }

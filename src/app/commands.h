@@ -79,30 +79,30 @@ static inline bool word_is_help_option(const char *word)
 
 /* Prints the page `cleave help trust` to `out`: guarantees of a run, and the tests that check them. Returns FAILED if
  * it cannot be written. */
-status help_print_guarantees_of_runs(FILE *out);
+status help_print_guarantees_and_their_tests(FILE *out);
 
 /* Prints the page `cleave help theory` to `out`: the equations with their sources. Returns FAILED if it cannot be
  * written. */
-status help_theory_print(FILE *out);
+status help_print_theory(FILE *out);
 
 /* Prints the page `cleave help run` to `out`: options, files and exit statuses of a run. Returns FAILED if it cannot be
  * written. */
-status manual_print_page_on_runs(FILE *out);
+status help_print_run_options_files_and_exit_codes(FILE *out);
 
 /* Prints the manual page cleave.1 to `out`, in troff. Returns FAILED if it cannot be written. */
 status manual_print(FILE *out);
 
 /* Finds the JSON schema of input files, in the installation or else in the build folder of the program, and writes its
  * path to path[capacity]. Returns false if neither has one or the path is too long. */
-bool schema_find_file_path(char *path, size_t capacity);
+bool json_schema_find_file_path(char *path, size_t capacity);
 
 /* Finds the folder `inputs` of manual and input files, in the installation or else in the source tree of the program,
  * and writes its path to path[capacity]. Returns false if neither has one or the path is too long. */
-bool documents_find_folder_path(char *path, size_t capacity);
+bool inputs_folder_find_path(char *path, size_t capacity);
 
 /* Prints to `out` the names of the kinds of input files that the command `cleave new` can create, separated by blanks.
  */
-void new_scene_kinds_print(FILE *out);
+void new_scene_kinds_print_names(FILE *out);
 
 /* Prints to `out` a script by which a shell completes the commands, options and keys of the program. shell: name of the
  * shell, bash or zsh. Returns REFUSED, with a message, for another shell. */

@@ -35,8 +35,8 @@ struct pair {
  * reads. */
 static bool holds_run(const char *folder)
 {
-    return run_has_file(folder, "summary.json") || run_has_file(folder, "history.csv") ||
-           run_has_file(folder, "frames.hdf.series") || lammps_run_exists(folder);
+    return run_folder_has_file(folder, "summary.json") || run_folder_has_file(folder, "history.csv") ||
+           run_folder_has_file(folder, "frames.hdf.series") || lammps_run_exists(folder);
 }
 
 /* ---- rows of the table ------------------------------------------------------------------------------------------- */
@@ -240,8 +240,8 @@ static status compare_frames(struct pair *p)
     p->frames_differ = true;
     for (int k = 0; k < 2 && s == OK; k++)
         if (lammps_run_exists(p->folder[k]))
-            s = lammps_frames_list(p->folder[k], &t[k].n, &t[k].list);
-        else if (run_has_file(p->folder[k], "frames.hdf.series"))
+            s = lammps_run_list_frames(p->folder[k], &t[k].n, &t[k].list);
+        else if (run_folder_has_file(p->folder[k], "frames.hdf.series"))
             s = run_list_frames(p->folder[k], &t[k].n, &t[k].list);
     if (s == OK && (t[0].n == 0 || t[1].n == 0)) {
         printf("\nfields are not compared: %s has no frames\n", printable_name(p->folder[t[0].n == 0 ? 0 : 1]).text);
@@ -280,7 +280,7 @@ static status compare_energies(const struct pair *p)
     };
     struct history h[2];
     for (int k = 0; k < 2; k++) {
-        if (run_has_file(p->folder[k], "history.csv")) continue;
+        if (run_folder_has_file(p->folder[k], "history.csv")) continue;
         printf("\nenergies are not compared: %s has no history.csv\n", printable_name(p->folder[k]).text);
         return OK;
     }
@@ -411,7 +411,7 @@ static status read_words(struct pair *p, int argc, char **argv)
 static status print_run(const char *letter, const char *folder)
 {
     char name[NAME_MAX_LENGTH], method[NAME_MAX_LENGTH], state[NAME_MAX_LENGTH];
-    if (!run_has_file(folder, "summary.json")) {
+    if (!run_folder_has_file(folder, "summary.json")) {
         printf("%s  %s: %s\n", letter, printable_name(folder).text,
                lammps_run_exists(folder) ? "a run of LAMMPS" : "no summary.json yet");
         return OK;

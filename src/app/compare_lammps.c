@@ -13,7 +13,7 @@
 
 bool lammps_run_exists(const char *folder)
 {
-    return run_has_file(folder, "plate.dump") && run_has_file(folder, "in.lammps");
+    return run_folder_has_file(folder, "plate.dump") && run_folder_has_file(folder, "in.lammps");
 }
 
 /* Reads the time step from the LAMMPS script in.lammps in `folder` to *dt [s]. Returns FAILED, with a message, if there
@@ -33,7 +33,7 @@ static status lammps_time_step(const char *folder, double *dt)
                             printable_name(path.text).text);
 }
 
-status lammps_frames_list(const char *folder, int *frame_count, struct listed_frame **frames)
+status lammps_run_list_frames(const char *folder, int *frame_count, struct listed_frame **frames)
 {
     double dt;
     int64_t *step;
@@ -176,7 +176,7 @@ status lammps_print_differences_from_export(const char *folder)
     int n;
     int64_t *step;
     const struct path dump = path_join(folder, "check.dump");
-    if (!run_has_file(folder, "check.dump") || !run_has_file(folder, "check.csv")) return OK;
+    if (!run_folder_has_file(folder, "check.dump") || !run_folder_has_file(folder, "check.csv")) return OK;
     TRY(lammps_list_step_numbers(dump.text, &n, &step));
     const int64_t last = step[n - 1];
     memory_free(step);

@@ -10,7 +10,7 @@ bool lammps_run_exists(const char *folder);
 /* Lists the output frames (states at output times) of the run of LAMMPS in `folder`, from its file plate.dump. Stores
  * their number in *frame_count and an allocated array in *frames, which the caller releases with memory_free. Returns
  * FAILED if in.lammps or plate.dump cannot be read or has no frame. */
-status lammps_frames_list(const char *folder, int *frame_count, struct listed_frame **frames);
+status lammps_run_list_frames(const char *folder, int *frame_count, struct listed_frame **frames);
 
 /* Reads the output frame (state at one output time) with the number `frame_number` of the run of LAMMPS in `folder`
  * into *f. The frame has no stress. Returns FAILED if a file of the run cannot be read or is damaged. Release f with

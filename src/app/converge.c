@@ -33,7 +33,7 @@ static status budget_read(struct convergence_request *w, const char *text)
 {
     char what[256];
     real value;
-    if (number_read(&value, text, UNIT_TIME, false, what, sizeof what) && value > 0) {
+    if (number_parse_with_unit(&value, text, UNIT_TIME, false, what, sizeof what) && value > 0) {
         w->budget = value;
         w->finer = true;
         return OK;
@@ -67,7 +67,7 @@ static status converge_option(struct converge_arguments *a, const char *word, co
         return option_read_count(&w->levels, word, value, LEVELS_LEAST, LEVELS_MOST);
     else if (!strcmp(word, "--budget"))
         return budget_read(w, value);
-    else if (option_is_of_study_pictures(word))
+    else if (option_is_size_dpi_or_format(word))
         return option_read_size_dpi_or_format(&a->size, word, value, usage);
     else
         a->wanted[a->wanteds++] = value;
@@ -79,7 +79,7 @@ static status converge_words(struct converge_arguments *a, int argc, char **argv
     static const char *const taking[] = {"-o", "-s", "-j", "-t", "--runs", "--levels", "--budget", "--of"};
     for (int k = 1; k < argc; k++) {
         const char *word = argv[k];
-        bool takes = option_is_of_study_pictures(word);
+        bool takes = option_is_size_dpi_or_format(word);
         for (size_t t = 0; t < COUNT_OF(taking); t++) takes |= !strcmp(word, taking[t]);
         if (takes) TRY(option_check_has_value(word, k + 1 < argc, usage));
         if (takes)
@@ -130,7 +130,7 @@ static status converge_all(struct converge_arguments *a)
     status done = scalar_results_determine_convergence(&s, a->wanted, a->wanteds, &figure, &figures);
     if (done == OK) done = scalar_results_write(&s, figure, figures);
     if (done == OK) scalar_results_print(&s, figure, figures);
-    if (done == OK) done = scalar_results_draw(&s, figure, figures);
+    if (done == OK) done = scalar_results_draw_over_spacing(&s, figure, figures);
     memory_free(figure);
     convergence_study_free(&s);
     return done;
@@ -146,7 +146,7 @@ status command_converge_main(int argc, char **argv)
                                             .budget = BUDGET_USUAL,
                                             .options.stop = stop_signals_install_handlers()}};
     status done = converge_words(&a, argc, argv);
-    picture_size_set(a.size);
+    picture_size_set_process_wide(a.size);
     struct scene_override *override = NEW("converge.overrides", argc, struct scene_override);
     for (int k = 0; k < a.keys; k++) override[k] = (struct scene_override){a.key[k].key, a.key[k].value[0]};
     a.wish.override = override;

@@ -46,8 +46,8 @@ static status export_words(struct export_request *r, int *argc, char **argv)
  * scene. Returns OK, or REFUSED with a message. */
 static status check_not_study(const char *scene)
 {
-    const bool study = folder_holds_study(scene) || run_has_file(scene, "study.yaml");
-    if (!study || run_has_file(scene, "scene.yaml")) return OK;
+    const bool study = folder_contains_study_table(scene) || run_folder_has_file(scene, "study.yaml");
+    if (!study || run_folder_has_file(scene, "scene.yaml")) return OK;
     return status_set(REFUSED, "%s contains a study; export one of its runs, which are folders inside it",
                       printable_name(scene).text);
 }
@@ -71,7 +71,7 @@ status command_export_main(int argc, char **argv)
         return status_set(
             REFUSED, "export: --style and --allow-different are for lammps only; remove them; usage: cleave %s", usage);
     TRY(arguments_read(&a, argc, argv, usage));
-    team_set_thread_count(a.threads);
+    threads_set_count_and_bind_to_cores(a.threads);
     request.scene = a.scene, request.folder = a.folder;
     request.override = a.override, request.overrides = a.overrides;
     status result = a.folder ? check_not_study(a.scene)

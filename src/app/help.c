@@ -70,7 +70,7 @@ static void print_answer(const char *word, const char *answer)
     char folder[4096];
     printf("%s: %s\n", word, answer);
     if (strstr(answer, "inputs/") && !path_is_file("inputs/README.md") &&
-        documents_find_folder_path(folder, sizeof folder))
+        inputs_folder_find_path(folder, sizeof folder))
         printf("inputs/ is %s\n", folder);
 }
 
@@ -89,7 +89,7 @@ static status help_topic(const char *word)
 static status help_scene(void)
 {
     char schema[4096];
-    if (schema_find_file_path(schema, sizeof schema))
+    if (json_schema_find_file_path(schema, sizeof schema))
         printf("# yaml-language-server: $schema=%s\n"
                "As the first line of a scene, this lets editors complete keys and underline mistakes.\n\n",
                schema);
@@ -97,8 +97,8 @@ static status help_scene(void)
 }
 
 /* Returns REFUSED, with the most similar name in the message, if `word` is a misspelt name of a help page (argument of
- * `cleave help`) or command: similar to it by words_are_similar. Returns OK otherwise, and for a word that is a scene
- * key or a topic of help. */
+ * `cleave help`) or command: similar to it by word_is_probable_misspelling_of. Returns OK otherwise, and for a word
+ * that is a scene key or a topic of help. */
 static status help_misspelt(const char *word)
 {
     static const char *const pages[] = {"scene", "units", "expression", "run", "theory", "trust"};
@@ -108,7 +108,7 @@ static status help_misspelt(const char *word)
         if (edit_distance(word, pages[k]) < edit_distance(word, nearest)) nearest = pages[k];
     for (int k = 0; k < commands_count; k++)
         if (edit_distance(word, commands[k].name) < edit_distance(word, nearest)) nearest = commands[k].name;
-    if (!words_are_similar(word, nearest)) return OK;
+    if (!word_is_probable_misspelling_of(word, nearest)) return OK;
     return status_set(REFUSED, "%.40s: this is neither a page nor a key; did you mean %s?", word, nearest);
 }
 
@@ -147,11 +147,11 @@ status command_help_main(int argc, char **argv)
     if (!strcmp(word, "--schema")) return scene_print_json_schema(stdout);
     if (!strcmp(word, "--manual")) return manual_print(stdout);
     if (!strcmp(word, "--reference")) return scene_print_key_reference_as_markdown(stdout), OK;
-    if (!strcmp(word, "units")) return scene_print_units(stdout), OK;
-    if (!strcmp(word, "expression") || !strcmp(word, "expressions")) return scene_print_expressions(stdout), OK;
-    if (!strcmp(word, "run")) return manual_print_page_on_runs(stdout);
-    if (!strcmp(word, "trust")) return help_print_guarantees_of_runs(stdout);
-    if (!strcmp(word, "theory")) return help_theory_print(stdout);
+    if (!strcmp(word, "units")) return scene_print_allowed_units(stdout), OK;
+    if (!strcmp(word, "expression") || !strcmp(word, "expressions")) return scene_print_expression_syntax(stdout), OK;
+    if (!strcmp(word, "run")) return help_print_run_options_files_and_exit_codes(stdout);
+    if (!strcmp(word, "trust")) return help_print_guarantees_and_their_tests(stdout);
+    if (!strcmp(word, "theory")) return help_print_theory(stdout);
     for (int k = 0; k < commands_count; k++)
         if (!strcmp(word, commands[k].name)) return usage_print_of_command(stdout, &commands[k]), OK;
     TRY(help_misspelt(word));

@@ -67,7 +67,8 @@ static void print_machine(void)
     printf("%-18s %s\n", "processor", m.model);
     print_kernels();
     printf("%-18s %d\n", "cores", m.cores);
-    printf("%-18s %d; the hardware allows %d\n", "threads of a run", team_set_thread_count(0), m.threads_allowed);
+    printf("%-18s %d; the hardware allows %d\n", "threads of a run", threads_set_count_and_bind_to_cores(0),
+           m.threads_allowed);
     print_bytes("L1 data cache", m.cache[1]);
     print_bytes("L2 cache", m.cache[2]);
     print_bytes("L3 cache", m.cache[3]);

@@ -46,8 +46,8 @@ static status call(int argc, char **argv)
 {
     const struct command *c;
     if (argc < 2) return usage_print(stderr), REFUSED;
-    output_configure();
-    TRY(simd_select_kernels());
+    output_install_signal_handling_for_file_writes();
+    TRY(simd_select_kernels_for_processor());
     if (word_is_help_option(argv[1])) return usage_print(stdout), OK;
     if (!strcmp(argv[1], "--version")) return version_print(stdout), OK;
     TRY(command_find_by_name(argv[1], &c));

@@ -265,7 +265,7 @@ static bool is_of_run(const struct section *s, const struct entry *e)
     return command_find_by_name("run", &run) == OK && takes_option(run, e->term) && is_of(e, run);
 }
 
-status manual_print_page_on_runs(FILE *out)
+status help_print_run_options_files_and_exit_codes(FILE *out)
 {
     for (size_t j = 0; j < COUNT_OF(sections); j++) {
         const struct section *s = &sections[j];

@@ -39,7 +39,7 @@ static status kind_find(const char *name, const struct kind **found)
         if (!strcmp((*found)->name, name)) return OK;
         if (edit_distance((*found)->name, name) < edit_distance(nearest->name, name)) nearest = *found;
     }
-    const bool similar = words_are_similar(name, nearest->name);
+    const bool similar = word_is_probable_misspelling_of(name, nearest->name);
     return status_set(REFUSED, "there is no kind %.40s; %s%s%s`cleave new` lists all kinds", name,
                       similar ? "did you mean " : "", similar ? nearest->name : "", similar ? "? " : "");
 }
@@ -64,7 +64,7 @@ static status check_path(const char *path, int *length, const char **name)
 static void scene_write(FILE *out, const struct kind *k, const char *path, const char *name)
 {
     char schema[4096];
-    if (schema_find_file_path(schema, sizeof schema)) fprintf(out, "# yaml-language-server: $schema=%s\n", schema);
+    if (json_schema_find_file_path(schema, sizeof schema)) fprintf(out, "# yaml-language-server: $schema=%s\n", schema);
     fprintf(out,
             "# %s\n#\n"
             "# cleave check %s    says what it costs, and whether it is sound\n"
@@ -121,7 +121,7 @@ static status part_write(const struct kind *k, const char *path)
     return file_close(out, part_path(path).text);
 }
 
-void new_scene_kinds_print(FILE *out)
+void new_scene_kinds_print_names(FILE *out)
 {
     for (size_t k = 0; k < COUNT_OF(kinds); k++) fprintf(out, "%s%s", k ? " " : "", kinds[k].name);
 }

@@ -60,7 +60,7 @@ static status read_times(struct plot_words *w, const char *text)
                            PANELS_MAX);
         else if (strcmp(word, "last") == 0)
             r->time[r->times++] = INFINITY;
-        else if (!time_read(&time, word, what, sizeof what))
+        else if (!time_parse_with_unit(&time, word, what, sizeof what))
             s = status_set(REFUSED, "plot: --times %s: %s; give times, or last, or the single word all",
                            printable_name(word).text, what);
         else
@@ -81,7 +81,7 @@ static status read_slice(struct plot_words *w, const char *text)
         return status_set(REFUSED, "plot: --slice %s: %s", printable_name(text).text, wrong);
     projection->normal = text[0] - 'x';
     projection->placed = text[1] == '=';
-    if (!projection->placed || length_read(&projection->layer, text + 2, what, sizeof what)) return OK;
+    if (!projection->placed || length_parse_with_unit(&projection->layer, text + 2, what, sizeof what)) return OK;
     return status_set(REFUSED, "plot: --slice %s: %s %s", printable_name(text).text, printable_name(text + 2).text,
                       what);
 }
@@ -101,7 +101,7 @@ static status read_view(struct plot_words *w, const char *text)
 static status read_format(struct plot_words *w, const char *text)
 {
     w->format = text;
-    if (picture_format_named(&w->request.format, text)) return OK;
+    if (picture_format_find_by_ending(&w->request.format, text)) return OK;
     return status_set(REFUSED, "plot: --format %s: give png, svg, pdf, mp4 or gif", printable_name(text).text);
 }
 
@@ -131,8 +131,9 @@ static status read_crop(struct plot_words *w, const char *text)
     for (int k = 0; k < 4; k++) end[k] = strsep(&rest, k % 2 ? "," : ":");
     for (int k = 0; k < 4 && read; k++) {
         real value = 0;
-        read = end[3] && length_read(&value, number_text_with_unit_of(joined, sizeof joined, end[k], end[k ^ 1]), what,
-                                     sizeof what);
+        read = end[3] && length_parse_with_unit(
+                             &value, number_text_append_unit_if_missing(joined, sizeof joined, end[k], end[k ^ 1]),
+                             what, sizeof what);
         w->request.crop[k / 2][k % 2] = value;
     }
     memory_free(copy);
@@ -245,7 +246,7 @@ static status settle_format(struct plot_words *w)
 {
     const char *out = w->request.out, *dot = out ? strrchr(out, '.') : NULL;
     if (!dot || strchr(dot, '/') || path_is_folder(out)) return OK;
-    if (!w->format && picture_format_named(&w->request.format, dot + 1)) return OK;
+    if (!w->format && picture_format_find_by_ending(&w->request.format, dot + 1)) return OK;
     if (w->format && strcmp(w->format, dot + 1) == 0) return OK;
     return status_set(
         REFUSED,
@@ -267,7 +268,7 @@ static status words_together(const struct plot_words *w)
         return status_set(
             REFUSED, "plot: --times %s and %s (from --frames or --times) both select frames: remove one of the two",
             printable_name(w->times).text, printable_name(w->frames).text);
-    if (r->panels > PANELS_MAX && !picture_is_film(r->format))
+    if (r->panels > PANELS_MAX && !picture_format_is_video(r->format))
         return status_set(REFUSED,
                           "plot: --frames %d: a picture has at most %d panels; give fewer frames, or make a film "
                           "(--format mp4 or gif)",
@@ -277,7 +278,7 @@ static status words_together(const struct plot_words *w)
     if (w->scene.scene && (r->range[0] || r->cropped || r->projection.magnify > 0 || r->table))
         return status_set(
             REFUSED, "plot: --scene draws a scene before it runs; remove --range, --colours, --crop and --magnify");
-    if (r->fps && !picture_is_film(r->format))
+    if (r->fps && !picture_format_is_video(r->format))
         return status_set(REFUSED, "plot: --fps is for films; add --format mp4 or gif");
     if (r->range[0] && !r->field)
         return status_set(REFUSED, "plot: --range limits the values of a field; give --field too");
@@ -287,7 +288,7 @@ static status words_together(const struct plot_words *w)
         return status_set(REFUSED, "plot: --slice shows the inside, but --view the outside: remove one of the two");
     if (!w->scene.scene && !r->folder)
         return status_set(REFUSED, "plot: no folder of a run is given; usage: cleave %s", usage);
-    return r->title && r->format != PICTURE_SVG ? gnuplot_check_font_has_title(r->title) : OK;
+    return r->title && r->format != PICTURE_SVG ? fonts_check_letters_of_title_available(r->title) : OK;
 }
 
 static status plot_words_read(struct plot_words *w, int argc, char **argv)
@@ -314,11 +315,11 @@ static status check_folder(const char *folder)
         return status_set(REFUSED,
                           "%s is a file; give the folder of a run; to draw a scene use `cleave plot --scene %s`",
                           printable_name(folder).text, printable_name(folder).text);
-    if (folder_holds_study(folder))
+    if (folder_contains_study_table(folder))
         return status_set(REFUSED,
                           "%s contains a study, whose pictures are in %s/pictures; give the folder of one of its runs",
                           printable_name(folder).text, printable_name(folder).text);
-    if (!run_has_file(folder, "frames.hdf.series") && !run_has_file(folder, "history.csv"))
+    if (!run_folder_has_file(folder, "frames.hdf.series") && !run_folder_has_file(folder, "history.csv"))
         return status_set(
             REFUSED,
             "%s contains no run (neither frames nor history.csv); give the folder that cleave run prints at its end",
@@ -345,8 +346,8 @@ static status draw_words(const struct plot_words *w)
     INVARIANT(r->folder);
     TRY(check_folder(r->folder));
     const bool one = r->field || r->projection.outside || r->projection.normal >= 0 ||
-                     (r->out && !is_folder_name(r->out)) || picture_is_film(r->format);
-    return one ? field_draw_picture_or_film(r) : run_draw_standard_pictures(r);
+                     (r->out && !is_folder_name(r->out)) || picture_format_is_video(r->format);
+    return one ? field_draw_picture_or_video(r) : run_draw_standard_pictures(r);
 }
 
 status command_plot_main(int argc, char **argv)
@@ -354,7 +355,7 @@ status command_plot_main(int argc, char **argv)
     struct plot_words w = {.scene.override = NEW("arguments.override", argc, struct scene_override),
                            .size.dpi = PICTURE_DPI};
     status s = plot_words_read(&w, argc, argv);
-    picture_size_set(w.size);
+    picture_size_set_process_wide(w.size);
     if (s == OK) s = draw_words(&w);
     arguments_free(&w.scene);
     memory_free(w.range);

@@ -27,13 +27,13 @@ static bool find_beside_program(const char *const *beside, char *path, size_t ca
     return false;
 }
 
-bool schema_find_file_path(char *path, size_t capacity)
+bool json_schema_find_file_path(char *path, size_t capacity)
 {
     static const char *const beside[] = {"/../share/cleave/cleave.schema.json", "/cleave.schema.json"};
     return find_beside_program(beside, path, capacity);
 }
 
-bool documents_find_folder_path(char *path, size_t capacity)
+bool inputs_folder_find_path(char *path, size_t capacity)
 {
     static const char *const beside[] = {"/../share/doc/cleave/inputs", "/../inputs"};
     return find_beside_program(beside, path, capacity);

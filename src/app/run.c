@@ -52,7 +52,7 @@ static void print_breaks(const struct run *e)
     const struct diagnostics *w = e->diagnostics;
     const struct crack_tip *tip = tips_find_tip_with_largest_growth(&e->fracture->tips);
     const bool in_steps = scene_has_load_steps(e->scene), broke = !isnan(w->break_time);
-    const int64_t tied = tips_count_ends_with_largest_growth(&e->fracture->tips);
+    const int64_t tied = tips_count_crack_ends_with_largest_growth(&e->fracture->tips);
     if (broke && in_steps)
         printf("  first bond broken in load step %.0f", w->break_time / e->clock.dt);
     else if (broke)
@@ -107,9 +107,9 @@ static status open_folder(struct output *out, const struct scene *s, const struc
     snprintf(folder, sizeof folder, "results/%s", s->name);
     const enum output_mode mode = a->resume ? OUTPUT_RESUME : a->overwrite ? OUTPUT_OVERWRITE : OUTPUT_FIRST;
     const char *to = a->folder ? a->folder : folder;
-    for (int k = 0; k < s->n_series; k++) TRY(output_check_series_folder_is_free(to, s->series[k].name));
+    for (int k = 0; k < s->n_series; k++) TRY(output_check_series_folder_can_be_created(to, s->series[k].name));
     const status opened = output_open(out, to, s->text, mode, s->compress);
-    TRY(out->has_other_scene ? scene_prepend_location(s, opened) : opened);
+    TRY(out->has_other_scene ? scene_prepend_location_to_error_message(s, opened) : opened);
     for (int k = 0; k < s->n_series; k++) TRY(output_add_frame_series(out, s->series[k].name, &s->series[k].region));
     return OK;
 }
@@ -123,34 +123,35 @@ static status run_engine(struct run *e, const struct scene *s, struct output *ou
 {
     char busy[256];
     const double start = wall_clock_seconds(), load = machine_load_average();
-    engine_announce_long_set_up(s);
-    TRY(engine_set_up_run(e, s, out)); /* before the folder is opened, so that a refused scene leaves none */
+    run_print_notice_if_set_up_takes_long(s);
+    TRY(run_set_up_from_scene(e, s, out)); /* before the folder is opened, so that a refused scene leaves none */
     const double made = wall_clock_seconds();
     TRY(open_folder(out, s, a));
     const double opened = wall_clock_seconds();
     e->report->began = start;
     e->report->quiet = a->quiet;
-    engine_warn_of_suspicious_input(e);
+    run_warn_of_suspicious_input(e);
     const struct levels_choice levels = mesh_levels_choose_level_count(e->frame, &e->part, s, e->clock.dt_critical);
     char coarse[1024];
-    if (mesh_levels_of_scene_exceed_limit(&levels, e->frame, s, coarse, sizeof coarse))
+    if (mesh_levels_given_by_scene_are_too_many(&levels, e->frame, s, coarse, sizeof coarse))
         warnings_add_if_new(&e->warnings, "%s", coarse);
     warnings_print(&e->warnings, 0, stderr);
     if (threads > 2 * omp_get_num_procs())
         fprintf(stderr, "warning: %d threads share %d hardware threads, which slows the run; use fewer (-t)\n", threads,
                 omp_get_num_procs());
-    if (!a->quiet && machine_describe_overload_if_any(busy, sizeof busy, load, machine_physical_core_count(), threads))
+    if (!a->quiet &&
+        machine_compose_warning_if_overloaded(busy, sizeof busy, load, machine_physical_core_count(), threads))
         printf("  %s\n", busy);
     e->report->stop = stop_signals_install_handlers();
-    if (a->resume && checkpoint_exists(out->folder)) TRY(checkpoint_read(out, s->text, engine_load_checkpoint, e));
+    if (a->resume && checkpoint_exists(out->folder)) TRY(checkpoint_read(out, s->text, run_load_checkpoint, e));
     if (a->resume && !a->quiet && e->clock.step >= e->clock.steps)
         fprintf(stderr, "the run in %s is finished: no step is left, and only its summary is written again\n",
                 printable_name(out->folder).text);
     output_remove_vtkhdf_of_all_frames(out);
     e->report->setup_seconds = wall_clock_seconds() - opened + made - start;
-    status ran = engine_run_to_end(e);
+    status ran = run_advance_to_end_time(e);
     const double run = wall_clock_seconds();
-    if (ran == OK) ran = engine_run_mpm_baseline_for_pulse_probe(e);
+    if (ran == OK) ran = run_repeat_with_mpm_only_for_pulse_probe(e);
     e->report->setup_seconds += wall_clock_seconds() - run;
     if (ran == OK || ran == INTERRUPTED) {
         const status temporal = output_write_vtkhdf_of_all_frames(out, s->text);
@@ -159,7 +160,7 @@ static status run_engine(struct run *e, const struct scene *s, struct output *ou
     struct error_bar bar[ERROR_BARS_MOST];
     e->report->bar = bar;
     e->report->bars = error_bars_read_from_convergence_study(bar, ERROR_BARS_MOST, s, out->folder);
-    status written = ran == REFUSED ? OK : summary_write(e, ran, threads);
+    status written = ran == REFUSED ? OK : run_write_summary_files(e, ran, threads);
     if (ran != OK) return ran;
     TRY(written);
     if (!a->quiet) print_summary(e, out->folder, wall_clock_seconds() - start);
@@ -171,18 +172,18 @@ status command_run_main(int argc, char **argv)
     const volatile sig_atomic_t *stop =
         stop_signals_install_handlers(); /* before the scene is read, which can take seconds */
     struct run_arguments a;
-    struct pilot pilot;
+    struct pilot_choice pilot;
     struct path folder = {{0}};
     const bool page = arguments_remove_option(&argc, argv, "--report");
     TRY(arguments_read(&a, argc, argv, "run " RUN_WORDS));
-    int threads = team_set_thread_count(a.threads);
+    int threads = threads_set_count_and_bind_to_cores(a.threads);
     struct scene s = {0};
     struct run e = {0};
     struct output out = {0};
-    status result = pilot_scene_read_or_choose_method(&s, &pilot, a.scene, a.override, a.overrides, a.folder,
-                                                      (struct study_options){.quiet = a.quiet, .stop = stop});
+    status result = scene_read_and_choose_method_by_pilot_runs(&s, &pilot, a.scene, a.override, a.overrides, a.folder,
+                                                               (struct study_options){.quiet = a.quiet, .stop = stop});
     if (result == OK) result = run_engine(&e, &s, &out, &a, threads);
-    engine_free_run(&e);
+    run_free_memory(&e);
     if (out.folder) snprintf(folder.text, sizeof folder.text, "%s", out.folder);
     output_close(&out);
     scene_free(&s);

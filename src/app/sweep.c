@@ -67,7 +67,7 @@ static status sweep_words(struct sweep_arguments *a, int argc, char **argv)
             TRY(option_read_count(&a->options.threads, word, argv[++k], 1, THREADS_MOST));
         else if (!strcmp(word, "--of"))
             TRY(drawn_figure_add(a, k + 1 < argc ? argv[++k] : NULL));
-        else if (option_is_of_study_pictures(word))
+        else if (option_is_size_dpi_or_format(word))
             TRY(option_read_size_dpi_or_format(&a->size, word, k + 1 < argc ? argv[++k] : NULL, usage));
         else if (!strcmp(word, "--list"))
             a->list = true;
@@ -143,7 +143,7 @@ static status sweep_list(const struct study *s, const struct sweep_arguments *a)
     TRY(a->options.overwrite ? study_folder_check_is_usable(s->folder)
                              : study_folder_check_is_usable_for_scene(s->folder, s->text));
     for (int k = 0; k < s->n; k++)
-        if (s->at[k].state != CASE_SAME) study_print_command(s, &s->at[k], a->options, stdout);
+        if (s->at[k].state != CASE_SAME) study_print_command_of_case(s, &s->at[k], a->options, stdout);
     return OK;
 }
 
@@ -151,10 +151,10 @@ static status sweep_all(struct study *s, struct sweep_arguments *a)
 {
     TRY(study_make_with_keys(s, a->scene, a->folder, "sweep", a->key, a->keys));
     s->options = a->words;
-    TRY(study_add_combinations(s, a->key, a->keys));
-    TRY(study_determine_case_states(s, a->collect));
+    TRY(study_add_cases_of_all_value_combinations(s, a->key, a->keys));
+    TRY(study_find_completed_failed_and_equal_cases(s, a->collect));
     TRY(study_check_result_names(s, a->of, a->asked));
-    study_print_equal_scene_count(s, stderr);
+    study_print_count_of_duplicate_scenes(s, stderr);
     if (a->list) return sweep_list(s, a);
     TRY(study_check_output_files_replaceable(s, a->key, a->keys));
     status ran = OK;
@@ -187,7 +187,7 @@ status command_sweep_main(int argc, char **argv)
                                 .options.stop = stop_signals_install_handlers()};
     struct study s = {.lock.fd = -1};
     status done = sweep_words(&a, argc, argv);
-    picture_size_set(a.size);
+    picture_size_set_process_wide(a.size);
     if (done == OK) {
         a.words = study_options_compose_from_arguments(argc, argv, a.scene);
         done = sweep_all(&s, &a);

@@ -76,7 +76,7 @@ static const char page[] =
     "\n"
     "Titles and DOIs of the sources are in inputs/references.md.\n";
 
-status help_theory_print(FILE *out)
+status help_print_theory(FILE *out)
 {
     fputs(page, out);
     return ferror(out) ? status_set(FAILED, "help cannot be written") : OK;

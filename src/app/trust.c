@@ -78,7 +78,7 @@ static void paragraph(FILE *out, const char *text, int indent)
     fputc('\n', out);
 }
 
-status help_print_guarantees_of_runs(FILE *out)
+status help_print_guarantees_and_their_tests(FILE *out)
 {
     fputs("What a run promises, and the tests in tests/ that check each promise (those named long_* run by `make "
           "test-long`):\n\n",

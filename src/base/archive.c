@@ -19,7 +19,7 @@ status archive_save_or_load_particle_array(struct archive *a, const char *name, 
     return s;
 }
 
-void archive_update_restored_particle_indices(const struct archive *a, int32_t *particle_index, int64_t index_count)
+void archive_renumber_restored_particle_indices(const struct archive *a, int32_t *particle_index, int64_t index_count)
 {
     for (int64_t k = 0; k < index_count && !a->saving && a->now; k++) particle_index[k] = a->now[particle_index[k]];
 }

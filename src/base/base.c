@@ -10,7 +10,7 @@ enum { MESSAGE_LENGTH = 4096 }; /* room for the message of an error [byte]; long
 /* Message of the last error, set with a status. Each thread has its own, so that messages of two threads are never
  * mixed. */
 static _Thread_local char message[MESSAGE_LENGTH];
-static _Thread_local bool placed; /* set by status_prepend_location */
+static _Thread_local bool placed; /* set by status_message_prepend_location */
 
 status status_set(status s, const char *format, ...)
 {
@@ -25,7 +25,7 @@ status status_set(status s, const char *format, ...)
     return s;
 }
 
-void status_add_line(const char *format, ...)
+void status_message_append_line(const char *format, ...)
 {
     char text[MESSAGE_LENGTH];
     const size_t used = strlen(message);
@@ -37,7 +37,7 @@ void status_add_line(const char *format, ...)
     snprintf(message + used, sizeof message - used, "\n%s", text);
 }
 
-status status_prepend_location(const char *location, status s)
+status status_message_prepend_location(const char *location, status s)
 {
     if (s != REFUSED || placed || !*location) return s;
     status_set(s, "%s%s", location, message);

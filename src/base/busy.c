@@ -13,7 +13,8 @@ double machine_load_average(void)
     return getloadavg(&load, 1) == 1 ? load : 0;
 }
 
-bool machine_describe_overload_if_any(char *text, size_t capacity, double other_process_load, int cores, int threads)
+bool machine_compose_warning_if_overloaded(char *text, size_t capacity, double other_process_load, int cores,
+                                           int threads)
 {
     if (cores < 1 || other_process_load + threads <= cores + UNNOTICED) return false;
     snprintf(text, capacity,

@@ -25,7 +25,7 @@ int edit_distance(const char *a, const char *b)
     return old[m];
 }
 
-bool words_are_similar(const char *word, const char *other_word)
+bool word_is_probable_misspelling_of(const char *word, const char *other_word)
 {
     const size_t length = strlen(word), other_length = strlen(other_word);
     const size_t least = length < other_length ? length : other_length;

@@ -62,7 +62,7 @@ void interrupt_cleanup_register(enum cleanup_kind kind, const char *file_to_remo
     if (file_to_remove && strlen(file_to_remove) < PATH_LONGEST) strcpy(leavings[kind].path, file_to_remove);
     if (child_process_id > 0)
         setpgid(child_process_id,
-                child_process_id); /* as interrupt_cleanup_prepare_child_process, whichever is first */
+                child_process_id); /* as child_process_set_group_and_unblock_signals, whichever is first */
     leavings[kind].process = child_process_id;
 }
 
@@ -74,7 +74,7 @@ void interrupt_signals_block(bool block)
     pthread_sigmask(block ? SIG_BLOCK : SIG_UNBLOCK, &these, NULL);
 }
 
-void interrupt_cleanup_prepare_child_process(void)
+void child_process_set_group_and_unblock_signals(void)
 {
     setpgid(0, 0);
     interrupt_signals_block(false);

@@ -30,7 +30,7 @@ static int64_t stored_size(struct archive *a, const char *name)
     return m->next < m->n ? (int64_t)m->entry[m->next].size : -1;
 }
 
-void memory_archive_make(struct memory_archive *m, enum archive_scope scope)
+void memory_archive_open_for_saving(struct memory_archive *m, enum archive_scope scope)
 {
     *m = (struct memory_archive){
         .archive = {.saving = true, .exchange = exchange, .stored_size = stored_size, .scope = scope}};

@@ -9,15 +9,15 @@
  * may be the constant background of a quantity that grows faster. Empirical. */
 #define SOMETHING 0.03
 
-void growth_samples_add(struct growth_samples *samples, int64_t step, real value)
+void quantity_samples_add_value(struct quantity_samples *samples, int64_t step, real value)
 {
     if (samples->n > 0 && step < samples->at[(samples->n - 1) % RISE_VALUES].step + RISE_CLOSEST) return;
     samples->at[samples->n % RISE_VALUES].step = step;
     samples->at[samples->n++ % RISE_VALUES].value = value;
 }
 
-enum growth_rate growth_samples_classify(const struct growth_samples *samples, int64_t step, real value,
-                                         real *tenfold_steps)
+enum growth_rate quantity_samples_classify_growth_rate(const struct quantity_samples *samples, int64_t step, real value,
+                                                       real *tenfold_steps)
 {
     real newer = value, older = 0, least = 0;
     *tenfold_steps = INFINITY;

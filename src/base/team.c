@@ -150,7 +150,7 @@ const char *machine_processor_name(void)
     return *processor ? processor : "unknown processor";
 }
 
-const char *machine_memory_limit_name(void)
+const char *machine_memory_limit_describe_source(void)
 {
     (void)machine_memory_size();
     return memory.name;
@@ -228,7 +228,7 @@ static bool threads_start(int threads)
     return started;
 }
 
-int team_set_thread_count(int requested_threads)
+int threads_set_count_and_bind_to_cores(int requested_threads)
 {
     struct place place;
     bool known = place_make(&place);
@@ -261,7 +261,7 @@ int team_set_thread_count(int requested_threads)
 /* ---- shares of the cores ----------------------------------------------------------------------------------------- */
 
 /* A machine whose physical cores are divided into shares. n: number of shares; cores: number of cores. */
-struct core_shares {
+struct cpu_core_partition {
     struct place place;
     int n, cores;
 };
@@ -275,9 +275,9 @@ int machine_physical_core_count(void)
     return cores;
 }
 
-struct core_shares *core_shares_make(int share_count)
+struct cpu_core_partition *cpu_core_partition_make(int share_count)
 {
-    struct core_shares *s = NEW("team.shares", 1, struct core_shares);
+    struct cpu_core_partition *s = NEW("team.shares", 1, struct cpu_core_partition);
     if (place_make(&s->place)) {
         s->n = share_count;
         s->cores = core_count(&s->place);
@@ -288,7 +288,7 @@ struct core_shares *core_shares_make(int share_count)
     return NULL;
 }
 
-void core_share_bind_calling_thread(const struct core_shares *s, int share_number)
+void cpu_core_partition_bind_calling_thread(const struct cpu_core_partition *s, int share_number)
 {
     if (!s || share_number >= s->n) return;
     hwloc_bitmap_t mine = hwloc_bitmap_alloc();
@@ -300,7 +300,7 @@ void core_share_bind_calling_thread(const struct core_shares *s, int share_numbe
     hwloc_bitmap_free(mine);
 }
 
-void core_shares_free(struct core_shares *s)
+void cpu_core_partition_free(struct cpu_core_partition *s)
 {
     if (!s) return;
     place_free(&s->place);

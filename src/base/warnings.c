@@ -25,7 +25,7 @@ bool warnings_add_if_new(struct warnings *w, const char *format, ...)
     return true;
 }
 
-void warnings_append_new_from_list(struct warnings *w, const struct warnings *source_list, int first_warning)
+void warnings_append_missing_from_list(struct warnings *w, const struct warnings *source_list, int first_warning)
 {
     for (int k = first_warning; k < source_list->n; k++) warnings_add_if_new(w, "%s", source_list->text[k]);
 }

@@ -19,7 +19,7 @@ const struct bond_limit bond_limit_never = {.critical_stretch = never};
  * images. */
 static bool was_whole_row(const struct bonds *old, const struct bond_source *s, const struct particles *p, int64_t i)
 {
-    i = image_source_particle(p, s->image, i);
+    i = mirror_image_source_particle(p, s->image, i);
     return old->row_of[i] >= 0 && old->whole[old->row_of[i]];
 }
 
@@ -38,8 +38,8 @@ static bool rows_reusable(const struct bonds *old, const struct particles *p)
  * of eight consecutive particles that contain one of them, which get rows of bonds; in fresh[particles] these particles
  * themselves, whose neighbours must be searched again. map: map from lattice sites to particles; found[capacity]:
  * working memory for the indices of neighbours; s: cutoff and cells of the search. */
-static void mark_family(const struct bond_source *s, const struct particles *p, const struct site_map *map, int64_t i,
-                        int32_t *found, int capacity, uint8_t *wanted, uint8_t *fresh)
+static void mark_family(const struct bond_source *s, const struct particles *p, const struct lattice_site_map *map,
+                        int64_t i, int32_t *found, int capacity, uint8_t *wanted, uint8_t *fresh)
 {
     const int n = particle_find_neighbours_within_cutoff(map, s, p, (int32_t)i, found, capacity);
     if (i < p->n) wanted[i / LANES] = fresh[i] = 1;
@@ -54,7 +54,7 @@ static void mark_family(const struct bond_source *s, const struct particles *p, 
  * their cutoff. old: previous bonds or NULL; map: map from lattice sites to particles; s: data from which bonds are
  * made; capacity: largest number of neighbours of a particle. */
 static void mark_rows(const struct bond_source *s, const struct particles *p, const struct bonds *old,
-                      const struct site_map *map, int capacity, uint8_t *wanted, uint8_t *fresh)
+                      const struct lattice_site_map *map, int capacity, uint8_t *wanted, uint8_t *fresh)
 {
     const bool last = rows_reusable(old, p);
     if (!last) array_fill_bytes(fresh, 1, p->n, 1);
@@ -78,9 +78,9 @@ static void mark_rows(const struct bond_source *s, const struct particles *p, co
 /* Returns a table of the micro-moduli c of bonds for all pairs of materials of s, divided by the modulus of material 0
  * [1]: c = 2 c_a c_b/(c_a + c_b) between materials a and b; all entries are 1 for state-based models. The caller frees
  * the array `ratio` of the table with memory_free. */
-struct pair_table material_pair_table_make_of_micro_moduli(const struct bond_source *s)
+struct material_pair_table material_pair_table_compute_micro_moduli(const struct bond_source *s)
 {
-    struct pair_table t = {NEW("bonds.pairs", square(s->materials), real), s->materials};
+    struct material_pair_table t = {NEW("bonds.pairs", square(s->materials), real), s->materials};
     real *c = NEW("bonds.moduli", s->materials, real);
     for (int m = 0; m < s->materials; m++) c[m] = family_micro_modulus(&s->family, &s->material[m]);
     /* springs in series across a material interface; equal ones without round-off */
@@ -116,12 +116,13 @@ static void rows_list(struct bonds *b, struct bonds *old, const struct particles
     const int64_t eights = (p->n + LANES - 1) / LANES;
     int32_t row = 0;
     b->rows = 0;
-    for (int64_t e = 0; e < eights; e++) b->rows += wanted[e] ? count_of_eight_indices_below(e * LANES, p->n) : 0;
+    for (int64_t e = 0; e < eights; e++)
+        b->rows += wanted[e] ? count_of_eight_consecutive_indices_below(e * LANES, p->n) : 0;
     b->row_blocks = (b->rows + LANES - 1) / LANES;
     b->particle = NEW("bonds.particle", b->row_blocks * LANES, int32_t);
     b->row_of = row_of_make(old, p->n_all);
     for (int64_t e = 0; e < eights; e++)
-        for (int l = 0; wanted[e] && l < count_of_eight_indices_below(e * LANES, p->n); l++, row++)
+        for (int l = 0; wanted[e] && l < count_of_eight_consecutive_indices_below(e * LANES, p->n); l++, row++)
             b->particle[row] = (int32_t)(e * LANES) + l, b->row_of[e * LANES + l] = row;
     for (int64_t r = b->rows; r < b->row_blocks * LANES; r++) b->particle[r] = b->particle[b->rows - 1];
 }
@@ -152,8 +153,9 @@ static void rows_arrays(struct bonds *b)
  * one fills these. */
 struct rows_pass {
     struct bonds *b;
-    struct row_maker maker;
-    struct row_block_found **found; /* [row_blocks] neighbours found by search in the first pass, NULL: not kept */
+    struct bond_row_inputs maker;
+    struct bond_row_block_neighbours *
+        *found;       /* [row_blocks] neighbours found by search in the first pass, NULL: not kept */
     int64_t *kept;    /* [row_blocks] previous block of eight rows that is taken over, -1: the block is made */
     int64_t n, *list; /* [n] blocks of eight rows that are made, in ascending order */
     bool count;       /* first pass: columns are only counted */
@@ -176,13 +178,13 @@ static bool row_block_inherits(const struct bonds *old, const int32_t *particle,
  * sites, without a search: its particles are consecutive, on a regular part of the lattice, and have no changed
  * weights. In this case stores the bonds in room->regular. pass: the bonds and the data from which they are made; room:
  * working memory of the thread. */
-static bool is_regular(const struct rows_pass *pass, struct row_block_buffer *room, int64_t g)
+static bool is_regular(const struct rows_pass *pass, struct bond_row_block_buffer *room, int64_t g)
 {
-    const struct row_maker *m = &pass->maker;
+    const struct bond_row_inputs *m = &pass->maker;
     const int32_t *particle = pass->b->particle + g * LANES;
     return m->map->at && !pass->b->changed[g] && bond_row_block_row_count(pass->b, g) == LANES &&
            particle[LANES - 1] - particle[0] == LANES - 1 &&
-           bond_row_block_compute_lattice_bonds(m->map, m->source, m->p, particle[0], &room->regular);
+           lattice_bonds_compute_unless_near_crack(m->map, m->source, m->p, particle[0], &room->regular);
 }
 
 /* Increases *reach, the largest difference of indices so far, to |distance| if that is larger. */
@@ -194,7 +196,7 @@ static void reach_widen(int32_t *reach, int32_t distance)
 /* Increases room->reach to the largest difference of the indices of two bonded particles in block g of eight rows (the
  * bonds of eight particles). Mirror images do not count, as they have no rows. regular: true if the bonds are in
  * room->regular (found from the lattice map), false if they are in room->row (found by search). pass: the bonds. */
-static void note_reach(const struct rows_pass *pass, struct row_block_buffer *room, int64_t g, bool regular)
+static void note_reach(const struct rows_pass *pass, struct bond_row_block_buffer *room, int64_t g, bool regular)
 {
     const int32_t *particle = pass->b->particle + g * LANES, n = (int32_t)pass->maker.p->n;
     for (int k = 0; regular && k < room->regular.n; k++)
@@ -207,10 +209,10 @@ static void note_reach(const struct rows_pass *pass, struct row_block_buffer *ro
 /* Makes block g of eight rows (the bonds of eight particles): in the first pass (pass->count is true) counts its
  * columns, in the second fills them. Column k contains the k-th bonds of its eight particles. room: working memory of
  * the thread. Returns the number of bonds of the block. */
-static int64_t row_block_pass(const struct rows_pass *pass, struct row_block_buffer *room, int64_t g)
+static int64_t row_block_pass(const struct rows_pass *pass, struct bond_row_block_buffer *room, int64_t g)
 {
     struct bonds *b = pass->b;
-    const struct row_maker *m = &pass->maker;
+    const struct bond_row_inputs *m = &pass->maker;
     const int rows = bond_row_block_row_count(b, g);
     const int32_t *particle = b->particle + g * LANES;
     int64_t made = 0;
@@ -218,10 +220,10 @@ static int64_t row_block_pass(const struct rows_pass *pass, struct row_block_buf
     if (pass->count) b->changed[g] = row_block_inherits(m->old, particle, rows);
     if (is_regular(pass, room, g)) {
         if (pass->count)
-            b->column_count[g] = regular_bonds_count_columns(&room->regular), note_reach(pass, room, g, true);
+            b->column_count[g] = lattice_bonds_count_storage_columns(&room->regular), note_reach(pass, room, g, true);
         else
             bond_row_block_fill_from_lattice_bonds(b, room, g, m);
-        return regular_bonds_count_directed_bonds(&room->regular);
+        return lattice_bonds_count_directed_bonds(&room->regular);
     }
     if (pass->found && pass->found[g]) bond_rows_restore_found_neighbours(pass->found[g], room->row, rows);
     for (int l = 0; l < rows; l++) {
@@ -244,12 +246,12 @@ static int64_t row_block_pass(const struct rows_pass *pass, struct row_block_buf
 static void rows_pass_begin(struct rows_pass *pass)
 {
     struct bonds *b = pass->b;
-    const struct row_maker *m = &pass->maker;
+    const struct bond_row_inputs *m = &pass->maker;
     pass->kept = BARE("bonds.kept", b->row_blocks, int64_t);
     pass->list = BARE("bonds.list", b->row_blocks, int64_t);
 #pragma omp parallel for schedule(static)
     for (int64_t g = 0; g < b->row_blocks; g++) {
-        const int64_t from = pass->kept[g] = bond_row_block_find_equal_previous(b, m, g);
+        const int64_t from = pass->kept[g] = bond_row_block_find_equal_in_previous_bonds(b, m, g);
         if (from >= 0) b->column_count[g] = m->old->column_count[from];
     }
     for (int64_t g = 0; g < b->row_blocks; g++)
@@ -262,11 +264,11 @@ static void rows_pass_begin(struct rows_pass *pass)
  * particles [blocks of eight rows]. */
 static void rows_pass(const struct rows_pass *pass)
 {
-    const struct row_maker *m = &pass->maker;
+    const struct bond_row_inputs *m = &pass->maker;
     int32_t reach = 0;
 #pragma omp parallel reduction(max : reach)
     {
-        struct row_block_buffer room = {0};
+        struct bond_row_block_buffer room = {0};
         bond_row_block_buffer_make(&room, m->room, m->map);
 #pragma omp for schedule(static)
         for (int64_t k = 0; k < pass->n; k++)
@@ -296,17 +298,18 @@ static void rows_pass_end(const struct rows_pass *pass)
  * k-th bonds of eight rows), the second fills them. maker: input, with the previous bonds, if any. If there are
  * previous bonds, few blocks change; the neighbours that the first pass finds for these are then kept for the second
  * pass. */
-static void bonds_rows_make(struct bonds *b, struct row_maker maker)
+static void bonds_rows_make(struct bonds *b, struct bond_row_inputs maker)
 {
-    struct pair_table pairs = material_pair_table_make_of_micro_moduli(maker.source);
+    struct material_pair_table pairs = material_pair_table_compute_micro_moduli(maker.source);
     maker.pairs = &pairs;
     struct rows_pass pass = {.b = b,
                              .maker = maker,
                              .count = true,
-                             .found = maker.old ? NEW("bonds.found", b->row_blocks, struct row_block_found *) : NULL};
+                             .found = maker.old ? NEW("bonds.found", b->row_blocks, struct bond_row_block_neighbours *)
+                                                : NULL};
     rows_pass_begin(&pass);
     rows_pass(&pass);
-    bonds_assign_columns_to_row_blocks(b, &pass.maker, pass.kept);
+    bonds_allocate_storage_for_row_blocks(b, &pass.maker, pass.kept);
     pass.count = false;
     rows_pass(&pass);
     rows_pass_end(&pass);
@@ -334,9 +337,9 @@ void bonds_make(struct bonds *b, struct bonds *previous, struct particles *p, co
 {
     memset(b, 0, sizeof *b);
     if (previous) b->reach = previous->reach; /* covers the blocks of eight rows that are kept */
-    b->stencils = stencils_share_or_make_table(previous ? previous->stencils : NULL);
-    struct site_map *map = site_map_share_or_make(previous ? previous->site_map : NULL, s, p);
-    int most = bonds_neighbour_count_bound(s);
+    b->stencils = stencil_table_add_reference_or_make(previous ? previous->stencils : NULL);
+    struct lattice_site_map *map = lattice_site_map_add_reference_or_make(previous ? previous->site_map : NULL, s, p);
+    int most = bonds_neighbour_count_upper_bound(s);
     uint8_t *wanted = NEW("bonds.wanted", (p->n + LANES - 1) / LANES, uint8_t);
     uint8_t *fresh = NEW("bonds.fresh", p->n, uint8_t);
     mark_rows(s, p, previous, map, most, wanted, fresh);
@@ -344,17 +347,17 @@ void bonds_make(struct bonds *b, struct bonds *previous, struct particles *p, co
     memory_free(wanted);
     rows_arrays(b);
     bonds_allocate_softening_state(b, previous, s, p);
-    bonds_prepare_state_based_model(b, s);
+    bonds_initialise_state_based_moduli(b, s);
 
-    bonds_rows_make(b,
-                    (struct row_maker){.old = previous, .source = s, .p = p, .fresh = fresh, .map = map, .room = most});
+    bonds_rows_make(
+        b, (struct bond_row_inputs){.old = previous, .source = s, .p = p, .fresh = fresh, .map = map, .room = most});
     memory_free(fresh);
     if (previous) rows_inherit(b, previous);
     if (p->n_of[KIND_PD] < p->n)
         b->site_map = map;
     else
-        site_map_release(map);
-    bonds_clear_pointers_to_moved_arrays(previous, b);
+        lattice_site_map_release_reference(map);
+    bonds_disown_arrays_shared_with_new_bonds(previous, b);
 
     b->core = s->core;
     b->stiffness = family_micro_modulus(&s->family, &s->material[0]) * square(s->family.cell_volume);
@@ -365,7 +368,7 @@ void bonds_make(struct bonds *b, struct bonds *previous, struct particles *p, co
             p->damage[b->particle[r]] = b->family_volume[r] > 0 ? b->broken_volume[r] / b->family_volume[r] : 0;
     }
     bonds_make_state_based_arrays(b, p, s);
-    clamped_bonds_list_at_clamped_mirrors(b, p, s);
+    clamped_bonds_list_across_clamped_planes(b, p, s);
 #ifdef CLEAVE_ASSERT
     const char *fault = bonds_describe_first_inconsistency(b);
     if (fault) fprintf(stderr, "bonds_make: %s\n", fault), abort();
@@ -412,8 +415,8 @@ void bonds_free(struct bonds *b)
     memory_free(b->implicit);
     memory_free(b->changed);
     memory_free(b->holes.hole);
-    stencils_release_table(b->stencils);
-    site_map_release(b->site_map);
+    stencil_table_drop_reference(b->stencils);
+    lattice_site_map_release_reference(b->site_map);
     memory_free(b->plastic_stretch);
     memory_free(b->plastic_path);
     memory_free(b->pair);

@@ -13,14 +13,14 @@ static void changed_weights(struct bonds *b, real *w, bool saving)
 {
     for (int64_t g = 0; g < b->row_blocks; g++) {
         if (!b->changed[g]) continue;
-        const int64_t from = bond_index_for_writing(b, g, 0, 0), n = b->column_count[g] * LANES;
+        const int64_t from = bond_copy_on_write_and_return_array_index(b, g, 0, 0), n = b->column_count[g] * LANES;
         array_copy(saving ? w : b->w + from, saving ? b->w + from : w, n, sizeof *w);
         w += n;
         if (saving) continue;
         for (int64_t q = from; q < from + n; q++)
             if (b->w[q] == 0) b->inverse_length[q] = -fabs(b->inverse_length[q]);
         for (int64_t column = b->column[g]; column < b->column[g] + b->column_count[g]; column++)
-            bond_column_update_common_properties(b, column);
+            bond_column_update_lane_uniform_properties(b, column);
         b->stencil[g] = NULL;
     }
 }
@@ -48,7 +48,7 @@ status bonds_save_or_load(struct bonds *b, struct particles *p, struct archive *
     const bool whole = a->scope == ARCHIVE_ALL;
     if (whole) {
         TRY(weights_archive(b, a));
-        TRY(softening_save_or_load_bond_states(b, a));
+        TRY(bonds_save_or_load_softening_states(b, a));
         b->clamped.stale = true;
     }
     if (b->plastic_stretch) {

@@ -47,7 +47,7 @@ static void column_note(struct clamped *c, struct bonds *b, const struct particl
         const struct bond bond = bond_read(b, g, k, l);
         if (bond.w == 0 || bond.nbr < p->n || !is[bond.nbr - p->n]) continue;
         if (c->entry) {
-            c->entry[c->n] = bond_index_for_writing(b, g, k, l);
+            c->entry[c->n] = bond_copy_on_write_and_return_array_index(b, g, k, l);
             c->from[c->n] = b->particle[g * LANES + l], c->to[c->n] = bond.nbr;
             c->inverse_length[c->n] = bond.inverse_length, c->w[c->n] = bond.w;
         }
@@ -104,7 +104,7 @@ static void bonds_clamped_ends_make(struct clamped *c, const struct particles *p
     int32_t *of = NEW("clamped.of", each * c->n, int32_t);
     for (int64_t k = 0; k < c->n; k++) {
         image_rotates(s, p, c->to[k], end[k].sign);
-        end[k].bond = (int32_t)k, of[k] = (int32_t)image_source_particle(p, s->image, c->to[k]);
+        end[k].bond = (int32_t)k, of[k] = (int32_t)mirror_image_source_particle(p, s->image, c->to[k]);
         if (each == 1) continue;
         end[c->n + k] = (struct clamp_end){(int32_t)k, {1, 1, 1}};
         of[c->n + k] = c->from[k];
@@ -115,7 +115,7 @@ static void bonds_clamped_ends_make(struct clamped *c, const struct particles *p
     memory_free(of);
 }
 
-void clamped_bonds_list_at_clamped_mirrors(struct bonds *b, const struct particles *p, const struct bond_source *s)
+void clamped_bonds_list_across_clamped_planes(struct bonds *b, const struct particles *p, const struct bond_source *s)
 {
     struct clamped *c = &b->clamped;
     uint8_t *is = clamped_images(s, p);

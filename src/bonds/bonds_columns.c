@@ -149,9 +149,9 @@ static void columns_fit(struct bonds *b, struct bonds *old, const int64_t *kept)
     if (b->used > old->room) columns_extend(old, 2 * b->used);
 }
 
-/* Makes b use the column arrays of the previous bonds `old`. Both use them until bonds_clear_pointers_to_moved_arrays
- * removes them from `old`. kept[g]: block of eight rows of `old` (the bonds of eight particles) whose columns block g
- * of b continues to use, or -1. */
+/* Makes b use the column arrays of the previous bonds `old`. Both use them until
+ * bonds_disown_arrays_shared_with_new_bonds removes them from `old`. kept[g]: block of eight rows of `old` (the bonds
+ * of eight particles) whose columns block g of b continues to use, or -1. */
 static void columns_share(struct bonds *b, struct bonds *old, const int64_t *kept)
 {
     b->room = old->room;
@@ -168,10 +168,11 @@ static void columns_share(struct bonds *b, struct bonds *old, const int64_t *kep
  * m->old if possible, else in new ones. Blocks with plastic bonds always get new arrays, because their plastic state is
  * archived in the order of the blocks (bonds_archive.c). previous_row_block[row_blocks]: previous block that is kept,
  * or -1; not used without previous bonds. */
-void bonds_assign_columns_to_row_blocks(struct bonds *b, const struct row_maker *m, const int64_t *previous_row_block)
+void bonds_allocate_storage_for_row_blocks(struct bonds *b, const struct bond_row_inputs *m,
+                                           const int64_t *previous_row_block)
 {
     for (int64_t g = 0; g < b->row_blocks; g++) b->columns += b->column_count[g];
-    lattice_shell_lengths_make(b, m->source->family.spacing);
+    bonds_compute_lattice_shell_lengths(b, m->source->family.spacing);
     if (m->old && !m->old->plastic_stretch && m->old->room > 0) {
         columns_fit(b, m->old, previous_row_block);
         columns_share(b, m->old, previous_row_block);
@@ -182,7 +183,7 @@ void bonds_assign_columns_to_row_blocks(struct bonds *b, const struct row_maker 
     columns_arrays(b, m->source, m->map->at != NULL);
 }
 
-void bonds_clear_pointers_to_moved_arrays(struct bonds *previous, const struct bonds *b)
+void bonds_disown_arrays_shared_with_new_bonds(struct bonds *previous, const struct bonds *b)
 {
     if (!previous || previous->w != b->w) return;
     previous->first = previous->nbr = NULL, previous->inverse_length = previous->w = NULL, previous->common = NULL;

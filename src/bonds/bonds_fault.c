@@ -55,7 +55,7 @@ static const char *column_fault(const struct bonds *b, int64_t column)
  * blocks of eight rows away. Returns a constant text that names the fault; NULL if there is none. */
 static const char *reach_fault(const struct bonds *b, int64_t row)
 {
-    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
+    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_iterator_advance(&it);) {
         const int64_t to = b->row_of[it.bond.nbr];
         const int64_t away = to < 0 ? 0 : to / LANES - row / LANES;
         if (it.bond.w != 0 && (away > b->reach || -away > b->reach))

@@ -4,14 +4,15 @@
 #include "bonds_parts.h"
 #include "base/memory.h"
 
-int64_t bond_row_block_find_equal_previous(const struct bonds *b, const struct row_maker *m, int64_t g)
+int64_t bond_row_block_find_equal_in_previous_bonds(const struct bonds *b, const struct bond_row_inputs *m, int64_t g)
 {
     const int32_t *particle = b->particle + g * LANES;
     const int64_t first = m->old ? m->old->row_of[particle[0]] : -1;
     const int rows = bond_row_block_row_count(b, g);
     if (first < 0 || first % LANES != 0 || bond_row_block_row_count(m->old, first / LANES) != rows) return -1;
     for (int l = 0; l < rows; l++)
-        if (m->old->row_of[particle[l]] != first + l || !bond_row_previous_is_still_valid(m, particle[l])) return -1;
+        if (m->old->row_of[particle[l]] != first + l || !bond_row_previous_neighbours_are_valid(m, particle[l]))
+            return -1;
     return first / LANES;
 }
 
@@ -70,11 +71,11 @@ void bond_row_block_copy_from_previous_bonds(struct bonds *b, const struct bonds
            LANES * sizeof *b->broken_volume);
 }
 
-struct row_block_found *bond_rows_save_found_neighbours(const struct row *row, int row_count)
+struct bond_row_block_neighbours *bond_rows_save_found_neighbours(const struct bond_row *row, int row_count)
 {
     int64_t n = 0;
     for (int l = 0; l < row_count; l++) n += row[l].n;
-    struct row_block_found *found =
+    struct bond_row_block_neighbours *found =
         memory_new_uninitialised("bonds.group_found", 1, sizeof *found + (size_t)n * sizeof *found->nbr);
     int32_t *to = found->nbr;
     for (int l = 0; l < row_count; l++) {
@@ -85,7 +86,8 @@ struct row_block_found *bond_rows_save_found_neighbours(const struct row *row, i
     return found;
 }
 
-void bond_rows_restore_found_neighbours(const struct row_block_found *saved, struct row *row, int row_count)
+void bond_rows_restore_found_neighbours(const struct bond_row_block_neighbours *saved, struct bond_row *row,
+                                        int row_count)
 {
     const int32_t *from = saved->nbr;
     for (int l = 0; l < row_count; l++) {

@@ -10,16 +10,16 @@
  * hides no broken bond; the scalar test of the reported bonds is exact. */
 #define TRIGGER_MARGIN 1e-9
 
-void bond_row_buffer_make(struct row *row, int capacity)
+void bond_row_buffer_make(struct bond_row *row, int capacity)
 {
     row->nbr = BARE("bonds.row", capacity + 1, int32_t); /* room for one more: row_copy may write it */
     row->inverse_length = BARE("bonds.row", capacity + 1, real);
     row->w = BARE("bonds.row", capacity + 1, real);
     row->plastic = BARE("bonds.row", capacity + 1, struct bond_plasticity);
-    row->soft = BARE("bonds.row", capacity + 1, struct bond_softness);
+    row->soft = BARE("bonds.row", capacity + 1, struct bond_softening_state);
 }
 
-void bond_row_buffer_free(struct row *row)
+void bond_row_buffer_free(struct bond_row *row)
 {
     memory_free(row->nbr);
     memory_free(row->inverse_length);
@@ -57,19 +57,21 @@ static int family_seen(const struct bond_source *s, const struct particles *p, i
     return kept;
 }
 
-int particle_find_neighbours_within_cutoff(const struct site_map *map, const struct bond_source *s,
+int particle_find_neighbours_within_cutoff(const struct lattice_site_map *map, const struct bond_source *s,
                                            const struct particles *p, int32_t particle, int32_t *neighbour,
                                            int capacity)
 {
-    int n = map && map->at && particle < p->n ? site_map_list_neighbours_of_particle(map, p, particle, neighbour) : -1;
+    int n = map && map->at && particle < p->n
+                ? lattice_site_map_list_neighbours_of_particle(map, p, particle, neighbour)
+                : -1;
     if (n < 0) n = family_search(s, p, particle, neighbour, capacity);
     return n > capacity ? n : family_seen(s, p, particle, neighbour, n);
 }
 
-int bonds_neighbour_count_bound(const struct bond_source *source)
+int bonds_neighbour_count_upper_bound(const struct bond_source *source)
 {
     if (source->room > 0) return source->room;
-    return cells_neighbour_count_bound(source->cells, source->family.cutoff);
+    return cells_neighbour_count_upper_bound(source->cells, source->family.cutoff);
 }
 
 bool precracks_cut_bond_between(const struct crack *precrack, int precrack_count, const struct particles *p,
@@ -103,7 +105,7 @@ bool particle_is_near_precrack_or_void(const struct bond_source *source, const s
  * materials of both particles, and the surface correction. xi[dim], r: reference vector from i to j and its length [m];
  * s: neighbourhood and surface correction; pairs: stiffness by pair of materials, divided by that of material 0.
  * Exchanging i and j changes no bit. */
-static real bond_weight(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs,
+static real bond_weight(const struct bond_source *s, const struct particles *p, const struct material_pair_table *pairs,
                         int32_t i, int32_t j, const real *xi, real r)
 {
     /* written such that exchanging i and j changes no bit */
@@ -112,7 +114,7 @@ static real bond_weight(const struct bond_source *s, const struct particles *p, 
     weight *= pairs->ratio[p->material[i] * pairs->materials + p->material[j]];
     if (s->neighbour_volume) /* volume method, Le & Bobaru 2018 */
         weight *= 2 * s->family.full / (s->neighbour_volume[i] + s->neighbour_volume[j]);
-    if (s->surface) weight *= surface_weight_factor(s->surface, i, xi);
+    if (s->surface) weight *= surface_correction_bond_weight_factor(s->surface, i, xi);
     return weight;
 }
 
@@ -120,7 +122,7 @@ static real bond_weight(const struct bond_source *s, const struct particles *p, 
  * it is peridynamic, only the peridynamic ones if it is a material point. Sets row->n, their number, and
  * row->family_volume, the volume of all neighbours within the cutoff [m^3]. s: cutoff and cells of the search; map: map
  * from lattice sites to particles. */
-static void row_search(struct row *row, const struct site_map *map, const struct bond_source *s,
+static void row_search(struct bond_row *row, const struct lattice_site_map *map, const struct bond_source *s,
                        const struct particles *p, int32_t i, int capacity)
 {
     int n = particle_find_neighbours_within_cutoff(map, s, p, i, row->nbr, capacity), kept = 0;
@@ -136,13 +138,13 @@ static void row_search(struct row *row, const struct site_map *map, const struct
  * stress sigma of the point and its elastic tensor C. m: array of materials. */
 static real elastic_strain_along(const struct particles *p, const struct material *m, int64_t i, const real *e)
 {
-    const int dim = p->dim, n = symmetric_component_count(dim);
+    const int dim = p->dim, n = symmetric_tensor_component_count(dim);
     real compliance[SYM_MAX * SYM_MAX], sum = 0;
     material_compliance_matrix(&m[p->material[i]], dim, compliance);
     for (int s = 0; s < n; s++) {
         int a, b;
         real strain = 0;
-        symmetric_component_axes(dim, s, &a, &b);
+        symmetric_tensor_component_axes(dim, s, &a, &b);
         for (int t = 0; t < n; t++) strain += compliance[s * n + t] * p->stress[t][i];
         sum += (s < dim ? 1 : 2) * e[a] * e[b] * strain;
     }
@@ -172,8 +174,8 @@ static struct bond_plasticity plasticity_of_points(const struct bond_source *s, 
  * at which the bond breaks or begins to soften, reduced by TRIGGER_MARGIN. If the strength depends on the strain rate,
  * it is half of that, because the rate is measured from there on. particle, other_particle: indices of both particles
  * in p; source: has the critical stretches. */
-real bond_stretch_that_triggers_exact_test(const struct bond_source *source, const struct particles *p,
-                                           int32_t particle, int32_t other_particle)
+real bond_stretch_threshold_of_exact_break_test(const struct bond_source *source, const struct particles *p,
+                                                int32_t particle, int32_t other_particle)
 {
     const struct bond_limit *limit = &source->limit;
     const real onset = bond_softening_range(p, limit, particle, other_particle).onset * (1 - TRIGGER_MARGIN);
@@ -185,8 +187,8 @@ real bond_stretch_that_triggers_exact_test(const struct bond_source *source, con
  * computes row->trigger, the smallest stretch at which one of these bonds must be tested for breaking or softening [1].
  * A bond that a pre-crack cuts gets weight 0 and a negative inverse length. s: data from which bonds are made; pairs:
  * stiffness by pair of materials, divided by that of material 0. */
-static void row_weigh(struct row *row, const struct bond_source *s, const struct particles *p,
-                      const struct pair_table *pairs, int32_t i)
+static void row_weigh(struct bond_row *row, const struct bond_source *s, const struct particles *p,
+                      const struct material_pair_table *pairs, int32_t i)
 {
     const bool near = particle_is_near_precrack(s, p, i);
     row->trigger = INFINITY, row->cut_volume = 0;
@@ -200,7 +202,7 @@ static void row_weigh(struct row *row, const struct bond_source *s, const struct
         row->inverse_length[k] = (cut ? -1 : 1) / r;
         row->w[k] = cut ? 0 : bond_weight(s, p, pairs, i, j, xi, r);
         if (s->yield.stretch) row->plastic[k] = plasticity_of_points(s, p, i, j, r);
-        row->trigger = real_min(row->trigger, bond_stretch_that_triggers_exact_test(s, p, i, j));
+        row->trigger = real_min(row->trigger, bond_stretch_threshold_of_exact_break_test(s, p, i, j));
     }
 }
 
@@ -216,7 +218,7 @@ static struct bond_plasticity stored_plasticity(const struct bonds *b, int64_t r
 /* Copies the state of broken, yielded and softened bonds of a particle of p to `row` from the previous bonds `old`, in
  * which the particle had row old_row. Both rows may have different neighbours; bonds in only one of them are left out.
  */
-static void row_inherit(struct row *row, const struct particles *p, const struct bonds *old, int64_t old_row)
+static void row_inherit(struct bond_row *row, const struct particles *p, const struct bonds *old, int64_t old_row)
 {
     int64_t row_block = old_row / LANES;
     int lane = (int)(old_row % LANES);
@@ -236,7 +238,7 @@ static void row_inherit(struct row *row, const struct particles *p, const struct
 
 /* Copies the neighbours of a particle to `row` and sets row->n, their number. They are those of row old_row of the
  * previous bonds `old`, the row of this particle, which has not changed. */
-static void row_copy_neighbours(struct row *row, const struct bonds *old, int64_t old_row)
+static void row_copy_neighbours(struct bond_row *row, const struct bonds *old, int64_t old_row)
 {
     const int64_t row_block = old_row / LANES, columns = old->column_count[row_block];
     row->n = 0;
@@ -249,7 +251,7 @@ static void row_copy_neighbours(struct row *row, const struct bonds *old, int64_
 
 /* Copies lengths, weights and plastic state of the bonds of a particle to `row`. They are those of row old_row of the
  * previous bonds `old`, the row of this particle, which has not changed. */
-static void row_copy(struct row *row, const struct bonds *old, int64_t old_row)
+static void row_copy(struct bond_row *row, const struct bonds *old, int64_t old_row)
 {
     const int64_t row_block = old_row / LANES, columns = old->column_count[row_block];
     int n = 0;
@@ -265,19 +267,19 @@ static void row_copy(struct row *row, const struct bonds *old, int64_t old_row)
     row->cut_volume = old->broken_volume[old_row];
 }
 
-void bond_row_find_neighbours(struct row *row, const struct row_maker *m, int32_t particle)
+void bond_row_find_neighbours(struct bond_row *row, const struct bond_row_inputs *m, int32_t particle)
 {
-    if (bond_row_previous_is_still_valid(m, particle))
+    if (bond_row_previous_neighbours_are_valid(m, particle))
         row_copy_neighbours(row, m->old, m->old->row_of[particle]);
     else
         row_search(row, m->map, m->source, m->p, particle, m->room);
 }
 
-void bond_row_compute_lengths_and_weights(struct row *row, const struct row_maker *m, int32_t particle)
+void bond_row_compute_lengths_and_weights(struct bond_row *row, const struct bond_row_inputs *m, int32_t particle)
 {
     const int64_t before = m->old ? m->old->row_of[particle] : -1;
     if (m->source->limit.softening) bond_row_set_softening_state(row, m, particle);
-    if (bond_row_previous_is_still_valid(m, particle)) {
+    if (bond_row_previous_neighbours_are_valid(m, particle)) {
         row_copy(row, m->old, before);
         return;
     }

@@ -6,7 +6,7 @@
 
 /* Returns true if the neighbours of `particle` in *row are exactly the n particles particle + offset[0], .., particle +
  * offset[n - 1], in this order. */
-static bool offsets_are(const int32_t *offset, int n, const struct row *row, int32_t particle)
+static bool offsets_are(const int32_t *offset, int n, const struct bond_row *row, int32_t particle)
 {
     int32_t other = 0;
     if (row->n != n) return false;
@@ -17,7 +17,7 @@ static bool offsets_are(const int32_t *offset, int n, const struct row *row, int
 /* Lists the distinct index distances (neighbour minus particle) of all bonds of a block of eight rows (the bonds of
  * eight particles) in g->offset, ascending, and returns their number. particle[rows]: its particles, up to eight; g:
  * working memory, with the bonds of these particles in g->row[rows]. */
-static int row_block_offsets(struct row_block_buffer *g, const int32_t *particle, int rows)
+static int row_block_offsets(struct bond_row_block_buffer *g, const int32_t *particle, int rows)
 {
     int n = g->row[0].n;
     for (int k = 0; k < n; k++) g->offset[k] = g->row[0].nbr[k] - particle[0];
@@ -38,14 +38,14 @@ static int row_block_offsets(struct row_block_buffer *g, const int32_t *particle
  * index distance (neighbour minus particle), false if each row has its bonds in the first columns, without gaps. The
  * latter is used off a lattice, where columns by distance would be mostly padding. particle[row_count]: particles of
  * the rows, 1 to 8. */
-int bond_row_block_count_columns(struct row_block_buffer *buffer, const int32_t *particle, int row_count,
+int bond_row_block_count_columns(struct bond_row_block_buffer *buffer, const int32_t *particle, int row_count,
                                  bool *one_offset_per_column)
 {
     int longest = 0;
     for (int l = 0; l < row_count; l++)
         if (buffer->row[l].n > longest) longest = buffer->row[l].n;
     int offsets = row_block_offsets(buffer, particle, row_count);
-    *one_offset_per_column = columns_should_use_offsets(offsets, longest);
+    *one_offset_per_column = bond_columns_by_offset_need_little_padding(offsets, longest);
     return *one_offset_per_column ? offsets : longest;
 }
 
@@ -67,7 +67,7 @@ static void plastic_put(struct bonds *b, int64_t q, struct bond_plasticity plast
 /* Stores properties of block g of eight rows (the bonds of eight particles) in b: whether its particles are
  * consecutive, and for each of its `rows` rows the smallest stretch at which a bond may break, the volume of all
  * neighbours and that of the neighbours whose bonds are broken. room: has the rows. */
-static void row_block_note(struct bonds *b, const struct row_block_buffer *room, int64_t g, int rows)
+static void row_block_note(struct bonds *b, const struct bond_row_block_buffer *room, int64_t g, int rows)
 {
     bool aligned = rows == LANES;
     for (int l = 1; l < rows; l++) aligned = aligned && b->particle[g * LANES + l] == b->particle[g * LANES] + l;
@@ -85,17 +85,17 @@ static void row_block_note(struct bonds *b, const struct row_block_buffer *room,
  * next bond of row l (0 to 7): number `used` of the row, the first one that has no column yet. by_offset: true if all
  * bonds of column k have the index distance room->offset[k] (neighbour minus particle), false if a column takes any
  * bond. particle[8]: particles of the rows. */
-static bool row_has(const struct row_block_buffer *room, const int32_t *particle, int l, int used, bool by_offset,
+static bool row_has(const struct bond_row_block_buffer *room, const int32_t *particle, int l, int used, bool by_offset,
                     int k)
 {
-    const struct row *row = &room->row[l];
+    const struct bond_row *row = &room->row[l];
     return used < row->n && (!by_offset || row->nbr[used] - particle[l] == room->offset[k]);
 }
 
 /* Stores the softening of the bonds of block g of eight rows of b (the bonds of eight particles) if one of them has
  * begun to soften; else only records in b that none has. buffer: has the rows, and the columns (k-th bonds of all rows)
  * in which bond_row_block_fill_columns_from_rows has stored the bonds; rows: number of rows in use. */
-static void row_block_fill_softness(struct bonds *b, const struct row_block_buffer *buffer, int64_t g, int rows)
+static void row_block_fill_softness(struct bonds *b, const struct bond_row_block_buffer *buffer, int64_t g, int rows)
 {
     bool begun = false;
     int used[LANES] = {0};
@@ -104,20 +104,20 @@ static void row_block_fill_softness(struct bonds *b, const struct row_block_buff
     b->soft.begun[g] = begun;
     for (int k = 0; k < b->column_count[g] && begun; k++)
         for (int l = 0; l < LANES; l++)
-            bond_softness_store(b, (b->column[g] + k) * LANES + l,
-                                buffer->column[k].inverse_length[l] == 0 ? bond_softness_none
-                                                                         : buffer->row[l].soft[used[l]++]);
+            bond_softening_state_write(b, (b->column[g] + k) * LANES + l,
+                                       buffer->column[k].inverse_length[l] == 0 ? bond_softness_none
+                                                                                : buffer->row[l].soft[used[l]++]);
 }
 
-void bond_row_block_fill_columns_from_rows(struct bonds *b, struct row_block_buffer *buffer, int64_t g, int row_count,
-                                           bool one_offset_per_column, const struct particles *p)
+void bond_row_block_fill_columns_from_rows(struct bonds *b, struct bond_row_block_buffer *buffer, int64_t g,
+                                           int row_count, bool one_offset_per_column, const struct particles *p)
 {
     const int32_t *particle = b->particle + g * LANES;
     int used[LANES] = {0}, columns = b->column_count[g];
     for (int k = 0; k < columns; k++) {
         struct column_copy *column = &buffer->column[k];
         for (int l = 0; l < LANES; l++) {
-            const struct row *row = &buffer->row[l];
+            const struct bond_row *row = &buffer->row[l];
             const int64_t other =
                 one_offset_per_column ? particle[l] + (l < row_count ? buffer->offset[k] : 0) : particle[l];
             /* padding may point to any particle */
@@ -143,7 +143,7 @@ void bond_row_block_fill_columns_from_rows(struct bonds *b, struct row_block_buf
  * (column k: the k-th bonds of its particles). A stencil describes each column by its index distance (neighbour minus
  * particle) and the properties that its eight bonds share. Returns false if the block must store its columns: its
  * particles are not consecutive, bonds are plastic or changed, or a column has unequal bonds. */
-static bool stencil_of(const struct bonds *b, struct row_block_buffer *room, int64_t g, const struct particles *p)
+static bool stencil_of(const struct bonds *b, struct bond_row_block_buffer *room, int64_t g, const struct particles *p)
 {
     const int columns = b->column_count[g];
     room->stencil.columns = 0;
@@ -153,7 +153,7 @@ static bool stencil_of(const struct bonds *b, struct row_block_buffer *room, int
     return true;
 }
 
-void bond_row_block_store_columns_or_stencil(struct bonds *b, struct row_block_buffer *buffer, int64_t g,
+void bond_row_block_store_columns_or_stencil(struct bonds *b, struct bond_row_block_buffer *buffer, int64_t g,
                                              const struct particles *p)
 {
     b->stencil[g] =
@@ -172,18 +172,18 @@ static uint8_t peridynamic(const struct particles *p, int64_t i)
     return (uint8_t)bits;
 }
 
-bool bond_row_block_compute_lattice_bonds(const struct site_map *map, const struct bond_source *s,
-                                          const struct particles *p, int64_t first_particle,
-                                          struct regular_bonds *found_bonds)
+bool lattice_bonds_compute_unless_near_crack(const struct lattice_site_map *map, const struct bond_source *s,
+                                             const struct particles *p, int64_t first_particle,
+                                             struct lattice_bonds *found_bonds)
 {
     int bonds[LANES] = {0}, columns = 0, longest = 0;
-    if (!regular_bonds_find_for_eight_particles(map, p, first_particle, found_bonds)) return false;
+    if (!lattice_bonds_list_neighbours_by_offset(map, p, first_particle, found_bonds)) return false;
     for (int l = 0; l < LANES; l++)
         if (particle_is_near_precrack_or_void(s, p, first_particle + l)) return false;
     const uint8_t own = peridynamic(p, first_particle);
     if (own == UINT8_MAX && found_bonds->full) {
         array_fill_bytes(found_bonds->bonds, UINT8_MAX, found_bonds->n, 1);
-        return columns_should_use_offsets(found_bonds->n, found_bonds->n);
+        return bond_columns_by_offset_need_little_padding(found_bonds->n, found_bonds->n);
     }
     for (int k = 0; k < found_bonds->n; k++) {
         const unsigned family = (2u << found_bonds->to[k]) - (1u << found_bonds->from[k]);
@@ -194,17 +194,17 @@ bool bond_row_block_compute_lattice_bonds(const struct site_map *map, const stru
         columns += found_bonds->bonds[k] != 0;
     }
     for (int l = 0; l < LANES; l++) longest = bonds[l] > longest ? bonds[l] : longest;
-    return columns_should_use_offsets(columns, longest);
+    return bond_columns_by_offset_need_little_padding(columns, longest);
 }
 
-int regular_bonds_count_columns(const struct regular_bonds *bonds)
+int lattice_bonds_count_storage_columns(const struct lattice_bonds *bonds)
 {
     int columns = 0;
     for (int k = 0; k < bonds->n; k++) columns += bonds->bonds[k] != 0;
     return columns;
 }
 
-int regular_bonds_count_directed_bonds(const struct regular_bonds *bonds)
+int lattice_bonds_count_directed_bonds(const struct lattice_bonds *bonds)
 {
     int sum = 0;
     for (int k = 0; k < bonds->n; k++) sum += __builtin_popcount(bonds->bonds[k]);
@@ -214,11 +214,12 @@ int regular_bonds_count_directed_bonds(const struct regular_bonds *bonds)
 /* Fills *column with the bonds from particle i + l to particle j + l, l = 0 .. 7: neighbours, inverse lengths and
  * weights. m: data from which rows are made; bonds: bit l is set if the bond of particle i + l exists; the others
  * become padding, with inverse length and weight 0. */
-static void fill_column(struct column_copy *column, const struct row_maker *m, int32_t i, int32_t j, unsigned bonds)
+static void fill_column(struct column_copy *column, const struct bond_row_inputs *m, int32_t i, int32_t j,
+                        unsigned bonds)
 {
     const struct bond_source *s = m->source;
     column->first = j;
-    regular_bonds_compute_weights(s, m->p, m->pairs, i, j, column->inverse_length, column->w);
+    lattice_bonds_compute_eight_lengths_and_weights(s, m->p, m->pairs, i, j, column->inverse_length, column->w);
     for (int l = 0; l < LANES; l++) {
         column->nbr[l] = j + l;
         if (!(bonds >> l & 1)) column->inverse_length[l] = column->w[l] = 0;
@@ -228,7 +229,7 @@ static void fill_column(struct column_copy *column, const struct row_maker *m, i
 /* Computes trigger[l] for particle i + l, l = 0 .. 7: the smallest stretch at which one of its bonds may break or begin
  * to soften [1]; INFINITY without bonds. bonds: neighbours of these eight particles; m->source, m->p: critical
  * stretches of the materials and relative strengths of the particles. */
-static void regular_triggers(real trigger[LANES], const struct regular_bonds *bonds, const struct row_maker *m,
+static void regular_triggers(real trigger[LANES], const struct lattice_bonds *bonds, const struct bond_row_inputs *m,
                              int32_t i)
 {
     const bool alike = m->source->limit.materials <= 1 && !m->p->strength;
@@ -236,15 +237,15 @@ static void regular_triggers(real trigger[LANES], const struct regular_bonds *bo
         trigger[l] = INFINITY;
         for (int k = 0; k < bonds->n && !(alike && trigger[l] < INFINITY); k++)
             if (bonds->bonds[k] >> l & 1)
-                trigger[l] = real_min(trigger[l], bond_stretch_that_triggers_exact_test(m->source, m->p, i + l,
-                                                                                        i + bonds->offset[k] + l));
+                trigger[l] = real_min(trigger[l], bond_stretch_threshold_of_exact_break_test(m->source, m->p, i + l,
+                                                                                             i + bonds->offset[k] + l));
     }
 }
 
 /* Returns true if each of eight consecutive particles is bonded to all particles within its cutoff, as peridynamic
  * particles are. (Material points are bonded to peridynamic particles only.) bonds: neighbours and bonds of the eight
  * particles. */
-static bool whole_families(const struct regular_bonds *bonds)
+static bool whole_families(const struct lattice_bonds *bonds)
 {
     unsigned without = 0;
     for (int k = 0; k < bonds->n; k++) without |= bonds->bonds[k] ^ ((2u << bonds->to[k]) - (1u << bonds->from[k]));
@@ -254,15 +255,15 @@ static bool whole_families(const struct regular_bonds *bonds)
 /* Fills block g of eight rows (the bonds of eight particles) of b from the bonds in buffer->regular, which follow from
  * the map of lattice sites. If the particles have bonds to all their neighbours, and a recent block had equal bonds,
  * copies the stencil of that block and the sums over its bonds. m: data from which rows are made. */
-void bond_row_block_fill_from_lattice_bonds(struct bonds *b, struct row_block_buffer *buffer, int64_t g,
-                                            const struct row_maker *m)
+void bond_row_block_fill_from_lattice_bonds(struct bonds *b, struct bond_row_block_buffer *buffer, int64_t g,
+                                            const struct bond_row_inputs *m)
 {
-    const struct regular_bonds *bonds = &buffer->regular;
+    const struct lattice_bonds *bonds = &buffer->regular;
     const real *volume = m->p->volume0;
     const int32_t i = b->particle[g * LANES];
     const bool follows =
-        whole_families(bonds) &&
-        bond_row_block_use_stencil_of_particle(b, g, stencil_cache_particle_with_equal_bonds(bonds, m->source, i));
+        whole_families(bonds) && bond_row_block_share_stencil_of_particle(
+                                     b, g, stencil_cache_particle_with_equal_bonds_or_add(bonds, m->source, i));
     real family_volume[LANES] = {0};
     int columns = 0;
     if (!follows || m->p->strength) regular_triggers(b->trigger + g * LANES, bonds, m, i);
@@ -280,21 +281,21 @@ void bond_row_block_fill_from_lattice_bonds(struct bonds *b, struct row_block_bu
 /* Allocates *buffer, the working memory for blocks of eight rows (the bonds of eight particles) whose rows have up to
  * `capacity` bonds, for the worst case. Little of this memory is ever touched, as the arrays are not cleared. map: map
  * from lattice sites to particles. Release it with bond_row_block_buffer_free. */
-void bond_row_block_buffer_make(struct row_block_buffer *buffer, int capacity, const struct site_map *map)
+void bond_row_block_buffer_make(struct bond_row_block_buffer *buffer, int capacity, const struct lattice_site_map *map)
 {
     buffer->room = capacity;
     for (int l = 0; l < LANES; l++) bond_row_buffer_make(&buffer->row[l], capacity);
     buffer->offset = BARE("bonds.offset", (int64_t)LANES * capacity + 1, int32_t);
-    regular_bonds_allocate_for_lattice(&buffer->regular, map);
+    lattice_bonds_allocate_for_eight_particles(&buffer->regular, map);
     stencil_allocate_columns(&buffer->stencil, LANES * capacity + 1);
     buffer->column = BARE("bonds.column_copy", (int64_t)LANES * capacity + 1, struct column_copy);
 }
 
-void bond_row_block_buffer_free(struct row_block_buffer *buffer)
+void bond_row_block_buffer_free(struct bond_row_block_buffer *buffer)
 {
     for (int l = 0; l < LANES; l++) bond_row_buffer_free(&buffer->row[l]);
     memory_free(buffer->offset);
-    regular_bonds_free(&buffer->regular);
+    lattice_bonds_free(&buffer->regular);
     stencil_free(&buffer->stencil);
     memory_free(buffer->column);
 }

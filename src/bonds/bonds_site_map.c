@@ -23,7 +23,8 @@ enum { HALF_MOST = 16 }; /* largest reach of bonds for which blocks of eight row
 
 /* Returns the index in `map` of the lattice site at the reference position of particle or mirror image number
  * `particle` of p; -1 if the position is not a lattice site. */
-int64_t site_map_lattice_site_of_particle(const struct site_map *map, const struct particles *p, int64_t particle)
+int64_t lattice_site_map_site_of_particle(const struct lattice_site_map *map, const struct particles *p,
+                                          int64_t particle)
 {
     int64_t site = 0;
     for (int d = 0; d < p->dim; d++) {
@@ -38,23 +39,23 @@ int64_t site_map_lattice_site_of_particle(const struct site_map *map, const stru
  * l->reach sites (length of the longest bond): its lower corner without the margin, l->low [m], and the index strides
  * l->stride. Returns the number of sites in the box, or 0 if the box has more than about SPARSE_MOST sites per particle
  * or image, too many for a map. */
-static int64_t box_sites(struct site_map *l, const struct particles *p)
+static int64_t box_sites(struct lattice_site_map *l, const struct particles *p)
 {
-    real site_map = 1;
+    real site_count = 1;
     for (int d = 0; d < p->dim; d++) {
         real high;
         particles_coordinate_range(p, p->n_all, d, &l->low[d], &high);
-        l->stride[d] = (int64_t)site_map;
-        site_map *= nearbyint((high - l->low[d]) / l->spacing) + 1 + 2 * l->reach;
-        if (!(site_map <= SPARSE_MOST * (real)p->n_all + 4096)) return 0;
+        l->stride[d] = (int64_t)site_count;
+        site_count *= nearbyint((high - l->low[d]) / l->spacing) + 1 + 2 * l->reach;
+        if (!(site_count <= SPARSE_MOST * (real)p->n_all + 4096)) return 0;
     }
-    return (int64_t)site_map;
+    return (int64_t)site_count;
 }
 
 /* Lists in l->row the sites within the cutoff of a site, as one segment on each lattice row along x, in ascending
  * order. dim: number of dimensions; f: neighbourhood, with cutoff and spacing. Returns false if a site is so close to
  * the cutoff that round-off would decide whether it is inside. */
-static bool site_offsets_make(struct site_map *l, const struct family *f, int dim)
+static bool site_offsets_make(struct lattice_site_map *l, const struct family *f, int dim)
 {
     const int high = dim > 2 ? l->reach : 0, wide = dim > 1 ? l->reach : 0;
     l->row = NEW("site_map.row", (2 * high + 1) * (2 * wide + 1), struct stencil_row);
@@ -76,18 +77,18 @@ static bool site_offsets_make(struct site_map *l, const struct family *f, int di
 /* Enters all particles and mirror images of p in the array l->at of the map of lattice sites: their index plus 1 (0: no
  * particle). Returns false if the map cannot be used: a particle or image is off the lattice or shares its site with
  * another one, p has several bodies, or the particles are not numbered in the order of their sites. */
-static bool sites_fill(struct site_map *l, const struct particles *p)
+static bool sites_fill(struct lattice_site_map *l, const struct particles *p)
 {
     bool regular = true;
 #pragma omp parallel for schedule(static) reduction(&& : regular)
     for (int64_t i = 0; i < p->n; i++) {
-        const int64_t site = site_map_lattice_site_of_particle(l, p, i);
-        regular = regular && site >= 0 && (i == 0 || site_map_lattice_site_of_particle(l, p, i - 1) < site) &&
+        const int64_t site = lattice_site_map_site_of_particle(l, p, i);
+        regular = regular && site >= 0 && (i == 0 || lattice_site_map_site_of_particle(l, p, i - 1) < site) &&
                   p->body[i] == p->body[0];
         if (site >= 0) l->at[site] = (int32_t)i + 1;
     }
     for (int64_t k = p->n; k < p->n_all && regular; k++) {
-        const int64_t site = site_map_lattice_site_of_particle(l, p, k);
+        const int64_t site = lattice_site_map_site_of_particle(l, p, k);
         regular = site >= 0 && l->at[site] == 0;
         if (regular) l->at[site] = (int32_t)k + 1;
     }
@@ -98,15 +99,15 @@ static bool sites_fill(struct site_map *l, const struct particles *p)
  * multiples of one step, without round-off; equal distances on the lattice are then equal to the last bit. Coordinates
  * are compared as whole numbers of units in the last place of the largest coordinate. l: map, with the spacing of the
  * lattice. */
-static bool axis_exact(const struct site_map *l, const struct particles *p, int d)
+static bool axis_exact(const struct lattice_site_map *l, const struct particles *p, int d)
 {
     real low, high;
     particles_coordinate_range(p, p->n, d, &low, &high);
     const real power = exp2(ceil(log2(real_max(fabs(low), fabs(high))))), unit = power * 0x1p-53,
-               site_map = nearbyint((high - low) / l->spacing);
-    if (site_map == 0) return low == high;
+               step_count = nearbyint((high - low) / l->spacing);
+    if (step_count == 0) return low == high;
     if (real_min(high - low, l->reach * l->spacing) > power) return false; /* a difference would be rounded */
-    const int64_t from = (int64_t)(low / unit), step = ((int64_t)(high / unit) - from) / (int64_t)site_map;
+    const int64_t from = (int64_t)(low / unit), step = ((int64_t)(high / unit) - from) / (int64_t)step_count;
     bool exact = true;
 #pragma omp parallel for schedule(static) reduction(&& : exact)
     for (int64_t i = 0; i < p->n; i++) {
@@ -118,8 +119,8 @@ static bool axis_exact(const struct site_map *l, const struct particles *p, int 
 
 /* Returns true if all particles of p (but mirror images) have the same volume, mass and material, and reference
  * positions that are exact multiples of a step: equal distances are then equal to the last bit. l: map, with the
- * spacing of the lattice. Mirror images do not matter, as regular_bonds leaves them out. */
-static bool is_uniform(const struct site_map *l, const struct particles *p)
+ * spacing of the lattice. Mirror images do not matter, as lattice_bonds leaves them out. */
+static bool is_uniform(const struct lattice_site_map *l, const struct particles *p)
 {
     bool same = true;
 #pragma omp parallel for schedule(static) reduction(&& : same)
@@ -129,50 +130,51 @@ static bool is_uniform(const struct site_map *l, const struct particles *p)
     return same;
 }
 
-bool site_map_make_if_on_lattice(struct site_map *map, const struct bond_source *s, const struct particles *p)
+bool lattice_site_map_make_if_particles_fit_lattice(struct lattice_site_map *map, const struct bond_source *s,
+                                                    const struct particles *p)
 {
     const struct family *f = &s->family;
-    *map = (struct site_map){.spacing = f->spacing, .reach = (int)floor(f->cutoff / f->spacing)};
+    *map = (struct lattice_site_map){.spacing = f->spacing, .reach = (int)floor(f->cutoff / f->spacing)};
     if (p->n < LANES || map->reach > HALF_MOST || map->reach < 1 || s->yield.stretch) return false;
-    const int64_t site_map = box_sites(map, p);
-    if (site_map > 0 && site_offsets_make(map, f, p->dim)) {
-        map->at = BLANK("site_map.at", site_map, int32_t);
+    const int64_t site_count = box_sites(map, p);
+    if (site_count > 0 && site_offsets_make(map, f, p->dim)) {
+        map->at = BLANK("site_map.at", site_count, int32_t);
         if (sites_fill(map, p)) {
             map->uniform = is_uniform(map, p);
             return true;
         }
     }
-    site_map_free(map);
+    lattice_site_map_free(map);
     return false;
 }
 
-void site_map_free(struct site_map *map)
+void lattice_site_map_free(struct lattice_site_map *map)
 {
     memory_free(map->at);
     memory_free(map->row);
-    *map = (struct site_map){0};
+    *map = (struct lattice_site_map){0};
 }
 
-struct site_map *site_map_share_or_make(struct site_map *existing, const struct bond_source *s,
-                                        const struct particles *p)
+struct lattice_site_map *lattice_site_map_add_reference_or_make(struct lattice_site_map *existing,
+                                                                const struct bond_source *s, const struct particles *p)
 {
-    struct site_map *l = existing ? existing : NEW("bonds.sites", 1, struct site_map);
-    if (!existing) site_map_make_if_on_lattice(l, s, p);
+    struct lattice_site_map *l = existing ? existing : NEW("bonds.sites", 1, struct lattice_site_map);
+    if (!existing) lattice_site_map_make_if_particles_fit_lattice(l, s, p);
     l->users++;
     return l;
 }
 
-void site_map_release(struct site_map *map)
+void lattice_site_map_release_reference(struct lattice_site_map *map)
 {
     if (!map || --map->users > 0) return;
-    site_map_free(map);
+    lattice_site_map_free(map);
     memory_free(map);
 }
 
-int site_map_list_neighbours_of_particle(const struct site_map *map, const struct particles *p, int32_t particle,
-                                         int32_t *neighbour)
+int lattice_site_map_list_neighbours_of_particle(const struct lattice_site_map *map, const struct particles *p,
+                                                 int32_t particle, int32_t *neighbour)
 {
-    const int32_t *own = map->at + site_map_lattice_site_of_particle(map, p, particle);
+    const int32_t *own = map->at + lattice_site_map_site_of_particle(map, p, particle);
     int n = 0;
     for (int k = 0; k < map->rows; k++)
         for (int a = -map->row[k].half; a <= map->row[k].half; a++) {
@@ -190,8 +192,8 @@ int site_map_list_neighbours_of_particle(const struct site_map *map, const struc
  * l: map from lattice sites to particles; site: index in the map of the site of particle i; row: the sites of the line
  * within the cutoff, relative to that site; number: number of neighbours in a full neighbourhood on all lines before
  * this one. Returns false if the particles on the line do not have consecutive indices. */
-static bool row_bonds(const struct site_map *l, const struct particles *p, int64_t site, const struct stencil_row *row,
-                      int64_t i, int number, struct regular_bonds *to)
+static bool row_bonds(const struct lattice_site_map *l, const struct particles *p, int64_t site,
+                      const struct stencil_row *row, int64_t i, int number, struct lattice_bonds *to)
 {
     const int32_t *line = l->at + site + row->site - row->half;
     int first = 0, last = 2 * row->half + LANES - 1;
@@ -213,17 +215,17 @@ static bool row_bonds(const struct site_map *l, const struct particles *p, int64
 
 /* Returns true if each of the eight consecutive particles whose bonds are in b has a neighbour at every index distance
  * (neighbour minus particle) in b->offset. */
-static bool is_full(const struct regular_bonds *b)
+static bool is_full(const struct lattice_bonds *b)
 {
     unsigned other = 0;
     for (int k = 0; k < b->n; k++) other |= b->from[k] | (b->to[k] ^ (LANES - 1u));
     return other == 0;
 }
 
-bool regular_bonds_find_for_eight_particles(const struct site_map *map, const struct particles *p,
-                                            int64_t first_particle, struct regular_bonds *found_bonds)
+bool lattice_bonds_list_neighbours_by_offset(const struct lattice_site_map *map, const struct particles *p,
+                                             int64_t first_particle, struct lattice_bonds *found_bonds)
 {
-    const int64_t site = site_map_lattice_site_of_particle(map, p, first_particle);
+    const int64_t site = lattice_site_map_site_of_particle(map, p, first_particle);
     int number = 0;
     found_bonds->n = 0;
     if (map->at[site + LANES - 1] - map->at[site] != LANES - 1) return false;
@@ -232,28 +234,28 @@ bool regular_bonds_find_for_eight_particles(const struct site_map *map, const st
         number += 2 * map->row[k].half + (map->row[k].site != 0);
     }
     found_bonds->full = is_full(found_bonds);
-    if (found_bonds->full) return columns_should_use_offsets(found_bonds->n, found_bonds->n);
+    if (found_bonds->full) return bond_columns_by_offset_need_little_padding(found_bonds->n, found_bonds->n);
     int bonds[LANES] = {0}, longest = 0;
     for (int k = 0; k < found_bonds->n; k++)
         for (int lane = 0; lane < LANES; lane++)
             bonds[lane] += lane >= found_bonds->from[k] && lane <= found_bonds->to[k];
     for (int lane = 0; lane < LANES; lane++) longest = bonds[lane] > longest ? bonds[lane] : longest;
-    return columns_should_use_offsets(found_bonds->n, longest);
+    return bond_columns_by_offset_need_little_padding(found_bonds->n, longest);
 }
 
-bool regular_bonds_find_ignoring_cracks(const struct site_map *map, const struct bond_source *source,
-                                        const struct particles *p, int64_t first_particle,
-                                        struct regular_bonds *found_bonds)
+bool lattice_bonds_list_neighbours_ignoring_cracks(const struct lattice_site_map *map, const struct bond_source *source,
+                                                   const struct particles *p, int64_t first_particle,
+                                                   struct lattice_bonds *found_bonds)
 {
     if (!map->at || first_particle + LANES > p->n ||
-        !regular_bonds_find_for_eight_particles(map, p, first_particle, found_bonds))
+        !lattice_bonds_list_neighbours_by_offset(map, p, first_particle, found_bonds))
         return false;
     for (int lane = 0; lane < LANES; lane++)
         if (particle_is_beside_void(source->voids, first_particle + lane)) return false;
     return true;
 }
 
-void regular_bonds_allocate_for_lattice(struct regular_bonds *bonds, const struct site_map *l)
+void lattice_bonds_allocate_for_eight_particles(struct lattice_bonds *bonds, const struct lattice_site_map *l)
 {
     bonds->offset = NEW("site_map.offset", l->most, int32_t);
     bonds->number = NEW("site_map.number", l->most, int16_t);
@@ -263,7 +265,7 @@ void regular_bonds_allocate_for_lattice(struct regular_bonds *bonds, const struc
     bonds->stencil_cache = stencil_cache_make_for_thread(l);
 }
 
-void regular_bonds_free(struct regular_bonds *bonds)
+void lattice_bonds_free(struct lattice_bonds *bonds)
 {
     memory_free(bonds->offset);
     memory_free(bonds->number);
@@ -277,8 +279,9 @@ void regular_bonds_free(struct regular_bonds *bonds)
  * inverse[8] and w[8]. The numbers have the same bits as those of row_weigh, which handles one particle. s:
  * neighbourhood and materials; pairs: stiffness by pair of materials, divided by that of material 0; dim: number of
  * dimensions, known at compile time. */
-static ALWAYS_INLINE void weigh(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs,
-                                int64_t i, int64_t j, real *inverse, real *w, const int dim)
+static ALWAYS_INLINE void weigh(const struct bond_source *s, const struct particles *p,
+                                const struct material_pair_table *pairs, int64_t i, int64_t j, real *inverse, real *w,
+                                const int dim)
 {
     const struct family *f = &s->family;
     const real *volume = p->volume0, *around = s->neighbour_volume;
@@ -294,7 +297,7 @@ static ALWAYS_INLINE void weigh(const struct bond_source *s, const struct partic
         r[l] = same && l > 0 ? r[0] : sqrt(r2);
         inverse[l] = same && l > 0 ? inverse[0] : 1 / r[l];
     }
-    for (int l = 0; l < LANES && !family_has_equal_weights(f); l++) {
+    for (int l = 0; l < LANES && !family_bonds_have_equal_weights(f); l++) {
         real one[DIM_MAX];
         for (int d = 0; d < dim; d++) one[d] = xi[d][l];
         w[l] = same && l > 0 ? w[0] : family_bond_weight(f, one, r[l]);
@@ -310,13 +313,13 @@ static ALWAYS_INLINE void weigh(const struct bond_source *s, const struct partic
     for (int l = 0; l < LANES && s->surface; l++) {
         real one[DIM_MAX];
         for (int d = 0; d < dim; d++) one[d] = xi[d][l];
-        w[l] *= surface_weight_factor(s->surface, i + l, one);
+        w[l] *= surface_correction_bond_weight_factor(s->surface, i + l, one);
     }
 }
 
-void regular_bonds_compute_weights(const struct bond_source *source, const struct particles *p,
-                                   const struct pair_table *pairs, int64_t first_particle, int64_t first_neighbour,
-                                   real *inverse_length, real *w)
+void lattice_bonds_compute_eight_lengths_and_weights(const struct bond_source *source, const struct particles *p,
+                                                     const struct material_pair_table *pairs, int64_t first_particle,
+                                                     int64_t first_neighbour, real *inverse_length, real *w)
 {
     switch (p->dim) {
     case 1:

@@ -74,33 +74,33 @@ void bonds_allocate_softening_state(struct bonds *b, const struct bonds *previou
 void bond_row_block_initialise_softening(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                                          int64_t g)
 {
-    const int64_t first = bond_index_for_writing(b, g, 0, 0);
+    const int64_t first = bond_copy_on_write_and_return_array_index(b, g, 0, 0);
     for (int64_t q = first; q < first + b->column_count[g] * LANES; q++) {
         const int32_t i = b->particle[g * LANES + (q - first) % LANES];
-        bond_softness_store(b, q,
-                            b->inverse_length[q] == 0
-                                ? bond_softness_none
-                                : bond_softness_before_onset(bond_softening_range(p, limit, i, b->nbr[q])));
+        bond_softening_state_write(b, q,
+                                   b->inverse_length[q] == 0 ? bond_softness_none
+                                                             : bond_softening_state_before_onset(
+                                                                   bond_softening_range(p, limit, i, b->nbr[q])));
     }
     b->soft.begun[g] = b->changed[g] = 1;
     b->stencil[g] = NULL;
     __atomic_store_n(&b->clamped.stale, true, __ATOMIC_RELAXED);
 }
 
-void bond_row_set_softening_state(struct row *row, const struct row_maker *maker, int32_t particle)
+void bond_row_set_softening_state(struct bond_row *row, const struct bond_row_inputs *row_inputs, int32_t particle)
 {
-    const struct bonds *old = maker->old;
+    const struct bonds *old = row_inputs->old;
     const int64_t before = old ? old->row_of[particle] : -1;
     for (int k = 0; k < row->n; k++)
-        row->soft[k] =
-            bond_softness_before_onset(bond_softening_range(maker->p, &maker->source->limit, particle, row->nbr[k]));
+        row->soft[k] = bond_softening_state_before_onset(
+            bond_softening_range(row_inputs->p, &row_inputs->source->limit, particle, row->nbr[k]));
     if (before < 0 || !bond_row_block_has_begun_softening(old, before / LANES)) return;
     int n = 0; /* neighbours ascend in both rows */
-    for (struct bond_iterator it = bond_iterator_of_row(old, before); bond_next(&it);) {
+    for (struct bond_iterator it = bond_iterator_of_row(old, before); bond_iterator_advance(&it);) {
         const int64_t q = it.bond.entry;
         while (n < row->n && row->nbr[n] < it.bond.nbr) n++;
         if (n == row->n || row->nbr[n] != it.bond.nbr) continue;
-        row->soft[n] = bond_softness_load(&old->soft, q);
+        row->soft[n] = bond_softening_state_read(&old->soft, q);
     }
 }
 
@@ -112,10 +112,10 @@ static void softness_take(struct bonds *b, int64_t row, int32_t nbr, const struc
     for (int64_t k = 0; k < b->column_count[row / LANES]; k++) {
         const struct bond bond = bond_read(b, row / LANES, k, (int)(row % LANES));
         if (bond.inverse_length == 0 || bond.nbr != nbr) continue;
-        bond_softness_store(b, bond.entry, bond_softness_load(&old->soft, q));
+        bond_softening_state_write(b, bond.entry, bond_softening_state_read(&old->soft, q));
         if (!b->soft.whole || !(b->soft.whole[bond.entry] > 0) || old->w[q] == 0) continue;
         b->w[bond.entry] = old->w[q];
-        bond_column_update_after_bond_change(b, row, bond.entry);
+        bond_update_cached_data_after_modification(b, row, bond.entry);
     }
 }
 
@@ -125,26 +125,26 @@ void bonds_copy_softening_of_row(struct bonds *b, const struct particles *p, con
 {
     if (!bond_row_block_has_begun_softening(previous_bonds, previous_row / LANES)) return;
     if (!b->soft.begun[row / LANES]) bond_row_block_initialise_softening(b, p, limit, row / LANES);
-    for (struct bond_iterator it = bond_iterator_of_row(previous_bonds, previous_row); bond_next(&it);)
+    for (struct bond_iterator it = bond_iterator_of_row(previous_bonds, previous_row); bond_iterator_advance(&it);)
         if (new_index[it.bond.nbr] >= 0) softness_take(b, row, new_index[it.bond.nbr], previous_bonds, it.bond.entry);
 }
 
 /* Copies the softening of all bonds of b in blocks of eight rows (the bonds of eight particles) where softening has
  * begun: to `packed` if `saving`, else from `packed`. packed: eight entries for each column (the k-th bonds of eight
  * rows) of these blocks, padding included. */
-static void pack_softness(struct bonds *b, struct bond_softness *packed, bool saving)
+static void pack_softness(struct bonds *b, struct bond_softening_state *packed, bool saving)
 {
     for (int64_t g = 0; g < b->row_blocks; g++)
         for (int64_t k = 0; b->soft.begun[g] && k < b->column_count[g] * LANES; k++, packed++) {
             const int64_t q = b->column[g] * LANES + k;
             if (saving)
-                *packed = bond_softness_load(&b->soft, q);
+                *packed = bond_softening_state_read(&b->soft, q);
             else
-                bond_softness_store(b, q, *packed);
+                bond_softening_state_write(b, q, *packed);
         }
 }
 
-status softening_save_or_load_bond_states(struct bonds *b, struct archive *a)
+status bonds_save_or_load_softening_states(struct bonds *b, struct archive *a)
 {
     int64_t columns = 0;
     if (!b->soft.curve) return OK;
@@ -161,7 +161,7 @@ status softening_save_or_load_bond_states(struct bonds *b, struct archive *a)
     }
     for (int64_t g = 0; g < b->row_blocks; g++) columns += b->soft.begun[g] ? b->column_count[g] : 0;
     if (columns == 0) return OK;
-    struct bond_softness *packed = NEW("bonds.softness", columns * LANES, struct bond_softness);
+    struct bond_softening_state *packed = NEW("bonds.softness", columns * LANES, struct bond_softening_state);
     if (a->saving) pack_softness(b, packed, true);
     const status s = a->exchange(a, "bonds/softening", packed, (size_t)(columns * LANES) * sizeof *packed);
     if (s == OK && !a->saving) pack_softness(b, packed, false);
@@ -177,7 +177,7 @@ static real row_block_spent(const void *context, int64_t g)
     const struct bonds *b = context;
     real sum = 0;
     for (int64_t q = b->column[g] * LANES; b->soft.begun[g] && q < (b->column[g] + b->column_count[g]) * LANES; q++)
-        sum += bond_half_softening_energy(b, g, q);
+        sum += bond_softening_dissipation_per_particle(b, g, q);
     return sum;
 }
 
@@ -191,14 +191,14 @@ real bonds_row_fracture_energy(const struct bonds *b, int64_t row)
     const int64_t g = row / LANES, first = b->column[g] * LANES + row % LANES;
     real sum = b->fracture_energy[row];
     for (int64_t k = 0; b->soft.curve && b->soft.begun[g] && k < b->column_count[g]; k++)
-        sum += bond_half_softening_energy(b, g, first + k * LANES);
+        sum += bond_softening_dissipation_per_particle(b, g, first + k * LANES);
     return sum;
 }
 
 bool bonds_row_has_begun_softening(const struct bonds *b, int64_t row)
 {
     if (row < 0 || !bond_row_block_has_begun_softening(b, row / LANES)) return false;
-    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);)
+    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_iterator_advance(&it);)
         if (it.bond.w != 0 && bond_is_softening(b, row / LANES, it.bond.entry)) return true;
     return false;
 }
@@ -208,7 +208,7 @@ real bonds_row_softening_damage(const struct bonds *b, const struct particles *p
     const int64_t g = row / LANES;
     real sum = 0;
     if (row < 0 || !bond_row_block_has_begun_softening(b, g) || !(b->family_volume[row] > 0)) return 0;
-    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
+    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_iterator_advance(&it);) {
         if (it.bond.w == 0 || !bond_is_softening(b, g, it.bond.entry)) continue;
         const int64_t q = it.bond.entry;
         sum += (1 - softening_remaining_stiffness_fraction(b->soft.curve, b->soft.onset[q], b->soft.end[q],
@@ -218,15 +218,15 @@ real bonds_row_softening_damage(const struct bonds *b, const struct particles *p
     return sum / b->family_volume[row];
 }
 
-/* Returns true if bonds of row `row` of b (all bonds of one particle) act as struts (bonds_act_as_struts): the volumes
- * of the neighbours to which bonds have ended and are parted, and of those to which bonds press, are both at least
- * STRUT_SHARE of the volume of all neighbours. */
+/* Returns true if bonds of row `row` of b (all bonds of one particle) act as struts
+ * (bonds_any_softened_crack_carries_compression): the volumes of the neighbours to which bonds have ended and are
+ * parted, and of those to which bonds press, are both at least STRUT_SHARE of the volume of all neighbours. */
 static bool row_has_struts(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                            int64_t row)
 {
     const int32_t i = b->particle[row];
     real parted = 0, pressed = 0;
-    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
+    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_iterator_advance(&it);) {
         const struct bond *bond = &it.bond;
         const int pair = p->material[i] * limit->materials + p->material[bond->nbr];
         real length2 = 0;
@@ -239,7 +239,8 @@ static bool row_has_struts(const struct bonds *b, const struct particles *p, con
     return real_min(parted, pressed) >= STRUT_SHARE * b->family_volume[row];
 }
 
-bool bonds_act_as_struts(const struct bonds *b, const struct particles *p, const struct bond_limit *limit)
+bool bonds_any_softened_crack_carries_compression(const struct bonds *b, const struct particles *p,
+                                                  const struct bond_limit *limit)
 {
     bool found = false;
     for (int64_t row = 0; limit->softening && row < b->rows && !found; row++)

@@ -7,7 +7,7 @@
 real state_based_weighted_volume_of_intact_bonds(const struct bonds *b, int64_t row)
 {
     real Q = 0;
-    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);)
+    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_iterator_advance(&it);)
         if (it.bond.w != 0) Q += it.bond.w / square(it.bond.inverse_length);
     return Q;
 }
@@ -56,7 +56,7 @@ static void state_weigh_new(struct bonds *b, const struct particles *p, const st
         if (b->state.weighted[g * LANES] == 0) row_block_weigh(b, p, s, g);
 }
 
-void bonds_prepare_state_based_model(struct bonds *b, const struct bond_source *s)
+void bonds_initialise_state_based_moduli(struct bonds *b, const struct bond_source *s)
 {
     if (!s->modulus) return;
     b->state.modulus = s->modulus;

@@ -12,15 +12,15 @@ enum { REMEMBERED = 32 };
 
 /* Bonds of recent blocks of eight rows, for one thread. map: map of the lattice sites, borrowed. */
 struct stencil_cache {
-    const struct site_map *map;
+    const struct lattice_site_map *map;
     int n, next, last; /* number of entries of `cached`; index of the oldest; index of the entry found last */
     struct cached {
         int64_t i; /* first of the eight particles */
-        struct regular_bonds bonds;
+        struct lattice_bonds bonds;
     } cached[REMEMBERED];
 };
 
-struct stencil_cache *stencil_cache_make_for_thread(const struct site_map *map)
+struct stencil_cache *stencil_cache_make_for_thread(const struct lattice_site_map *map)
 {
     struct stencil_cache *t = NEW("bonds.stencil_cache", 1, struct stencil_cache);
     t->map = map;
@@ -39,7 +39,7 @@ void stencil_cache_free(struct stencil_cache *t)
 
 /* Returns true if two sets of eight consecutive particles have neighbours at the same index distances (neighbour minus
  * particle), and corresponding particles of both sets lack the same neighbours. a, b: bonds of both sets. */
-static bool same_sites(const struct regular_bonds *a, const struct regular_bonds *b)
+static bool same_sites(const struct lattice_bonds *a, const struct lattice_bonds *b)
 {
     return a->n == b->n && arrays_equal(a->offset, b->offset, a->n, sizeof *a->offset) &&
            arrays_equal(a->from, b->from, a->n, 1) && arrays_equal(a->to, b->to, a->n, 1);
@@ -48,7 +48,7 @@ static bool same_sites(const struct regular_bonds *a, const struct regular_bonds
 /* Returns true if the array around[particles] has equal values at i .. i + 7 and j .. j + 7, and at the neighbours of
  * both sets of particles. b: bonds of both, whose index distances (neighbour minus particle) are equal. Consecutive
  * index distances are compared at once. */
-static bool same_around(const real *around, const struct regular_bonds *b, int64_t i, int64_t j)
+static bool same_around(const real *around, const struct lattice_bonds *b, int64_t i, int64_t j)
 {
     if (memcmp(around + i, around + j, LANES * sizeof *around) != 0) return false;
     for (int k = 0, run; k < b->n; k += run) {
@@ -60,7 +60,7 @@ static bool same_around(const real *around, const struct regular_bonds *b, int64
 }
 
 /* Stores the bonds b of particles i .. i + 7 in the cache t. If the cache is full, they replace its oldest entry. */
-static void remember(struct stencil_cache *t, const struct regular_bonds *b, int64_t i)
+static void remember(struct stencil_cache *t, const struct lattice_bonds *b, int64_t i)
 {
     struct cached *to = &t->cached[t->next];
     if (t->n <= t->next) {
@@ -79,16 +79,16 @@ static void remember(struct stencil_cache *t, const struct regular_bonds *b, int
 
 /* Returns true if all data of s from which the weights of bonds are computed are equal around particles i .. i + 7 and
  * around j .. j + 7. b: bonds of both sets of particles, at equal index distances (neighbour minus particle). */
-static bool same_weights(const struct bond_source *s, const struct regular_bonds *b, int64_t i, int64_t j)
+static bool same_weights(const struct bond_source *s, const struct lattice_bonds *b, int64_t i, int64_t j)
 {
     if (s->neighbour_volume && !same_around(s->neighbour_volume, b, i, j)) return false;
-    const struct surface_weights *w = s->surface;
+    const struct surface_correction *w = s->surface;
     return !w || (memcmp(w->class_of + i, w->class_of + j, LANES * sizeof *w->class_of) == 0 &&
                   eight_bytes_as_word(w->mirrors + i) == eight_bytes_as_word(w->mirrors + j));
 }
 
-int64_t stencil_cache_particle_with_equal_bonds(const struct regular_bonds *bonds,
-                                                const struct bond_source *weight_inputs, int64_t first_particle)
+int64_t stencil_cache_particle_with_equal_bonds_or_add(const struct lattice_bonds *bonds,
+                                                       const struct bond_source *weight_inputs, int64_t first_particle)
 {
     struct stencil_cache *t = bonds->stencil_cache;
     if (!t->map->uniform) return -1;

@@ -8,20 +8,20 @@
 enum { STENCILS_MOST = 2048, HASHES = 4096 };
 
 /* All stencils (bonds that many blocks of eight rows have in common), with lists by hash to find equal ones. */
-struct stencils {
+struct stencil_table {
     int n, users; /* number of stencils; number of bond storages that share them */
     struct stencil stencil[STENCILS_MOST];
     int32_t first[HASHES]; /* first stencil with this hash, + 1; 0: none */
 };
 
-struct stencils *stencils_share_or_make_table(struct stencils *existing)
+struct stencil_table *stencil_table_add_reference_or_make(struct stencil_table *existing)
 {
-    struct stencils *p = existing ? existing : NEW("bonds.stencils", 1, struct stencils);
+    struct stencil_table *p = existing ? existing : NEW("bonds.stencils", 1, struct stencil_table);
     p->users++;
     return p;
 }
 
-void stencils_release_table(struct stencils *stencils)
+void stencil_table_drop_reference(struct stencil_table *stencils)
 {
     if (!stencils || --stencils->users > 0) return;
     for (int k = 0; k < stencils->n; k++) memory_free(stencils->stencil[k].column), memory_free(stencils->stencil[k].w);
@@ -66,7 +66,7 @@ bool stencil_add_column(struct stencil *stencil, const struct bonds *b, const st
     int16_t excess[LANES];
     int alone = added_column->first < 0, alike = 1, bonds = 0;
     *column = (struct stencil_column){.offset = (int32_t)(added_column->first - first_particle),
-                                      .shell = (uint8_t)bonds_find_lattice_shell(b, inverse, excess)};
+                                      .shell = (uint8_t)bonds_find_lattice_shell_of_eight_lengths(b, inverse, excess)};
     for (int l = 0; l < LANES; l++) {
         stencil->w[stencil->columns][l] = w[l];
         alone |= (w[l] == 0) != (inverse[l] == 0); /* cut or broken */
@@ -116,7 +116,7 @@ static int hash_of(const struct stencil *p)
 /* Returns the stencil (bond vectors and weights that many particles share) in the table `all` that equals `stencil`. If
  * there is none, stores a copy of `stencil` in the table and returns the copy, or NULL if the table already has
  * STENCILS_MOST stencils. The table owns what is returned. */
-static const struct stencil *stencil_store(struct stencils *all, const struct stencil *stencil)
+static const struct stencil *stencil_store(struct stencil_table *all, const struct stencil *stencil)
 {
     const int hash = hash_of(stencil);
     for (int32_t k = all->first[hash] - 1; k >= 0; k = all->stencil[k].next)
@@ -132,7 +132,7 @@ static const struct stencil *stencil_store(struct stencils *all, const struct st
     return stored;
 }
 
-const struct stencil *stencil_find_or_add(struct stencils *table, const struct stencil *stencil,
+const struct stencil *stencil_find_or_add(struct stencil_table *table, const struct stencil *stencil,
                                           const struct stencil *first_guess)
 {
     const struct stencil *known;
@@ -142,7 +142,7 @@ const struct stencil *stencil_find_or_add(struct stencils *table, const struct s
     return known;
 }
 
-bool bond_row_block_use_stencil_of_particle(struct bonds *b, int64_t g, int64_t particle)
+bool bond_row_block_share_stencil_of_particle(struct bonds *b, int64_t g, int64_t particle)
 {
     const int64_t from = particle >= 0 ? b->row_of[particle] / LANES : g;
     if (!b->stencil[from]) return false;
@@ -179,14 +179,15 @@ void bond_column_read_eight_bonds(struct column_copy *copy, const struct bonds *
  * images of p; false only if it has none. Images have indices behind those of all particles. The columns of a stencil
  * (each with one bond of each of the eight particles) ascend by their neighbours, up to the padding of less than eight
  * lanes. So no column leads to an image if the last one ends two blocks before the images. */
-bool bond_row_block_may_have_bonds_to_images(const struct bonds *b, const struct particles *p, int64_t row_block)
+bool bond_row_block_may_have_bonds_to_mirror_images(const struct bonds *b, const struct particles *p, int64_t row_block)
 {
-    const int64_t columns = bond_row_block_column_count(b, row_block);
+    const int64_t columns = bond_row_block_bond_slots_per_particle(b, row_block);
     if (p->n_all == p->n || columns == 0) return false;
-    return !b->stencil[row_block] || column_first_consecutive_neighbour(b, row_block, columns - 1) + 3 * LANES > p->n;
+    return !b->stencil[row_block] ||
+           bond_column_first_neighbour_if_consecutive(b, row_block, columns - 1) + 3 * LANES > p->n;
 }
 
-void bonds_clear_marks_of_intact_neighbours(const struct bonds *b, int64_t row, uint64_t *particle_bits)
+void bonds_row_clear_bitmap_at_intact_neighbours(const struct bonds *b, int64_t row, uint64_t *particle_bits)
 {
     if (row < 0) return;
     const int64_t row_block = row / LANES, from = b->column[row_block];
@@ -208,7 +209,7 @@ void bond_column_write_eight_bonds(const struct bonds *b, int64_t column_number,
     memcpy(b->nbr + column_number * LANES, bonds->nbr, sizeof bonds->nbr);
     memcpy(b->inverse_length + column_number * LANES, bonds->inverse_length, sizeof bonds->inverse_length);
     memcpy(b->w + column_number * LANES, bonds->w, sizeof bonds->w);
-    bond_column_update_common_properties(b, column_number);
+    bond_column_update_lane_uniform_properties(b, column_number);
 }
 
 /* Stores the columns (k-th bonds of all rows) of block `row_block` of eight rows (the bonds of eight particles) in the
@@ -222,7 +223,7 @@ static void expand(struct bonds *b, int64_t row_block)
     }
 }
 
-void bond_row_block_write_columns_from_stencil(struct bonds *b, int64_t row_block)
+void bond_row_block_copy_bonds_from_stencil(struct bonds *b, int64_t row_block)
 {
 #pragma omp critical(bonds_unfold)
     if (b->implicit[row_block]) {
@@ -231,10 +232,10 @@ void bond_row_block_write_columns_from_stencil(struct bonds *b, int64_t row_bloc
     }
 }
 
-void bond_column_update_after_bond_change(struct bonds *b, int64_t row_number, int64_t q)
+void bond_update_cached_data_after_modification(struct bonds *b, int64_t row_number, int64_t q)
 {
     b->stencil[row_number / LANES] = NULL;
     b->changed[row_number / LANES] = 1;
-    bond_column_update_common_properties(b, q / LANES);
+    bond_column_update_lane_uniform_properties(b, q / LANES);
     __atomic_store_n(&b->clamped.stale, true, __ATOMIC_RELAXED); /* several threads may break bonds */
 }

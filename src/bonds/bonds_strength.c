@@ -102,7 +102,7 @@ static ALWAYS_INLINE void row_moments(const struct evaluation *e, int64_t row, s
     const int32_t i = e->b->particle[row];
     const bool begun = e->b->soft.begun[row / LANES];
     *sum = (struct moments){.M = {0}};
-    for (struct bond_iterator it = bond_iterator_of_row(e->b, row); bond_next(&it);) {
+    for (struct bond_iterator it = bond_iterator_of_row(e->b, row); bond_iterator_advance(&it);) {
         const int32_t j = it.bond.nbr;
         const real inverse = fabs(it.bond.inverse_length);
         real xi[DIM_MAX], y[DIM_MAX];
@@ -166,9 +166,9 @@ static ALWAYS_INLINE void moments_strain(struct moments *sum, real *strain, cons
     for (int k = 0; k < dim * dim; k++) back[k] -= sum->M[k], sum->L[k] += sum->M[k];
     if (!square_matrix_invert(sum->L, inverse, dim)) return;
     matrix_multiply(back, false, inverse, E, dim);
-    for (int s = 0; s < symmetric_component_count(dim); s++) {
+    for (int s = 0; s < symmetric_tensor_component_count(dim); s++) {
         int a, c;
-        symmetric_component_axes(dim, s, &a, &c);
+        symmetric_tensor_component_axes(dim, s, &a, &c);
         strain[s] = 0.5 * (E[a * dim + c] + E[c * dim + a]);
     }
 }
@@ -223,7 +223,7 @@ static int64_t row_of_strain(const struct evaluation *e, int32_t j, real *sign)
  * row. */
 static void mark_family_rows(struct evaluation *e, int64_t row, uint16_t distance)
 {
-    for (struct bond_iterator it = bond_iterator_of_row(e->b, row); bond_next(&it);) {
+    for (struct bond_iterator it = bond_iterator_of_row(e->b, row); bond_iterator_advance(&it);) {
         real sign[DIM_MAX];
         const int64_t other = it.bond.w == 0 ? -1 : row_of_strain(e, it.bond.nbr, sign);
         if (other >= 0 && __atomic_load_n(&e->distance[other], __ATOMIC_RELAXED) == 0)
@@ -235,16 +235,16 @@ static void mark_family_rows(struct evaluation *e, int64_t row, uint16_t distanc
  * neighbours to which its intact bonds lead. Stores the mean in e->strain[1]. */
 static void row_average(struct evaluation *e, int64_t row)
 {
-    const int dim = e->p->dim, count = symmetric_component_count(dim);
+    const int dim = e->p->dim, count = symmetric_tensor_component_count(dim);
     real sum[SYM_MAX], sign[DIM_MAX];
     int terms = 1;
     for (int s = 0; s < count; s++) sum[s] = e->strain[0][row][s];
-    for (struct bond_iterator it = bond_iterator_of_row(e->b, row); bond_next(&it);) {
+    for (struct bond_iterator it = bond_iterator_of_row(e->b, row); bond_iterator_advance(&it);) {
         const int64_t other = it.bond.w == 0 ? -1 : row_of_strain(e, it.bond.nbr, sign);
         if (other < 0) continue;
         for (int s = 0; s < count; s++) {
             int a, c;
-            symmetric_component_axes(dim, s, &a, &c);
+            symmetric_tensor_component_axes(dim, s, &a, &c);
             sum[s] += sign[a] * sign[c] * e->strain[0][other][s];
         }
         terms++;
@@ -262,7 +262,7 @@ static real row_share(const struct evaluation *e, int64_t row)
     const real *strain = e->strain[0][row];
     real stress[SYM_MAX], trace = 0;
     for (int d = 0; d < dim; d++) trace += strain[d];
-    for (int s = 0; s < symmetric_component_count(dim); s++)
+    for (int s = 0; s < symmetric_tensor_component_count(dim); s++)
         stress[s] = s < dim ? (m->c11 - m->c12) * strain[s] + m->c12 * trace : 2 * m->shear * strain[s];
     return material_stress_to_strength_ratio(m, e->source->family.space, stress);
 }
@@ -315,7 +315,7 @@ static bool is_near_surface(const struct bonds *b, int64_t g) { return b->soft.n
 static bool row_can_start(const struct evaluation *e, int64_t row)
 {
     const int32_t i = e->b->particle[row];
-    for (struct bond_iterator it = bond_iterator_of_row(e->b, row); bond_next(&it);)
+    for (struct bond_iterator it = bond_iterator_of_row(e->b, row); bond_iterator_advance(&it);)
         if (it.bond.w != 0 && !bond_is_softening(e->b, row / LANES, it.bond.entry) &&
             isfinite(bond_breaking_stretch(e->p, &e->source->limit, i, it.bond.nbr)))
             return true;
@@ -413,7 +413,7 @@ void bonds_compute_stress_to_strength_ratios(const struct bonds *b, const struct
  * the tensile strength; otherwise it is INFINITY. e: bonds, particles and their stresses. */
 static real start_of(const struct evaluation *e, int32_t j)
 {
-    const int32_t i = (int32_t)image_source_particle(e->p, e->source->image, j);
+    const int32_t i = (int32_t)mirror_image_source_particle(e->p, e->source->image, j);
     const int64_t row = e->b->row_of[i];
     if (row < 0 || e->distance[row] != 1 || !(e->share[row] >= row_strength(e, row))) return INFINITY;
     const struct material *m = &e->source->material[e->p->material[i]];
@@ -424,7 +424,8 @@ static real start_of(const struct evaluation *e, int32_t j)
  * surface. The onset is the present stretch of the bond, but at least the smaller of `least` and the stretch at which
  * the bond would begin to soften without the surface. least: lower limit of the onset from start_of [1]; e: materials
  * and critical stretches. */
-static struct bond_softness bond_started(const struct evaluation *e, const struct bond *bond, int32_t i, real least)
+static struct bond_softening_state bond_started(const struct evaluation *e, const struct bond *bond, int32_t i,
+                                                real least)
 {
     const struct particles *p = e->p;
     const struct bond_limit *limit = &e->source->limit;
@@ -434,9 +435,10 @@ static struct bond_softness bond_started(const struct evaluation *e, const struc
     for (int d = 0; d < p->dim; d++) length2 += square(p->x[d][bond->nbr] - p->x[d][i]);
     const real onset = real_max(sqrt(length2) * bond->inverse_length - 1, real_min(least, closed));
     const bool sudden = !(onset < critical * (1 - SUDDEN));
-    const real end = sudden ? onset * (1 + SUDDEN) : softening_end_stretch(limit->curve, onset, critical);
+    const real end =
+        sudden ? onset * (1 + SUDDEN) : softening_breaking_stretch_of_equal_energy(limit->curve, onset, critical);
     const float most = e->b->soft.settled ? nextafterf((float)onset, INFINITY) : (float)onset;
-    return (struct bond_softness){most, (float)onset, (float)end, 0};
+    return (struct bond_softening_state){most, (float)onset, (float)end, 0};
 }
 
 /* Starts the softening of bonds in block g of eight rows of b (the bonds of eight particles) that lead from or to a
@@ -454,8 +456,8 @@ static void row_block_start(const struct evaluation *e, struct bonds *b, struct 
             const real least = real_min(own, start_of(e, bond.nbr));
             if (isinf(least) || isinf(bond_breaking_stretch(p, &e->source->limit, i, bond.nbr))) continue;
             if (!b->soft.begun[g]) bond_row_block_initialise_softening(b, p, &e->source->limit, g);
-            bond_softness_store(b, bond.entry, bond_started(e, &bond, i, least));
-            softening_mark_point_for_conversion(b, p, i);
+            bond_softening_state_write(b, bond.entry, bond_started(e, &bond, i, least));
+            softening_flag_material_point_for_conversion(b, p, i);
         }
     }
 }
@@ -481,8 +483,8 @@ real bonds_largest_stress_to_strength_ratio(const struct bonds *b, const struct 
 static void mark_touched(const struct evaluation *e, int64_t row, uint8_t *touched)
 {
     __atomic_store_n(&touched[row / LANES], 1, __ATOMIC_RELAXED);
-    for (struct bond_iterator it = bond_iterator_of_row(e->b, row); bond_next(&it);) {
-        const int64_t other = e->b->row_of[image_source_particle(e->p, e->source->image, it.bond.nbr)];
+    for (struct bond_iterator it = bond_iterator_of_row(e->b, row); bond_iterator_advance(&it);) {
+        const int64_t other = e->b->row_of[mirror_image_source_particle(e->p, e->source->image, it.bond.nbr)];
         if (other >= 0) __atomic_store_n(&touched[other / LANES], 1, __ATOMIC_RELAXED);
     }
 }

@@ -16,7 +16,7 @@
  * neighbourhood f [m^3]. s: cutoff and cells of the search; map: map from lattice sites to particles; found[capacity]:
  * working memory. */
 static real volume_near(const struct particles *p, const struct bond_source *s, const struct family *f,
-                        const struct site_map *map, int64_t i, int32_t *found, int capacity)
+                        const struct lattice_site_map *map, int64_t i, int32_t *found, int capacity)
 {
     const int n = particle_find_neighbours_within_cutoff(map, s, p, (int32_t)i, found, capacity);
     real volume = 0;
@@ -30,7 +30,7 @@ static real volume_near(const struct particles *p, const struct bond_source *s, 
 
 /* Computes volume[i .. i + 7]: for each of these eight particles of p the sum of the volumes of its neighbours, each
  * times `weight` [m^3]. bonds: the neighbours, from the map of lattice sites. */
-static void volumes_near(real *volume, const struct particles *p, const struct regular_bonds *bonds, real weight,
+static void volumes_near(real *volume, const struct particles *p, const struct lattice_bonds *bonds, real weight,
                          int64_t i)
 {
     real sum[LANES] = {0};
@@ -52,21 +52,21 @@ static void whole_volumes(real *volume, int64_t n, real full)
 
 void bonds_compute_family_volumes(real *volume, const struct particles *p, const struct bond_source *s)
 {
-    const int most = bonds_neighbour_count_bound(s);
+    const int most = bonds_neighbour_count_upper_bound(s);
     struct family plain = s->family; /* shell weights are left out: the surface correction counts volumes */
-    struct site_map map = {0};
+    struct lattice_site_map map = {0};
     plain.shell_weight[0] = plain.shell_weight[1] = 1;
     plain.influence = INFLUENCE_ONE;
-    if (family_has_equal_weights(&plain)) site_map_make_if_on_lattice(&map, s, p);
+    if (family_bonds_have_equal_weights(&plain)) lattice_site_map_make_if_particles_fit_lattice(&map, s, p);
 #pragma omp parallel
     {
         int32_t *found = NEW("bonds.found", most, int32_t);
-        struct regular_bonds bonds;
-        regular_bonds_allocate_for_lattice(&bonds, &map);
+        struct lattice_bonds bonds;
+        lattice_bonds_allocate_for_eight_particles(&bonds, &map);
 #pragma omp for schedule(static)
         for (int64_t first = 0; first < p->n_all; first += LANES) {
-            if (regular_bonds_find_ignoring_cracks(&map, s, p, first, &bonds)) {
-                const int64_t cached = stencil_cache_particle_with_equal_bonds(&bonds, NULL, first);
+            if (lattice_bonds_list_neighbours_ignoring_cracks(&map, s, p, first, &bonds)) {
+                const int64_t cached = stencil_cache_particle_with_equal_bonds_or_add(&bonds, NULL, first);
                 if (cached >= 0)
                     memcpy(volume + first, volume + cached, LANES * sizeof *volume);
                 else
@@ -76,10 +76,10 @@ void bonds_compute_family_volumes(real *volume, const struct particles *p, const
             for (int64_t i = first; i < first + LANES && i < p->n_all; i++)
                 volume[i] = volume_near(p, s, &plain, &map, i, found, most);
         }
-        regular_bonds_free(&bonds);
+        lattice_bonds_free(&bonds);
         memory_free(found);
     }
-    site_map_free(&map);
+    lattice_site_map_free(&map);
     whole_volumes(volume, p->n, s->family.full);
     for (int64_t k = p->n; k < p->n_all; k++) volume[k] = volume[s->image[k - p->n].source];
 }
@@ -87,29 +87,29 @@ void bonds_compute_family_volumes(real *volume, const struct particles *p, const
 /* Returns an upper bound of omega^2 m for particle i of p [N/m], where omega is the largest angular frequency of its
  * motion and m its mass: a bound of the largest eigenvalue of the stiffness matrix of its bonds in `row`, taken as
  * springs. stiffness: force per stretch of a bond of weight 1 [N]. */
-static real row_stiffness(const struct row *row, const struct particles *p, int32_t i, real stiffness)
+static real row_stiffness(const struct bond_row *row, const struct particles *p, int32_t i, real stiffness)
 {
-    struct spring_bound bound = {{{0}}, 0};
+    struct gershgorin_bound bound = {{{0}}, 0};
     for (int k = 0; k < row->n; k++) {
         real n[DIM_MAX] = {0};
         for (int d = 0; d < p->dim; d++) n[d] = (p->X[d][row->nbr[k]] - p->X[d][i]) * row->inverse_length[k];
-        spring_bound_add_spring(&bound, stiffness * row->w[k] * row->inverse_length[k], n, p->dim);
+        gershgorin_bound_add_spring(&bound, stiffness * row->w[k] * row->inverse_length[k], n, p->dim);
     }
-    return spring_bound_largest_eigenvalue(&bound, p->dim);
+    return gershgorin_bound_largest_eigenvalue(&bound, p->dim);
 }
 
-real bonds_row_stiffness_eigenvalue_bound(const struct bonds *b, const struct particles *p, int64_t row)
+real bonds_row_stiffness_eigenvalue_upper_bound(const struct bonds *b, const struct particles *p, int64_t row)
 {
     const int64_t i = b->particle[row];
-    struct spring_bound bound = {{{0}}, 0};
-    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
+    struct gershgorin_bound bound = {{{0}}, 0};
+    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_iterator_advance(&it);) {
         const struct bond bond = it.bond;
         real n[DIM_MAX] = {0};
         if (bond.w == 0) continue;
         for (int d = 0; d < p->dim; d++) n[d] = (p->X[d][bond.nbr] - p->X[d][i]) * bond.inverse_length;
-        spring_bound_add_spring(&bound, b->stiffness * bond.w * bond.inverse_length, n, p->dim);
+        gershgorin_bound_add_spring(&bound, b->stiffness * bond.w * bond.inverse_length, n, p->dim);
     }
-    return spring_bound_largest_eigenvalue(&bound, p->dim);
+    return gershgorin_bound_largest_eigenvalue(&bound, p->dim);
 }
 
 /* Sums over the springs on eight consecutive particles, from which upper bounds of their frequencies follow. block:
@@ -160,10 +160,10 @@ static real bounds_frequency(const struct eight_bounds *bounds, const struct par
 {
     real largest = 0;
     for (int l = 0; l < LANES; l++) {
-        struct spring_bound one = {.total = bounds->total[l]};
+        struct gershgorin_bound one = {.total = bounds->total[l]};
         for (int a = 0; a < p->dim; a++)
             for (int c = 0; c < p->dim; c++) one.block[a][c] = bounds->block[a][c][l];
-        largest = real_max(largest, spring_bound_largest_eigenvalue(&one, p->dim) / p->mass[i + l]);
+        largest = real_max(largest, gershgorin_bound_largest_eigenvalue(&one, p->dim) / p->mass[i + l]);
     }
     return largest;
 }
@@ -171,14 +171,15 @@ static real bounds_frequency(const struct eight_bounds *bounds, const struct par
 /* Returns an upper bound of the largest squared angular frequency omega^2 of particles i .. i + 7 of p [1/s^2]. bonds:
  * their neighbours on the lattice; the weights of the bonds are computed here, and no rows are stored. pairs: stiffness
  * by pair of materials, divided by that of material 0; stiffness: force per stretch of a bond of weight 1 [N]. */
-static real row_block_frequency(const struct regular_bonds *bonds, const struct bond_source *s,
-                                const struct particles *p, const struct pair_table *pairs, int64_t i, real stiffness)
+static real row_block_frequency(const struct lattice_bonds *bonds, const struct bond_source *s,
+                                const struct particles *p, const struct material_pair_table *pairs, int64_t i,
+                                real stiffness)
 {
     struct eight_bounds bounds = {0};
     for (int k = 0; k < bonds->n; k++) {
         real inverse[LANES];
         real w[LANES];
-        regular_bonds_compute_weights(s, p, pairs, i, i + bonds->offset[k], inverse, w);
+        lattice_bonds_compute_eight_lengths_and_weights(s, p, pairs, i, i + bonds->offset[k], inverse, w);
         for (int l = 0; l < LANES; l++) w[l] = l >= bonds->from[k] && l <= bonds->to[k] ? w[l] : 0;
         bounds_add_any(&bounds, p, i, i + bonds->offset[k], inverse, w, stiffness);
     }
@@ -195,7 +196,7 @@ static real row_block_frequency_made(const struct bonds *b, const struct particl
     for (int64_t k = 0; k < columns && regular && !b->stencil[g]; k++) regular = b->first[b->column[g] + k] >= 0;
     if (!regular) {
         for (int64_t r = g * LANES; r < g * LANES + bond_row_block_row_count(b, g); r++)
-            largest = real_max(largest, bonds_row_stiffness_eigenvalue_bound(b, p, r) / p->mass[b->particle[r]]);
+            largest = real_max(largest, bonds_row_stiffness_eigenvalue_upper_bound(b, p, r) / p->mass[b->particle[r]]);
         return largest;
     }
     struct eight_bounds bounds = {0};
@@ -219,9 +220,9 @@ real bonds_critical_time_step_of_existing_bonds(const struct bonds *b, const str
  * material 0 [1]. In state-based models the entry of two materials is the mean of both, since each row of a bond
  * responds with its own modulus. s: materials and model. The caller frees the array `ratio` of the table with
  * memory_free. */
-static struct pair_table pairs_of_bound(const struct bond_source *s)
+static struct material_pair_table pairs_of_bound(const struct bond_source *s)
 {
-    struct pair_table pairs = material_pair_table_make_of_micro_moduli(s);
+    struct material_pair_table pairs = material_pair_table_compute_micro_moduli(s);
     const real first = family_micro_modulus(&s->family, &s->material[0]);
     for (int a = 0; a < s->materials && s->modulus; a++)
         for (int b = 0; b < s->materials; b++)
@@ -235,7 +236,7 @@ static struct pair_table pairs_of_bound(const struct bond_source *s)
  * other particles of a class have rows of equal stiffness and need not be examined. w: classes, or NULL; map: states
  * whether distances on the lattice are exactly equal. Returns NULL if there are no classes, or if particles of a class
  * may have unequal bonds. The caller frees the array with memory_free. */
-static uint8_t *first_of_classes(const struct surface_weights *w, const struct site_map *map, int64_t n)
+static uint8_t *first_of_classes(const struct surface_correction *w, const struct lattice_site_map *map, int64_t n)
 {
     if (!w || !map->uniform) return NULL;
     uint8_t *first = NEW("bonds.first", n, uint8_t), *seen = NEW("bonds.seen", w->classes, uint8_t);
@@ -247,31 +248,31 @@ static uint8_t *first_of_classes(const struct surface_weights *w, const struct s
 real bonds_critical_time_step_if_all_peridynamic(const struct particles *p, const struct bond_source *s)
 {
     real stiffness = family_micro_modulus(&s->family, &s->material[0]) * square(s->family.cell_volume), largest = 0;
-    struct pair_table pairs = pairs_of_bound(s);
+    struct material_pair_table pairs = pairs_of_bound(s);
     uint8_t *kind = NEW("bonds.kind", p->n_all, uint8_t);
     struct particles all = *p;
     array_fill_bytes(kind, KIND_PD, p->n_all, 1);
     all.kind = kind;
-    struct site_map map;
-    const struct row_maker maker = {
-        .source = s, .p = &all, .pairs = &pairs, .map = &map, .room = bonds_neighbour_count_bound(s)};
-    site_map_make_if_on_lattice(&map, s, p);
+    struct lattice_site_map map;
+    const struct bond_row_inputs maker = {
+        .source = s, .p = &all, .pairs = &pairs, .map = &map, .room = bonds_neighbour_count_upper_bound(s)};
+    lattice_site_map_make_if_particles_fit_lattice(&map, s, p);
     uint8_t *needed = first_of_classes(s->surface, &map, p->n);
 #pragma omp parallel reduction(max : largest)
     {
-        struct row row = {0};
-        struct regular_bonds regular;
+        struct bond_row row = {0};
+        struct lattice_bonds regular;
         bond_row_buffer_make(&row, maker.room);
-        regular_bonds_allocate_for_lattice(&regular, &map);
+        lattice_bonds_allocate_for_eight_particles(&regular, &map);
 #pragma omp for schedule(static)
         for (int64_t first = 0; first < p->n; first += LANES) {
             bool any = !needed;
             for (int64_t i = first; i < first + LANES && i < p->n && !any; i++) any = needed[i];
             if (!any) continue;
             if (map.at && first + LANES <= p->n &&
-                bond_row_block_compute_lattice_bonds(&map, s, &all, first, &regular)) {
+                lattice_bonds_compute_unless_near_crack(&map, s, &all, first, &regular)) {
                 /* an equal block of eight rows is already in `largest` */
-                if (stencil_cache_particle_with_equal_bonds(&regular, s, first) < 0)
+                if (stencil_cache_particle_with_equal_bonds_or_add(&regular, s, first) < 0)
                     largest = real_max(largest, row_block_frequency(&regular, s, p, &pairs, first, stiffness));
                 continue;
             }
@@ -282,10 +283,10 @@ real bonds_critical_time_step_if_all_peridynamic(const struct particles *p, cons
                 largest = real_max(largest, row_stiffness(&row, &all, (int32_t)i, stiffness) / p->mass[i]);
             }
         }
-        regular_bonds_free(&regular);
+        lattice_bonds_free(&regular);
         bond_row_buffer_free(&row);
     }
-    site_map_free(&map);
+    lattice_site_map_free(&map);
     memory_free(needed);
     memory_free(kind);
     memory_free(pairs.ratio);

@@ -12,10 +12,10 @@ static void bond_take(struct bonds *b, int64_t row, int32_t nbr)
         const struct bond bond = bond_read(b, row / LANES, k, lane);
         if (bond.inverse_length == 0 || bond.nbr != nbr) continue;
         if (bond.w == 0 && bond.inverse_length < 0) return;
-        const int64_t q = bond_index_for_writing(b, row / LANES, k, lane);
+        const int64_t q = bond_copy_on_write_and_return_array_index(b, row / LANES, k, lane);
         b->w[q] = 0;
         b->inverse_length[q] = -fabs(b->inverse_length[q]);
-        bond_column_update_after_bond_change(b, row, q);
+        bond_update_cached_data_after_modification(b, row, q);
         return;
     }
 }
@@ -33,7 +33,7 @@ void bonds_copy_damage_to_new_particles(struct bonds *b, struct particles *p, co
         b->broken[row] = old_bonds->broken[from];
         if (!old_bonds->changed[from / LANES]) continue;
         if (old_bonds->soft.curve) bonds_copy_softening_of_row(b, p, limit, row, old_bonds, from, new_index);
-        for (struct bond_iterator it = bond_iterator_of_row(old_bonds, from); bond_next(&it);)
+        for (struct bond_iterator it = bond_iterator_of_row(old_bonds, from); bond_iterator_advance(&it);)
             if (it.bond.w == 0 && it.bond.inverse_length < 0) bond_take(b, row, new_index[it.bond.nbr]);
     }
     for (int64_t j = 0; j < old_particles->n; j++)

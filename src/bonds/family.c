@@ -69,7 +69,7 @@ real family_bond_weight(const struct family *f, const real *bond_vector, real bo
 {
     int dim = space_dim(f->space);
     real fourth = 0;
-    if (family_has_equal_weights(f)) return f->shell_weight[0];
+    if (family_bonds_have_equal_weights(f)) return f->shell_weight[0];
     bond_length = true_length(f, bond_length);
     for (int d = 0; d < dim; d++) fourth += square(square(bond_vector[d] / bond_length));
     /* mean of n1^4 + n2^4 + n3^4 over all directions: 1, 3/4, 3/5 */
@@ -185,7 +185,7 @@ real family_micro_modulus(const struct family *f, const struct material *m)
     return material_micro_modulus_of_continuum(m, f->space, f->horizon, f->section) / influence_mean(f);
 }
 
-void family_elastic_constants(const struct family *f, const struct material *m, real *c11, real *c12)
+void family_compute_cubic_elastic_constants(const struct family *f, const struct material *m, real *c11, real *c12)
 {
     const int reach = (int)ceil(f->cutoff / f->spacing), dim = space_dim(f->space);
     const real scale = 0.5 * family_micro_modulus(f, m) * f->cell_volume;

@@ -132,7 +132,7 @@ real family_fracture_energy_of_softening_bonds(const struct family *f, const str
 /* Returns the energy per area of all bonds across a plane at the critical stretch of material m [J/m^2], on the lattice
  * with the neighbourhood f. A bond whose component normal to the plane is n spacings counts n times: n parallel bonds
  * per lattice cell of the plane cross it. */
-real family_crack_energy_per_area(const struct family *f, const struct material *m)
+real family_energy_release_rate_at_critical_stretch(const struct family *f, const struct material *m)
 {
     const int dim = space_dim(f->space), reach = (int)ceil(f->cutoff / f->spacing);
     const int width = dim > 1 ? reach : 0, depth = dim > 2 ? reach : 0;

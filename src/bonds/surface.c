@@ -11,8 +11,8 @@
  * weight. to->weighted[classes]: weighted volume sum w r^2 with these factors [m^2]. b: particles near faces; a: their
  * classes; f: neighbourhood; factor[sets]: fitted factor of each set of bonds that share one; bonds in no set have the
  * factor 1. */
-static void tables_make(struct surface_weights *to, const struct near_faces *b, const struct bond_classes *a,
-                        const struct family *f, const real *factor)
+static void tables_make(struct surface_correction *to, const struct particles_near_faces *b,
+                        const struct bond_classes *a, const struct family *f, const real *factor)
 {
     const int n = b->offset.n;
     to->factor = NEW("surface.factor", (int64_t)a->classes * n, real);
@@ -23,28 +23,28 @@ static void tables_make(struct surface_weights *to, const struct near_faces *b, 
             const int64_t entry = (int64_t) class * n + k, group = a->group_of[entry];
             const real r = b->offset.length[k] * f->spacing;
             to->factor[entry] = group >= 0 ? factor[group] : 1;
-            if (bond_class_neighbour_at_offset(a, b, class, k) >= 0)
+            if (bond_class_first_particle_neighbour_at_offset(a, b, class, k) >= 0)
                 to->weighted[class] += to->factor[entry] * b->offset.share[k] * square(r);
         }
 }
 
-status surface_weights_fit_bond_weight_factors(struct surface_weights *weights, const struct particles *p,
-                                               const struct bond_source *s, bool with_rotations)
+status surface_correction_fit_bond_weight_factors(struct surface_correction *weights, const struct particles *p,
+                                                  const struct bond_source *s, bool with_rotations)
 {
-    struct near_faces b;
+    struct particles_near_faces b;
     struct surface_fit_targets f;
     struct bond_classes a;
-    TRY(near_faces_list_particles_and_neighbours(&b, p, s, weights->apart));
-    surface_fit_targets_compute_moments(&f, &b, with_rotations);
+    TRY(particles_near_faces_list_with_neighbours(&b, p, s, weights->apart));
+    surface_fit_targets_compute_areas_and_moments(&f, &b, with_rotations);
     bond_classes_group_bonds_near_faces(&a, &b);
     real *factor = NEW("surface.factors", a.groups, real);
     const real left = surface_fit_compute_bond_weight_factors(factor, &b, &f, &a, with_rotations, SURFACE_PRODUCTS);
-    *weights = (struct surface_weights){.spacing = s->family.spacing,
-                                        .residual = left,
-                                        .reach = b.offset.reach,
-                                        .dim = p->dim,
-                                        .offsets = b.offset.n,
-                                        .classes = a.classes};
+    *weights = (struct surface_correction){.spacing = s->family.spacing,
+                                           .residual = left,
+                                           .reach = b.offset.reach,
+                                           .dim = p->dim,
+                                           .offsets = b.offset.n,
+                                           .classes = a.classes};
     weights->offset_at = b.offset.number, b.offset.number = NULL;
     weights->class_of = NEW("surface.class_of", p->n, int32_t);
     weights->mirrors = NEW("surface.mirrors", p->n, uint8_t);
@@ -54,16 +54,16 @@ status surface_weights_fit_bond_weight_factors(struct surface_weights *weights, 
     memory_free(factor);
     bond_classes_free(&a);
     surface_fit_targets_free(&f);
-    near_faces_free(&b);
+    particles_near_faces_free(&b);
     return OK;
 }
 
-void surface_weights_free(struct surface_weights *w)
+void surface_correction_free(struct surface_correction *w)
 {
     memory_free(w->offset_at);
     memory_free(w->class_of);
     memory_free(w->mirrors);
     memory_free(w->factor);
     memory_free(w->weighted);
-    *w = (struct surface_weights){0};
+    *w = (struct surface_correction){0};
 }

@@ -40,7 +40,7 @@ static void kinds_free(struct kinds *s)
 
 /* Initialises the kinds s of the particles near faces b: all particles are of one kind at first. (Particles of one kind
  * have equal surroundings.) Release s with kinds_free. */
-static void kinds_start(struct kinds *s, const struct near_faces *b)
+static void kinds_start(struct kinds *s, const struct particles_near_faces *b)
 {
     *s = (struct kinds){.n = 1, .of = NEW("surface.kind", b->n, int32_t)};
     s->first = NEW("surface.kind", 1, int64_t);
@@ -51,14 +51,15 @@ static void kinds_start(struct kinds *s, const struct near_faces *b)
 /* Returns a hash of the kind of a particle and of the kinds of its neighbours (particles of one kind have equal
  * surroundings). It is a sum with one term for each neighbour: its kind and mirrors times factor[k], a random word for
  * its lattice offset k. t: index of the particle among b, those near faces; s: kinds of these. */
-static uint64_t kinds_around(const struct near_faces *b, const struct kinds *s, const uint64_t *factor, int64_t t)
+static uint64_t kinds_around(const struct particles_near_faces *b, const struct kinds *s, const uint64_t *factor,
+                             int64_t t)
 {
     uint64_t sum = (uint64_t)s->of[t] + 1;
     for (int k = 0; k < b->offset.n; k++) {
-        const int32_t j = near_faces_neighbour_at_offset(b, t, k);
+        const int32_t j = particles_near_faces_neighbour_at_offset(b, t, k);
         uint64_t word = 0;
         if (j >= 0) {
-            const struct seen seen = near_faces_source_of_entry(b, j);
+            const struct mirrored_particle seen = particle_or_image_source_and_reversed_axes(b, j);
             const int32_t near = b->place[seen.particle];
             word = near < 0 ? 1 : 2 + ((uint64_t)s->of[near] << 3) + (uint64_t)seen.mirrors;
         }
@@ -70,10 +71,10 @@ static uint64_t kinds_around(const struct near_faces *b, const struct kinds *s, 
 /* Returns the hash of the surroundings (colour, from the kinds s) of particle or image j, reflected by the axes in
  * `mirrors` (bit d: axis d). Returns 1 if there is no particle (j < 0), 2 if it is not in b, the particles near
  * faces. */
-static uint64_t colour_seen(const struct near_faces *b, const struct kinds *s, int32_t j, int mirrors)
+static uint64_t colour_seen(const struct particles_near_faces *b, const struct kinds *s, int32_t j, int mirrors)
 {
     if (j < 0) return 1;
-    const struct seen seen = near_faces_source_of_entry(b, j);
+    const struct mirrored_particle seen = particle_or_image_source_and_reversed_axes(b, j);
     const int64_t t = b->place[seen.particle];
     return t < 0 ? 2 : s->colour[((int64_t)s->of[t] << b->offset.dim) + (mirrors ^ seen.mirrors)];
 }
@@ -81,13 +82,14 @@ static uint64_t colour_seen(const struct near_faces *b, const struct kinds *s, i
 /* Returns a hash (colour) of the surroundings of a particle, reflected by the axes in `mirrors` (bit d: axis d). It
  * combines the present colours s->colour of the particle and its neighbours, and so describes surroundings that are
  * larger by one neighbourhood. t: index of the particle among b, those near faces. */
-static uint64_t colour_around(const struct near_faces *b, const struct kinds *s, int64_t t, int mirrors)
+static uint64_t colour_around(const struct particles_near_faces *b, const struct kinds *s, int64_t t, int mirrors)
 {
     const struct offsets *o = &b->offset;
     uint64_t hash = mixed(HASH_START, s->colour[((int64_t)s->of[t] << o->dim) + mirrors]);
     for (int k = 0; k < o->n; k++)
         hash = mixed(hash,
-                     colour_seen(b, s, near_faces_neighbour_at_offset(b, t, o->mirrored[mirrors * o->n + k]), mirrors));
+                     colour_seen(b, s, particles_near_faces_neighbour_at_offset(b, t, o->mirrored[mirrors * o->n + k]),
+                                 mirrors));
     return hash;
 }
 
@@ -113,7 +115,7 @@ static void kinds_number(struct kinds *s, int64_t n, const uint64_t *hash)
 /* Divides the kinds s of particles (particles of one kind have equal surroundings) by the kinds of their neighbours:
  * surroundings are then equal one neighbourhood further out. b: particles near faces; colours: true to compute also the
  * colours of the new kinds, the hashes of their surroundings in all mirrors. */
-static void kinds_refine(struct kinds *s, const struct near_faces *b, bool colours)
+static void kinds_refine(struct kinds *s, const struct particles_near_faces *b, bool colours)
 {
     const int dim = b->offset.dim;
     uint64_t *hash = NEW("surface.hash", b->n, uint64_t), *factor = NEW("surface.hash", b->offset.n, uint64_t);
@@ -138,7 +140,7 @@ static void kinds_refine(struct kinds *s, const struct near_faces *b, bool colou
  * (colour) of all reflections. (The particles of a kind have equal surroundings.) A reflection is a set of axes, with
  * bit d for axis d; sets are compared as numbers. Returns the smallest such set >= `from`; -1 if there is none. s:
  * kinds, with the hashes; b: particles near faces. */
-static int mirrors_of(const struct near_faces *b, const struct kinds *s, int32_t kind, int from)
+static int mirrors_of(const struct particles_near_faces *b, const struct kinds *s, int32_t kind, int from)
 {
     const uint64_t *own = s->colour + ((int64_t)kind << b->offset.dim);
     int least = 0;
@@ -153,7 +155,8 @@ static int mirrors_of(const struct near_faces *b, const struct kinds *s, int32_t
  * mirror images of each other, i.e. if the smallest hashes of their mirrored surroundings are equal. of[kinds]:
  * receives the number of the class of each kind, from 0. Sets a->classes, their number plus 1, and a->member, a
  * particle of each class. s: kinds, with the hashes; b: particles near faces. */
-static void classes_of_kinds(struct bond_classes *a, const struct near_faces *b, const struct kinds *s, int32_t *of)
+static void classes_of_kinds(struct bond_classes *a, const struct particles_near_faces *b, const struct kinds *s,
+                             int32_t *of)
 {
     struct kinds least = {.of = of};
     uint64_t *hash = NEW("surface.hash", s->n, uint64_t);
@@ -171,7 +174,7 @@ static void classes_of_kinds(struct bond_classes *a, const struct near_faces *b,
  * each other. Numbers the classes from 1 in the order of their first particle. Stores in a the class of each particle,
  * the mirrors that map the particle to its class, and for each class the mirrors under which its surroundings do not
  * change. s: kinds of the particles (equal, not mirrored surroundings), with colours. */
-static void classes_make(struct bond_classes *a, const struct near_faces *b, const struct kinds *s)
+static void classes_make(struct bond_classes *a, const struct particles_near_faces *b, const struct kinds *s)
 {
     int32_t *of = NEW("surface.class", s->n, int32_t);
     classes_of_kinds(a, b, s, of);
@@ -218,7 +221,7 @@ static void groups_join(int64_t *parent, int64_t one, int64_t other)
 /* Returns the index of a bond in tables [classes, offsets], which have one entry for equal bonds. The bond leads from
  * particle t (an index among b, those near faces) to the neighbour at lattice offset number k. The particles of a class
  * have equal surroundings up to mirrors; the offset is reflected by the mirrors that map the particle to its class. */
-static int64_t entry_of(const struct bond_classes *a, const struct near_faces *b, int64_t t, int k)
+static int64_t entry_of(const struct bond_classes *a, const struct particles_near_faces *b, int64_t t, int k)
 {
     return (int64_t)a->class_of[t] * b->offset.n + b->offset.mirrored[a->mirrors[t] * b->offset.n + k];
 }
@@ -227,17 +230,17 @@ static int64_t entry_of(const struct bond_classes *a, const struct near_faces *b
  * one factor. The entries are [classes, offsets]; a class has particles with equal surroundings up to mirrors. b:
  * particles near faces; first[n]: first particle of each of n kinds (particles with equal, not mirrored surroundings),
  * which represents the others; parent: union-find forest of the table entries. */
-static void bonds_join(const struct bond_classes *a, const struct near_faces *b, const int64_t *first, int32_t n,
-                       int64_t *parent)
+static void bonds_join(const struct bond_classes *a, const struct particles_near_faces *b, const int64_t *first,
+                       int32_t n, int64_t *parent)
 {
     for (int32_t kind = 0; kind < n; kind++)
         for (int k = 0; k < b->offset.n; k++) {
             const int64_t t = first[kind];
-            const int32_t j = near_faces_neighbour_at_offset(b, t, k);
+            const int32_t j = particles_near_faces_neighbour_at_offset(b, t, k);
             if (j < 0 || (b->whole[b->particle[t]] && particle_family_is_complete(b, j))) continue;
-            const struct seen seen = near_faces_source_of_entry(b, j);
+            const struct mirrored_particle seen = particle_or_image_source_and_reversed_axes(b, j);
             const int64_t other =
-                entry_of(a, b, b->place[seen.particle], near_faces_offset_seen_from_neighbour(b, &seen, k));
+                entry_of(a, b, b->place[seen.particle], bond_offset_seen_from_other_particle(b, &seen, k));
             groups_join(parent, entry_of(a, b, t, k), other);
         }
 }
@@ -245,7 +248,7 @@ static void bonds_join(const struct bond_classes *a, const struct near_faces *b,
 /* Joins the table entries of bonds of one class that are mirror images of each other, so that they get one factor. A
  * class consists of particles with equal surroundings up to mirrors. a: classes; b: particles near faces, with the
  * lattice offsets; parent: union-find forest of the entries. */
-static void twins_join(const struct bond_classes *a, const struct near_faces *b, int64_t *parent)
+static void twins_join(const struct bond_classes *a, const struct particles_near_faces *b, int64_t *parent)
 {
     const struct offsets *o = &b->offset;
     for (int32_t class = 1; class < a->classes; class ++)
@@ -256,7 +259,7 @@ static void twins_join(const struct bond_classes *a, const struct near_faces *b,
             }
 }
 
-void bond_classes_group_bonds_near_faces(struct bond_classes *classes, const struct near_faces *b)
+void bond_classes_group_bonds_near_faces(struct bond_classes *classes, const struct particles_near_faces *b)
 {
     struct kinds kinds;
     *classes = (struct bond_classes){0};

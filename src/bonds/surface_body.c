@@ -89,62 +89,64 @@ static int offset_between(const struct offsets *o, const struct particles *p, re
 
 /* Returns the source of the mirror image j (an index of the particle arrays of b): a particle of the body, possibly
  * through several mirrors, with the axes that these mirrors reverse (bit d: axis d). */
-struct seen near_faces_source_particle_of_image(const struct near_faces *b, int64_t j)
+struct mirrored_particle mirror_image_source_and_reversed_axes(const struct particles_near_faces *b, int64_t j)
 {
-    struct seen to = {image_source_particle(b->p, b->source->image, j), 0};
+    struct mirrored_particle to = {mirror_image_source_particle(b->p, b->source->image, j), 0};
     for (int d = 0; d < b->p->dim; d++)
         if (fabs(b->p->X[d][j] - b->p->X[d][to.particle]) > 0.25 * b->source->family.spacing) to.mirrors |= 1 << d;
     return to;
 }
 
-int near_faces_offset_seen_from_neighbour(const struct near_faces *b, const struct seen *other_particle, int k)
+int bond_offset_seen_from_other_particle(const struct particles_near_faces *b,
+                                         const struct mirrored_particle *other_particle, int k)
 {
     return b->offset.n - 1 - b->offset.mirrored[other_particle->mirrors * b->offset.n + k];
 }
 
 /* Parameters and working memory of the neighbour search of one thread, for eight consecutive particles at a time. */
 struct search {
-    const struct site_map *map;
+    const struct lattice_site_map *map;
     int32_t *found; /* [room] neighbours that a search has found */
     int room;
     int64_t first;                /* first of the eight particles */
     bool eight;                   /* the neighbours of all eight are in `regular`, so that no search is needed */
-    struct regular_bonds regular; /* neighbours of the eight particles on a lattice, regardless of pre-cracks */
+    struct lattice_bonds regular; /* neighbours of the eight particles on a lattice, regardless of pre-cracks */
 };
 
 /* Allocates the working memory of a neighbour search in `search`. b: particles near faces, with the data of bonds; map:
  * map from lattice sites to particles, kept by reference. Release it with search_free. */
-static void search_make(struct search *search, const struct near_faces *b, const struct site_map *map)
+static void search_make(struct search *search, const struct particles_near_faces *b, const struct lattice_site_map *map)
 {
-    const int room = bonds_neighbour_count_bound(b->source);
+    const int room = bonds_neighbour_count_upper_bound(b->source);
     *search = (struct search){.map = map, .found = NEW("surface.found", room, int32_t), .room = room};
-    regular_bonds_allocate_for_lattice(&search->regular, map);
+    lattice_bonds_allocate_for_eight_particles(&search->regular, map);
 }
 
 /* Releases the working memory of `search`, a neighbour search. */
 static void search_free(struct search *search)
 {
-    regular_bonds_free(&search->regular);
+    lattice_bonds_free(&search->regular);
     memory_free(search->found);
 }
 
 /* Prepares `search` for the particles first .. first + 7. b: particles near faces. Finds the neighbours from the map of
  * lattice sites if the particles are on a regular part of the lattice (search->eight is then true). */
-static void search_turn(struct search *search, const struct near_faces *b, int64_t first)
+static void search_turn(struct search *search, const struct particles_near_faces *b, int64_t first)
 {
     search->first = first;
-    search->eight = regular_bonds_find_ignoring_cracks(search->map, b->source, b->p, first, &search->regular);
+    search->eight =
+        lattice_bonds_list_neighbours_ignoring_cracks(search->map, b->source, b->p, first, &search->regular);
 }
 
 /* Finds the neighbours of particle i among those that a map of lattice sites gave for eight particles that contain i
  * (search->regular, set by search_turn). b: particles near faces, with the pre-cracks; near: true if a pre-crack may
  * separate some of them from i, which are then left out. to[offsets]: receives the neighbours by lattice offset; other
  * entries are unchanged; NULL: neighbours are only counted. Returns the number of neighbours. */
-static int regular_neighbours(const struct near_faces *b, const struct search *search, int64_t i, bool near,
+static int regular_neighbours(const struct particles_near_faces *b, const struct search *search, int64_t i, bool near,
                               int32_t *to)
 {
     const struct bond_source *s = b->source;
-    const struct regular_bonds *regular = &search->regular;
+    const struct lattice_bonds *regular = &search->regular;
     const int lane = (int)(i - search->first);
     int kept = 0;
     if (!to && regular->full && !near) return regular->n;
@@ -162,7 +164,7 @@ static int regular_neighbours(const struct near_faces *b, const struct search *s
  * which `search` was prepared last (search_turn). b: particles near faces, with the pre-cracks; to[offsets]: receives
  * the neighbours by lattice offset, -1 for offsets without a neighbour; NULL: neighbours are only counted. Returns
  * their number, or -1 if a neighbour is not on the lattice of the particle. */
-static int neighbours_find(const struct near_faces *b, const struct search *search, int64_t i, int32_t *to)
+static int neighbours_find(const struct particles_near_faces *b, const struct search *search, int64_t i, int32_t *to)
 {
     const struct bond_source *s = b->source;
     const bool near = particle_is_near_precrack(s, b->p, i);
@@ -183,7 +185,7 @@ static int neighbours_find(const struct near_faces *b, const struct search *sear
 
 /* Sets b->whole[i] to 1 for particles i that have neighbours at all lattice offsets within the cutoff, else to 0. map:
  * map from lattice sites to particles. Returns false if a particle is not on the lattice. */
-static bool whole_mark(struct near_faces *b, const struct site_map *map)
+static bool whole_mark(struct particles_near_faces *b, const struct lattice_site_map *map)
 {
     bool lattice = true;
 #pragma omp parallel reduction(&& : lattice)
@@ -205,7 +207,7 @@ static bool whole_mark(struct near_faces *b, const struct site_map *map)
 
 /* Sets near[i] to 1, which marks a particle near a face, if i is a particle of b->p and not a mirror image.
  * near[particles]: marks. Several threads may set the same entry. */
-static void near_put(const struct near_faces *b, uint8_t *near, int64_t i)
+static void near_put(const struct particles_near_faces *b, uint8_t *near, int64_t i)
 {
     if (i >= b->p->n) return;
 #pragma omp atomic write
@@ -215,14 +217,14 @@ static void near_put(const struct near_faces *b, uint8_t *near, int64_t i)
 /* Sets near[i] to 1 for the particles i near faces: those without a neighbour at some lattice offset within the cutoff,
  * and their neighbours. Mirror images are examined too, because particles of the body may be their neighbours.
  * near[particles]: 0 before; b: particles, after whole_mark; map: map from lattice sites to particles. */
-static void near_mark(uint8_t *near, const struct near_faces *b, const struct site_map *map)
+static void near_mark(uint8_t *near, const struct particles_near_faces *b, const struct lattice_site_map *map)
 {
     const struct particles *p = b->p;
 #pragma omp parallel
     {
         struct search search;
         search_make(&search, b, map);
-        const struct regular_bonds *regular = &search.regular;
+        const struct lattice_bonds *regular = &search.regular;
 #pragma omp for schedule(static)
         for (int64_t first = 0; first < p->n_all; first += LANES) {
             const int64_t end = first + LANES < p->n_all ? first + LANES : p->n_all;
@@ -248,7 +250,7 @@ static void near_mark(uint8_t *near, const struct near_faces *b, const struct si
 
 /* Lists the neighbours of all particles near faces in b->neighbour[b->n, offsets]. map: map from lattice sites to
  * particles. Returns false if a particle is not on the lattice. */
-static bool neighbours_list(struct near_faces *b, const struct site_map *map)
+static bool neighbours_list(struct particles_near_faces *b, const struct lattice_site_map *map)
 {
     const struct particles *p = b->p;
     bool lattice = true;
@@ -276,7 +278,7 @@ static bool neighbours_list(struct near_faces *b, const struct site_map *map)
 
 /* Lists the particles near faces in b->particle, and their neighbours by lattice offset in b->neighbour. map: map from
  * lattice sites to particles. Returns false if a particle is not on the lattice. */
-static bool near_list(struct near_faces *b, const struct site_map *map)
+static bool near_list(struct particles_near_faces *b, const struct lattice_site_map *map)
 {
     const struct particles *p = b->p;
     uint8_t *near = NEW("surface.near", p->n, uint8_t);
@@ -295,10 +297,10 @@ static bool near_list(struct near_faces *b, const struct site_map *map)
 /* Finds the first pair of neighbours whose distance along some axis is not a whole number of spacings, and which no
  * pre-crack separates. b: particles near faces; map: map from lattice sites to particles; apart[2]: receives both
  * particles, -1 if there is no such pair. */
-static void apart_find(const struct near_faces *b, const struct site_map *map, int64_t apart[2])
+static void apart_find(const struct particles_near_faces *b, const struct lattice_site_map *map, int64_t apart[2])
 {
     const struct bond_source *s = b->source;
-    const int room = bonds_neighbour_count_bound(s);
+    const int room = bonds_neighbour_count_upper_bound(s);
     int32_t *found = NEW("surface.found", room, int32_t);
     apart[0] = apart[1] = -1;
     for (int64_t i = 0; i < b->p->n && apart[0] < 0; i++) {
@@ -312,29 +314,29 @@ static void apart_find(const struct near_faces *b, const struct site_map *map, i
     memory_free(found);
 }
 
-status near_faces_list_particles_and_neighbours(struct near_faces *b, const struct particles *p,
-                                                const struct bond_source *s, int64_t unfitting_pair[2])
+status particles_near_faces_list_with_neighbours(struct particles_near_faces *b, const struct particles *p,
+                                                 const struct bond_source *s, int64_t unfitting_pair[2])
 {
-    struct site_map map = {0};
-    *b = (struct near_faces){.p = p, .source = s};
+    struct lattice_site_map map = {0};
+    *b = (struct particles_near_faces){.p = p, .source = s};
     offsets_make(&b->offset, &s->family, s->modulus != NULL);
     b->whole = NEW("surface.whole", p->n, uint8_t);
-    site_map_make_if_on_lattice(&map, s, p);
+    lattice_site_map_make_if_particles_fit_lattice(&map, s, p);
     const bool lattice = whole_mark(b, &map) && near_list(b, &map);
     if (!lattice) apart_find(b, &map, unfitting_pair);
-    site_map_free(&map);
+    lattice_site_map_free(&map);
     if (lattice) return OK;
-    near_faces_free(b);
+    particles_near_faces_free(b);
     return status_set(REFUSED,
                       "pd.surface: moments needs particles on a regular lattice; set pd.surface: volume or none");
 }
 
-void near_faces_free(struct near_faces *b)
+void particles_near_faces_free(struct particles_near_faces *b)
 {
     offsets_free(&b->offset);
     memory_free(b->particle);
     memory_free(b->place);
     memory_free(b->neighbour);
     memory_free(b->whole);
-    *b = (struct near_faces){0};
+    *b = (struct particles_near_faces){0};
 }

@@ -29,29 +29,29 @@ struct exposed_face {
 /* Area vectors [near n] of the faces of the particles near faces, on the lattice: sums of unit vectors along the
  * axes on which a particle has no neighbour [spacings^(dim-1)]. */
 struct raw_faces {
-    const struct near_faces *body;
+    const struct particles_near_faces *body;
     real (*area)[DIM_MAX];
 };
 
 /* Returns true if a particle has a face at one end of an axis, because it has no neighbour there. t: index of the
  * particle among b, those near faces; axis: 0 to dim - 1; up: 1 for the end in positive direction, 0 for that in
  * negative direction. */
-static bool lacks(const struct near_faces *b, int64_t t, int axis, int up)
+static bool lacks(const struct particles_near_faces *b, int64_t t, int axis, int up)
 {
-    return near_faces_neighbour_at_offset(b, t, b->offset.axis[axis][up]) < 0;
+    return particles_near_faces_neighbour_at_offset(b, t, b->offset.axis[axis][up]) < 0;
 }
 
 /* Returns the face in `raw` of particle or mirror image j: its position and its area vector. For an image it is the
  * face of the particle that is mirrored, reflected. The size of the face is 0 if the particle is near no face. */
 static struct exposed_face face_seen(const struct raw_faces *raw, int64_t j)
 {
-    const struct near_faces *b = raw->body;
+    const struct particles_near_faces *b = raw->body;
     struct exposed_face f = {{0}, {0}, 0};
-    const struct seen seen = near_faces_source_of_entry(b, j);
+    const struct mirrored_particle seen = particle_or_image_source_and_reversed_axes(b, j);
     const int64_t t = b->place[seen.particle];
     if (t < 0) return f;
     for (int d = 0; d < b->p->dim; d++) {
-        f.area[d] = mirror_sign(seen.mirrors, d) * raw->area[t][d];
+        f.area[d] = mirror_sign_of_vector_component(seen.mirrors, d) * raw->area[t][d];
         f.centre[d] = b->p->X[d][j] / b->source->family.spacing + 0.5 * f.area[d];
         f.size += square(f.area[d]);
     }
@@ -87,15 +87,15 @@ static void mean_add(const struct exposed_face *f, const real *from, real weight
  * the lattice; t: index of the particle among those near faces. */
 static struct mean_face mean_face_of(const struct raw_faces *raw, int64_t t)
 {
-    const struct near_faces *b = raw->body;
+    const struct particles_near_faces *b = raw->body;
     const int dim = b->p->dim;
     const struct exposed_face own = face_seen(raw, b->particle[t]);
     real area[DIM_MAX] = {0}, sums[4 + 9] = {0}, size = 0;
     struct mean_face mean = {{0}, 0};
     mean_add(&own, own.centre, 1, dim, area, sums);
     for (int k = 0; k < b->offset.n; k++) {
-        if (near_faces_neighbour_at_offset(b, t, k) < 0) continue;
-        const struct exposed_face other = face_seen(raw, near_faces_neighbour_at_offset(b, t, k));
+        if (particles_near_faces_neighbour_at_offset(b, t, k) < 0) continue;
+        const struct exposed_face other = face_seen(raw, particles_near_faces_neighbour_at_offset(b, t, k));
         if (other.size > 0 && dot(own.area, other.area, dim) > -1e-9)
             mean_add(&other, own.centre, nearness(&b->offset, k), dim, area, sums);
     }
@@ -161,7 +161,7 @@ struct smooth_faces {
  * -1 if the particle has none. raw: the stairs. */
 static void smooth_faces_make(struct smooth_faces *s, const struct raw_faces *raw)
 {
-    const struct near_faces *b = raw->body;
+    const struct particles_near_faces *b = raw->body;
     *s = (struct smooth_faces){.at = BARE("surface.smooth", b->n, int32_t)};
     for (int64_t t = 0; t < b->n; t++) {
         bool any = false;
@@ -178,21 +178,21 @@ static void smooth_faces_make(struct smooth_faces *s, const struct raw_faces *ra
  * If the faces nearby have less weight than those at a plane face, the mean is multiplied by the ratio of both to the
  * power NEAR, except in models with rotations (`rotates`). It is 0 without faces. s: smoothed faces; plane: sum of the
  * weights at a plane face; t: index of the particle among b, those near faces. */
-static void normals_gather(struct surface_fit_targets *f, const struct near_faces *b, const struct smooth_faces *s,
-                           real plane, bool rotates, int64_t t)
+static void normals_gather(struct surface_fit_targets *f, const struct particles_near_faces *b,
+                           const struct smooth_faces *s, real plane, bool rotates, int64_t t)
 {
     const int dim = b->p->dim;
     real sum[DIM_MAX][DIM_MAX] = {{0}}, trace = 0;
     if (s->at[t] >= 0) array_copy(sum, s->smooth[s->at[t]].square, 1, sizeof sum);
     for (int k = 0; k < b->offset.n; k++) {
-        const int32_t j = near_faces_neighbour_at_offset(b, t, k);
+        const int32_t j = particles_near_faces_neighbour_at_offset(b, t, k);
         if (j < 0) continue;
-        const struct seen seen = near_faces_source_of_entry(b, j);
+        const struct mirrored_particle seen = particle_or_image_source_and_reversed_axes(b, j);
         const int64_t near = b->place[seen.particle], other = near < 0 ? -1 : s->at[near];
         for (int a = 0; a < dim && other >= 0; a++)
             for (int c = 0; c < dim; c++)
-                sum[a][c] += nearness(&b->offset, k) * mirror_sign(seen.mirrors, a) * mirror_sign(seen.mirrors, c) *
-                             s->smooth[other].square[a][c];
+                sum[a][c] += nearness(&b->offset, k) * mirror_sign_of_vector_component(seen.mirrors, a) *
+                             mirror_sign_of_vector_component(seen.mirrors, c) * s->smooth[other].square[a][c];
     }
     for (int d = 0; d < dim; d++) trace += sum[d][d];
     const real near = rotates ? 1 : pow(fmin(trace / plane, 1), NEAR);
@@ -206,22 +206,23 @@ static void normals_gather(struct surface_fit_targets *f, const struct near_face
  * rotations (`rotates`) 2, -3, 1 on three, a one-sided first derivative of second order at the face; nothing with a
  * single layer. smooth: smoothing of the face; t: index of the particle among b, those near faces; up: 1 for the end in
  * positive direction, else 0. */
-static void face_spread(struct surface_fit_targets *f, const struct near_faces *b, const struct smooth *smooth,
-                        int64_t t, int axis, int up, bool rotates)
+static void face_spread(struct surface_fit_targets *f, const struct particles_near_faces *b,
+                        const struct smooth *smooth, int64_t t, int axis, int up, bool rotates)
 {
     static const real area[2][2] = {{1}, {1.5, -0.5}}, first[2] = {1, -1}, second[CHAIN] = {2, -3, 1};
-    struct seen chain[CHAIN] = {{b->particle[t], 0}};
+    struct mirrored_particle chain[CHAIN] = {{b->particle[t], 0}};
     int length = 1;
     while (length < CHAIN) { /* through mirrors too */
-        const struct seen next = near_faces_mirrored_neighbour(b, &chain[length - 1], b->offset.axis[axis][!up]);
+        const struct mirrored_particle next =
+            mirrored_particle_neighbour_at_offset(b, &chain[length - 1], b->offset.axis[axis][!up]);
         if (next.particle < 0 || b->place[next.particle] < 0) break;
         chain[length++] = next;
     }
     const int two = length > 1;
     for (int k = 0; k <= two; k++)
         for (int d = 0; d < b->p->dim; d++)
-            f->area[b->place[chain[k].particle]][d] +=
-                mirror_sign(chain[k].mirrors, d) * area[two][k] * (up ? 1 : -1) * smooth->project[d][axis];
+            f->area[b->place[chain[k].particle]][d] += mirror_sign_of_vector_component(chain[k].mirrors, d) *
+                                                       area[two][k] * (up ? 1 : -1) * smooth->project[d][axis];
     if (rotates && length == CHAIN)
         for (int k = 0; k < CHAIN; k++) f->dipole[b->place[chain[k].particle]] += second[k];
     else if (two)
@@ -231,13 +232,13 @@ static void face_spread(struct surface_fit_targets *f, const struct near_faces *
 /* Returns the number of layers of particles along an axis through a particle, from face to face of the body, at most
  * `most`; `most` also if the line contains particles that are near no face. t: index of the particle among b, those
  * near faces. */
-static int layers(const struct near_faces *b, int64_t t, int axis, int most)
+static int layers(const struct particles_near_faces *b, int64_t t, int axis, int most)
 {
     int n = 1;
     for (int up = 0; up < 2; up++) {
-        struct seen at = {b->particle[t], 0};
+        struct mirrored_particle at = {b->particle[t], 0};
         while (n < most) {
-            at = near_faces_mirrored_neighbour(b, &at, b->offset.axis[axis][up]);
+            at = mirrored_particle_neighbour_at_offset(b, &at, b->offset.axis[axis][up]);
             if (at.particle < 0) break;
             n++;
             if (b->place[at.particle] < 0) return most; /* not near any face */
@@ -246,7 +247,8 @@ static int layers(const struct near_faces *b, int64_t t, int axis, int most)
     return n;
 }
 
-void surface_fit_targets_compute_moments(struct surface_fit_targets *f, const struct near_faces *b, bool with_rotations)
+void surface_fit_targets_compute_areas_and_moments(struct surface_fit_targets *f, const struct particles_near_faces *b,
+                                                   bool with_rotations)
 {
     const int dim = b->p->dim, most = with_rotations ? THIN_ROTATING : THIN;
     struct raw_faces raw = {b, (real(*)[DIM_MAX])memory_new("surface.area", b->n, sizeof *raw.area)};

@@ -228,9 +228,10 @@ static void class_goal_add(struct class_goal *to, int dim, const struct surface_
 {
     to->dipole += share * f->dipole[t];
     for (int d = 0; d < dim; d++) {
-        const real sign = share * mirror_sign(mirrors, d);
+        const real sign = share * mirror_sign_of_vector_component(mirrors, d);
         to->area[d] += sign * f->area[t][d];
-        for (int e = 0; e < dim; e++) to->normal2[d][e] += sign * mirror_sign(mirrors, e) * f->normal2[t][d][e];
+        for (int e = 0; e < dim; e++)
+            to->normal2[d][e] += sign * mirror_sign_of_vector_component(mirrors, e) * f->normal2[t][d][e];
     }
 }
 
@@ -238,7 +239,7 @@ static void class_goal_add(struct class_goal *to, int dim, const struct surface_
  * surroundings): face area, dipole (difference between the first layers behind a face) and product of face normals N
  * (x) N. goal must be 0 before. dim: number of dimensions; b: particles near faces; f: values of each particle; a:
  * classes. */
-static void class_goals(struct class_goal *goal, int dim, const struct near_faces *b,
+static void class_goals(struct class_goal *goal, int dim, const struct particles_near_faces *b,
                         const struct surface_fit_targets *f, const struct bond_classes *a)
 {
     for (int64_t t = 0; t < b->n; t++) {
@@ -255,7 +256,7 @@ static void class_goals(struct class_goal *goal, int dim, const struct near_face
  * whose factors are fixed. m: moments of the bonds; b: particles near faces; a: classes; goal: means of the face
  * properties over the particles of the class; alpha: coefficient by which the dipole raises the target of the fourth
  * moments [1]; class: its number, from 1. */
-static void class_make(struct class_fit *c, const struct moments *m, const struct near_faces *b,
+static void class_make(struct class_fit *c, const struct moments *m, const struct particles_near_faces *b,
                        struct class_goal *goal, const struct bond_classes *a, int32_t class, real alpha)
 {
     real P[STRAINS][STRAINS];
@@ -274,7 +275,8 @@ static void class_make(struct class_fit *c, const struct moments *m, const struc
         }
     for (int x = 0; x < m->fourth.n; x++) c->goal[m->thirds + x] = (1 + alpha * goal->dipole) * m->full[x];
     for (int k = 0; k < b->offset.n; k++) { /* less the bonds that do not change */
-        if (bond_class_neighbour_at_offset(a, b, class, k) < 0 || a->group_of[(int64_t) class * b->offset.n + k] >= 0)
+        if (bond_class_first_particle_neighbour_at_offset(a, b, class, k) < 0 ||
+            a->group_of[(int64_t) class * b->offset.n + k] >= 0)
             continue;
         for (int x = 0; x < m->width; x++) c->goal[x] -= m->of[(int64_t)k * m->width + x];
     }
@@ -346,7 +348,7 @@ static void prior_make(struct surface_fit_problem *q, const struct moments *m)
 /* Returns true if a particle is at the end of a crack or of a narrow void: a neighbour of one of its neighbours is
  * within its own cutoff, but separated from it by the crack or void. t: index of the particle among b, those near
  * faces. */
-static bool at_crack_end(const struct near_faces *b, int64_t t)
+static bool at_crack_end(const struct particles_near_faces *b, int64_t t)
 {
     const struct offsets *o = &b->offset;
     const struct particles *p = b->p;
@@ -354,18 +356,18 @@ static bool at_crack_end(const struct near_faces *b, int64_t t)
     const bool across = particle_is_beside_void(b->source->voids, i) && b->source->voids->near[i] & VOID_ACROSS;
     if (!across && !particle_is_near_precrack(b->source, p, i)) return false;
     for (int k = 0; k < o->n; k++) {
-        const int32_t j = near_faces_neighbour_at_offset(b, t, k);
+        const int32_t j = particles_near_faces_neighbour_at_offset(b, t, k);
         if (j < 0) continue;
-        const struct seen seen = near_faces_source_of_entry(b, j);
+        const struct mirrored_particle seen = particle_or_image_source_and_reversed_axes(b, j);
         for (int l = 0; l < o->n && b->place[seen.particle] >= 0; l++) {
             int place = 0;
-            bool within = near_faces_mirrored_neighbour(b, &seen, l).particle >= 0;
+            bool within = mirrored_particle_neighbour_at_offset(b, &seen, l).particle >= 0;
             for (int d = o->dim - 1; d >= 0; d--) {
                 const int at = o->at[k][d] + o->at[l][d];
                 within = within && abs(at) <= o->reach;
                 place = place * (2 * o->reach + 1) + o->reach + at;
             }
-            if (within && o->number[place] >= 0 && near_faces_neighbour_at_offset(b, t, o->number[place]) < 0)
+            if (within && o->number[place] >= 0 && particles_near_faces_neighbour_at_offset(b, t, o->number[place]) < 0)
                 return true;
         }
     }
@@ -374,10 +376,10 @@ static bool at_crack_end(const struct near_faces *b, int64_t t)
 
 /* Returns the number of neighbours of a particle within the cutoff. t: index of the particle among b, those near
  * faces. */
-static int neighbours(const struct near_faces *b, int64_t t)
+static int neighbours(const struct particles_near_faces *b, int64_t t)
 {
     int n = 0;
-    for (int k = 0; k < b->offset.n; k++) n += near_faces_neighbour_at_offset(b, t, k) >= 0;
+    for (int k = 0; k < b->offset.n; k++) n += particles_near_faces_neighbour_at_offset(b, t, k) >= 0;
     return n;
 }
 
@@ -393,15 +395,16 @@ static bool may_break(const struct bond_limit *limit)
 /* Fixes the factors on the weights of the bonds of class number `class` (particles with equal surroundings) in q, by
  * equal lower and upper bounds: at 1 if `one`, else at the factor of the volume method (Le & Bobaru 2018), between
  * LEAST and MOST. b: particles near faces. */
-static void class_fix(struct surface_fit_problem *q, const struct near_faces *b, int32_t class, bool one)
+static void class_fix(struct surface_fit_problem *q, const struct particles_near_faces *b, int32_t class, bool one)
 {
     const struct bond_classes *a = q->alike;
     const int n = b->offset.n, own = neighbours(b, a->member[class]);
     for (int k = 0; k < n; k++) {
         const int64_t g = a->group_of[(int64_t) class * n + k];
         if (g < 0) continue;
-        const int64_t other =
-            b->place[near_faces_source_of_entry(b, bond_class_neighbour_at_offset(a, b, class, k)).particle];
+        const int64_t other = b->place[particle_or_image_source_and_reversed_axes(
+                                           b, bond_class_first_particle_neighbour_at_offset(a, b, class, k))
+                                           .particle];
         const real both = own + neighbours(b, other);
         q->low[g] = q->high[g] = one ? 1 : fmin(fmax(2.0 * n / both, LEAST), MOST);
     }
@@ -413,8 +416,8 @@ static void class_fix(struct surface_fit_problem *q, const struct near_faces *b,
  * and the critical stretch is calibrated for factor 1 (otherwise Kalthoff's crack turns to 61 degrees at 1 mm). Thin
  * parts are treated last, so that a bond between both does not depend on the order of its particles. b: particles near
  * faces. */
-static void plain_parts(struct surface_fit_problem *q, const struct near_faces *b, const struct surface_fit_targets *f,
-                        bool rotates)
+static void plain_parts(struct surface_fit_problem *q, const struct particles_near_faces *b,
+                        const struct surface_fit_targets *f, bool rotates)
 {
     const struct bond_classes *a = q->alike;
     const bool breaks = may_break(&b->source->limit);
@@ -427,8 +430,8 @@ static void plain_parts(struct surface_fit_problem *q, const struct near_faces *
 /* Allocates and sets the bounds q->low[sets] and q->high[sets] of the factors of all sets of bonds that share one
  * factor: LEAST and MOST, or equal bounds at ends of cracks and in thin parts, where the factor is fixed. b: particles
  * near faces; f: states which particles are in thin parts; rotates: true for a model with particle rotations. */
-static void bounds_make(struct surface_fit_problem *q, const struct near_faces *b, const struct surface_fit_targets *f,
-                        bool rotates)
+static void bounds_make(struct surface_fit_problem *q, const struct particles_near_faces *b,
+                        const struct surface_fit_targets *f, bool rotates)
 {
     const int64_t groups = q->alike->groups;
     q->low = NEW("surface.low", groups, real), q->high = NEW("surface.high", groups, real);
@@ -436,7 +439,7 @@ static void bounds_make(struct surface_fit_problem *q, const struct near_faces *
     plain_parts(q, b, f, rotates);
 }
 
-real surface_fit_compute_bond_weight_factors(real *factor, const struct near_faces *b,
+real surface_fit_compute_bond_weight_factors(real *factor, const struct particles_near_faces *b,
                                              const struct surface_fit_targets *f, const struct bond_classes *a,
                                              bool with_rotations, int max_matrix_products)
 {

@@ -23,7 +23,7 @@ struct offsets {
 
 /* The n particles of p near faces, i.e. particles with a missing neighbour and neighbours of such particles, with all
  * their neighbours by offset (lattice vector from particle to neighbour). source: inputs of the bonds. */
-struct near_faces {
+struct particles_near_faces {
     const struct particles *p;
     const struct bond_source *source;
     struct offsets offset;
@@ -36,7 +36,7 @@ struct near_faces {
 
 /* A neighbour that may be a mirror image. particle: its source, a particle of the body, or the neighbour itself;
  * mirrors: bit d is set if the mirrors between both reverse axis d. */
-struct seen {
+struct mirrored_particle {
     int64_t particle;
     int mirrors;
 };
@@ -44,25 +44,26 @@ struct seen {
 /* Returns the source of the mirror image `entry` (a copy beyond a plane of symmetry; index of the particle arrays): a
  * particle of the body, possibly through several mirrors, with the axes that these mirrors reverse (bit d: axis d). b:
  * particles near faces. */
-struct seen near_faces_source_particle_of_image(const struct near_faces *b, int64_t entry);
+struct mirrored_particle mirror_image_source_and_reversed_axes(const struct particles_near_faces *b, int64_t entry);
 
 /* Returns the particle of the body that belongs to entry `entry` of the particle arrays: `entry` itself or, for a
  * mirror image (copy beyond a plane of symmetry), the particle that it mirrors, with the axes that the mirrors in
  * between reverse (bit d: axis d). b: particles near faces. */
-static inline struct seen near_faces_source_of_entry(const struct near_faces *b, int64_t entry)
+static inline struct mirrored_particle particle_or_image_source_and_reversed_axes(const struct particles_near_faces *b,
+                                                                                  int64_t entry)
 {
-    return entry < b->p->n ? (struct seen){entry, 0} : near_faces_source_particle_of_image(b, entry);
+    return entry < b->p->n ? (struct mirrored_particle){entry, 0} : mirror_image_source_and_reversed_axes(b, entry);
 }
 
 /* Returns the sign that the mirrors `mirrors` (bit d: they reverse axis d) give a vector component along axis `axis`:
  * -1 if they reverse that axis, else 1. */
-static inline real mirror_sign(int mirrors, int axis) { return mirrors >> axis & 1 ? -1 : 1; }
+static inline real mirror_sign_of_vector_component(int mirrors, int axis) { return mirrors >> axis & 1 ? -1 : 1; }
 
 /* Returns the particle or mirror image that is offset number `offset_number` (an index into the arrays of b->offset,
  * the relative positions of neighbours on the lattice) away from b->particle[particle_number]; -1 if there is none or
  * the bond is cut. */
-static inline int32_t near_faces_neighbour_at_offset(const struct near_faces *b, int64_t particle_number,
-                                                     int offset_number)
+static inline int32_t particles_near_faces_neighbour_at_offset(const struct particles_near_faces *b,
+                                                               int64_t particle_number, int offset_number)
 {
     return b->neighbour[particle_number * b->offset.n + offset_number];
 }
@@ -70,38 +71,41 @@ static inline int32_t near_faces_neighbour_at_offset(const struct near_faces *b,
 /* Returns the neighbour at offset number `offset` (a relative position on the lattice) of `from`, a particle near faces
  * b or its image in mirrors. The result contains the particle of the body and the axes that mirrors reverse on the way
  * to this neighbour; its member `particle` is -1 if there is no neighbour or the bond is cut. */
-static inline struct seen near_faces_mirrored_neighbour(const struct near_faces *b, const struct seen *from, int offset)
+static inline struct mirrored_particle mirrored_particle_neighbour_at_offset(const struct particles_near_faces *b,
+                                                                             const struct mirrored_particle *from,
+                                                                             int offset)
 {
     const int32_t own = b->offset.mirrored[from->mirrors * b->offset.n + offset];
-    const int32_t j = near_faces_neighbour_at_offset(b, b->place[from->particle], own);
-    if (j < 0) return (struct seen){-1, 0};
-    struct seen to = near_faces_source_of_entry(b, j);
+    const int32_t j = particles_near_faces_neighbour_at_offset(b, b->place[from->particle], own);
+    if (j < 0) return (struct mirrored_particle){-1, 0};
+    struct mirrored_particle to = particle_or_image_source_and_reversed_axes(b, j);
     to.mirrors ^= from->mirrors;
     return to;
 }
 
 /* Returns true if no neighbour of entry j of the particle arrays is missing, so that no face is near. If j is a mirror
  * image (copy beyond a plane of symmetry), its source particle is examined. b: particles near faces. */
-static inline bool particle_family_is_complete(const struct near_faces *b, int64_t j)
+static inline bool particle_family_is_complete(const struct particles_near_faces *b, int64_t j)
 {
-    return b->whole[j < b->p->n ? j : image_source_particle(b->p, b->source->image, j)];
+    return b->whole[j < b->p->n ? j : mirror_image_source_particle(b->p, b->source->image, j)];
 }
 
 /* Returns the index, in the list of relative positions of neighbours on the lattice, of the position of the first
  * particle of a bond as seen from its second particle: the opposite of the relative position number `offset` at the
  * first particle. other_particle: the second particle; where it is a mirror image, the relative position is also
  * reflected at the mirror. b: holds the list. */
-int near_faces_offset_seen_from_neighbour(const struct near_faces *b, const struct seen *other_particle, int offset);
+int bond_offset_seen_from_other_particle(const struct particles_near_faces *b,
+                                         const struct mirrored_particle *other_particle, int offset);
 
 /* Lists in b the particles of p near faces (with a missing neighbour, or beside such a particle) and all their
  * neighbours. source: inputs of the bonds (horizon, materials, cracks, mirrors). Returns REFUSED, with a message, if
  * the particles are not on a lattice; unfitting_pair[0] is then the first particle with a neighbour that is not a whole
- * number of spacings away, unfitting_pair[1] this neighbour. Release with near_faces_free. */
-status near_faces_list_particles_and_neighbours(struct near_faces *b, const struct particles *p,
-                                                const struct bond_source *source, int64_t unfitting_pair[2]);
+ * number of spacings away, unfitting_pair[1] this neighbour. Release with particles_near_faces_free. */
+status particles_near_faces_list_with_neighbours(struct particles_near_faces *b, const struct particles *p,
+                                                 const struct bond_source *source, int64_t unfitting_pair[2]);
 
 /* Releases all arrays of b, the particles near faces. */
-void near_faces_free(struct near_faces *b);
+void particles_near_faces_free(struct particles_near_faces *b);
 
 /* Properties of the faces near each particle [n], from which the targets for the weights (factors on the stiffness) of
  * its bonds follow (surface_fit.c). */
@@ -122,8 +126,8 @@ enum { THIN = 4, THIN_ROTATING = 5 };
  * stiffness) of its bonds are fitted: face area with outward normal, increase of the fourth moment of the bonds, and
  * mean product of normals (members area, dipole, normal2). with_rotations: true for the modified state-based model, in
  * which particles rotate. Release with surface_fit_targets_free. */
-void surface_fit_targets_compute_moments(struct surface_fit_targets *f, const struct near_faces *near,
-                                         bool with_rotations);
+void surface_fit_targets_compute_areas_and_moments(struct surface_fit_targets *f,
+                                                   const struct particles_near_faces *near, bool with_rotations);
 
 /* Releases all arrays of f, the targets of the fit of bond weights near faces. */
 void surface_fit_targets_free(struct surface_fit_targets *f);
@@ -134,7 +138,7 @@ struct bond_classes {
     int32_t classes, *class_of; /* [near n] class; 0 is not used (no face nearby) */
     uint8_t *mirrors; /* [near n] mirrors (one bit per axis) that map its surroundings to those of the first particle of
                          its class */
-    int64_t *member;  /* [classes] first particle of the class, as index in near_faces */
+    int64_t *member;  /* [classes] first particle of the class, as index in particles_near_faces */
     real *members;    /* [classes] number of particles */
     uint8_t *symmetry; /* [classes] bit m: the class is its own image in mirrors m */
     int64_t groups;    /* number of groups of bonds */
@@ -143,18 +147,19 @@ struct bond_classes {
 
 /* Sorts the particles `near` near faces into classes with equal surroundings up to reflections along axes, and their
  * bonds into groups with one factor each. Release with bond_classes_free. */
-void bond_classes_group_bonds_near_faces(struct bond_classes *classes, const struct near_faces *near);
+void bond_classes_group_bonds_near_faces(struct bond_classes *classes, const struct particles_near_faces *near);
 
 /* Returns the particle or mirror image that is offset number `offset_number` (a relative position on the lattice) away
  * from the first particle of class number `class` in `classes`, whose particles (near faces, `near`) have equal
  * surroundings up to reflections; -1 if there is none. The offset refers to the axes of the class, some of which may be
  * reversed at this particle. */
-static inline int32_t bond_class_neighbour_at_offset(const struct bond_classes *classes, const struct near_faces *near,
-                                                     int32_t class, int offset_number)
+static inline int32_t bond_class_first_particle_neighbour_at_offset(const struct bond_classes *classes,
+                                                                    const struct particles_near_faces *near,
+                                                                    int32_t class, int offset_number)
 {
     const int64_t t = classes->member[class];
-    return near_faces_neighbour_at_offset(near, t,
-                                          near->offset.mirrored[classes->mirrors[t] * near->offset.n + offset_number]);
+    return particles_near_faces_neighbour_at_offset(
+        near, t, near->offset.mirrored[classes->mirrors[t] * near->offset.n + offset_number]);
 }
 
 /* Releases all arrays of `classes`, the classes of particles near faces. */
@@ -200,7 +205,7 @@ real surface_fit_solve_least_squares(const struct surface_fit_problem *q, real *
  * weights are fitted; classes: classes of particles and groups of bonds; with_rotations: true for the modified
  * state-based model, in which particles rotate; max_matrix_products: largest number of matrix products of the solver
  * (surface_fit_solve_least_squares). Returns the remaining residual divided by the residual with all factors 1. */
-real surface_fit_compute_bond_weight_factors(real *factor, const struct near_faces *near,
+real surface_fit_compute_bond_weight_factors(real *factor, const struct particles_near_faces *near,
                                              const struct surface_fit_targets *targets,
                                              const struct bond_classes *classes, bool with_rotations,
                                              int max_matrix_products);

@@ -37,8 +37,8 @@ void contact_make(struct contact *c, enum contact_between between, struct contac
                                   .cracks = source->cracks,
                                   .shape = body_shapes};
     c->rigid = rigid, c->rigids = rigid_body_count;
-    if (!contact_is_possible(c)) return;
-    contact_density_profile_make(&c->law.profile, space_dim(family.space));
+    if (!contact_is_enabled(c)) return;
+    contact_profile_tabulate_height_above_flat_face(&c->law.profile, space_dim(family.space));
     if (law.distance == DISTANCE_SPACING)
         family_make_on_lattice(&family, family.space, family.spacing, REFERENCE_HORIZON, family.section);
     c->law.stiffness = NEW("contact.stiffness", n * n, real);
@@ -103,7 +103,7 @@ real contact_critical_time_step(const struct contact *c, const struct particles 
     static const real opposite[DIM_MAX + 1] = {0, 1, 1.5, 2}, squeezed[DIM_MAX + 1] = {0, 2, 4, 26.0 / 3};
     const int n = c->law.materials;
     real volume = 0, most = 0;
-    if (!contact_is_possible(c)) return INFINITY;
+    if (!contact_is_enabled(c)) return INFINITY;
     for (int64_t i = 0; i < p->n; i++) volume = real_max(volume, p->volume0[i]);
     for (int a = 0; a < n; a++)
         for (int b = 0; b < n; b++)
@@ -120,10 +120,10 @@ real contact_critical_time_step(const struct contact *c, const struct particles 
 
 /* Adds the contacts that one thread has found, *own, to the contacts of all threads, *all: their number, and the
  * largest overlap with its particle if that of *own is larger. */
-static void found_join(struct contact_found *all, const struct contact_found *own)
+static void found_join(struct contact_summary *all, const struct contact_summary *own)
 {
     const int64_t touching = all->touching + own->touching;
-    if (own->touching > 0) contact_found_add_overlap(all, own->overlap, own->deepest);
+    if (own->touching > 0) contact_summary_add_overlap(all, own->overlap, own->deepest);
     all->touching = touching;
 }
 
@@ -132,18 +132,19 @@ static void found_join(struct contact_found *all, const struct contact_found *ow
  * p->f. With the form `surface` (between smooth faces), only computes the gaps, from which faces_force computes forces
  * afterwards. dt: time step, used by the form `surface` [s]. all: the number of contacts found is added, and the
  * largest overlap [m] and its particle are updated; unchanged if no particles are in contact. */
-static void rows_sweep(struct contact *c, struct particles *p, real dt, struct contact_found *all)
+static void rows_sweep(struct contact *c, struct particles *p, real dt, struct contact_summary *all)
 {
     const bool faces = c->law.form == CONTACT_SURFACE;
     const real reach = CONTACT_FLATNESS * c->moved / c->law.spacing;
 #pragma omp parallel
     {
-        struct contact_found own = {0, 0, INT32_MAX};
+        struct contact_summary own = {0, 0, INT32_MAX};
 #pragma omp for schedule(static)
         for (int64_t row = 0; row < c->rows; row++) {
-            if (!contact_may_act_on_row(c, row) || (faces && !c->touch && c->face[row].far > reach)) continue;
+            if (!contact_list_particle_may_receive_force(c, row) || (faces && !c->touch && c->face[row].far > reach))
+                continue;
             if (faces)
-                contact_face_compute_gap_of_particle(c, p, row, dt, &own);
+                contact_face_store_gap_and_energy_derivatives(c, p, row, dt, &own);
             else
                 contact_pair_add_forces_on_particle(c, p, row, &own);
         }
@@ -162,19 +163,19 @@ static void faces_force(struct contact *c, struct particles *p, real dt)
     {
 #pragma omp for schedule(static)
         for (int64_t row = 0; row < c->rows; row++) {
-            if (!contact_may_act_on_row(c, row)) continue;
+            if (!contact_list_particle_may_receive_force(c, row)) continue;
             contact_face_add_force_on_particle(c, p, row);
             if (c->spring) contact_face_advance_friction_spring(c, p, row, dt);
         }
 #pragma omp for schedule(static)
         for (int64_t row = 0; row < (c->spring ? c->rows : 0); row++)
-            if (contact_may_act_on_row(c, row)) contact_face_add_friction_on_particle(c, p, row);
+            if (contact_list_particle_may_receive_force(c, row)) contact_face_add_friction_on_particle(c, p, row);
     }
 }
 
-void contact_allocate_force_record(struct contact *c, const struct particles *p)
+void contact_allocate_particle_forces(struct contact *c, const struct particles *p)
 {
-    for (int d = 0; d < p->dim && contact_is_possible(c); d++)
+    for (int d = 0; d < p->dim && contact_is_enabled(c); d++)
         if (!c->push[d]) c->push[d] = NEW("contact.push", p->n, real);
 }
 
@@ -189,7 +190,7 @@ static void record(struct contact *c, const struct particles *p, bool after)
 
 void contact_compute_forces(struct contact *c, struct particles *p, real dt)
 {
-    struct contact_found all = {0, 0, INT32_MAX};
+    struct contact_summary all = {0, 0, INT32_MAX};
     if (c->recorded) record(c, p, false);
     if (c->pairs > 0) rows_sweep(c, p, dt, &all);
     if (c->pairs > 0 && c->law.form == CONTACT_SURFACE && (all.touching > 0 || c->spring)) faces_force(c, p, dt);
@@ -225,7 +226,7 @@ static real contact_energy_term(const void *context, int64_t row)
 real contact_elastic_energy(const struct contact *c, const struct particles *p)
 {
     const real pairs = c->pairs > 0 ? reproducible_sum(c->rows, contact_energy_term, &(struct contact_sum){c, p}) : 0;
-    return pairs + contact_rigid_energy(c, p) + contact_friction_stored_energy(c);
+    return pairs + contact_rigid_elastic_energy(c, p) + contact_friction_stored_energy(c);
 }
 
 /* ---- other particles --------------------------------------------------------------------------------------------- */
@@ -264,7 +265,7 @@ status contact_save_or_load(struct contact *c, const struct particles *p, struct
 {
     int64_t numbers[] = {c->made,   c->n,       c->rows,       c->pairs,        c->searched,
                          c->broken, c->changed, c->pairs_most, c->overlap_said, c->due};
-    if (!contact_is_possible(c)) return OK;
+    if (!contact_is_enabled(c)) return OK;
     ARCHIVE_VALUE(a, "contact/numbers", numbers);
     ARCHIVE_VALUE(a, "contact/overlap_most", c->overlap_most);
     ARCHIVE_VALUE(a, "contact/began", c->began);
@@ -277,7 +278,7 @@ status contact_save_or_load(struct contact *c, const struct particles *p, struct
         return status_set(FAILED, "cannot resume: the checkpoint has an impossible number of pairs in contact; it is "
                                   "damaged, start again with --overwrite");
     TRY(contact_array_save_or_load(a, "contact/particle", (void **)&c->particle, c->n, sizeof *c->particle));
-    archive_update_restored_particle_indices(a, c->particle, c->n);
+    archive_renumber_restored_particle_indices(a, c->particle, c->n);
     for (int d = 0; d < p->dim; d++) {
         char name[] = "contact/at_x";
         name[sizeof name - 2] = (char)('x' + d);
@@ -294,13 +295,13 @@ status contact_save_or_load(struct contact *c, const struct particles *p, struct
     if (c->law.friction > 0) {
         ARCHIVE_VALUE(a, "contact/friction_work", c->friction_work);
         TRY(contact_array_save_or_load(a, "contact/spring", (void **)&c->spring, c->rows, sizeof *c->spring));
-        if (!a->saving) contact_friction_reactions_make(c);
+        if (!a->saving) contact_friction_reactions_allocate(c);
     }
-    TRY(contact_rigid_save_or_load(c, a));
-    TRY(contact_selection_save_or_load(c, a));
+    TRY(contact_rigid_save_or_load_particle_lists(c, a));
+    TRY(contact_active_set_save_or_load(c, a));
     if (a->saving) return OK;
     TRY(contact_check(c, p));
-    contact_list_compute_entry_data(c, p);
+    contact_list_set_spacings_and_surface_heights(c, p);
     if (c->touch) contact_activate_all_listed_particles(c);
     return OK;
 }

@@ -14,21 +14,23 @@
 /* Largest force against the rate of the gap, relative to the change of the contact force in a step [1]; empirical. */
 #define BALANCE_DRAG 0.1
 
-real contact_energy_correction_force(struct contact_balance *balance, real stiffness, real gap, bool step_was_made)
+real contact_leapfrog_error_correction_force(struct contact_leapfrog_error_account *error_account, real stiffness,
+                                             real gap, bool step_was_made)
 {
-    if (!step_was_made) return balance->drag;
-    const real was = balance->gap;
-    balance->account -= 0.5 * balance->drag * (gap - balance->older);
-    if ((was < 0) != (gap < 0)) balance->account += (was < 0 ? -0.25 : 0.25) * stiffness * was * gap;
-    balance->older = was, balance->gap = gap, balance->drag = 0;
-    if (!(gap < 0 && balance->account > 0)) return 0;
-    balance->drag = real_min(0.5 * stiffness * BALANCE_DRAG * (gap - real_min(was, 0)), -0.5 * stiffness * gap);
-    return balance->drag;
+    if (!step_was_made) return error_account->drag;
+    const real was = error_account->gap;
+    error_account->account -= 0.5 * error_account->drag * (gap - error_account->older);
+    if ((was < 0) != (gap < 0)) error_account->account += (was < 0 ? -0.25 : 0.25) * stiffness * was * gap;
+    error_account->older = was, error_account->gap = gap, error_account->drag = 0;
+    if (!(gap < 0 && error_account->account > 0)) return 0;
+    error_account->drag = real_min(0.5 * stiffness * BALANCE_DRAG * (gap - real_min(was, 0)), -0.5 * stiffness * gap);
+    return error_account->drag;
 }
 
-struct contact_balance contact_energy_correction_start_account(const struct contact_balance *previous, real gap)
+struct contact_leapfrog_error_account
+contact_leapfrog_error_account_for_new_list(const struct contact_leapfrog_error_account *previous, real gap)
 {
-    struct contact_balance to = {.gap = gap, .older = gap};
+    struct contact_leapfrog_error_account to = {.gap = gap, .older = gap};
     if (!previous) return to;
     if (gap < 0) return *previous;
     to.account = previous->account;

@@ -42,7 +42,7 @@ static void layer_density(int dim, real s, real *density, real *slope)
 #define DEPTH_LEAST 0.2 /* smallest depth below a face in the table of densities [spacings] */
 #define DEPTH_MOST 1.9  /* largest depth in this table [spacings] */
 
-void contact_density_profile_make(struct contact_profile *table, int dim)
+void contact_profile_tabulate_height_above_flat_face(struct contact_profile *table, int dim)
 {
     for (int k = 0; k < PROFILE_NODES; k++) {
         table->depth[k] = DEPTH_LEAST + (DEPTH_MOST - DEPTH_LEAST) * k / (PROFILE_NODES - 1);
@@ -140,35 +140,37 @@ static struct face_gap face_gap(const struct contact *c, const struct face_field
     return at;
 }
 
-void contact_face_compute_gap_of_particle(struct contact *c, const struct particles *p, int64_t row, real dt,
-                                          struct contact_found *found)
+void contact_face_store_gap_and_energy_derivatives(struct contact *c, const struct particles *p, int64_t list_index,
+                                                   real dt, struct contact_summary *found)
 {
-    struct contact_face *face = &c->face[row];
+    struct contact_face *face = &c->face[list_index];
     face->push = face->lift = 0;
-    if (!contact_is_active(contact_selection_marks(c), row, true)) return;
-    const struct face_field field = face_field_at(c, p, p->x, row);
+    if (!contact_is_in_active_set(contact_active_set_flags(c), list_index, true)) return;
+    const struct face_field field = face_field_at(c, p, p->x, list_index);
     const struct face_gap at = face_gap(c, &field, face->zero);
-    const bool touches = contact_is_active(contact_selection_marks(c), row, at.gap < 0);
-    const real force = 0.5 * face->stiffness * (touches ? at.gap : 0) +
-                       contact_energy_correction_force(&c->balance[row], face->stiffness, at.gap, dt > 0);
+    const bool touches = contact_is_in_active_set(contact_active_set_flags(c), list_index, at.gap < 0);
+    const real force =
+        0.5 * face->stiffness * (touches ? at.gap : 0) +
+        contact_leapfrog_error_correction_force(&c->balance[list_index], face->stiffness, at.gap, dt > 0);
     face->mean = field.mean;
     if (!touches) return;
     face->push = force * at.slope;
     face->lift = at.leans ? force / field.density : 0;
-    contact_found_add_overlap(found, -at.gap * c->size[row], c->particle[row]);
+    contact_summary_add_overlap(found, -at.gap * c->size[list_index], c->particle[list_index]);
 }
 
-real contact_face_gap_of_particle(const struct contact *c, const struct particles *p, int64_t row)
+real contact_face_gap_of_particle(const struct contact *c, const struct particles *p, int64_t list_index)
 {
-    const struct face_field field = face_field_at(c, p, p->x, row);
-    return face_gap(c, &field, c->face[row].zero).gap;
+    const struct face_field field = face_field_at(c, p, p->x, list_index);
+    return face_gap(c, &field, c->face[list_index].zero).gap;
 }
 
-real contact_face_energy_of_particle(const struct contact *c, const struct particles *p, int64_t row)
+real contact_face_energy_of_particle(const struct contact *c, const struct particles *p, int64_t list_index)
 {
-    const real gap = contact_face_gap_of_particle(c, p, row);
-    return contact_is_active(contact_selection_marks(c), row, gap < 0) ? 0.25 * c->face[row].stiffness * square(gap)
-                                                                       : 0;
+    const real gap = contact_face_gap_of_particle(c, p, list_index);
+    return contact_is_in_active_set(contact_active_set_flags(c), list_index, gap < 0)
+               ? 0.25 * c->face[list_index].stiffness * square(gap)
+               : 0;
 }
 
 /* Returns the derivative of the contact energy of particle k by the weight with which particle l counts in the density
@@ -179,10 +181,11 @@ static real face_pull(const struct contact *c, int64_t k, int64_t l)
     return face->push - face->lift * (c->rise[l] - face->mean);
 }
 
-struct contact_weight contact_face_density_contribution(const struct contact *c, const struct particles *p, int64_t k,
-                                                        int64_t l, real time_before_present)
+struct contact_density_contribution contact_face_density_contribution(const struct contact *c,
+                                                                      const struct particles *p, int64_t k, int64_t l,
+                                                                      real time_before_present)
 {
-    struct contact_weight w = {0};
+    struct contact_density_contribution w = {0};
     const int32_t i = c->particle[k], j = c->particle[l];
     real reach, r2 = 0;
     const real share = field_share(c, p->dim, k, l, &reach);
@@ -197,39 +200,42 @@ struct contact_weight contact_face_density_contribution(const struct contact *c,
     return w;
 }
 
-/* Adds the contact force on the particle of row `row` of the contact list c to p->f. The contact energy of a particle
- * near a face depends on the density of that face at the particle: the number of particles of the face nearby, weighted
- * by their distance. So the force has two parts: the derivative of the particle's own energy, and the derivatives of
- * the energies of those particles in whose densities it counts. Pairs in which no particle is pushed are skipped. */
-void contact_face_add_force_on_particle(const struct contact *c, struct particles *p, int64_t row)
+/* Adds the contact force on the particle of row `list_index` of the contact list c to p->f. The contact energy of a
+ * particle near a face depends on the density of that face at the particle: the number of particles of the face nearby,
+ * weighted by their distance. So the force has two parts: the derivative of the particle's own energy, and the
+ * derivatives of the energies of those particles in whose densities it counts. Pairs in which no particle is pushed are
+ * skipped. */
+void contact_face_add_force_on_particle(const struct contact *c, struct particles *p, int64_t list_index)
 {
-    const int32_t i = c->particle[row];
+    const int32_t i = c->particle[list_index];
     real f[DIM_MAX] = {0}, apart[DIM_MAX], reach;
-    for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
+    for (int64_t q = c->first[list_index]; q < c->first[list_index + 1]; q++) {
         const int64_t l = c->other[q];
-        if (c->face[row].push == 0 && c->face[c->root[l]].push == 0) continue;
-        const real own = field_share(c, p->dim, row, l, &reach), back = field_share(c, p->dim, l, row, &reach);
-        const real r2 = contact_pair_vector(c, p, row, l, apart);
+        if (c->face[list_index].push == 0 && c->face[c->root[l]].push == 0) continue;
+        const real own = field_share(c, p->dim, list_index, l, &reach),
+                   back = field_share(c, p->dim, l, list_index, &reach);
+        const real r2 = contact_pair_vector_and_squared_distance(c, p, list_index, l, apart);
         if (r2 >= square(reach) || r2 == 0) continue;
         const real r = sqrt(r2), slope = kernel_slope(r / reach) / (reach * r);
-        const real pull = (face_pull(c, row, l) * own + face_pull(c, l, row) * back) * slope;
+        const real pull = (face_pull(c, list_index, l) * own + face_pull(c, l, list_index) * back) * slope;
         for (int d = 0; d < p->dim; d++) f[d] -= pull * apart[d];
     }
     for (int d = 0; d < p->dim; d++) p->f[d][i] += f[d];
 }
 
-void contact_face_linearise_as_spring(const struct contact *c, const struct particles *p, int64_t row,
+void contact_face_linearise_as_spring(const struct contact *c, const struct particles *p, int64_t list_index,
                                       struct contact_term *term)
 {
-    const struct face_field field = face_field_at(c, p, p->x, row);
-    const struct face_gap at = face_gap(c, &field, c->face[row].zero);
-    term->n = 1, term->stiffness = 0.5 * c->face[row].stiffness;
-    term->particle[0] = c->particle[row];
+    const struct face_field field = face_field_at(c, p, p->x, list_index);
+    const struct face_gap at = face_gap(c, &field, c->face[list_index].zero);
+    term->n = 1, term->stiffness = 0.5 * c->face[list_index].stiffness;
+    term->particle[0] = c->particle[list_index];
     for (int d = 0; d < DIM_MAX; d++) term->along[0][d] = 0;
-    for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
+    for (int64_t q = c->first[list_index]; q < c->first[list_index + 1]; q++) {
         const int64_t l = c->other[q];
         real apart[DIM_MAX], reach;
-        const real share = field_share(c, p->dim, row, l, &reach), r = sqrt(contact_pair_vector(c, p, row, l, apart));
+        const real share = field_share(c, p->dim, list_index, l, &reach),
+                   r = sqrt(contact_pair_vector_and_squared_distance(c, p, list_index, l, apart));
         if (r >= reach || !(r > 0)) continue;
         const real by_weight = at.slope - (at.leans ? (c->rise[l] - field.mean) / field.density : 0);
         const real pull = by_weight * share * kernel_slope(r / reach) / (reach * r);
@@ -268,7 +274,8 @@ static real face_notch(const struct contact *c, const struct particles *p, int64
         real reach, r2 = 0;
         field_share(c, p->dim, row, c->other[q], &reach);
         for (int d = 0; d < p->dim; d++) r2 += square(p->X[d][i] - p->X[d][j]);
-        if (r2 < square(reach)) widest = real_max(widest, contact_notch_width_between_entries(c, p, row, c->other[q]));
+        if (r2 < square(reach))
+            widest = real_max(widest, contact_notch_width_between_particles(c, p, row, c->other[q]));
     }
     return widest / c->size[row];
 }
@@ -298,30 +305,31 @@ static bool same_pairs(const struct contact *c, const struct contact *before, in
 }
 
 /* After a search, computes c->face[row].zero, the height above the opposite face at which contact of the particle of
- * row `row` begins. For a particle already in contact, the height keeps its contact energy unchanged. For others it is
- * the height at which the surfaces of the bodies meet, or less if the particle is closer in the reference or the
+ * row `list_index` begins. For a particle already in contact, the height keeps its contact energy unchanged. For others
+ * it is the height at which the surfaces of the bodies meet, or less if the particle is closer in the reference or the
  * present configuration, so that contact begins without a force. previous: contact list before the search;
  * previous_entry: row of the particle in that list, -1 if none; p: particles at their present positions. */
-void contact_face_set_onset_height(struct contact *c, const struct contact *previous, int64_t previous_entry,
-                                   const struct particles *p, int64_t row)
+void contact_face_set_height_where_contact_begins(struct contact *c, const struct contact *previous,
+                                                  int64_t previous_entry, const struct particles *p, int64_t list_index)
 {
-    struct contact_face *face = &c->face[row];
-    const bool pairs = c->first[row + 1] > c->first[row];
-    const struct face_field now = face_field_at(c, p, p->x, row),
-                            reference = pairs ? face_field_at(c, p, p->X, row) : now;
+    struct contact_face *face = &c->face[list_index];
+    const bool pairs = c->first[list_index + 1] > c->first[list_index];
+    const struct face_field now = face_field_at(c, p, p->x, list_index),
+                            reference = pairs ? face_field_at(c, p, p->X, list_index) : now;
     real overlap = 0;
-    face->stiffness = face_stiffness(c, p, row);
+    face->stiffness = face_stiffness(c, p, list_index);
     face->push = face->lift = 0, face->mean = now.mean;
     if (previous_entry >= 0) {
-        const struct face_field then =
-            same_pairs(c, previous, previous_entry, row) ? now : face_field_at(previous, p, p->x, previous_entry);
+        const struct face_field then = same_pairs(c, previous, previous_entry, list_index)
+                                           ? now
+                                           : face_field_at(previous, p, p->x, previous_entry);
         overlap = real_max(0, -face_gap(previous, &then, previous->face[previous_entry].zero).gap);
         overlap *= sqrt(previous->face[previous_entry].stiffness / face->stiffness);
     }
     const real height = face_gap(c, &now, 0).height, least = face_gap(c, &reference, 0).height;
-    const real zero = real_min(1 + c->rise[row], least) - face_notch(c, p, row);
+    const real zero = real_min(1 + c->rise[list_index], least) - face_notch(c, p, list_index);
     face->zero = overlap > 0 ? height + overlap : real_min(zero, height);
-    face->far = real_max(0, least_gap(c, &now, row));
-    c->balance[row] = contact_energy_correction_start_account(
+    face->far = real_max(0, least_gap(c, &now, list_index));
+    c->balance[list_index] = contact_leapfrog_error_account_for_new_list(
         previous_entry < 0 ? NULL : &previous->balance[previous_entry], face_gap(c, &now, face->zero).gap);
 }

@@ -89,9 +89,9 @@ static void rows_touch(const struct contact *c, const struct particles *p, struc
     int32_t *list = BARE("contact.list", c->rows, int32_t);
     int64_t n = 0;
     for (int64_t row = 0; row < c->rows; row++)
-        if (contact_may_act_on_row(c, row)) list[n++] = c->particle[row];
-    loads_set_contact_particles(l, p, list, n);
-    active_rows_activate_rows_of_particles(b, p, l, list, n);
+        if (contact_list_particle_may_receive_force(c, row)) list[n++] = c->particle[row];
+    loads_set_particles_with_contact_forces(l, p, list, n);
+    active_bond_rows_activate_rows_of_particles(b, p, l, list, n);
     memory_free(list);
 }
 
@@ -101,8 +101,8 @@ void contact_activate_newly_moving_particles(struct contact *c, const struct par
     if (c->waiting > 0 && rows_follow(c, p)) rows_touch(c, p, b, l);
 }
 
-void contact_activate_particles_after_restart(struct contact *c, const struct particles *p, struct bonds *b,
-                                              struct loads *l)
+void contact_restore_active_particles_after_restart(struct contact *c, const struct particles *p, struct bonds *b,
+                                                    struct loads *l)
 {
     memory_free(c->followed);
     c->followed = BARE("contact.followed", c->rows, uint8_t);

@@ -74,7 +74,7 @@ static struct contact_partner partner_mean(const struct contact *c, const struct
 {
     struct contact_partner sum = {.density = 0};
     for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
-        const struct contact_weight w = contact_face_density_contribution(c, p, row, c->other[q], lag);
+        const struct contact_density_contribution w = contact_face_density_contribution(c, p, row, c->other[q], lag);
         const int32_t j = c->particle[c->other[q]];
         if (w.weight == 0) continue;
         sum.density += w.weight;
@@ -134,7 +134,7 @@ static void partner_turn(struct contact_partner *to, const struct contact *c, co
 {
     real inertia[6] = {0}, squares[6] = {0}, momentum[DIM_MAX] = {0};
     for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
-        const struct contact_weight w = contact_face_density_contribution(c, p, row, c->other[q], lag);
+        const struct contact_density_contribution w = contact_face_density_contribution(c, p, row, c->other[q], lag);
         const int32_t j = c->particle[c->other[q]];
         const real share = w.weight / to->density;
         real r[DIM_MAX] = {0}, v[DIM_MAX] = {0}, turning[DIM_MAX];
@@ -163,17 +163,17 @@ static struct contact_partner partner_at(const struct contact *c, const struct p
     return partner;
 }
 
-/* Advances the friction spring of row `row` of the contact list c (particles that may come into contact) by a step dt
- * [s], and stores its reaction on the face in c->reaction[row]. p: particles at their present positions. The slip
- * velocity in the step is the mean of those at its start and end, because leap-frog applies the forces of both times to
- * the slip. Does nothing if the particle is not in contact and the spring is not elongated. */
-void contact_face_advance_friction_spring(struct contact *c, const struct particles *p, int64_t row, real dt)
+/* Advances the friction spring of row `list_index` of the contact list c (particles that may come into contact) by a
+ * step dt [s], and stores its reaction on the face in c->reaction[row]. p: particles at their present positions. The
+ * slip velocity in the step is the mean of those at its start and end, because leap-frog applies the forces of both
+ * times to the slip. Does nothing if the particle is not in contact and the spring is not elongated. */
+void contact_face_advance_friction_spring(struct contact *c, const struct particles *p, int64_t list_index, real dt)
 {
-    struct contact_spring *s = &c->spring[row];
-    struct contact_reaction *reaction = &c->reaction[row];
-    const real k = 0.5 * c->face[row].stiffness / square(c->size[row]);
-    if (c->face[row].push == 0 && s->stored == 0) return;
-    const struct contact_partner now = partner_at(c, p, row, 0), before = partner_at(c, p, row, dt);
+    struct contact_spring *s = &c->spring[list_index];
+    struct contact_reaction *reaction = &c->reaction[list_index];
+    const real k = 0.5 * c->face[list_index].stiffness / square(c->size[list_index]);
+    if (c->face[list_index].push == 0 && s->stored == 0) return;
+    const struct contact_partner now = partner_at(c, p, list_index, 0), before = partner_at(c, p, list_index, dt);
     const real force = sqrt(dot(now.force, now.force, p->dim));
     const real *first = before.density > 0 ? before.slip : now.slip;
     real normal[DIM_MAX], slid[DIM_MAX], moment[DIM_MAX];
@@ -195,7 +195,7 @@ void contact_face_advance_friction_spring(struct contact *c, const struct partic
 static void reaction_add(const struct contact *c, const struct particles *p, int64_t l, int64_t row, real *f)
 {
     const struct contact_reaction *reaction = &c->reaction[l];
-    const struct contact_weight w = contact_face_density_contribution(c, p, l, row, 0);
+    const struct contact_density_contribution w = contact_face_density_contribution(c, p, l, row, 0);
     const real share = w.weight / c->spring[l].density;
     real r[DIM_MAX] = {0}, turning[DIM_MAX];
     for (int d = 0; d < p->dim; d++) r[d] = reaction->arm[d] - w.apart[d];
@@ -203,16 +203,16 @@ static void reaction_add(const struct contact *c, const struct particles *p, int
     for (int d = 0; d < p->dim; d++) f[d] -= share * (c->spring[l].drag[d] + turning[d]);
 }
 
-/* Adds the friction forces on the particle of row `row` of the contact list c to p->f: the force of the row's own
- * spring, and the reactions to the springs of other rows. Mirror images need no reactions, since scenes with mirrors
- * have no friction. */
-void contact_face_add_friction_on_particle(const struct contact *c, struct particles *p, int64_t row)
+/* Adds the friction forces on the particle of row `list_index` of the contact list c to p->f: the force of the row's
+ * own spring, and the reactions to the springs of other rows. Mirror images need no reactions, since scenes with
+ * mirrors have no friction. */
+void contact_face_add_friction_on_particle(const struct contact *c, struct particles *p, int64_t list_index)
 {
-    const int32_t i = c->particle[row];
+    const int32_t i = c->particle[list_index];
     real f[DIM_MAX];
-    for (int d = 0; d < p->dim; d++) f[d] = c->spring[row].drag[d];
-    for (int64_t q = c->first[row]; q < c->first[row + 1]; q++)
-        if (c->face[c->other[q]].push != 0) reaction_add(c, p, c->other[q], row, f);
+    for (int d = 0; d < p->dim; d++) f[d] = c->spring[list_index].drag[d];
+    for (int64_t q = c->first[list_index]; q < c->first[list_index + 1]; q++)
+        if (c->face[c->other[q]].push != 0) reaction_add(c, p, c->other[q], list_index, f);
     for (int d = 0; d < p->dim; d++) p->f[d][i] += f[d];
 }
 
@@ -238,7 +238,7 @@ static real springs_sum(const struct contact *c, real (*term)(const void *contex
 real contact_friction_stored_energy(const struct contact *c) { return springs_sum(c, stored_in); }
 real contact_friction_dissipated_energy(const struct contact *c) { return c->friction_work + springs_sum(c, lost_by); }
 
-void contact_friction_reactions_make(struct contact *c)
+void contact_friction_reactions_allocate(struct contact *c)
 {
     memory_free(c->reaction);
     c->reaction = NEW("contact.reaction", c->rows, struct contact_reaction);
@@ -251,7 +251,7 @@ void contact_friction_springs_copy_from_previous(struct contact *c, const struct
 {
     if (!(c->law.friction > 0)) return;
     c->spring = NEW("contact.spring", c->rows, struct contact_spring);
-    contact_friction_reactions_make(c);
+    contact_friction_reactions_allocate(c);
     for (int64_t row = 0; row < c->rows; row++)
         contact_friction_spring_copy_previous(
             &c->spring[row], previous->spring,
@@ -266,7 +266,7 @@ void contact_friction_spring_copy_previous(struct contact_spring *spring, const 
     spring->lost = 0;
 }
 
-void contact_friction_update_work_of_new_list(struct contact *c, const struct contact *previous)
+void contact_friction_work_carry_over_to_new_list(struct contact *c, const struct contact *previous)
 {
     c->friction_work = contact_friction_dissipated_energy(previous) + contact_friction_stored_energy(previous) -
                        contact_friction_stored_energy(c);

@@ -26,26 +26,26 @@ enum row_state { ROW_FAR, ROW_NEAR, ROW_SOURCE, ROW_ACTIVE };
 
 /* Summary of the contacts of a step. touching: number of contacts; overlap: largest overlap [m]; deepest: index of the
  * particle with the largest overlap. */
-struct contact_found {
+struct contact_summary {
     real overlap;
     int64_t touching;
     int32_t deepest;
 };
 
-/* Adds one contact of particle `particle` to *found, the summary of the contacts of a step: counts the contact, and
+/* Adds one contact of particle `particle` to *summary, the summary of the contacts of a step: counts the contact, and
  * stores overlap and particle if `overlap` [m] is the largest so far. Of equal overlaps the particle with the lowest
  * index is stored. */
-static inline void contact_found_add_overlap(struct contact_found *found, real overlap, int32_t particle)
+static inline void contact_summary_add_overlap(struct contact_summary *summary, real overlap, int32_t particle)
 {
-    const bool first = overlap == found->overlap && particle < found->deepest;
-    if (overlap > found->overlap || first) found->overlap = overlap, found->deepest = particle;
-    found->touching++;
+    const bool first = overlap == summary->overlap && particle < summary->deepest;
+    if (overlap > summary->overlap || first) summary->overlap = overlap, summary->deepest = particle;
+    summary->touching++;
 }
 
 /* Computes vector[dim] [m], the vector from the present position of entry `other_entry` of the contact list of c
  * (particles of p that may come into contact) to that of entry `entry`. Returns its square [m^2]. */
-static inline real contact_pair_vector(const struct contact *c, const struct particles *p, int64_t entry,
-                                       int64_t other_entry, real *vector)
+static inline real contact_pair_vector_and_squared_distance(const struct contact *c, const struct particles *p,
+                                                            int64_t entry, int64_t other_entry, real *vector)
 {
     const int32_t i = c->particle[entry], j = c->particle[other_entry];
     real r2 = 0;
@@ -66,17 +66,17 @@ static inline real contact_pair_stiffness(const struct contact *c, const struct 
 }
 
 /* Returns true if contact is possible in the run of c: between particles or with rigid bodies. */
-static inline bool contact_is_possible(const struct contact *c)
+static inline bool contact_is_enabled(const struct contact *c)
 {
     return c->law.between != CONTACT_NONE || c->rigids > 0;
 }
 
-/* Returns true if contact forces may act in this step on the particle of row `row` of the contact list of c (particles
- * that may come into contact). They do not act on particles that are at rest together with their neighbours, nor on
- * particles far from all faces (contact_activate_newly_moving_particles). */
-static inline bool contact_may_act_on_row(const struct contact *c, int64_t row)
+/* Returns true if contact forces may act in this step on the particle of row `list_index` of the contact list of c
+ * (particles that may come into contact). They do not act on particles that are at rest together with their neighbours,
+ * nor on particles far from all faces (contact_activate_newly_moving_particles). */
+static inline bool contact_list_particle_may_receive_force(const struct contact *c, int64_t list_index)
 {
-    return c->followed[row] >= ROW_SOURCE;
+    return c->followed[list_index] >= ROW_SOURCE;
 }
 
 /* Brings those particles of p into the computation that may come into contact (contact list of c) and that were skipped
@@ -87,38 +87,38 @@ void contact_activate_newly_moving_particles(struct contact *c, const struct par
                                              struct loads *loads);
 
 /* Returns the array of bytes that selects which contacts between particles act in an equilibrium
- * (contact_select_active_and_count_changes): one per particle of the contact list of c (particles that may come into
- * contact) for the contact law of form `surface` (forces of smooth faces), one per pair of particles for the form
+ * (contact_select_linear_springs_count_changes): one per particle of the contact list of c (particles that may come
+ * into contact) for the contact law of form `surface` (forces of smooth faces), one per pair of particles for the form
  * `pair`. The array belongs to c. Returns NULL if exactly the overlapping contacts act. */
-static inline const uint8_t *contact_selection_marks(const struct contact *c)
+static inline const uint8_t *contact_active_set_flags(const struct contact *c)
 {
     return c->by_overlap ? NULL : c->touch;
 }
 
 /* Returns the array of bytes that selects which contacts with rigid body number `body` act in an equilibrium
- * (contact_select_active_and_count_changes), one per particle in the list c->near of this body. The array belongs to c.
- * Returns NULL if exactly the overlapping contacts act. */
-static inline const uint8_t *contact_rigid_selection_marks(const struct contact *c, int body)
+ * (contact_select_linear_springs_count_changes), one per particle in the list c->near of this body. The array belongs
+ * to c. Returns NULL if exactly the overlapping contacts act. */
+static inline const uint8_t *contact_rigid_body_active_set_flags(const struct contact *c, int body)
 {
     return c->by_overlap ? NULL : c->near[body].touch;
 }
 
-/* Returns true if contact number `contact_number` acts. marks: an array with a byte for each contact, not 0 if the
- * contact acts; NULL if exactly the overlapping contacts act. overlaps: true if this contact overlaps. */
-static inline bool contact_is_active(const uint8_t *marks, int64_t contact_number, bool overlaps)
+/* Returns true if contact number `contact_number` acts. active_set_flags: an array with a byte for each contact, not 0
+ * if the contact acts; NULL if exactly the overlapping contacts act. overlaps: true if this contact overlaps. */
+static inline bool contact_is_in_active_set(const uint8_t *active_set_flags, int64_t contact_number, bool overlaps)
 {
-    return marks ? marks[contact_number] != 0 : overlaps;
+    return active_set_flags ? active_set_flags[contact_number] != 0 : overlaps;
 }
 
-/* Returns the gap [spacings] between the particle of row `row` of the contact list of c (particles of p that may come
- * into contact) and the nearby faces of other bodies or fragments, negative if they overlap. Only for laws of the form
- * `surface`, in which faces are smooth. */
-real contact_face_gap_of_particle(const struct contact *c, const struct particles *p, int64_t row);
+/* Returns the gap [spacings] between the particle of row `list_index` of the contact list of c (particles of p that may
+ * come into contact) and the nearby faces of other bodies or fragments, negative if they overlap. Only for laws of the
+ * form `surface`, in which faces are smooth. */
+real contact_face_gap_of_particle(const struct contact *c, const struct particles *p, int64_t list_index);
 
 /* Returns the gap [m] of pair number `pair` of particles of p in the contact c: the distance of its two particles minus
- * the distance at which their contact begins; negative if they overlap. row: row of the contact list (particles that
- * may come into contact) to which the pair belongs. */
-real contact_pair_gap(const struct contact *c, const struct particles *p, int64_t row, int64_t pair);
+ * the distance at which their contact begins; negative if they overlap. list_index: row of the contact list (particles
+ * that may come into contact) to which the pair belongs. */
+real contact_pair_gap(const struct contact *c, const struct particles *p, int64_t list_index, int64_t pair);
 
 /* Returns the gap [m] between a particle of p and rigid body number `body_number` of c: their distance minus the
  * distance at which contact begins; negative if they overlap. entry: entry of the particle in the list near this body;
@@ -126,25 +126,25 @@ real contact_pair_gap(const struct contact *c, const struct particles *p, int64_
 real contact_rigid_gap_of_particle(const struct contact *c, const struct particles *p, int body_number, int64_t entry,
                                    real *normal);
 
-/* Describes the contact of the particle of row `row` of the contact list of c (particles of p that may come into
+/* Describes the contact of the particle of row `list_index` of the contact list of c (particles of p that may come into
  * contact) with the faces beside it as a linear spring: stiffness, and derivatives of the gap by the positions of the
  * particles, in *term. Its arrays must have a capacity of one element more than the row has pairs. Only for laws of the
  * form `surface` (forces of smooth faces). */
-void contact_face_linearise_as_spring(const struct contact *c, const struct particles *p, int64_t row,
+void contact_face_linearise_as_spring(const struct contact *c, const struct particles *p, int64_t list_index,
                                       struct contact_term *term);
 
 /* Enables contact forces on all particles of the contact list of c (particles that may come into contact), also on
  * particles at rest, which time steps leave out but equilibrium solutions require. */
 void contact_activate_all_listed_particles(struct contact *c);
 
-/* Saves the selection of contacts of c that act in equilibria (contact_select_active_and_count_changes) to the archive
- * a if a->saving, else restores it. Returns FAILED if the archive cannot be read or written or a stored size
+/* Saves the selection of contacts of c that act in equilibria (contact_select_linear_springs_count_changes) to the
+ * archive a if a->saving, else restores it. Returns FAILED if the archive cannot be read or written or a stored size
  * differs. */
-status contact_selection_save_or_load(struct contact *c, struct archive *a);
+status contact_active_set_save_or_load(struct contact *c, struct archive *a);
 
 /* Returns the margin [m] by which the list of pairs of c extends beyond the contact distance. The list stays complete
  * while particles move by less than half the margin. */
-static inline real contact_list_margin(const struct contact *c)
+static inline real contact_pair_list_margin(const struct contact *c)
 {
     return (c->marked ? STATIC_SKIN : CONTACT_SKIN) * c->law.spacing;
 }
@@ -156,79 +156,82 @@ int64_t contact_list_entry_of_particle(const struct contact *c, int64_t i);
 /* Returns the width [m] of the widest notch (a pre-crack with a width) that separates the entries `entry` and `other`
  * of the contact list of c (particles of p that may come into contact) in the reference configuration; 0 if there is
  * none or if the particles belong to different bodies. */
-real contact_notch_width_between_entries(const struct contact *c, const struct particles *p, int64_t entry,
-                                         int64_t other);
+real contact_notch_width_between_particles(const struct contact *c, const struct particles *p, int64_t entry,
+                                           int64_t other);
 
 /* Computes three arrays for all entries of the contact list (particles of p that may come into contact): c->root, for a
  * mirror image (copy beyond a plane of symmetry) the entry of its source particle, for other entries the entry itself;
  * c->size, the spacing of the particle [m]; c->rise, the height of the surface of the body above the particle, minus
  * 1/2 [spacings]. */
-void contact_list_compute_entry_data(struct contact *c, const struct particles *p);
+void contact_list_set_spacings_and_surface_heights(struct contact *c, const struct particles *p);
 
-/* Adds the contact forces of all pairs of particle number `row` of the contact list of c (particles that may come into
- * contact) to p->f of this particle, by the contact law of form `pair` (forces between two particles each). found:
- * receives largest overlap and number of contacts. */
-void contact_pair_add_forces_on_particle(const struct contact *c, struct particles *p, int64_t row,
-                                         struct contact_found *found);
+/* Adds the contact forces of all pairs of particle number `list_index` of the contact list of c (particles that may
+ * come into contact) to p->f of this particle, by the contact law of form `pair` (forces between two particles each).
+ * found: receives largest overlap and number of contacts. */
+void contact_pair_add_forces_on_particle(const struct contact *c, struct particles *p, int64_t list_index,
+                                         struct contact_summary *found);
 
-/* Returns half the elastic energy [J] of all pairs of particle number `row` of the contact list of c (particles of p
- * that may come into contact), by the contact law of form `pair` (forces between two particles each); each pair belongs
- * to two particles. */
-real contact_pair_half_energy_of_particle(const struct contact *c, const struct particles *p, int64_t row);
+/* Returns half the elastic energy [J] of all pairs of particle number `list_index` of the contact list of c (particles
+ * of p that may come into contact), by the contact law of form `pair` (forces between two particles each); each pair
+ * belongs to two particles. */
+real contact_pair_half_energy_of_particle(const struct contact *c, const struct particles *p, int64_t list_index);
 
 /* Returns the distance [m] at which contact of the entries `entry` and `other` of the contact list of c (particles of p
  * that may come into contact) begins: the contact distance, reduced if the two particles are closer in the reference
- * configuration or at present. previous_distance: contact distance on the previous list of pairs [m], NAN if the pair
- * was not on it. */
+ * configuration or at present. previous_onset_distance: contact distance on the previous list of pairs [m], NAN if the
+ * pair was not on it. */
 real contact_pair_onset_distance(const struct contact *c, const struct particles *p, int64_t entry, int64_t other,
-                                 real previous_distance);
+                                 real previous_onset_distance);
 
 /* Computes `table` for a flat face, the outermost layer of a square or cubic lattice of particles: the height of a
  * point above this layer as a function of the density at the point, i.e. the number of particles of the layer nearby,
  * weighted by a kernel. dim: dimensions of space. */
-void contact_density_profile_make(struct contact_profile *table, int dim);
+void contact_profile_tabulate_height_above_flat_face(struct contact_profile *table, int dim);
 
-/* Computes into c->face[row] the gap between the particle of row `row` of the contact list of c (particles of p that
- * may come into contact) and the faces beside the particle, and the derivatives of its contact energy. This is the
+/* Computes into c->face[row] the gap between the particle of row `list_index` of the contact list of c (particles of p
+ * that may come into contact) and the faces beside the particle, and the derivatives of its contact energy. This is the
  * first of two passes over the rows; contact_face_add_force_on_particle adds the forces. Only for laws of the form
  * `surface` (forces of smooth faces). dt: time since the last call [s]; found: receives largest overlap and number of
  * contacts. */
-void contact_face_compute_gap_of_particle(struct contact *c, const struct particles *p, int64_t row, real dt,
-                                          struct contact_found *found);
+void contact_face_store_gap_and_energy_derivatives(struct contact *c, const struct particles *p, int64_t list_index,
+                                                   real dt, struct contact_summary *found);
 
-/* Adds the contact force on particle number `row` of the contact list of c (particles that may come into contact) to
- * p->f, by the contact law of form `surface` (forces of smooth faces). Second of two passes:
- * contact_face_compute_gap_of_particle must have been called for all particles of the list. */
-void contact_face_add_force_on_particle(const struct contact *c, struct particles *p, int64_t row);
+/* Adds the contact force on particle number `list_index` of the contact list of c (particles that may come into
+ * contact) to p->f, by the contact law of form `surface` (forces of smooth faces). Second of two passes:
+ * contact_face_store_gap_and_energy_derivatives must have been called for all particles of the list. */
+void contact_face_add_force_on_particle(const struct contact *c, struct particles *p, int64_t list_index);
 
-/* Returns the elastic contact energy [J] of particle number `row` of the contact list of c (particles of p that may
- * come into contact), by the contact law of form `surface` (forces of smooth faces). */
-real contact_face_energy_of_particle(const struct contact *c, const struct particles *p, int64_t row);
+/* Returns the elastic contact energy [J] of particle number `list_index` of the contact list of c (particles of p that
+ * may come into contact), by the contact law of form `surface` (forces of smooth faces). */
+real contact_face_energy_of_particle(const struct contact *c, const struct particles *p, int64_t list_index);
 
-/* Computes into c->face[row] the height above the face at which contact of particle number `row` of the contact list of
- * c (particles of p that may come into contact) begins, for a new list of contacts, by the contact law of form
+/* Computes into c->face[row] the height above the face at which contact of particle number `list_index` of the contact
+ * list of c (particles of p that may come into contact) begins, for a new list of contacts, by the contact law of form
  * `surface` (forces of smooth faces). previous_entry: entry of the particle on the previous list `previous`, -1 if the
  * particle was not listed. If the particle was in contact on that list, the height is chosen so that its contact energy
  * does not change. */
-void contact_face_set_onset_height(struct contact *c, const struct contact *previous, int64_t previous_entry,
-                                   const struct particles *p, int64_t row);
+void contact_face_set_height_where_contact_begins(struct contact *c, const struct contact *previous,
+                                                  int64_t previous_entry, const struct particles *p,
+                                                  int64_t list_index);
 
 /* Returns a correction of the contact force, in the unit of stiffness times gap, which removes the energy that
  * leap-frog integration adds when contact begins or ends; 0 if no energy is to be removed. The contact has the energy
- * 1/4 stiffness gap^2, gap < 0. gap: [m] or [spacings], stiffness: [N/m] or [J] accordingly. balance: account of this
- * contact, updated if `step_was_made` is true, i.e. if a time step was made since the last call; otherwise the last
- * force is returned again. */
-real contact_energy_correction_force(struct contact_balance *balance, real stiffness, real gap, bool step_was_made);
+ * 1/4 stiffness gap^2, gap < 0. gap: [m] or [spacings], stiffness: [N/m] or [J] accordingly. error_account: account of
+ * this contact, updated if `step_was_made` is true, i.e. if a time step was made since the last call; otherwise the
+ * last force is returned again. */
+real contact_leapfrog_error_correction_force(struct contact_leapfrog_error_account *error_account, real stiffness,
+                                             real gap, bool step_was_made);
 
 /* Returns the initial account of a contact on a new list of pairs, i.e. the sum of the energy errors of leap-frog from
- * which contact_energy_correction_force computes a correcting force. gap: present gap [m] or [spacings]; previous:
- * account of the contact on the previous list, which is continued; NULL if the contact was not listed. */
-struct contact_balance contact_energy_correction_start_account(const struct contact_balance *previous, real gap);
+ * which contact_leapfrog_error_correction_force computes a correcting force. gap: present gap [m] or [spacings];
+ * previous: account of the contact on the previous list, which is continued; NULL if the contact was not listed. */
+struct contact_leapfrog_error_account
+contact_leapfrog_error_account_for_new_list(const struct contact_leapfrog_error_account *previous, real gap);
 
 /* Contribution of particle l of a face to the density of the face at particle k (contact law of form `surface`).
  * weight: the contribution [1]; pull: derivative of the contact energy of k by the distance of k and l, divided by this
  * distance [N/m]; apart: vector from l to k [m]. */
-struct contact_weight {
+struct contact_density_contribution {
     real weight, pull, apart[DIM_MAX];
 };
 
@@ -236,8 +239,9 @@ struct contact_weight {
  * density at entry `entry` (number of particles of a face nearby, weighted by a kernel), at the positions x - v t,
  * where x and v are the present positions and velocities and t is `time_before_present` [s]. The derivative of the
  * contact energy in the result is that at the present gap. */
-struct contact_weight contact_face_density_contribution(const struct contact *c, const struct particles *p,
-                                                        int64_t entry, int64_t other, real time_before_present);
+struct contact_density_contribution contact_face_density_contribution(const struct contact *c,
+                                                                      const struct particles *p, int64_t entry,
+                                                                      int64_t other, real time_before_present);
 
 /* Advances the friction spring *s by a step. dim: dimensions; normal[dim]: outward unit normal of the face, 0 if
  * contact has ended; slip[dim]: displacement of the particle relative to the face in the step [m]; stiffness: stiffness
@@ -245,15 +249,15 @@ struct contact_weight contact_face_density_contribution(const struct contact *c,
 void contact_friction_spring_advance(struct contact_spring *s, int dim, const real *normal, const real *slip,
                                      real stiffness, real slip_force);
 
-/* Advances the friction spring of particle number `row` of the contact list of c (particles of p that may come into
- * contact) by a time step dt [s], by the contact law of form `surface` (forces of smooth faces). First of two passes
- * over the particles; contact_face_add_friction_on_particle adds the forces. */
-void contact_face_advance_friction_spring(struct contact *c, const struct particles *p, int64_t row, real dt);
+/* Advances the friction spring of particle number `list_index` of the contact list of c (particles of p that may come
+ * into contact) by a time step dt [s], by the contact law of form `surface` (forces of smooth faces). First of two
+ * passes over the particles; contact_face_add_friction_on_particle adds the forces. */
+void contact_face_advance_friction_spring(struct contact *c, const struct particles *p, int64_t list_index, real dt);
 
-/* Adds friction forces on particle number `row` of the contact list of c (particles that may come into contact) to
- * p->f: the force of its own spring, and the reactions to springs of other particles that slide on a face to which the
- * particle belongs. Second of two passes, after contact_face_advance_friction_spring for all particles. */
-void contact_face_add_friction_on_particle(const struct contact *c, struct particles *p, int64_t row);
+/* Adds friction forces on particle number `list_index` of the contact list of c (particles that may come into contact)
+ * to p->f: the force of its own spring, and the reactions to springs of other particles that slide on a face to which
+ * the particle belongs. Second of two passes, after contact_face_advance_friction_spring for all particles. */
+void contact_face_add_friction_on_particle(const struct contact *c, struct particles *p, int64_t list_index);
 
 /* Returns the elastic energy [J] stored in all friction springs of the contact c. */
 real contact_friction_stored_energy(const struct contact *c);
@@ -261,7 +265,7 @@ real contact_friction_stored_energy(const struct contact *c);
 /* Allocates c->reaction, the reactions to the friction springs, one entry for each particle of the contact list
  * (particles that may come into contact): with them the force of a spring is distributed over the particles of the
  * opposite face. The values are computed with the next contact forces. contact_free releases the array. */
-void contact_friction_reactions_make(struct contact *c);
+void contact_friction_reactions_allocate(struct contact *c);
 
 /* Allocates the friction springs of c, whose list of particles is new, and copies to them the springs of particles that
  * were on the previous list, `previous`. contact_free releases them. */
@@ -274,7 +278,7 @@ void contact_friction_spring_copy_previous(struct contact_spring *spring, const 
 
 /* Sets the friction work of c, whose list of particles is new, to that of the previous list, `previous`, plus the
  * elastic energy of springs of particles that are not on the new list. */
-void contact_friction_update_work_of_new_list(struct contact *c, const struct contact *previous);
+void contact_friction_work_carry_over_to_new_list(struct contact *c, const struct contact *previous);
 
 /* Lists in c->near, for each rigid body, the particles of p within `max_distance` [m] of its surface, with the gaps at
  * which contact begins and the friction springs. previous: the previous list, from which known particles keep gap and
@@ -287,17 +291,17 @@ void contact_rigid_free_particle_lists(struct contact *c);
 
 /* Returns true if some point of a rigid body has been displaced by `min_distance` [m] or more since the last search for
  * pairs of the contact c. */
-bool contact_rigid_has_moved_by_distance(const struct contact *c, real min_distance);
+bool rigid_bodies_moved_since_last_contact_search(const struct contact *c, real min_distance);
 
 /* Adds the contact forces of all rigid bodies of c on particles of p to p->f, and stores the opposite forces and
  * moments in the rigid bodies. dt: time since the last call [s], by which friction springs are stretched; found:
  * receives largest overlap and number of contacts. */
-void contact_rigid_compute_forces(struct contact *c, struct particles *p, real dt, struct contact_found *found);
+void contact_rigid_compute_forces(struct contact *c, struct particles *p, real dt, struct contact_summary *found);
 
 /* Saves c->near, the lists of particles near rigid bodies, to the archive a if a->saving, else restores them. Returns
  * FAILED, with a message, if the archive cannot be read or written, or if a restored list has indices or counts that do
  * not fit. */
-status contact_rigid_save_or_load(struct contact *c, struct archive *a);
+status contact_rigid_save_or_load_particle_lists(struct contact *c, struct archive *a);
 
 /* Saves the array *array to the archive a if a->saving, else allocates *array with memory_new and restores it from the
  * archive. name: name of the entry; count: number of elements; size: bytes of an element. Returns FAILED if the archive
@@ -305,6 +309,6 @@ status contact_rigid_save_or_load(struct contact *c, struct archive *a);
 status contact_array_save_or_load(struct archive *a, const char *name, void **array, int64_t count, size_t size);
 
 /* Returns the elastic energy [J] of the contacts of particles p with all rigid bodies of c at the present positions. */
-real contact_rigid_energy(const struct contact *c, const struct particles *p);
+real contact_rigid_elastic_energy(const struct contact *c, const struct particles *p);
 
 #endif

@@ -19,18 +19,18 @@ static void put_contact(const struct contact *c, const struct grid_method *mpm, 
 {
     const struct grid_contact *g = &mpm->contact;
     if (c->law.between == CONTACT_NONE && mpm->fields < 2) return;
-    json_open(j, "contact", '{');
+    json_begin_object_or_list(j, "contact", '{');
     json_write_real(j, "began", fmin(c->began, g->began));
     json_write_real(j, "ended", fmax(c->ended, g->ended));
     if (mpm->fields > 1) json_write_integer(j, "nodes_max", g->nodes_most);
     if (c->law.between == CONTACT_NONE) {
-        json_close(j, '}');
+        json_end_object_or_list(j, '}');
         return;
     }
     json_write_integer(j, "pairs_max", c->pairs_most);
     json_write_real(j, "friction_work", contact_friction_dissipated_energy(c));
     json_write_real(j, "overlap_max", c->overlap_most / c->law.spacing);
-    json_close(j, '}');
+    json_end_object_or_list(j, '}');
 }
 
 static status contact_state(struct run *e, struct archive *a)
@@ -38,7 +38,8 @@ static status contact_state(struct run *e, struct archive *a)
     struct contact *c = e->contact;
     c->marked = scene_has_load_steps(e->scene);
     TRY(contact_save_or_load(c, &e->part, a));
-    if (!a->saving && c->made && !c->touch) contact_activate_particles_after_restart(c, &e->part, &e->bonds, &e->loads);
+    if (!a->saving && c->made && !c->touch)
+        contact_restore_active_particles_after_restart(c, &e->part, &e->bonds, &e->loads);
     return OK;
 }
 
@@ -50,20 +51,20 @@ static void put_rigid(const struct rigid_set *rigid, const struct contact *c, co
 {
     static const char *const velocity[] = {"velocity_x", "velocity_y", "velocity_z"};
     if (rigid->n == 0) return;
-    json_open(j, "rigid", '[');
+    json_begin_object_or_list(j, "rigid", '[');
     for (int k = 0; k < rigid->n; k++) {
         const struct rigid_body *r = &rigid->body[k];
         real v[DIM_MAX];
-        rigids_velocity_of_body(rigid, k, clock->t, clock->dt, v);
-        json_open(j, NULL, '{');
+        rigids_compute_velocity_of_body_at_time(rigid, k, clock->t, clock->dt, v);
+        json_begin_object_or_list(j, NULL, '{');
         json_write_text(j, "name", r->name);
         json_write_point(j, "", r->x, r->dim);
         for (int d = 0; d < r->dim; d++) json_write_real(j, velocity[d], v[d]);
         json_write_real(j, "force_max", r->force_most);
         json_write_real(j, "patch", contact_patch_bounding_box_diagonal(c, p, k));
-        json_close(j, '}');
+        json_end_object_or_list(j, '}');
     }
-    json_close(j, ']');
+    json_end_object_or_list(j, ']');
 }
 
 static void put_contact_and_rigid(const struct run *e, struct json *j)

@@ -43,7 +43,7 @@ static bool is_near(const struct contact *c, const struct particles *p, const st
 {
     real x[DIM_MAX] = {0}, normal[DIM_MAX];
     for (int d = 0; d < p->dim; d++) x[d] = p->x[d][c->particle[row]];
-    return rigid_may_be_within_reach(r, x, c->size[row] + skin) && gap_of(c, p, r, row, normal) < skin;
+    return rigid_may_be_within_distance_of_position(r, x, c->size[row] + skin) && gap_of(c, p, r, row, normal) < skin;
 }
 
 /* Returns the index of particle `particle` in the list of particles near rigid body number `body`, as it was before the
@@ -80,7 +80,7 @@ static void near_find_body(struct contact *c, const struct contact *before, cons
     for (int64_t row = 0; row < c->rows; row++) near->n += found[row];
     near->row = BARE("contact.near", near->n, int32_t);
     near->zero = BARE("contact.zero", near->n, real);
-    near->balance = BARE("contact.balance", near->n, struct contact_balance);
+    near->balance = BARE("contact.balance", near->n, struct contact_leapfrog_error_account);
     near->spring = c->law.friction > 0 ? NEW("contact.springs", near->n, struct contact_spring) : NULL;
     near->n = 0;
     for (int64_t row = 0; row < c->rows; row++) {
@@ -94,7 +94,7 @@ static void near_find_body(struct contact *c, const struct contact *before, cons
         /* an iterate of an equilibrium has moved into the body: contact acts from gap 0 */
         const bool deep = c->marked && before->made && was < 0;
         near->zero[near->n] = deep ? 0 : real_min(0, real_max(zero, gap));
-        near->balance[near->n] = contact_energy_correction_start_account(
+        near->balance[near->n] = contact_leapfrog_error_account_for_new_list(
             was >= 0 ? &before->near[body].balance[was] : NULL, gap - near->zero[near->n]);
         near->n++;
     }
@@ -112,7 +112,7 @@ void contact_rigid_list_nearby_particles(struct contact *c, const struct contact
     }
 }
 
-bool contact_rigid_has_moved_by_distance(const struct contact *c, real min_distance)
+bool rigid_bodies_moved_since_last_contact_search(const struct contact *c, real min_distance)
 {
     for (int b = 0; b < c->rigids && c->near; b++) {
         const struct rigid_body *r = &c->rigid[b];
@@ -143,7 +143,7 @@ real contact_rigid_gap_of_particle(const struct contact *c, const struct particl
  * mark excludes the contact. */
 static real overlap_of(const struct contact *c, const struct particles *p, int body, int64_t q, real *normal)
 {
-    const uint8_t *marks = contact_rigid_selection_marks(c, body);
+    const uint8_t *marks = contact_rigid_body_active_set_flags(c, body);
     if (marks && !marks[q]) return 0;
     const real overlap = -contact_rigid_gap_of_particle(c, p, body, q, normal);
     return marks ? overlap : real_max(0, overlap);
@@ -170,7 +170,8 @@ static void balance_step(struct contact *c, const struct particles *p, int body,
     const struct contact_near *near = &c->near[body];
     real normal[DIM_MAX];
     const real k = 4 * contact_pair_stiffness(c, p, near->row[q], near->row[q]);
-    contact_energy_correction_force(&near->balance[q], k, contact_rigid_gap_of_particle(c, p, body, q, normal), true);
+    contact_leapfrog_error_correction_force(&near->balance[q], k, contact_rigid_gap_of_particle(c, p, body, q, normal),
+                                            true);
 }
 
 /* Computes the force of rigid body number `body` on particle q of the list of particles near it (c->near, indices in
@@ -235,7 +236,7 @@ enum { RIGID_TERMS = 2 * DIM_MAX }; /* number of components of force and moment 
  * body. Bodies are treated one after the other, since a particle may touch several. dt: time step [s]; with 0, friction
  * springs and energy corrections are not advanced. all: receives the largest overlap, its particle and the number of
  * contacts. */
-static void body_force(struct contact *c, struct particles *p, int body, real dt, struct contact_found *all)
+static void body_force(struct contact *c, struct particles *p, int body, real dt, struct contact_summary *all)
 {
     const struct contact_near *near = &c->near[body];
     const struct rigid_sum s = {c, p, body};
@@ -248,19 +249,19 @@ static void body_force(struct contact *c, struct particles *p, int body, real dt
         const real overlap = push_of(c, p, body, q, f);
         if (overlap == 0) continue;
         for (int d = 0; d < p->dim; d++) p->f[d][i] += f[d];
-        contact_found_add_overlap(all, overlap, i);
+        contact_summary_add_overlap(all, overlap, i);
         all->touching++; /* a pair with only one of its two rows */
     }
     reproducible_sums(near->n, RIGID_TERMS, rigid_block, &s, sum);
     for (int d = 0; d < DIM_MAX; d++) c->rigid[body].force[d] = sum[d], c->rigid[body].moment[d] = sum[DIM_MAX + d];
 }
 
-void contact_rigid_compute_forces(struct contact *c, struct particles *p, real dt, struct contact_found *found)
+void contact_rigid_compute_forces(struct contact *c, struct particles *p, real dt, struct contact_summary *found)
 {
     for (int b = 0; b < c->rigids && c->near; b++) body_force(c, p, b, dt, found);
 }
 
-real contact_rigid_force_norm(const struct contact *c, const struct particles *p)
+real contact_rigid_body_force_norm(const struct contact *c, const struct particles *p)
 {
     real sum = 0, f[DIM_MAX];
     for (int b = 0; b < c->rigids && c->near; b++)
@@ -280,7 +281,7 @@ static real near_energy(const void *context, int64_t q)
     return contact_pair_stiffness(s->c, s->p, row, row) * square(overlap_of(s->c, s->p, s->body, q, normal));
 }
 
-real contact_rigid_energy(const struct contact *c, const struct particles *p)
+real contact_rigid_elastic_energy(const struct contact *c, const struct particles *p)
 {
     real energy = 0;
     for (int b = 0; b < c->rigids && c->near; b++)
@@ -288,7 +289,7 @@ real contact_rigid_energy(const struct contact *c, const struct particles *p)
     return energy;
 }
 
-status contact_rigid_save_or_load(struct contact *c, struct archive *a)
+status contact_rigid_save_or_load_particle_lists(struct contact *c, struct archive *a)
 {
     if (c->rigids > 0 && !a->saving) {
         contact_rigid_free_particle_lists(c);

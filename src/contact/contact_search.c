@@ -50,7 +50,7 @@ int64_t contact_list_entry_of_particle(const struct contact *c, int64_t i)
     return low < c->rows && c->particle[low] == i ? low : -1;
 }
 
-real contact_notch_width_between_entries(const struct contact *c, const struct particles *p, int64_t k, int64_t l)
+real contact_notch_width_between_particles(const struct contact *c, const struct particles *p, int64_t k, int64_t l)
 {
     const int32_t i = c->particle[k], j = c->particle[l];
     real widest = 0, a[DIM_MAX], b[DIM_MAX];
@@ -87,7 +87,7 @@ static real contact_rise(const struct contact_law *law, const struct particles *
     return fabs(rise) < ROUND_OFF || rise > RISE_MOST ? 0 : real_max(rise, -RISE_MOST);
 }
 
-void contact_list_compute_entry_data(struct contact *c, const struct particles *p)
+void contact_list_set_spacings_and_surface_heights(struct contact *c, const struct particles *p)
 {
     memory_free(c->root);
     memory_free(c->size);
@@ -98,11 +98,11 @@ void contact_list_compute_entry_data(struct contact *c, const struct particles *
 #pragma omp parallel for schedule(static)
     for (int64_t k = 0; k < c->n; k++) {
         c->size[k] = contact_spacing(&c->law, p, c->particle[k]);
-        c->rise[k] = contact_rise(&c->law, p, image_source_particle(p, c->law.image, c->particle[k]), c->size[k]);
-        c->root[k] =
-            (int32_t)(k < c->rows
-                          ? k
-                          : contact_list_entry_of_particle(c, image_source_particle(p, c->law.image, c->particle[k])));
+        c->rise[k] =
+            contact_rise(&c->law, p, mirror_image_source_particle(p, c->law.image, c->particle[k]), c->size[k]);
+        c->root[k] = (int32_t)(k < c->rows ? k
+                                           : contact_list_entry_of_particle(
+                                                 c, mirror_image_source_particle(p, c->law.image, c->particle[k])));
     }
 }
 
@@ -124,14 +124,14 @@ static void list_exposed(struct contact *c, const struct particles *p, const str
     c->rows = c->n;
     for (int64_t i = p->n; i < p->n_all; i++)
         if (p->kind[i] == KIND_PD &&
-            is_exposed(p, b, least_volume, everywhere, image_source_particle(p, c->law.image, i)))
+            is_exposed(p, b, least_volume, everywhere, mirror_image_source_particle(p, c->law.image, i)))
             c->particle[c->n++] = (int32_t)i;
     for (int d = 0; d < p->dim; d++) {
         memory_free(c->at[d]);
         c->at[d] = BARE("contact.at", c->n, real);
         for (int64_t k = 0; k < c->n; k++) c->at[d][k] = p->x[d][c->particle[k]];
     }
-    contact_list_compute_entry_data(c, p);
+    contact_list_set_spacings_and_surface_heights(c, p);
 }
 
 /* ---- pairs ------------------------------------------------------------------------------------------------------- */
@@ -173,7 +173,7 @@ static void row_pairs(const struct contact_search *s, struct neighbour_list *nea
     particles_list_neighbours_within_radius(near, &s->cells, &s->places, k, s->reach, false);
     if (near->n == 0) return;
     for (int q = 0; q < near->n; q++) bit_set(marks, s->particle[near->at[q]]);
-    if (s->law->distance == DISTANCE_SPACING) bonds_clear_marks_of_intact_neighbours(s->b, s->b->row_of[i], marks);
+    if (s->law->distance == DISTANCE_SPACING) bonds_row_clear_bitmap_at_intact_neighbours(s->b, s->b->row_of[i], marks);
     for (int q = 0; q < near->n; q++) {
         const int32_t j = s->particle[near->at[q]];
         if (!bit_is_set(marks, j)) continue;
@@ -241,14 +241,14 @@ static void pairs_begin(struct contact *c, const struct contact *before, const s
 {
     if (c->law.form == CONTACT_SURFACE) {
         c->face = BARE("contact.face", c->rows, struct contact_face);
-        c->balance = BARE("contact.balance", c->rows, struct contact_balance);
+        c->balance = BARE("contact.balance", c->rows, struct contact_leapfrog_error_account);
     } else
         c->distance = BARE("contact.distance", c->pairs, real);
 #pragma omp parallel for schedule(static)
     for (int64_t row = 0; row < c->rows; row++) {
         const int64_t was = before->made ? contact_list_entry_of_particle(before, c->particle[row]) : -1;
         if (c->law.form == CONTACT_SURFACE)
-            contact_face_set_onset_height(c, before, was, p, row);
+            contact_face_set_height_where_contact_begins(c, before, was, p, row);
         else
             for (int64_t q = c->first[row]; q < c->first[row + 1]; q++)
                 c->distance[q] = contact_pair_onset_distance(c, p, row, c->other[q],
@@ -263,7 +263,7 @@ static real search_reach(const struct contact *c)
     real most = 0;
     for (int64_t k = 0; k < c->n; k++) most = real_max(most, c->size[k]);
     const real pairs = c->law.distance == DISTANCE_LAMMPS ? FAR_LAMMPS : 1;
-    return most * (c->law.form == CONTACT_SURFACE ? CONTACT_REACH : pairs) + contact_list_margin(c);
+    return most * (c->law.form == CONTACT_SURFACE ? CONTACT_REACH : pairs) + contact_pair_list_margin(c);
 }
 
 /* Finds the exposed particles (those near faces) and the pairs that may come into contact at the present positions of
@@ -286,8 +286,8 @@ static void search_pairs(struct contact *c, const struct particles *p, const str
     if (c->n > 0) cells_free(&s.cells);
     pairs_begin(c, &before, p);
     contact_friction_springs_copy_from_previous(c, &before);
-    contact_rigid_list_nearby_particles(c, &before, p, contact_list_margin(c));
-    contact_friction_update_work_of_new_list(c, &before);
+    contact_rigid_list_nearby_particles(c, &before, p, contact_pair_list_margin(c));
+    contact_friction_work_carry_over_to_new_list(c, &before);
     before.law.stiffness = NULL; /* the new list keeps the law and the recorded forces */
     memset(before.push, 0, sizeof before.push);
     contact_free(&before);
@@ -314,19 +314,20 @@ static real largest_displacement(const struct contact *c, const struct particles
  * of a particle. */
 static bool has_come_far(const struct contact *c)
 {
-    const real far = 0.5 * contact_list_margin(c);
-    return !(c->moved < far) || contact_rigid_has_moved_by_distance(c, far);
+    const real far = 0.5 * contact_pair_list_margin(c);
+    return !(c->moved < far) || rigid_bodies_moved_since_last_contact_search(c, far);
 }
 
 /* Requests a contact search before the next step (c->due) if one of particle_count particles, which have just become
  * peridynamic, is in the first layer at a face. particle_list: their indices; b, family: bonds and their complete
  * neighbourhood, by which such particles are recognised. A particle elsewhere with a few broken bonds does not require
  * a search at once; the next search lists it. With the contact distance of LAMMPS, any particle requests a search. */
-void contact_request_search_if_at_surface(struct contact *c, const struct bonds *b, const struct family *family,
-                                          const int32_t *particle_list, int64_t particle_count)
+void contact_request_search_if_particles_at_surface(struct contact *c, const struct bonds *b,
+                                                    const struct family *family, const int32_t *particle_list,
+                                                    int64_t particle_count)
 {
     const real least_volume = first_layer_share(family) * family->full;
-    if (!contact_is_possible(c)) return;
+    if (!contact_is_enabled(c)) return;
     for (int64_t k = 0; k < particle_count && !c->due; k++) {
         const int64_t row = b->row_of[particle_list[k]];
         c->due = c->law.distance == DISTANCE_LAMMPS ||
@@ -344,7 +345,7 @@ void contact_update_pair_list_if_outdated(struct contact *c, const struct partic
                                           struct loads *l, const struct family *family, int64_t step_number,
                                           int64_t broken_bond_count, int64_t conversion_count)
 {
-    if (!contact_is_possible(c)) return;
+    if (!contact_is_enabled(c)) return;
     const bool new_faces = broken_bond_count != c->broken && step_number - c->searched >= BREAKS_WAIT;
     const bool come = contact_search_is_needed(c, p);
     if (c->due || new_faces || come) {
@@ -356,5 +357,6 @@ void contact_update_pair_list_if_outdated(struct contact *c, const struct partic
         return;
     }
     c->changed = conversion_count;
-    contact_activate_particles_after_restart(c, p, b, l); /* also after conversions, which rebuild rows of bonds */
+    contact_restore_active_particles_after_restart(c, p, b,
+                                                   l); /* also after conversions, which rebuild rows of bonds */
 }

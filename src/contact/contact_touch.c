@@ -45,7 +45,8 @@ static bool mark_set(uint8_t *touch, real gap, real close)
  * at first. row, l: entries of the particles in the contact list c; p: particles. */
 static real close_of(const struct contact *c, const struct particles *p, int64_t row, int64_t l, real close)
 {
-    return p->body[c->particle[row]] != p->body[image_source_particle(p, c->law.image, c->particle[l])] ? close : 0;
+    return p->body[c->particle[row]] != p->body[mirror_image_source_particle(p, c->law.image, c->particle[l])] ? close
+                                                                                                               : 0;
 }
 
 /* Updates the marks of the contacts of the particle of p in row `row` of the contact list c, which state whether a
@@ -75,7 +76,7 @@ static void balances_rest(struct contact *c)
         for (int64_t q = 0; q < c->near[b].n; q++) c->near[b].balance[q].drag = 0;
 }
 
-int64_t contact_select_active_and_count_changes(struct contact *c, const struct particles *p, real max_gap)
+int64_t contact_select_linear_springs_count_changes(struct contact *c, const struct particles *p, real max_gap)
 {
     int64_t changed = 0;
     real normal[DIM_MAX];
@@ -88,22 +89,22 @@ int64_t contact_select_active_and_count_changes(struct contact *c, const struct 
     return changed;
 }
 
-int64_t contact_search_select_and_count_changes(struct contact *c, const struct particles *p, struct bonds *b,
-                                                struct loads *l, const struct family *family, real max_gap)
+int64_t contact_search_and_select_linear_springs(struct contact *c, const struct particles *p, struct bonds *b,
+                                                 struct loads *l, const struct family *family, real max_gap)
 {
     c->due = true;
     contact_update_pair_list_if_outdated(c, p, b, l, family, c->searched, c->broken, c->changed);
     marks_room(c);
     contact_activate_all_listed_particles(c);
     balances_rest(c);
-    return contact_select_active_and_count_changes(c, p, max_gap);
+    return contact_select_linear_springs_count_changes(c, p, max_gap);
 }
 
-real contact_pair_list_safe_displacement(const struct contact *c) { return 0.5 * contact_list_margin(c); }
+real contact_pair_list_safe_displacement(const struct contact *c) { return 0.5 * contact_pair_list_margin(c); }
 
-void contact_restrict_forces_to_selection(struct contact *c, bool selected_only) { c->by_overlap = !selected_only; }
+void contact_restrict_forces_to_linear_springs(struct contact *c, bool springs_only) { c->by_overlap = !springs_only; }
 
-void contact_discard_equilibrium_selection(struct contact *c)
+void contact_discard_linear_springs(struct contact *c)
 {
     memory_free(c->touch);
     c->touch = NULL;
@@ -135,7 +136,7 @@ static void pair_terms(struct visit *v, int64_t row)
     for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
         const int64_t l = c->other[q];
         real apart[DIM_MAX] = {0};
-        const real r = sqrt(contact_pair_vector(c, v->p, row, l, apart));
+        const real r = sqrt(contact_pair_vector_and_squared_distance(c, v->p, row, l, apart));
         if (!c->touch[q] || !(r > 0)) continue;
         t->n = 2, t->stiffness = 0.5 * contact_pair_stiffness(c, v->p, row, l);
         t->particle[0] = c->particle[row], t->particle[1] = c->particle[l];
@@ -159,8 +160,8 @@ static void rigid_terms(struct visit *v, int body)
     }
 }
 
-void contact_visit_selected_as_springs(const struct contact *c, const struct particles *p,
-                                       void (*visit)(void *context, const struct contact_term *term), void *context)
+void contact_visit_linear_springs(const struct contact *c, const struct particles *p,
+                                  void (*visit)(void *context, const struct contact_term *term), void *context)
 {
     int64_t most = 1;
     if (!c->touch) return;
@@ -182,10 +183,10 @@ void contact_visit_selected_as_springs(const struct contact *c, const struct par
 
 /* ---- state ------------------------------------------------------------------------------------------------------- */
 
-/* Saves the marks of the contacts of c that act in the equilibrium (contact_select_active_and_count_changes) to the
- * archive a if a->saving, else restores them. Does nothing if contacts are not selected by marks (c->marked). Returns
- * FAILED if the archive cannot be read or written or a stored size differs. */
-status contact_selection_save_or_load(struct contact *c, struct archive *a)
+/* Saves the marks of the contacts of c that act in the equilibrium (contact_select_linear_springs_count_changes) to
+ * the archive a if a->saving, else restores them. Does nothing if contacts are not selected by marks (c->marked).
+ * Returns FAILED if the archive cannot be read or written or a stored size differs. */
+status contact_active_set_save_or_load(struct contact *c, struct archive *a)
 {
     bool marks = c->touch != NULL;
     if (!c->marked) return OK;

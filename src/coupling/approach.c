@@ -62,7 +62,8 @@ static bool near_rigid(const struct particles *p, const struct rigid_body *rigid
     real x[DIM_MAX] = {0}, normal[DIM_MAX];
     for (int d = 0; d < p->dim; d++) x[d] = p->x[d][i];
     for (int k = 0; k < rigids; k++)
-        if (rigid_may_be_within_reach(&rigid[k], x, reach) && rigid_signed_distance(&rigid[k], x, normal) < reach)
+        if (rigid_may_be_within_distance_of_position(&rigid[k], x, reach) &&
+            rigid_signed_distance(&rigid[k], x, normal) < reach)
             return true;
     return false;
 }
@@ -105,8 +106,8 @@ static void mark_listed(struct particles *p, const int32_t *list, int64_t n, rea
     for (int d = 0; d < p->dim; d++) memory_free(places.X[d]);
 }
 
-void flag_points_near_other_bodies_to_convert(struct particles *p, int body_count, const struct rigid_body *rigid,
-                                              int rigid_body_count, real max_distance)
+void flag_points_near_other_bodies_for_conversion(struct particles *p, int body_count, const struct rigid_body *rigid,
+                                                  int rigid_body_count, real max_distance)
 {
     struct body_box *box = body_count > 1 ? body_boxes(p, body_count) : NULL;
     uint8_t *close = NEW("approach.close", p->n, uint8_t);

@@ -33,8 +33,8 @@ static bool loses_bond(const struct bond_source *s, const struct particles *p, i
     return false;
 }
 
-void convert_to_peridynamic_at_precracks(struct particles *p, const struct bond_source *source,
-                                         const struct region *region)
+void convert_particles_at_precracks_to_peridynamic(struct particles *p, const struct bond_source *source,
+                                                   const struct region *region)
 {
 #pragma omp parallel
     {
@@ -73,7 +73,7 @@ static bool triggers(const struct conversion_rule *rule, const struct particles 
 /* Returns true if particle i of p has a bond in b, intact or broken, to a material point. */
 static bool conversion_meets_points(const struct bonds *b, const struct particles *p, int64_t i)
 {
-    for (struct bond_iterator it = bond_iterator_of_row(b, b->row_of[i]); bond_next(&it);)
+    for (struct bond_iterator it = bond_iterator_of_row(b, b->row_of[i]); bond_iterator_advance(&it);)
         if (p->kind[it.bond.nbr] == KIND_MPM) return true;
     return false;
 }
@@ -109,8 +109,8 @@ static void become_peridynamic(struct particles *p, struct index_list *changed, 
  * sites to particles, or NULL to search for neighbours; t: present time [s]. At the first conversion, stores t and the
  * position of the first converted point in *c. */
 static void convert_marked(struct conversion *c, const struct conversion_rule *rule, struct particles *p,
-                           const struct bond_source *source, const struct site_map *map, struct index_list *changed,
-                           real t)
+                           const struct bond_source *source, const struct lattice_site_map *map,
+                           struct index_list *changed, real t)
 {
     struct index_list triggered = {0};
     struct neighbour_list near = {0};
@@ -131,7 +131,7 @@ static void convert_marked(struct conversion *c, const struct conversion_rule *r
         if (!rule->block) continue;
         particle_find_family_members(&near, source, map, p, i);
         for (int m = 0; m < near.n; m++) {
-            const int64_t j = image_source_particle(p, source->image, near.at[m]);
+            const int64_t j = mirror_image_source_particle(p, source->image, near.at[m]);
             if (p->body[j] == p->body[i]) become_peridynamic(p, changed, j);
         }
     }
@@ -152,7 +152,7 @@ static void list_once(struct index_list *l, struct particles *p, int64_t i)
  * once, so that threads write different particles. sync: function that updates listed particles, or NULL if none needs
  * it; source: cutoff and mirror images; map: map from lattice sites to particles, or NULL to search for neighbours. */
 static void sync_near(const struct conversion_sync *sync, struct particles *p, const struct bond_source *source,
-                      const struct site_map *map, const struct index_list *changed)
+                      const struct lattice_site_map *map, const struct index_list *changed)
 {
     struct index_list exposed = {0};
     struct neighbour_list near = {0};
@@ -160,7 +160,8 @@ static void sync_near(const struct conversion_sync *sync, struct particles *p, c
     for (int64_t k = 0; k < changed->n; k++) {
         particle_find_family_members(&near, source, map, p, changed->at[k]);
         list_once(&exposed, p, changed->at[k]);
-        for (int m = 0; m < near.n; m++) list_once(&exposed, p, image_source_particle(p, source->image, near.at[m]));
+        for (int m = 0; m < near.n; m++)
+            list_once(&exposed, p, mirror_image_source_particle(p, source->image, near.at[m]));
     }
     for (int64_t k = 0; k < exposed.n; k++) p->flag[exposed.at[k]] &= (uint8_t)~FLAG_LISTED;
     if (exposed.n > 0) sync->sync(sync->context, exposed.at, exposed.n);
@@ -168,9 +169,10 @@ static void sync_near(const struct conversion_sync *sync, struct particles *p, c
     memory_free(exposed.at);
 }
 
-int64_t convert_flagged_points(struct conversion *c, const struct conversion_rule *rule, struct particles *p,
-                               struct bonds *b, const struct bond_source *source, struct partial_stress *partial,
-                               const struct conversion_sync *sync, real t)
+int64_t convert_flagged_points_to_peridynamic(struct conversion *c, const struct conversion_rule *rule,
+                                              struct particles *p, struct bonds *b, const struct bond_source *source,
+                                              struct partial_stress *partial, const struct conversion_sync *sync,
+                                              real t)
 {
     if (!particles_any_is_flagged_for_conversion(p)) return 0;
     struct index_list changed = {0}, touched = {0};
@@ -182,7 +184,7 @@ int64_t convert_flagged_points(struct conversion *c, const struct conversion_rul
         if (sync && sync->converted) sync->converted(sync->context, changed.at, changed.n);
     }
     for (int64_t k = 0; k < changed.n; k++) list_add(&touched, changed.at[k]);
-    if (partial && touched.n > 0) partial_stress_make(partial, p, b, source, touched.at, touched.n);
+    if (partial && touched.n > 0) partial_stress_compute_from_bonds(partial, p, b, source, touched.at, touched.n);
     if (changed.n > 0) {
         c->converted += changed.n;
         c->events++;

@@ -7,8 +7,9 @@
 #include "mesh/mesh_part.h"
 #include "rigid/rigid_part.h"
 
-void bonded_points_update_strain(const struct partial_stress *partial, const struct reference_frame *r,
-                                 struct particles *p, const struct material *material)
+void bonded_points_update_strain_from_mesh_or_stress(const struct partial_stress *partial,
+                                                     const struct lagrangian_mesh *r, struct particles *p,
+                                                     const struct material *material)
 {
     if (!p->end_strain) return;
     bonded_points_compute_strain_from_stress(partial, p, material);
@@ -20,10 +21,10 @@ void bonded_points_update_strain(const struct partial_stress *partial, const str
  * or broken bonds (growth laws of cracks, load steps, reversion). Returns false if all points belong to the mesh of the
  * reference frame r (a mesh of the undeformed body) and no cell of it has recorded a stress above that of conversion.
  * s: scene. */
-static bool may_convert(const struct scene *s, const struct particles *p, const struct reference_frame *r)
+static bool may_convert(const struct scene *s, const struct particles *p, const struct lagrangian_mesh *r)
 {
     return p->n_free > 0 || p->n_grid_coupled > 0 || s->growths > 0 || scene_has_load_steps(s) || p->low_since ||
-           r->levels.returned || mesh_may_exceed_conversion_stress(&r->mesh);
+           r->levels.returned || mesh_stress_may_exceed_conversion_limit(&r->mesh);
 }
 
 /* Updates positions and velocities of those of n listed particles that are points of the mesh of the reference frame
@@ -32,7 +33,7 @@ static bool may_convert(const struct scene *s, const struct particles *p, const 
 static void sync_listed(void *context, const int32_t *list, int64_t n)
 {
     struct run *e = context;
-    reference_frame_update_listed_points(e->frame, &e->part, &e->loads, list, n);
+    lagrangian_mesh_update_motion_of_listed_points(e->frame, &e->part, &e->loads, list, n);
 }
 
 /* Requests a contact search if one of n particles that have become peridynamic is at a surface. context: the run
@@ -40,21 +41,21 @@ static void sync_listed(void *context, const int32_t *list, int64_t n)
 static void meet_others(void *context, const int32_t *list, int64_t n)
 {
     struct run *e = context;
-    contact_request_search_if_at_surface(e->contact, &e->bonds, &e->source.family, list, n);
+    contact_request_search_if_particles_at_surface(e->contact, &e->bonds, &e->source.family, list, n);
 }
 
-bool conversion_flag_points_near_bodies_or_faces(struct run *e)
+bool conversion_flag_points_near_contact(struct run *e)
 {
-    if (e->scene->active_set) active_rows_update_after_step(&e->bonds, &e->part, &e->loads);
+    if (e->scene->active_set) active_bond_rows_update_after_step(&e->bonds, &e->part, &e->loads);
     if (e->clock.step % APPROACH_STEPS != 0 && !scene_has_load_steps(e->scene)) return false;
     if (e->coupling->approaches) {
-        reference_frame_update_point_motion(e->frame, &e->part, &e->loads);
-        flag_points_near_other_bodies_to_convert(&e->part, e->scene->bodies, e->rigid->body, e->rigid->n,
-                                                 APPROACH_REACH * e->scene->spacing);
+        lagrangian_mesh_update_point_motion(e->frame, &e->part, &e->loads);
+        flag_points_near_other_bodies_for_conversion(&e->part, e->scene->bodies, e->rigid->body, e->rigid->n,
+                                                     APPROACH_REACH * e->scene->spacing);
     }
     return e->scene->contact_between == CONTACT_ALL &&
-           flag_points_at_closing_slits(&e->coupling->notches, e->frame, &e->part, &e->loads, e->scene->spacing,
-                                        APPROACH_STEPS * e->clock.dt);
+           flag_points_at_closing_slits_for_conversion(&e->coupling->notches, e->frame, &e->part, &e->loads,
+                                                       e->scene->spacing, APPROACH_STEPS * e->clock.dt);
 }
 
 void conversion_update_mesh_after_conversion(struct run *e, int64_t converted_count)
@@ -62,31 +63,31 @@ void conversion_update_mesh_after_conversion(struct run *e, int64_t converted_co
     struct partial_stress *partial = &e->coupling->partial;
     const bool due = converted_count > 0 || partial->touches > 0;
     const bool anew =
-        due && reference_frame_update_after_conversion(e->frame, &e->part, converted_count, partial, &e->damped);
-    if (anew) reference_frame_list_bonded_or_loaded_points(e->frame, &e->part, &e->bonds, &e->loads);
+        due && lagrangian_mesh_update_after_point_conversion(e->frame, &e->part, converted_count, partial, &e->damped);
+    if (anew) lagrangian_mesh_list_bonded_or_loaded_points(e->frame, &e->part, &e->bonds, &e->loads);
     if (converted_count > 0 || (due && !anew))
-        bonded_points_update_strain(partial, e->frame, &e->part, e->scene->material);
+        bonded_points_update_strain_from_mesh_or_stress(partial, e->frame, &e->part, e->scene->material);
     partial->touches = 0;
 }
 
-int64_t conversion_convert_points_and_update_run(struct run *e, int64_t broken_bond_count, bool faces_examined,
-                                                 bool bonds_fade)
+int64_t run_convert_flagged_points_to_peridynamic(struct run *e, int64_t broken_bond_count, bool crack_faces_examined,
+                                                  bool bonds_weaken_gradually)
 {
     const struct conversion_sync sync = {sync_listed, e, meet_others};
     struct coupling_state *c = e->coupling;
-    if (!faces_examined && broken_bond_count == 0 && !c->approaches && !e->bonds.soft.at_points &&
+    if (!crack_faces_examined && broken_bond_count == 0 && !c->approaches && !e->bonds.soft.at_points &&
         !may_convert(e->scene, &e->part, e->frame))
         return 0;
     e->bonds.soft.at_points = false;
-    mesh_levels_delay_conversion_at_coarse_cells(&e->frame->levels, &e->part);
+    coarse_cells_delay_conversion_of_nearby_points(&e->frame->levels, &e->part);
     const int64_t converted =
-        convert_flagged_points(&c->conversion, &e->scene->conversion, &e->part, &e->bonds, &e->source,
-                               c->uses_partial ? &c->partial : NULL, &sync, e->clock.t);
+        convert_flagged_points_to_peridynamic(&c->conversion, &e->scene->conversion, &e->part, &e->bonds, &e->source,
+                                              c->uses_partial ? &c->partial : NULL, &sync, e->clock.t);
     if (converted > 0)
         interface_zone_rebuild_after_bond_change(c, &e->part, &e->bonds, &e->source), e->grid->sort_needed = SORT_ALL;
-    /* where bonds fade; for broken bonds convert_flagged_points() has updated the partial stresses */
-    if (c->uses_partial && e->scene->growths > 0 && (broken_bond_count > 0 || converted > 0 || bonds_fade))
-        partial_stress_make(&c->partial, &e->part, &e->bonds, &e->source, NULL, 0);
+    /* where bonds fade; for broken bonds convert_flagged_points_to_peridynamic() has updated the partial stresses */
+    if (c->uses_partial && e->scene->growths > 0 && (broken_bond_count > 0 || converted > 0 || bonds_weaken_gradually))
+        partial_stress_compute_from_bonds(&c->partial, &e->part, &e->bonds, &e->source, NULL, 0);
     conversion_update_mesh_after_conversion(e, converted);
     return converted;
 }
@@ -116,23 +117,23 @@ void interface_zone_rebuild_after_bond_change(struct coupling_state *c, const st
         interface_zone_find_points_and_neighbours(&c->zone, p, source);
 }
 
-void coupling_choose_and_compute_partial_stress(struct run *e)
+void coupling_set_method_and_compute_partial_stress(struct run *e)
 {
     struct coupling_state *c = e->coupling;
     e->coupling_kind = e->scene->method == METHOD_ADAPTIVE ? e->scene->coupling : COUPLING_HANDSHAKE;
     c->flip = e->scene->transfer == TRANSFER_FLIP;
     c->partial.gives_all = e->coupling_kind != COUPLING_PARTIAL_STRESS;
     c->uses_partial = !c->partial.gives_all || e->part.end_strain;
-    if (c->uses_partial) partial_stress_make(&c->partial, &e->part, &e->bonds, &e->source, NULL, 0);
+    if (c->uses_partial) partial_stress_compute_from_bonds(&c->partial, &e->part, &e->bonds, &e->source, NULL, 0);
     interface_zone_rebuild_after_bond_change(c, &e->part, &e->bonds, &e->source);
 }
 
-status coupling_make_reference_frame_mesh(struct run *e, bool caller_sets_motion)
+status coupling_build_total_lagrangian_mesh(struct run *e, bool caller_sets_nodal_motion)
 {
     struct coupling_state *c = e->coupling;
     const struct mesh_source cuts = {
         .partial = c->uses_partial ? &c->partial : NULL, .slit = c->notches.slit, .slits = c->notches.slits};
-    TRY(reference_frame_make_mesh(e, &cuts, caller_sets_motion));
+    TRY(lagrangian_mesh_make_for_run(e, &cuts, caller_sets_nodal_motion));
     c->partial.touches = 0; /* the mesh includes the present partial stresses */
     return OK;
 }

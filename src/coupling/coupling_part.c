@@ -26,19 +26,19 @@ static void put_notches(struct json *j, const struct notches *n, real spacing)
     enum { SAID = 16 };
     char text[256];
     if (n->n == 0) return;
-    json_open(j, "notches", '[');
+    json_begin_object_or_list(j, "notches", '[');
     for (int k = 0; k < n->n && k < SAID; k++) {
         notch_describe_as_slit_or_cut_bonds(n, k, spacing, text, sizeof text);
         json_write_text(j, NULL, text);
     }
-    json_close(j, ']');
+    json_end_object_or_list(j, ']');
 }
 
 static void put_conversion(const struct run *e, struct json *j)
 {
     const struct conversion *c = &e->coupling->conversion;
     real n = (real)e->part.n_body, start = (real)c->start / n, end = (real)e->part.n_of[KIND_PD] / n;
-    json_open(j, "conversion", '{');
+    json_begin_object_or_list(j, "conversion", '{');
     if (isfinite(c->first_time) && c->events > 0) {
         json_write_real(j, "first_time", c->first_time);
         json_write_point(j, "", c->first_place, e->part.dim);
@@ -53,7 +53,7 @@ static void put_conversion(const struct run *e, struct json *j)
         json_write_integer(j, "reversions_most", reversions_most(&e->part));
         json_write_real(j, "reversion_energy", c->reversion_energy);
     }
-    json_close(j, '}');
+    json_end_object_or_list(j, '}');
 }
 
 /* Saves the state of conversion of run e to the archive a if a->saving, else restores it. The strains of material
@@ -61,9 +61,10 @@ static void put_conversion(const struct run *e, struct json *j)
  * if the archive cannot be read or written or lacks the state. */
 static status coupling_state_of(struct run *e, struct archive *a)
 {
-    if (!a->saving) bonded_points_update_strain(&e->coupling->partial, e->frame, &e->part, e->scene->material);
+    if (!a->saving)
+        bonded_points_update_strain_from_mesh_or_stress(&e->coupling->partial, e->frame, &e->part, e->scene->material);
     return conversion_save_or_load(&e->coupling->conversion, a);
 }
 
 const struct part part_coupling = {PART(coupling, coupling_state), .free = coupling_free_all, .summary = put_conversion,
-                                   .warn = warn_of_bodies_that_pass_or_stick, .state = coupling_state_of};
+                                   .warn = warn_of_bodies_that_penetrate_or_stick_together, .state = coupling_state_of};

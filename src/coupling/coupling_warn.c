@@ -29,7 +29,7 @@ static void name_add(struct name_list *l, const char *name)
 /* Adds a warning to `to` that the material points of bodies of s in the reference frame (on a mesh of the undeformed
  * body) have no contact with other bodies. It names these bodies; without such bodies, no warning is added. reference:
  * states for each body whether it is in the reference frame. */
-static void warn_of_reference(const struct scene *s, const struct reference_frame *reference, struct warnings *to)
+static void warn_of_reference(const struct scene *s, const struct lagrangian_mesh *reference, struct warnings *to)
 {
     struct name_list names = {0};
     for (int b = 0; b < s->bodies; b++) names.all += reference->choice[b].reference;
@@ -48,12 +48,12 @@ static void warn_of_reference(const struct scene *s, const struct reference_fram
  * undeformed body); approaches: true if particles convert when bodies approach each other, so that they have contact
  * and no warning is needed. Adds none if the bodies of the scene cannot meet, or if it accepts this (accept:
  * [contact]). */
-static void warn_of_contact(const struct scene *s, const struct reference_frame *reference, bool approaches,
+static void warn_of_contact(const struct scene *s, const struct lagrangian_mesh *reference, bool approaches,
                             struct warnings *to)
 {
     bool current = false;
     for (int b = 0; b < s->bodies; b++) current |= !reference->choice[b].reference;
-    if (!scene_bodies_can_meet(s) || approaches || scene_silences_warning(s, ACCEPT_CONTACT)) return;
+    if (!scene_bodies_can_come_into_contact(s) || approaches || scene_silences_warning(s, ACCEPT_CONTACT)) return;
     if (s->method == METHOD_PD && (s->contact_between != CONTACT_NONE || scene_is_single_equilibrium(s))) return;
     if (s->method == METHOD_PD)
         warnings_add_if_new(to,
@@ -131,12 +131,12 @@ static void warn_of_touch(const struct run *e, struct warnings *to)
                 : "on the grid of mpm.frame: current they stick together only until a gap of two cells opens");
 }
 
-void warn_of_bodies_that_pass_or_stick(const struct run *e, struct warnings *warning_list)
+void warn_of_bodies_that_penetrate_or_stick_together(const struct run *e, struct warnings *warning_list)
 {
     const struct scene *s = e->scene;
     const bool reference_possible = e->source.voids && s->method != METHOD_PD && s->bodies == 1 &&
-                                    !scene_why_reference_frame_unsupported(s, 0) &&
-                                    reference_frame_is_possible(e->frame, &e->part, s, e->grid);
+                                    !scene_reason_total_lagrangian_mpm_unsupported(s, 0) &&
+                                    lagrangian_mesh_can_be_made_for_scene(e->frame, &e->part, s, e->grid);
     warn_of_contact(s, e->frame, e->coupling->approaches, warning_list);
     warn_of_touch(e, warning_list);
     warn_of_voids_treated_as_closed(e, reference_possible, warning_list);

@@ -215,7 +215,7 @@ static void change_make(struct interface_zone *r, const struct particles *p, int
 /* Returns the second half of the energy that damping has removed in this step [J]: -1/2 sum dp . v over the members of
  * the interface zone r, with their change of momentum dp and their present velocity v in p. Call it after the change
  * has been applied; the first half is this sum with the velocities before the step. */
-real interface_zone_second_half_of_damped_energy(const struct interface_zone *r, const struct particles *p)
+real interface_zone_damping_loss_by_new_velocity(const struct interface_zone *r, const struct particles *p)
 {
     real lost = 0; /* serial: few members, and the sum must not depend on the number of threads */
     for (int64_t k = 0; k < r->n; k++)
@@ -223,7 +223,7 @@ real interface_zone_second_half_of_damped_energy(const struct interface_zone *r,
     return lost;
 }
 
-real interface_zone_damp_and_return_half_energy(struct interface_zone *r, struct particles *p, real viscosity)
+real interface_zone_damp_return_loss_by_old_velocity(struct interface_zone *r, struct particles *p, real viscosity)
 {
 #pragma omp parallel
     {
@@ -233,7 +233,7 @@ real interface_zone_damp_and_return_half_energy(struct interface_zone *r, struct
 #pragma omp for schedule(static)
         for (int64_t k = 0; k < r->n; k++) change_make(r, p, k, viscosity);
     }
-    const real lost = interface_zone_second_half_of_damped_energy(r, p);
+    const real lost = interface_zone_damping_loss_by_new_velocity(r, p);
     for (int64_t k = 0; k < r->n; k++)
         for (int d = 0; d < p->dim; d++) p->v[d][r->particle[k]] += r->change[k * p->dim + d] / p->mass[r->particle[k]];
     return lost;

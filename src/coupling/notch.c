@@ -223,7 +223,8 @@ static void faces_find(struct notches *n, const struct particles *p, const struc
     n->faces = 0;
     for (int64_t i = 0; i < p->n; i++) {
         if (!faces[i]) continue;
-        n->depth[n->faces] = beside_void(source, i) ? voids_lower_bound_of_surface_distance(source->voids, p, i) : 0;
+        n->depth[n->faces] =
+            beside_void(source, i) ? voids_particle_surface_distance_lower_bound(source->voids, p, i) : 0;
         n->face[n->faces++] = (int32_t)i;
     }
     memory_free(faces);
@@ -331,7 +332,8 @@ static real meeting_reach(const struct notches *n, const struct particles *p, re
     return real_min(MEET_REACH * spacing, (most + 2 * sqrt(speed2) * ahead) * (1 + REACH_SLACK));
 }
 
-void notches_flag_points_at_closing_faces(const struct notches *n, struct particles *p, real spacing, real time_ahead)
+void notches_flag_closing_face_points_for_conversion(const struct notches *n, struct particles *p, real spacing,
+                                                     real time_ahead)
 {
     struct particles places = {.n = n->faces, .n_all = n->faces, .dim = p->dim};
     struct cells cells;

@@ -24,10 +24,11 @@ static const char *scene_obstacle(const struct scene *s)
 /* Returns the reason why pre-cracks may not be slits, along which nodes of the mesh are doubled, as a constant text: in
  * the scene s, the reference frame r (mesh of the undeformed body) or the background grid g. Returns NULL if nothing
  * prevents slits. */
-static const char *obstacle_of(const struct scene *s, const struct reference_frame *r, const struct grid *g)
+static const char *obstacle_of(const struct scene *s, const struct lagrangian_mesh *r, const struct grid *g)
 {
     const char *why = scene_obstacle(s);
-    if (!why && !reference_frame_is_in_use(r)) why = "the scene has no material points in the reference frame";
+    if (!why && !lagrangian_mesh_is_used_by_any_body(r))
+        why = "the scene has no material points in the reference frame";
     if (!why && grid_has_mirror_plane_between_nodes(g, s)) why = "a mirror plane is between two nodes of the mesh";
     return why;
 }
@@ -59,9 +60,10 @@ status precracks_apply_as_slits_or_cut_bonds(struct run *e)
     initial_pd_region_make(&e->coupling->start_region, s->has_pd_region ? &s->pd_region : NULL, &e->part, &e->source,
                            tips);
     notches_make_slit_ends_peridynamic(n, &e->part, &e->source);
-    convert_to_peridynamic_beside_voids(&e->part, e->source.voids, mesh_cannot_double_nodes_at_voids(g, s));
-    convert_to_peridynamic_at_precracks(&e->part, &cut,
-                                        e->coupling->start_region.n > 0 ? &e->coupling->start_region : NULL);
+    convert_particles_beside_voids_to_peridynamic(&e->part, e->source.voids,
+                                                  mesh_cannot_have_free_surfaces_at_voids(g, s));
+    convert_particles_at_precracks_to_peridynamic(&e->part, &cut,
+                                                  e->coupling->start_region.n > 0 ? &e->coupling->start_region : NULL);
     return OK;
 }
 
@@ -80,11 +82,12 @@ void notch_describe_as_slit_or_cut_bonds(const struct notches *n, int crack_numb
  * before the faces touch: moves these points of p with the mesh of the reference frame `frame` first. loads: with the
  * mirror images of the points; spacing: of the particles [m]; time_ahead: time until the next call [s]. Returns true if
  * n has faces. */
-bool flag_points_at_closing_slits(const struct notches *n, struct reference_frame *frame, struct particles *p,
-                                  const struct loads *loads, real spacing, real time_ahead)
+bool flag_points_at_closing_slits_for_conversion(const struct notches *n, struct lagrangian_mesh *frame,
+                                                 struct particles *p, const struct loads *loads, real spacing,
+                                                 real time_ahead)
 {
     if (n->faces == 0) return false;
-    reference_frame_update_listed_points(frame, p, loads, n->face, n->faces);
-    notches_flag_points_at_closing_faces(n, p, spacing, time_ahead);
+    lagrangian_mesh_update_motion_of_listed_points(frame, p, loads, n->face, n->faces);
+    notches_flag_closing_face_points_for_conversion(n, p, spacing, time_ahead);
     return true;
 }

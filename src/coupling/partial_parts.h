@@ -12,7 +12,7 @@
  * (horizon, materials, cracks, mirrors); map: map of the lattice sites of the bonds, which makes this faster; NULL: a
  * search is done. */
 void particle_find_family_members(struct neighbour_list *near, const struct bond_source *source,
-                                  const struct site_map *map, const struct particles *p, int64_t particle);
+                                  const struct lattice_site_map *map, const struct particles *p, int64_t particle);
 
 /* Returns the share (0 to 1) of the length of the segment from `segment_start` to `segment_end` that is inside a square
  * or cube with edges along the axes. cube_centre: middle of the cube; half_edge: half of an edge of the cube [m].
@@ -35,30 +35,32 @@ struct reflection mirror_image_reflection(const struct bond_source *s, const str
 /* Strain response of a bond: derivative of the force F of the bond by a uniform strain eps, times the length of the
  * bond [N m], as the factors of three terms. With the unit vector e along the bond,
  *     F = central (e . eps e) e + pressure (tr eps) e + vector (eps e). */
-struct response {
+struct bond_strain_response {
     real central, pressure, vector;
 };
 
 /* Returns the derivative of the force of `bond` by a uniform strain, times the length of the bond [N m], as the three
- * factors of struct response (central, pressure and vector part of the force). i: particle of p to whose bonds in b
- * `bond` belongs; source: inputs of the bonds (horizon, materials, cracks, mirrors). */
-struct response bond_force_derivative_by_strain(const struct particles *p, const struct bonds *b,
-                                                const struct bond_source *source, int32_t i, const struct bond *bond);
+ * factors of struct bond_strain_response (central, pressure and vector part of the force). i: particle of p to whose
+ * bonds in b `bond` belongs; source: inputs of the bonds (horizon, materials, cracks, mirrors). */
+struct bond_strain_response bond_force_derivative_by_strain(const struct particles *p, const struct bonds *b,
+                                                            const struct bond_source *source, int32_t i,
+                                                            const struct bond *bond);
 
 /* Adds the contribution of a bond to the tensor T = `tensor` [J] (row-major matrix over symmetric components) of a
  * cell, by which bonds reduce the stiffness of the cell: T_abcd += l e_b dF_a/deps_cd, symmetric in ab and in cd. l:
  * length of the bond inside the cell; e: unit vector along the bond; F: its force. point_position, other_position:
  * positions of the material point and of the other particle of the bond, dim components each [m]; centre, half_edge:
  * centre of the cell and half of an edge [m]; response: r dF/deps, with the length r of the bond. */
-void partial_tensor_add_bond_contribution(real *tensor, const real *point_position, const real *other_position,
-                                          const real *centre, real half_edge, struct response response, int dim);
+void cell_stiffness_reduction_add_bond_contribution(real *tensor, const real *point_position,
+                                                    const real *other_position, const real *centre, real half_edge,
+                                                    struct bond_strain_response response, int dim);
 
 /* Reduces the tensor `tensor` [J] (row-major matrix over symmetric components) of the material point `point` of p, by
  * which its state-based bonds b reduce the stiffness of its cell, as far as needed for a positive elastic energy of the
  * point (partial_positive.c). mean_strain_derivative: receives the derivative of the point's mean strain by the strain
  * of its cell, in symmetric components [1]; 0 if the point has no bonds. source: inputs of the bonds (horizon,
  * materials, cracks, mirrors). Returns true if the point has bonds. */
-bool partial_tensor_limit_for_state_based_bonds(real *tensor, real *mean_strain_derivative, const struct particles *p,
+bool cell_stiffness_reduction_limit_state_based(real *tensor, real *mean_strain_derivative, const struct particles *p,
                                                 const struct bonds *b, const struct bond_source *source, int64_t point);
 
 /* Reduces the tensor `tensor` [J] (row-major matrix over symmetric components) of the material point `point` of p, by
@@ -66,7 +68,7 @@ bool partial_tensor_limit_for_state_based_bonds(real *tensor, real *mean_strain_
  * without negative eigenvalues. source: inputs of the bonds (horizon, materials, cracks, mirrors); V, C: volume and
  * elastic tensor of the point. A cell with a negative eigenvalue would be unstable with any time step. This has an
  * effect only if particles are not on a lattice or bonds are stiffer than the material. */
-void partial_tensor_limit_for_bond_based_model(real *tensor, const struct particles *p,
+void cell_stiffness_reduction_limit_bond_based(real *tensor, const struct particles *p,
                                                const struct bond_source *source, int64_t point);
 
 /* Returns half the edge [m] of the square or cubic cell of particle i of p, from the volume of the particle. source:
@@ -76,47 +78,49 @@ real particle_cell_half_edge(const struct particles *p, const struct bond_source
 /* Table for particles on a lattice (partial_table.c): for every possible bond and every cell that it crosses, the
  * fraction of the length of the bond inside the cell. With it, the tensor T by which bonds reduce the stiffness of the
  * cell of a material point is computed quickly. Empty if particles are not on lattices. */
-struct partial_table;
+struct bond_fraction_table;
 
 /* Creates the table that contains, for every possible bond between particles p on a lattice, the fraction of the length
  * of the bond inside each cell that the bond crosses. The table is empty if the particles are not on lattices or have
  * too many bond vectors. source: inputs of the bonds (horizon, materials, cracks, mirrors); tensor_size: number of
- * values of the tensor T, by which bonds reduce the stiffness of a cell. Release with partial_table_free. */
-struct partial_table *partial_table_make_of_bond_shares_in_cells(const struct particles *p,
-                                                                 const struct bond_source *source, int tensor_size);
+ * values of the tensor T, by which bonds reduce the stiffness of a cell. Release with bond_fraction_table_free. */
+struct bond_fraction_table *bond_fraction_table_make_for_lattice_cells(const struct particles *p,
+                                                                       const struct bond_source *source,
+                                                                       int tensor_size);
 
 /* Releases the table t. */
-void partial_table_free(struct partial_table *t);
+void bond_fraction_table_free(struct bond_fraction_table *t);
 
 /* Returns true if the table t of bond lengths inside cells could be made, because particles are on lattices with few
  * enough different bonds; false if the table is empty. */
-bool partial_table_is_filled(const struct partial_table *t);
+bool bond_fraction_table_is_not_empty(const struct bond_fraction_table *t);
 
 /* Returns true if all particles for which the table t of bond lengths inside cells was made have the volume of a
  * lattice cell. The table can then be used for every particle; its numbers are those of square or cubic cells of this
  * size only. */
-bool partial_table_covers_all_particles(const struct partial_table *t);
+bool bond_fraction_table_is_valid_for_all_particles(const struct bond_fraction_table *t);
 
-/* Returns true if the table of bond lengths inside cells (struct partial_table) can be used for particle number
+/* Returns true if the table of bond lengths inside cells (struct bond_fraction_table) can be used for particle number
  * `particle` of p, because the particle has the volume of a lattice cell. source: inputs of the bonds (horizon,
  * materials, cracks, mirrors). */
-bool partial_table_applies_to_particle(const struct particles *p, const struct bond_source *source, int64_t particle);
+bool particle_has_volume_of_lattice_cell(const struct particles *p, const struct bond_source *source, int64_t particle);
 
 /* Recomputes the strain responses that the table t stores for each bond in b of a material point of p: the derivative
- * of the force of the bond by a uniform strain, times the length of the bond (struct response).
+ * of the force of the bond by a uniform strain, times the length of the bond (struct bond_strain_response).
  * point_list[point_count]: indices of the points whose bonds have changed, NULL for all material points; the responses
- * of other points are kept. source: inputs of the bonds b. Call before partial_table_sum_stiffness_tensor. */
-void partial_table_update_strain_responses(struct partial_table *t, const struct particles *p, const struct bonds *b,
-                                           const struct bond_source *source, const int32_t *point_list,
-                                           int64_t point_count);
+ * of other points are kept. source: inputs of the bonds b. Call before
+ * bond_fraction_table_sum_cell_stiffness_reduction. */
+void bond_fraction_table_update_strain_responses(struct bond_fraction_table *t, const struct particles *p,
+                                                 const struct bonds *b, const struct bond_source *source,
+                                                 const int32_t *point_list, int64_t point_count);
 
 /* Computes the tensor `tensor` [J] (row-major matrix over symmetric components) of the material point `point` of p, by
  * which the bonds b reduce the stiffness of its cell, from the table t and the strain responses that it stores for the
  * bonds of the material points around `point`. The responses must be up to date
- * (partial_table_update_strain_responses). source: inputs of the bonds (horizon, materials, cracks, mirrors); near:
- * working memory. */
-void partial_table_sum_stiffness_tensor(const struct partial_table *t, const struct particles *p, const struct bonds *b,
-                                        const struct bond_source *source, int64_t point, struct neighbour_list *near,
-                                        real *tensor);
+ * (bond_fraction_table_update_strain_responses). source: inputs of the bonds (horizon, materials, cracks, mirrors);
+ * near: working memory. */
+void bond_fraction_table_sum_cell_stiffness_reduction(const struct bond_fraction_table *t, const struct particles *p,
+                                                      const struct bonds *b, const struct bond_source *source,
+                                                      int64_t point, struct neighbour_list *near, real *tensor);
 
 #endif

@@ -18,12 +18,12 @@ static bool own_bonds(real *zeta, const struct particles *p, const struct bonds 
 {
     const int64_t row = p->kind[i] == KIND_MPM ? b->row_of[i] : -1;
     bool any = false;
-    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
+    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_iterator_advance(&it);) {
         const struct bond bond = it.bond;
         if (bond.w == 0) continue;
-        for (int c = 0; c < symmetric_component_count(p->dim); c++) {
+        for (int c = 0; c < symmetric_tensor_component_count(p->dim); c++) {
             int a, d;
-            symmetric_component_axes(p->dim, c, &a, &d);
+            symmetric_tensor_component_axes(p->dim, c, &a, &d);
             zeta[c] +=
                 bond.w * (p->X[a][bond.nbr] - p->X[a][i]) * (p->X[d][bond.nbr] - p->X[d][i]) / b->state.weighted[row];
         }
@@ -98,7 +98,7 @@ static real partial_positive_root_of(int c, int dim) { return c < dim ? 1 : M_SQ
  * [J]; L[n]: derivative of this mean strain by the strain of the point's cell [1]. */
 static void stay_below(real *T, const struct material *m, int dim, real V, real q, const real *L)
 {
-    const int n = symmetric_component_count(dim);
+    const int n = symmetric_tensor_component_count(dim);
     real H[SYM_MAX * SYM_MAX], kept[SYM_MAX * SYM_MAX];
     for (int c = 0; c < n; c++)
         for (int d = 0; d < n; d++) {
@@ -114,10 +114,10 @@ static void stay_below(real *T, const struct material *m, int dim, real V, real 
                             (partial_positive_root_of(c, dim) * partial_positive_root_of(d, dim));
 }
 
-bool partial_tensor_limit_for_state_based_bonds(real *tensor, real *mean_strain_derivative, const struct particles *p,
+bool cell_stiffness_reduction_limit_state_based(real *tensor, real *mean_strain_derivative, const struct particles *p,
                                                 const struct bonds *b, const struct bond_source *s, int64_t point)
 {
-    const int dim = p->dim, n = symmetric_component_count(dim);
+    const int dim = p->dim, n = symmetric_tensor_component_count(dim);
     const struct state_modulus *m = &s->modulus[p->material[point]];
     const struct material *material = &s->material[p->material[point]];
     const real V = p->volume0[point];
@@ -138,7 +138,7 @@ bool partial_tensor_limit_for_state_based_bonds(real *tensor, real *mean_strain_
     return end;
 }
 
-void partial_tensor_limit_for_bond_based_model(real *tensor, const struct particles *p, const struct bond_source *s,
+void cell_stiffness_reduction_limit_bond_based(real *tensor, const struct particles *p, const struct bond_source *s,
                                                int64_t point)
 {
     const real none[SYM_MAX] = {0};

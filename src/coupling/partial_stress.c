@@ -5,16 +5,15 @@
  * point transmits sigma - T_q : C^-1 sigma to the grid and keeps sigma as its state. T_q is geometric, exact in 1D, and
  * the Hessian of an energy: C - T_q is the stiffness of the bonds that the cells replace.
  *
- * State-based bonds also respond to the trace of the strain and in other directions (struct response): their T_q is not
- * symmetric and would cause flutter at any time step. A point j of such bonds therefore has the energy of one
- * neighbourhood,
- *     E_j = 1/2 V A S^2 + 1/2 g sum w |Y - R xi|^2,   S = sum w r e/Q + L : eps,   L = 1/D - (1/Q) sum w xi (x) xi
- * in which the bonds of the point determine one part of the mean strain S and its cell the rest; R is the rotation of
- * the cell (kernels/mesh/mesh_law.h), and for ordinary models the second term is that of the stretch of the bonds. The
- * derivatives of E_j by the parts of S and R of the cell act on the cell (particles.end_pull, end_moment). The cell
- * keeps K = C - T', T' = sym T + A sym (L (x) 1/D), which fails the patch test only by the part of T that has no
- * energy: 1 to 4 % of the nodal force S h at flat interfaces. T' is limited so that the energy of the point stays
- * positive (partial_positive.c). */
+ * State-based bonds also respond to the trace of the strain and in other directions (struct bond_strain_response):
+ * their T_q is not symmetric and would cause flutter at any time step. A point j of such bonds therefore has the energy
+ * of one neighbourhood, E_j = 1/2 V A S^2 + 1/2 g sum w |Y - R xi|^2,   S = sum w r e/Q + L : eps,   L = 1/D - (1/Q)
+ * sum w xi (x) xi in which the bonds of the point determine one part of the mean strain S and its cell the rest; R is
+ * the rotation of the cell (kernels/mesh/mesh_law.h), and for ordinary models the second term is that of the stretch of
+ * the bonds. The derivatives of E_j by the parts of S and R of the cell act on the cell (particles.end_pull,
+ * end_moment). The cell keeps K = C - T', T' = sym T + A sym (L (x) 1/D), which fails the patch test only by the part
+ * of T that has no energy: 1 to 4 % of the nodal force S h at flat interfaces. T' is limited so that the energy of the
+ * point stays positive (partial_positive.c). */
 #include <math.h>
 #include <string.h>
 
@@ -66,8 +65,9 @@ struct reflection mirror_image_reflection(const struct bond_source *s, const str
 /* Returns 1 for equal indices a and b, else 0 (Kronecker's delta). */
 static bool same(int a, int b) { return a == b; }
 
-void partial_tensor_add_bond_contribution(real *tensor, const real *point_position, const real *other_position,
-                                          const real *centre, real half_edge, struct response k, int dim)
+void cell_stiffness_reduction_add_bond_contribution(real *tensor, const real *point_position,
+                                                    const real *other_position, const real *centre, real half_edge,
+                                                    struct bond_strain_response k, int dim)
 {
     real share = segment_fraction_in_cube(point_position, other_position, centre, half_edge, dim), e[DIM_MAX],
          length = 0;
@@ -75,12 +75,12 @@ void partial_tensor_add_bond_contribution(real *tensor, const real *point_positi
     for (int d = 0; d < dim; d++) e[d] = other_position[d] - point_position[d], length += square(e[d]);
     length = sqrt(length);
     for (int d = 0; d < dim; d++) e[d] /= length;
-    const int n = symmetric_component_count(dim);
+    const int n = symmetric_tensor_component_count(dim);
     for (int s = 0; s < n; s++)
         for (int t = 0; t < n; t++) {
             int a, b, c, d;
-            symmetric_component_axes(dim, s, &a, &b);
-            symmetric_component_axes(dim, t, &c, &d);
+            symmetric_tensor_component_axes(dim, s, &a, &b);
+            symmetric_tensor_component_axes(dim, t, &c, &d);
             real turned = e[b] * e[d] * same(a, c) + e[b] * e[c] * same(a, d) + e[a] * e[d] * same(b, c) +
                           e[a] * e[c] * same(b, d);
             tensor[s * n + t] += share * (k.central * e[a] * e[b] * e[c] * e[d] +
@@ -93,22 +93,23 @@ void partial_tensor_add_bond_contribution(real *tensor, const real *point_positi
  * neighbourhood on the lattice and the list of images; i: index of the particle or of a mirror image of it. */
 static real family_share(const struct particles *p, const struct bonds *b, const struct bond_source *s, int64_t i)
 {
-    const int32_t row = b->row_of[image_source_particle(p, s->image, i)];
+    const int32_t row = b->row_of[mirror_image_source_particle(p, s->image, i)];
     return row >= 0 ? p->volume0[i] / b->state.weighted[row] : s->family.cell_volume / s->family.weighted;
 }
 
-struct response bond_force_derivative_by_strain(const struct particles *p, const struct bonds *b,
-                                                const struct bond_source *s, int32_t i, const struct bond *bond)
+struct bond_strain_response bond_force_derivative_by_strain(const struct particles *p, const struct bonds *b,
+                                                            const struct bond_source *s, int32_t i,
+                                                            const struct bond *bond)
 {
     const int32_t j = bond->nbr;
     const real r = fabs(1 / bond->inverse_length), D = p->dim;
-    if (!s->modulus) return (struct response){.central = b->stiffness * bond->w * r};
+    if (!s->modulus) return (struct bond_strain_response){.central = b->stiffness * bond->w * r};
     const struct state_modulus *m = &s->modulus[p->material[i]], *n = &s->modulus[p->material[j]];
     const real first = family_share(p, b, s, i), second = family_share(p, b, s, j), scale = bond->w * r * r;
     const real spring = scale * (m->B * first + n->B * second);
-    return (struct response){.pressure = scale * (m->A * first + n->A * second) / D,
-                             .central = s->rotates ? 0 : spring,
-                             .vector = s->rotates ? spring : 0};
+    return (struct bond_strain_response){.pressure = scale * (m->A * first + n->A * second) / D,
+                                         .central = s->rotates ? 0 : spring,
+                                         .vector = s->rotates ? spring : 0};
 }
 
 /* Bounding box of all bonds of a row, to skip rows too far from a cell for any of their bonds to cross it. */
@@ -124,7 +125,7 @@ static struct box box_of(const struct particles *p, const struct bonds *b, int64
     for (int d = 0; d < p->dim; d++) {
         const real *X = p->X[d];
         box.low[d] = box.high[d] = X[b->particle[row]];
-        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
+        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_iterator_advance(&it);) {
             const struct bond bond = it.bond;
             if (bond.w == 0) continue;
             box.low[d] = real_min(box.low[d], X[bond.nbr]);
@@ -156,7 +157,7 @@ static void tensor_add_row(real *T, const struct particles *p, const struct bond
     if (row < 0 || p->kind[r.root] != KIND_MPM) return;
     real xp[DIM_MAX], xm[DIM_MAX];
     for (int d = 0; d < p->dim; d++) xp[d] = p->X[d][j];
-    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
+    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_iterator_advance(&it);) {
         const struct bond bond = it.bond;
         if (bond.w == 0) continue;
         bool apart = false; /* most bonds miss the cell: tested without a division */
@@ -165,8 +166,8 @@ static void tensor_add_row(real *T, const struct particles *p, const struct bond
             apart |= (xm[d] < xp[d] ? xp[d] : xm[d]) <= X[d] - half || (xm[d] < xp[d] ? xm[d] : xp[d]) >= X[d] + half;
         }
         if (apart) continue;
-        partial_tensor_add_bond_contribution(T, xp, xm, X, half,
-                                             bond_force_derivative_by_strain(p, b, s, b->particle[row], &bond), p->dim);
+        cell_stiffness_reduction_add_bond_contribution(
+            T, xp, xm, X, half, bond_force_derivative_by_strain(p, b, s, b->particle[row], &bond), p->dim);
     }
 }
 
@@ -197,7 +198,7 @@ static void tensor_sum(real *T, const struct particles *p, const struct bonds *b
  * the cell. */
 static bool partial_matrix(real *M, const real *T, const struct particles *p, const struct bond_source *s, int64_t i)
 {
-    const int dim = p->dim, n = symmetric_component_count(dim);
+    const int dim = p->dim, n = symmetric_tensor_component_count(dim);
     real compliance[SYM_MAX * SYM_MAX];
     material_compliance_matrix(&s->material[p->material[i]], dim, compliance);
     real largest = 0;
@@ -216,7 +217,7 @@ static bool partial_matrix(real *M, const real *T, const struct particles *p, co
  * (derivative of the mean strain of the point's bonds by the strain of its cell). */
 static int partial_stress_entry_size(const struct bond_source *s, int dim)
 {
-    const int n = symmetric_component_count(dim);
+    const int n = symmetric_tensor_component_count(dim);
     return n * n + (s->modulus ? n : 0);
 }
 
@@ -228,8 +229,8 @@ static int partial_stress_entry_size(const struct bond_source *s, int dim)
 static bool state_entry(real *entry, real *T, const struct partial_stress *partial, const struct particles *p,
                         const struct bonds *b, const struct bond_source *s, int64_t i)
 {
-    const int n = symmetric_component_count(p->dim);
-    const bool end = partial_tensor_limit_for_state_based_bonds(T, entry + n * n, p, b, s, i);
+    const int n = symmetric_tensor_component_count(p->dim);
+    const bool end = cell_stiffness_reduction_limit_state_based(T, entry + n * n, p, b, s, i);
     if (!partial->gives_all) return partial_matrix(entry, T, p, s, i);
     array_fill_bytes(entry, 0, partial_stress_entry_size(s, p->dim), sizeof *entry);
     return end;
@@ -240,7 +241,7 @@ static bool state_entry(real *entry, real *T, const struct partial_stress *parti
  * [J]; is reduced if the point would be unstable. Returns false if no bond crosses the cell. */
 static bool bond_entry(real *entry, real *T, const struct particles *p, const struct bond_source *s, int64_t i)
 {
-    partial_tensor_limit_for_bond_based_model(T, p, s, i);
+    cell_stiffness_reduction_limit_bond_based(T, p, s, i);
     return partial_matrix(entry, T, p, s, i);
 }
 
@@ -266,7 +267,7 @@ enum { OTHERS_ROW = 1, DIRTY = 2, OWN = 4 };
  * all peridynamic particles have changed. With reach 0, the affected particles are those within the cutoff of bonds,
  * found by the map from lattice sites to particles, `map` (NULL: by a search). */
 static void mark_dirty(uint8_t *mark, const struct particles *p, const struct bond_source *s,
-                       const struct site_map *map, real radius, real reach, const int32_t *changed, int64_t n)
+                       const struct lattice_site_map *map, real radius, real reach, const int32_t *changed, int64_t n)
 {
     struct neighbour_list near = {0};
     for (int64_t k = 0; k < (changed ? n : p->n_of[KIND_PD]); k++) {
@@ -278,7 +279,7 @@ static void mark_dirty(uint8_t *mark, const struct particles *p, const struct bo
         for (int m = 0; m < near.n; m++) {
             real r2 = 0;
             for (int d = 0; d < p->dim && reach > 0; d++) r2 += square(p->X[d][near.at[m]] - p->X[d][i]);
-            mark[image_source_particle(p, s->image, near.at[m])] |=
+            mark[mirror_image_source_particle(p, s->image, near.at[m])] |=
                 r2 <= radius * radius ? OTHERS_ROW | DIRTY : OTHERS_ROW;
         }
         mark[i] |= OWN | OTHERS_ROW | DIRTY;
@@ -309,12 +310,12 @@ static int64_t marked(const uint8_t *mark, int64_t n, int32_t *list)
  * to a cell) is valid for all particles. changed[n]: indices of the converted particles, or NULL for all peridynamic
  * ones; s: cutoff of the bonds and cells for the search of neighbours. Release r with renewal_free. */
 static void renewal_make(struct renewal *r, const struct particles *p, const struct bonds *b,
-                         const struct bond_source *s, const struct partial_table *table, const int32_t *changed,
+                         const struct bond_source *s, const struct bond_fraction_table *table, const int32_t *changed,
                          int64_t n)
 {
     /* a changed bond ends within a cutoff plus half the diagonal of a cell of every cell it crosses; on a lattice,
      * within its own length, since the middle of the cell is inside the box that the bond spans */
-    const bool strange = !partial_table_covers_all_particles(table);
+    const bool strange = !bond_fraction_table_is_valid_for_all_particles(table);
     const real radius = s->family.cutoff + (strange ? s->family.spacing * sqrt(p->dim) : 0);
     uint8_t *mark = NEW("partial.mark", p->n + LANES, uint8_t); /* entries beyond the body stay 0 */
     mark_dirty(mark, p, s, b->site_map, radius, strange ? radius : 0, changed, n);
@@ -407,7 +408,7 @@ static void touch(struct partial_stress *partial, int64_t i)
 static void entries_make(real *entry, bool *crossed, const struct partial_stress *partial, const struct renewal *r,
                          const struct particles *p, const struct bonds *b, const struct bond_source *s)
 {
-    const bool served = partial_table_is_filled(partial->table);
+    const bool served = bond_fraction_table_is_not_empty(partial->table);
     const int each = partial_stress_entry_size(s, p->dim);
     struct box *box = NEW("partial.box", r->rows > 0 ? b->rows : 0, struct box);
 #pragma omp parallel
@@ -420,8 +421,8 @@ static void entries_make(real *entry, bool *crossed, const struct partial_stress
             const int64_t i = r->list[k];
             real T[SYM_MAX * SYM_MAX] = {0};
             if (p->kind[i] != KIND_MPM) continue;
-            if (served && partial_table_applies_to_particle(p, s, i))
-                partial_table_sum_stiffness_tensor(partial->table, p, b, s, i, &near, T);
+            if (served && particle_has_volume_of_lattice_cell(p, s, i))
+                bond_fraction_table_sum_cell_stiffness_reduction(partial->table, p, b, s, i, &near, T);
             else
                 tensor_sum(T, p, b, s, box, i, &near);
             crossed[k] = s->modulus ? state_entry(entry + k * each, T, partial, p, b, s, i)
@@ -432,21 +433,21 @@ static void entries_make(real *entry, bool *crossed, const struct partial_stress
     memory_free(box);
 }
 
-void partial_stress_make(struct partial_stress *partial, const struct particles *p, const struct bonds *b,
-                         const struct bond_source *source, const int32_t *changed, int64_t n)
+void partial_stress_compute_from_bonds(struct partial_stress *partial, const struct particles *p, const struct bonds *b,
+                                       const struct bond_source *source, const int32_t *changed, int64_t n)
 {
-    const int n_symmetric = symmetric_component_count(p->dim), size = n_symmetric * n_symmetric;
+    const int n_symmetric = symmetric_tensor_component_count(p->dim), size = n_symmetric * n_symmetric;
     const int whole = partial_stress_entry_size(source, p->dim), local = whole - size;
     const bool all = !changed || !partial->index;
     struct renewal r;
     if (!partial->index) {
         partial->index = NEW("partial.index", p->n, int32_t);
         for (int64_t i = 0; i < p->n; i++) partial->index[i] = -1;
-        partial->table = partial_table_make_of_bond_shares_in_cells(p, source, size);
+        partial->table = bond_fraction_table_make_for_lattice_cells(p, source, size);
     }
     renewal_make(&r, p, b, source, partial->table, changed, n);
-    if (partial_table_is_filled(partial->table))
-        partial_table_update_strain_responses(partial->table, p, b, source, all ? NULL : r.list, r.n);
+    if (bond_fraction_table_is_not_empty(partial->table))
+        bond_fraction_table_update_strain_responses(partial->table, p, b, source, all ? NULL : r.list, r.n);
     real *M = BARE("partial.new", r.n * whole, real);
     bool *crossed = NEW("partial.crossed", r.n, bool);
     entries_make(M, crossed, partial, &r, p, b, source);
@@ -469,7 +470,7 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
 void bonded_points_compute_strain_from_stress(const struct partial_stress *partial, struct particles *p,
                                               const struct material *material)
 {
-    const int dim = p->dim, n = symmetric_component_count(dim);
+    const int dim = p->dim, n = symmetric_tensor_component_count(dim);
     real compliance[UINT8_MAX + 1][SYM_MAX * SYM_MAX];
     bool known[UINT8_MAX + 1] = {false};
     if (!partial->index || !partial->local) return;
@@ -492,6 +493,6 @@ void partial_stress_free(struct partial_stress *partial)
     memory_free(partial->matrix);
     memory_free(partial->local);
     memory_free(partial->touched);
-    if (partial->table) partial_table_free(partial->table);
+    if (partial->table) bond_fraction_table_free(partial->table);
     *partial = (struct partial_stress){.gives_all = partial->gives_all};
 }

@@ -26,8 +26,8 @@ struct near_place {
     int16_t place, at[DIM_MAX];
 };
 
-/* Responses to strain (struct response) of the bonds of all rows of material points, in one entry per row, by the
- * number of the bond's vector. The values of a row are valid until one of its bonds changes. */
+/* Responses to strain (struct bond_strain_response) of the bonds of all rows of material points, in one entry per row,
+ * by the number of the bond's vector. The values of a row are valid until one of its bonds changes. */
 struct responses {
     int32_t *of;    /* [n] entry of a particle, -1: no row with an intact bond */
     real *response; /* [room][vectors][parts] */
@@ -37,7 +37,7 @@ struct responses {
 
 /* Table for one lattice: the fractions of all possible bonds inside the cell of a point, and the tensors of these
  * bonds. Sites are numbered like the cells of a cube with the point in the middle and `reach` cells on either side. */
-struct partial_table {
+struct bond_fraction_table {
     int dim, reach, parts, size; /* dimension; reach of bonds [cells]; parts of a response; values of a tensor */
     real spacing, per_spacing;   /* lattice spacing [m]; 1/spacing [1/m] */
     int vectors, directions;     /* vectors of bonds; directions, i.e. pairs of a vector and its opposite */
@@ -53,9 +53,8 @@ struct partial_table {
 
 /* ---- sites ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the number of lattice sites in table t: (2 reach + 1)^dim. The sites form a cube with a material point at its
- * centre. */
-static int64_t partial_table_places_of(const struct partial_table *t)
+/* Returns the number of lattice sites in table t: (2 reach + 1)^dim. A material point is at the centre of this cube. */
+static int64_t partial_table_places_of(const struct bond_fraction_table *t)
 {
     int64_t n = 1;
     for (int d = 0; d < t->dim; d++) n *= 2 * t->reach + 1;
@@ -64,12 +63,12 @@ static int64_t partial_table_places_of(const struct partial_table *t)
 
 /* Computes at[dim], the offset of the lattice site with the number `place` from the site at the centre of table t
  * [spacings]. The (2 reach + 1)^dim sites of the table form a cube and are numbered with x fastest. */
-static void place_to(const struct partial_table *t, int64_t place, int *at)
+static void place_to(const struct bond_fraction_table *t, int64_t place, int *at)
 {
     for (int d = 0; d < t->dim; d++, place /= 2 * t->reach + 1) at[d] = (int)(place % (2 * t->reach + 1)) - t->reach;
 }
 
-static int64_t place_from(const struct partial_table *t, const int *at)
+static int64_t place_from(const struct bond_fraction_table *t, const int *at)
 {
     int64_t place = 0;
     for (int d = t->dim - 1; d >= 0; d--) {
@@ -82,7 +81,7 @@ static int64_t place_from(const struct partial_table *t, const int *at)
 /* Returns the number of a lattice site in table t, from 0; -1 if the site is outside the table. The table is a cube of
  * sites around a centre. from[dim]: position of the site at which the centre is placed [m]; to[dim]: position of the
  * site whose number is returned [m]. */
-static inline int64_t place_between(const struct partial_table *t, const real *from, const real *to)
+static inline int64_t place_between(const struct bond_fraction_table *t, const real *from, const real *to)
 {
     int64_t place = 0;
     for (int d = t->dim - 1; d >= 0; d--) {
@@ -99,7 +98,7 @@ static inline int64_t place_between(const struct partial_table *t, const real *f
 /* Numbers all possible bond vectors on the lattice, up to the length `cutoff` [m]. Stores the numbers in t->vector, by
  * the site to which a vector leads from the centre of the table; -1 for sites without a vector. Lists these sites and
  * the centre in t->near. If there are more than VECTORS_MOST vectors, t->vectors becomes VECTORS_MOST + 1. */
-static void vectors_make(struct partial_table *t, real cutoff)
+static void vectors_make(struct bond_fraction_table *t, real cutoff)
 {
     const int64_t places = partial_table_places_of(t), middle = (places - 1) / 2;
     t->vector = NEW("partial.vector", places, int16_t);
@@ -122,16 +121,16 @@ static void vectors_make(struct partial_table *t, real cutoff)
     }
 }
 
-/* Returns the number, from 0, of the direction of the bond vector number `vector` in table t. A vector and its opposite
- * have the same direction. */
-static int direction_of(const struct partial_table *t, int vector)
+/* Returns the number, from 0, of the direction of the bond vector number `vector` in table t. Opposite vectors have one
+ * direction. */
+static int direction_of(const struct bond_fraction_table *t, int vector)
 {
     return vector < t->directions ? vector : t->vectors - 1 - vector;
 }
 
 /* Computes t->mirror[2^dim][vectors]: for each set of axes (one bit each) and each bond vector, the number of the
  * vector whose components along these axes have the opposite sign. */
-static void mirrors_make(struct partial_table *t)
+static void mirrors_make(struct bond_fraction_table *t)
 {
     t->mirror = NEW("partial.mirror", (int64_t)t->vectors << t->dim, int16_t);
     for (int64_t k = 0; k < partial_table_places_of(t); k++)
@@ -147,7 +146,7 @@ static void mirrors_make(struct partial_table *t)
  * as seen from the crossed cell: under the number of the site at which the bond starts if this cell is at the centre of
  * the table. next[sites + 1]: with `count` true, crossings are only counted, in next[site + 1]; otherwise they are
  * stored in t->crossing at the positions next[site], which are incremented. */
-static void crossings_of(struct partial_table *t, int64_t k, int64_t *next, bool count)
+static void crossings_of(struct bond_fraction_table *t, int64_t k, int64_t *next, bool count)
 {
     int to[DIM_MAX], low[DIM_MAX] = {0}, high[DIM_MAX] = {0}, cell[DIM_MAX] = {0};
     const real from[DIM_MAX] = {0};
@@ -174,7 +173,7 @@ static void crossings_of(struct partial_table *t, int64_t k, int64_t *next, bool
  * number of its bond vector (numbering of vectors_make) and the fraction of its length inside the cell. The list is
  * sorted by the number of the lattice site at which the bond starts, one of the (2 reach + 1)^dim sites of the table;
  * the entries of a site are t->start[site] .. t->start[site + 1] - 1. Call it after vectors_make. */
-static void crossings_make(struct partial_table *t)
+static void crossings_make(struct bond_fraction_table *t)
 {
     const int64_t places = partial_table_places_of(t);
     int64_t *next = NEW("partial.next", places + 1, int64_t);
@@ -192,10 +191,10 @@ static void crossings_make(struct partial_table *t)
 /* Computes t->tensor[directions][parts][size]: for each direction of bonds and each part of the response of a bond to
  * strain, the tensor T by which a bond inside a cell over its full length reduces the stiffness of the cell. T_abcd = l
  * e_b dF_a/deps_cd, with the length l of the bond, its unit vector e and its force F
- * (partial_tensor_add_bond_contribution). Parts, of which one is 1 and the other 0: 0, the force due to the deformation
- * of the bond itself, along the bond or, if s->rotates (models with particle rotations), in any direction; 1, the force
- * due to the dilatation of the neighbourhood, in state-based models only (struct response). */
-static void tensors_make(struct partial_table *t, const struct bond_source *s)
+ * (cell_stiffness_reduction_add_bond_contribution). Parts, of which one is 1 and the other 0: 0, the force due to the
+ * deformation of the bond itself, along the bond or, if s->rotates (models with particle rotations), in any direction;
+ * 1, the force due to the dilatation of the neighbourhood, in state-based models only (struct bond_strain_response). */
+static void tensors_make(struct bond_fraction_table *t, const struct bond_source *s)
 {
     t->tensor = NEW("partial.tensor", (int64_t)t->directions * t->parts * t->size, real);
     for (int64_t k = 0; k < partial_table_places_of(t); k++) {
@@ -206,10 +205,11 @@ static void tensors_make(struct partial_table *t, const struct bond_source *s)
         place_to(t, k, at);
         for (int d = 0; d < t->dim; d++) to[d] = at[d];
         for (int part = 0; part < t->parts; part++) {
-            const struct response one = {
+            const struct bond_strain_response one = {
                 .central = part == 0 && !s->rotates, .vector = part == 0 && s->rotates, .pressure = part == 1};
-            partial_tensor_add_bond_contribution(t->tensor + ((int64_t)t->vector[k] * t->parts + part) * t->size, from,
-                                                 to, from, 2 * t->reach + 1, one, t->dim);
+            cell_stiffness_reduction_add_bond_contribution(t->tensor +
+                                                               ((int64_t)t->vector[k] * t->parts + part) * t->size,
+                                                           from, to, from, 2 * t->reach + 1, one, t->dim);
         }
     }
 }
@@ -236,21 +236,21 @@ static bool all_known(const struct particles *p, const struct bond_source *s)
 {
     bool known = true;
 #pragma omp parallel for schedule(static) reduction(&& : known)
-    for (int64_t i = 0; i < p->n; i++) known = known && partial_table_applies_to_particle(p, s, i);
+    for (int64_t i = 0; i < p->n; i++) known = known && particle_has_volume_of_lattice_cell(p, s, i);
     return known;
 }
 
-struct partial_table *partial_table_make_of_bond_shares_in_cells(const struct particles *p, const struct bond_source *s,
-                                                                 int tensor_size)
+struct bond_fraction_table *bond_fraction_table_make_for_lattice_cells(const struct particles *p,
+                                                                       const struct bond_source *s, int tensor_size)
 {
     const struct family *f = &s->family;
-    struct partial_table *t = NEW("partial.table", 1, struct partial_table);
-    *t = (struct partial_table){.dim = p->dim,
-                                .reach = (int)floor(f->cutoff / f->spacing * (1 + LATTICE_NEAR)),
-                                .parts = s->modulus ? 2 : 1,
-                                .size = tensor_size,
-                                .spacing = f->spacing,
-                                .per_spacing = 1 / f->spacing};
+    struct bond_fraction_table *t = NEW("partial.table", 1, struct bond_fraction_table);
+    *t = (struct bond_fraction_table){.dim = p->dim,
+                                      .reach = (int)floor(f->cutoff / f->spacing * (1 + LATTICE_NEAR)),
+                                      .parts = s->modulus ? 2 : 1,
+                                      .size = tensor_size,
+                                      .spacing = f->spacing,
+                                      .per_spacing = 1 / f->spacing};
     if (!on_lattice(p, f->spacing)) return t;
     vectors_make(t, f->cutoff);
     if (t->vectors * t->parts > VECTORS_MOST) t->vectors = 0;
@@ -263,7 +263,7 @@ struct partial_table *partial_table_make_of_bond_shares_in_cells(const struct pa
     return t;
 }
 
-void partial_table_free(struct partial_table *t)
+void bond_fraction_table_free(struct bond_fraction_table *t)
 {
     if (!t) return;
     memory_free(t->vector);
@@ -282,18 +282,18 @@ void partial_table_free(struct partial_table *t)
 
 /* Returns true if table t (effect of a bond of each lattice vector on a cell) is filled and can be used: the particles
  * are on a lattice, and the number of possible bond vectors is at most VECTORS_MOST. */
-bool partial_table_is_filled(const struct partial_table *t) { return t->vectors > 0; }
-bool partial_table_covers_all_particles(const struct partial_table *t) { return t->uniform; }
+bool bond_fraction_table_is_not_empty(const struct bond_fraction_table *t) { return t->vectors > 0; }
+bool bond_fraction_table_is_valid_for_all_particles(const struct bond_fraction_table *t) { return t->uniform; }
 
-static real *response_at(const struct partial_table *t, int64_t k)
+static real *response_at(const struct bond_fraction_table *t, int64_t k)
 {
     return t->responses.response + k * t->vectors * t->parts;
 }
 
 /* Reserves memory in t->responses for `open` rows (a row has the bonds of one particle). A row has an entry of
- * t->vectors responses to strain (struct response), one for each possible bond vector on the lattice. Does nothing if
- * the memory suffices. */
-static void responses_room(struct partial_table *t, int64_t open)
+ * t->vectors responses to strain (struct bond_strain_response), one for each possible bond vector on the lattice. Does
+ * nothing if the memory suffices. */
+static void responses_room(struct bond_fraction_table *t, int64_t open)
 {
     struct responses *a = &t->responses;
     const int64_t each = (int64_t)t->vectors * t->parts;
@@ -306,9 +306,10 @@ static void responses_room(struct partial_table *t, int64_t open)
     a->room = room;
 }
 
-/* Assigns an entry of t->responses to particle i, for the responses of its bonds to strain (struct response). Reuses a
- * released entry if there is one. Does nothing if the particle has an entry. Call responses_room before. */
-static void response_open(struct partial_table *t, int64_t i)
+/* Assigns an entry of t->responses to particle i, for the responses of its bonds to strain (struct
+ * bond_strain_response). Reuses a released entry if there is one. Does nothing if the particle has an entry. Call
+ * responses_room before. */
+static void response_open(struct bond_fraction_table *t, int64_t i)
 {
     struct responses *a = &t->responses;
     if (a->of[i] < 0) a->of[i] = a->frees > 0 ? a->free[--a->frees] : (int32_t)a->n++;
@@ -316,7 +317,7 @@ static void response_open(struct partial_table *t, int64_t i)
 
 /* Releases the entry of particle i in t->responses (responses of its bonds to strain) for use by another particle. Does
  * nothing if it has none. */
-static void response_close(struct partial_table *t, int64_t i)
+static void response_close(struct bond_fraction_table *t, int64_t i)
 {
     struct responses *a = &t->responses;
     if (a->of[i] < 0) return;
@@ -324,31 +325,31 @@ static void response_close(struct partial_table *t, int64_t i)
     a->of[i] = -1;
 }
 
-/* Computes the responses to strain (struct response) of the bonds in row `row` of b, the bonds of one particle of p. t:
- * table of bond vectors; s: law of the bonds; response[vectors][parts]: receives the responses, by the number of the
- * bond's vector on the lattice; 0 for broken bonds and for vectors without a bond. */
-static void response_make(const struct partial_table *t, const struct particles *p, const struct bonds *b,
+/* Computes the responses to strain (struct bond_strain_response) of the bonds in row `row` of b, the bonds of one
+ * particle of p. t: table of bond vectors; s: law of the bonds; response[vectors][parts]: receives the responses, by
+ * the number of the bond's vector on the lattice; 0 for broken bonds and for vectors without a bond. */
+static void response_make(const struct bond_fraction_table *t, const struct particles *p, const struct bonds *b,
                           const struct bond_source *s, int64_t row, real *response)
 {
     real X[DIM_MAX];
     array_fill_bytes(response, 0, t->vectors * t->parts, sizeof *response);
     particle_reference_position(p, b->particle[row], X);
-    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
+    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_iterator_advance(&it);) {
         const struct bond bond = it.bond;
         real to[DIM_MAX];
         if (bond.w == 0) continue;
         particle_reference_position(p, bond.nbr, to);
         const int64_t place = place_between(t, X, to);
         INVARIANT(place >= 0 && t->vector[place] >= 0);
-        const struct response r = bond_force_derivative_by_strain(p, b, s, b->particle[row], &bond);
+        const struct bond_strain_response r = bond_force_derivative_by_strain(p, b, s, b->particle[row], &bond);
         real *part = response + t->vector[place] * t->parts;
         part[0] = s->rotates ? r.vector : r.central;
         if (t->parts > 1) part[1] = r.pressure;
     }
 }
 
-/* The block of eight rows of the last query, and its rows with an intact bond, one bit each: consecutive queries mostly
- * concern the same block. */
+/* The block of eight rows of the last query, and its rows with an intact bond, one bit each: the next query is mostly
+ * of this block. */
 struct row_block_intact {
     int64_t row_block;
     unsigned rows;
@@ -362,12 +363,13 @@ static bool partial_table_has_bonds(struct row_block_intact *last, const struct 
     const int64_t row = b->row_of[i], row_block = row / LANES;
     if (p->kind[i] != KIND_MPM || row < 0) return false;
     if (last->row_block != row_block)
-        *last = (struct row_block_intact){row_block, bond_row_block_lanes_with_intact_bonds(b, row_block)};
+        *last = (struct row_block_intact){row_block, bond_row_block_intact_bond_lane_mask(b, row_block)};
     return last->rows >> row % LANES & 1;
 }
 
-void partial_table_update_strain_responses(struct partial_table *t, const struct particles *p, const struct bonds *b,
-                                           const struct bond_source *s, const int32_t *point_list, int64_t point_count)
+void bond_fraction_table_update_strain_responses(struct bond_fraction_table *t, const struct particles *p,
+                                                 const struct bonds *b, const struct bond_source *s,
+                                                 const int32_t *point_list, int64_t point_count)
 {
     struct responses *a = &t->responses;
     struct row_block_intact last = {.row_block = -1};
@@ -407,7 +409,7 @@ struct crossing_row {
  * bond inside the cell of a material point. place: number of the particle's site in table t with the material point at
  * its centre; response[vectors][parts]: responses of the particle's bonds; signs: axes along which a mirror image is
  * reflected, one bit each; parts: t->parts, known at compile time. */
-static ALWAYS_INLINE void sum_row(const struct partial_table *t, real *sum, int64_t place, const real *response,
+static ALWAYS_INLINE void sum_row(const struct bond_fraction_table *t, real *sum, int64_t place, const real *response,
                                   int signs, const int parts)
 {
     const int16_t *mirror = t->mirror + signs * t->vectors;
@@ -420,7 +422,7 @@ static ALWAYS_INLINE void sum_row(const struct partial_table *t, real *sum, int6
 
 /* Prefetches the responses to strain that sum_row reads from table t for *row, the bonds of one particle, into the
  * cache. It has no other effect. */
-static ALWAYS_INLINE void row_fetch(const struct partial_table *t, const struct crossing_row *row)
+static ALWAYS_INLINE void row_fetch(const struct bond_fraction_table *t, const struct crossing_row *row)
 {
     const real *response = response_at(t, row->response);
     for (int32_t c = t->start[row->place]; c < t->start[row->place + 1]; c++)
@@ -430,7 +432,7 @@ static ALWAYS_INLINE void row_fetch(const struct partial_table *t, const struct 
 /* Adds the sum of sum[k] tensor_k over all k to T[t->size]. A number k stands for a direction of bonds and a part of
  * their response to strain. sum[directions][parts]: summed responses; tensor_k: stiffness of a bond with a unit
  * response, from t->tensor. */
-static void sum_tensors(const struct partial_table *t, const real *sum, real *T)
+static void sum_tensors(const struct bond_fraction_table *t, const real *sum, real *T)
 {
     for (int k = 0; k < t->directions * t->parts; k++) {
         const real *tensor = t->tensor + (int64_t)k * t->size;
@@ -439,7 +441,7 @@ static void sum_tensors(const struct partial_table *t, const real *sum, real *T)
     }
 }
 
-bool partial_table_applies_to_particle(const struct particles *p, const struct bond_source *s, int64_t particle)
+bool particle_has_volume_of_lattice_cell(const struct particles *p, const struct bond_source *s, int64_t particle)
 {
     return fabs(p->volume0[particle] / s->family.cell_volume - 1) <= WHOLE;
 }
@@ -448,10 +450,11 @@ bool partial_table_applies_to_particle(const struct particles *p, const struct b
  * of a material point: if j is a material point, or the image of one, whose bond responses are stored in t. s: list of
  * the images; place: number of the site of j in the table with that material point at its centre. Returns the new
  * length of the list. */
-static int crossing_row_add(const struct partial_table *t, const struct particles *p, const struct bond_source *s,
+static int crossing_row_add(const struct bond_fraction_table *t, const struct particles *p, const struct bond_source *s,
                             int32_t j, int64_t place, struct crossing_row *to, int n)
 {
-    const int32_t response = p->kind[j] == KIND_MPM ? t->responses.of[image_source_particle(p, s->image, j)] : -1;
+    const int32_t response =
+        p->kind[j] == KIND_MPM ? t->responses.of[mirror_image_source_particle(p, s->image, j)] : -1;
     int at = n;
     if (response < 0) return n;
     for (; at > 0 && to[at - 1].j > j; at--) to[at] = to[at - 1];
@@ -463,10 +466,11 @@ static int crossing_row_add(const struct partial_table *t, const struct particle
  * order. l: map from lattice sites to particles, in which the sites of table t are looked up; s: list of the images.
  * Sites are visited in the order of the particles, so that only images have to be inserted between others. Returns the
  * number of listed particles, at most t->vectors + 1. */
-static int crossing_rows_by_site(const struct partial_table *t, const struct site_map *l, const struct particles *p,
-                                 const struct bond_source *s, int64_t i, struct crossing_row *to)
+static int crossing_rows_by_site(const struct bond_fraction_table *t, const struct lattice_site_map *l,
+                                 const struct particles *p, const struct bond_source *s, int64_t i,
+                                 struct crossing_row *to)
 {
-    const int32_t *own = l->at + site_map_lattice_site_of_particle(l, p, i);
+    const int32_t *own = l->at + lattice_site_map_site_of_particle(l, p, i);
     int n = 0;
     for (int k = 0; k <= t->vectors; k++) {
         const struct near_place *near = &t->near[k];
@@ -479,7 +483,7 @@ static int crossing_rows_by_site(const struct partial_table *t, const struct sit
 /* Lists the particles and mirror images whose bonds may cross the cell of material point i of p in `to`, in ascending
  * order, found by a neighbour search: for particles without a map of lattice sites. t: table of bond responses; s:
  * cells of the search; near: working memory. Returns the number of listed particles. */
-static int crossing_rows_by_search(const struct partial_table *t, const struct particles *p,
+static int crossing_rows_by_search(const struct bond_fraction_table *t, const struct particles *p,
                                    const struct bond_source *s, int64_t i, struct neighbour_list *near,
                                    struct crossing_row *to)
 {
@@ -496,9 +500,9 @@ static int crossing_rows_by_search(const struct partial_table *t, const struct p
     return n;
 }
 
-void partial_table_sum_stiffness_tensor(const struct partial_table *t, const struct particles *p, const struct bonds *b,
-                                        const struct bond_source *s, int64_t point, struct neighbour_list *near,
-                                        real *tensor)
+void bond_fraction_table_sum_cell_stiffness_reduction(const struct bond_fraction_table *t, const struct particles *p,
+                                                      const struct bonds *b, const struct bond_source *s, int64_t point,
+                                                      struct neighbour_list *near, real *tensor)
 {
     real sum[VECTORS_MOST];
     struct crossing_row row[VECTORS_MOST + 1];

@@ -27,7 +27,7 @@ static void search_near(struct search *s, int64_t i, real radius)
     int kept = 0;
     particles_list_neighbours_within_radius(&s->near, s->source->cells, s->p, i, radius, true);
     for (int k = 0; k < s->near.n; k++) {
-        const int64_t j = image_source_particle(s->p, s->source->image, s->near.at[k]);
+        const int64_t j = mirror_image_source_particle(s->p, s->source->image, s->near.at[k]);
         if (s->p->body[j] == s->p->body[i]) s->near.at[kept++] = (int32_t)j;
     }
     s->near.n = kept;
@@ -53,8 +53,8 @@ static bool low_stress(const struct reversion_rule *rule, const struct particles
     const struct family *f = &rule->source->family;
     real stress[SYM_MAX], share = b->family_volume[b->row_of[i]] / f->full;
     if (rule->source->modulus || !(share < 1)) share = 1;
-    for (int s = 0; s < symmetric_component_count(p->dim); s++) stress[s] = p->stress[s][i] / share;
-    const real limit = rule->low_stress * point_conversion_stress(&rule->elastic[p->material[i]], p, i);
+    for (int s = 0; s < symmetric_tensor_component_count(p->dim); s++) stress[s] = p->stress[s][i] / share;
+    const real limit = rule->low_stress * point_pd_conversion_stress_threshold(&rule->elastic[p->material[i]], p, i);
     return stress_largest_principal(stress, p->dim) < limit;
 }
 
@@ -193,7 +193,7 @@ static void family_moments(const struct bonds *b, const struct particles *p, int
 {
     const int32_t i = b->particle[row];
     const int dim = p->dim;
-    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
+    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_iterator_advance(&it);) {
         const struct bond bond = it.bond;
         real e[DIM_MAX], y[DIM_MAX];
         if (bond.w == 0) continue;
@@ -223,7 +223,7 @@ struct crossing {
 static void crossing_add(struct crossing *to, const struct bonds *b, const struct particles *p,
                          const struct reflection *r, int64_t j, const struct bond *bond)
 {
-    const int dim = p->dim, n = symmetric_component_count(dim);
+    const int dim = p->dim, n = symmetric_tensor_component_count(dim);
     real from[DIM_MAX], end[DIM_MAX], y[DIM_MAX], e[DIM_MAX], length2 = 0;
     for (int d = 0; d < dim; d++) {
         from[d] = p->X[d][j], end[d] = r->sign[d] * p->X[d][bond->nbr] + r->offset[d];
@@ -241,11 +241,11 @@ static void crossing_add(struct crossing *to, const struct bonds *b, const struc
     const real force = stiff * (sqrt(length2) * bond->inverse_length - 1) / sqrt(length2);
     for (int s = 0; s < n; s++) {
         int a, c;
-        symmetric_component_axes(dim, s, &a, &c);
+        symmetric_tensor_component_axes(dim, s, &a, &c);
         to->stress[s] += force * y[a] * y[c];
         for (int t = 0; t < n; t++) {
             int k, l;
-            symmetric_component_axes(dim, t, &k, &l);
+            symmetric_tensor_component_axes(dim, t, &k, &l);
             to->T[s * n + t] += stiff / bond->inverse_length * e[a] * e[c] * e[k] * e[l] * (t < dim ? 1 : 2);
         }
     }
@@ -269,7 +269,7 @@ static void crossing_of(struct crossing *to, const struct particles *p, const st
         const struct reflection r = mirror_image_reflection(source, p, j);
         const int64_t row = b->row_of[r.root];
         if (row < 0 || p->body[j] != p->body[i]) continue;
-        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);)
+        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_iterator_advance(&it);)
             if (it.bond.w != 0) crossing_add(to, b, p, &r, j, &it.bond);
     }
     for (int c = 0; c < SYM_MAX; c++) to->stress[c] /= p->volume0[i];
@@ -289,11 +289,11 @@ static real determinant(const real *F, int dim)
  * overwritten. Leaves the stress unchanged if T is singular. */
 static void complete(const struct bond_source *source, const struct particles *p, int64_t i, real *T, real *stress)
 {
-    const int dim = p->dim, n = symmetric_component_count(dim);
+    const int dim = p->dim, n = symmetric_tensor_component_count(dim);
     real c11, c12, strain[SYM_MAX], trace = 0;
     for (int s = 0; s < n; s++) strain[s] = stress[s];
     if (!reversion_solve(T, strain, n, 1)) return;
-    family_elastic_constants(&source->family, &source->material[p->material[i]], &c11, &c12);
+    family_compute_cubic_elastic_constants(&source->family, &source->material[p->material[i]], &c11, &c12);
     for (int d = 0; d < dim; d++) trace += strain[d];
     for (int s = 0; s < n; s++) stress[s] = s < dim ? (c11 - c12) * strain[s] + c12 * trace : 2 * c12 * strain[s];
 }
@@ -306,7 +306,7 @@ static void reversion_stress(real *stress, const struct particles *p, const stru
                              const struct bond_source *source, int64_t i, struct neighbour_list *near)
 {
     struct crossing c;
-    for (int k = 0; k < symmetric_component_count(p->dim); k++) stress[k] = p->stress[k][i];
+    for (int k = 0; k < symmetric_tensor_component_count(p->dim); k++) stress[k] = p->stress[k][i];
     if (source->modulus) return;
     crossing_of(&c, p, b, source, i, near);
     complete(source, p, i, c.T, c.stress);
@@ -319,7 +319,7 @@ static void reversion_stress(real *stress, const struct particles *p, const stru
 static void point_from_family(struct particles *p, const struct bonds *b, const struct bond_source *source, int64_t i,
                               struct neighbour_list *near)
 {
-    const int dim = p->dim, n = symmetric_component_count(dim);
+    const int dim = p->dim, n = symmetric_tensor_component_count(dim);
     real K[DIM_MAX * DIM_MAX] = {0}, G[DIM_MAX * DIM_MAX] = {0}, stress[SYM_MAX], J = 1;
     family_moments(b, p, b->row_of[i], K, G);
     const bool known = reversion_solve(K, G, dim, dim);
@@ -348,7 +348,7 @@ void reversion_convert_listed_particles_to_mpm(struct conversion *c, struct part
         p->reversions[particle_list[k]] += p->reversions[particle_list[k]] < UINT8_MAX;
     }
     bonds_rebuild_after_particle_kind_change(b, p, source);
-    if (partial) partial_stress_make(partial, p, b, source, particle_list, particle_count);
+    if (partial) partial_stress_compute_from_bonds(partial, p, b, source, particle_list, particle_count);
     c->reverted += particle_count;
     c->reversions++;
 }

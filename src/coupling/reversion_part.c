@@ -19,7 +19,7 @@ static int64_t period(const struct run_clock *clock, const struct material_table
     return steps > 1 ? steps : 1;
 }
 
-status reversion_check_scene_allows_reversion(const struct scene *s)
+status reversion_check_scene_allows_return_to_mpm(const struct scene *s)
 {
     const char *why = NULL;
     if (!s->conversion.reverts || s->method != METHOD_ADAPTIVE) return OK;
@@ -59,9 +59,9 @@ static void revert_listed(struct run *e, const int32_t *list, int64_t n)
     const real before = energy_now(e);
     reversion_convert_listed_particles_to_mpm(&e->coupling->conversion, &e->part, &e->bonds, &e->source,
                                               e->coupling->uses_partial ? &e->coupling->partial : NULL, list, n);
-    reference_frame_insert_points(e->frame, &e->part, list, n, &e->damped);
+    lagrangian_mesh_insert_points(e->frame, &e->part, list, n, &e->damped);
     conversion_update_mesh_after_conversion(e, n);
-    reference_frame_update_point_motion(e->frame, &e->part, &e->loads);
+    lagrangian_mesh_update_point_motion(e->frame, &e->part, &e->loads);
     interface_zone_rebuild_after_bond_change(e->coupling, &e->part, &e->bonds, &e->source);
     e->grid->sort_needed = SORT_ALL, e->contact->due = true;
     e->coupling->conversion.reversion_energy += energy_now(e) - before;

@@ -9,15 +9,16 @@
 
 #define ALONG 0.999 /* least cosine between an axis and a direction that counts as along the axis */
 
-bool mesh_cannot_double_nodes_at_voids(const struct grid *g, const struct scene *s)
+bool mesh_cannot_have_free_surfaces_at_voids(const struct grid *g, const struct scene *s)
 {
     return s->dim == 1 || grid_has_mirror_plane_between_nodes(g, s);
 }
 
-void convert_to_peridynamic_beside_voids(struct particles *p, const struct voids *v, bool include_meshed)
+void convert_particles_beside_voids_to_peridynamic(struct particles *p, const struct voids *v,
+                                                   bool include_mesh_particles)
 {
     for (int64_t i = 0; i < p->n && v; i++)
-        if (v->near[i] & VOID_ACROSS && (include_meshed || !(p->flag[i] & FLAG_MESHED))) p->kind[i] = KIND_PD;
+        if (v->near[i] & VOID_ACROSS && (include_mesh_particles || !(p->flag[i] & FLAG_MESHED))) p->kind[i] = KIND_PD;
 }
 
 /* Particles beside voids that are too narrow for the grid, which joins the two sides of such a void. n: their number;
@@ -113,12 +114,12 @@ static struct closed closed_in_lattice(const struct scene *s, const struct parti
     return 2 * regular > all ? found : (struct closed){0};
 }
 
-void warn_of_voids_treated_as_closed(const struct run *e, bool reference_possible, struct warnings *warning_list)
+void warn_of_voids_treated_as_closed(const struct run *e, bool total_lagrangian_possible, struct warnings *warning_list)
 {
     const struct scene *s = e->scene;
-    const bool uncut = mesh_cannot_double_nodes_at_voids(&e->grid->field[0].grid, s);
+    const bool uncut = mesh_cannot_have_free_surfaces_at_voids(&e->grid->field[0].grid, s);
     struct closed grid = {0}, plane = {0};
-    const real reach = voids_interaction_distance(s, e->source.family.cutoff);
+    const real reach = scene_interaction_distance_across_voids(s, e->source.family.cutoff);
     closed_on_grid(&e->part, e->source.voids, &e->cells, reach, uncut, &grid, &plane);
     if (grid.n > 0)
         warnings_add_if_new(warning_list,
@@ -127,7 +128,7 @@ void warn_of_voids_treated_as_closed(const struct run *e, bool reference_possibl
                             "method: adaptive or a smaller particles.spacing",
                             s->body[e->part.body[grid.first]].name,
                             particle_position_text(&e->part, grid.first, 4).text, (long long)grid.n,
-                            reference_possible && !uncut ? "mpm.frame: reference, " : "");
+                            total_lagrangian_possible && !uncut ? "mpm.frame: reference, " : "");
     if (plane.n > 0)
         warnings_add_if_new(warning_list,
                             "body %s: the gap between this body and a plane of symmetry is too narrow for the grid at "

@@ -208,7 +208,7 @@ static int64_t around(const struct cells *c, int64_t cell, int64_t reach)
     return sum;
 }
 
-int cells_neighbour_count_bound(const struct cells *c, real radius)
+int cells_neighbour_count_upper_bound(const struct cells *c, real radius)
 {
     real far = 0;
     int64_t most = 0;

@@ -7,7 +7,7 @@
 /* Distance from the origin, divided by the longest edge of the bodies, from which on it is reported [1]. */
 #define FAR 100
 
-struct extent_text particles_extent_text(const struct particles *p)
+struct extent_text particles_describe_bounding_box(const struct particles *p)
 {
     struct extent_text t;
     real low[DIM_MAX] = {0}, high[DIM_MAX] = {0};
@@ -17,7 +17,7 @@ struct extent_text particles_extent_text(const struct particles *p)
     return t;
 }
 
-struct extent_text particles_far_from_origin_text(const struct particles *p)
+struct extent_text particles_warning_text_if_far_from_origin(const struct particles *p)
 {
     struct extent_text t = {""};
     real middle2 = 0, low, high;

@@ -137,7 +137,7 @@ void grid_add_dashpot(struct grid *g, const struct dashpot *dashpot)
 void grid_clear_constraints(struct grid *g)
 {
     g->walls = g->dashpots = 0;
-    g->absorbed = (struct absorbed){0};
+    g->absorbed = (struct dashpot_effect){0};
     for (int64_t k = 0; k < g->mirror_nodes; k++)
         memset(g->mirror_node[k].reaction, 0, sizeof g->mirror_node[k].reaction);
 }

@@ -180,7 +180,7 @@ real hull_winding_number(const struct hull *s, const real *X)
     return far + near.turns + atan2(near.y, near.x) / (2 * pi);
 }
 
-struct hull_samples hull_sample_winding_numbers(const struct hull *s)
+struct hull_samples hull_sample_winding_number_statistics(const struct hull *s)
 {
     const int places = s->dim == 2 ? 64 : 16;
     const struct hull_node *all = &s->node[0];
@@ -330,7 +330,7 @@ static bool face_is_behind(const struct hull *s, int32_t other, int32_t face, co
     return above <= 1e-9 * sqrt(size2 * dot(area, area, s->dim));
 }
 
-bool hull_is_convex_within_distance(const struct hull *s, const real *X, real reach)
+bool hull_is_convex_near_point(const struct hull *s, const real *X, real reach)
 {
     int32_t face[NEAR_MOST];
     const int n = s->open || s->open_edges > 0 || s->faces == 0 ? -1 : faces_within(s, X, reach, face);

@@ -19,8 +19,8 @@ static void curve_lines(struct flow_curve *c)
     c->slope[last] = 0, c->start[last] = c->stress[last];
 }
 
-void law_compute_derived_constants(struct law *law, real yield_stress, real young, real poisson, real shear,
-                                   real density)
+void flow_law_compute_derived_constants(struct law *law, real yield_stress, real young, real poisson, real shear,
+                                        real density)
 {
     if (!law->given) return;
     law->young = young, law->poisson = poisson, law->shear = shear;

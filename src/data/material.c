@@ -25,15 +25,15 @@ real material_micro_modulus_of_discrete_family(const struct material *m, enum sp
 
 /* Returns the micro-modulus c of bonds (force per stretch and squared volume) [N/m^6] of material m. It follows from
  * equal energy densities of bonds and continuum under a uniform expansion, where an integral over the horizon replaces
- * the sum over neighbours. horizon: length of the longest bonds [m]; space: line, plane or solid; section:
+ * the sum over neighbours. horizon: length of the longest bonds [m]; space: line, plane or solid; cross_section:
  * cross-section in 1D [m^2], thickness in 2D [m], not used in 3D. */
-real material_micro_modulus_of_continuum(const struct material *m, enum space space, real horizon, real section)
+real material_micro_modulus_of_continuum(const struct material *m, enum space space, real horizon, real cross_section)
 {
     switch (space_dim(space)) {
     case 1:
-        return 2 * m->bulk / (section * square(horizon));
+        return 2 * m->bulk / (cross_section * square(horizon));
     case 2:
-        return 12 * m->bulk / (pi * section * horizon * square(horizon));
+        return 12 * m->bulk / (pi * cross_section * horizon * square(horizon));
     default:
         return 18 * m->bulk / (pi * square(square(horizon)));
     }
@@ -102,12 +102,12 @@ void material_compute_derived_constants(struct material *m, enum space space)
         m->c11 = m->bulk = E;
         m->c12 = m->shear = m->shear_speed = m->rayleigh_speed = 0;
         m->wave_speed = sqrt(E / m->density);
-        law_compute_derived_constants(&m->law, m->yield_stress, E, nu, 0, m->density);
+        flow_law_compute_derived_constants(&m->law, m->yield_stress, E, nu, 0, m->density);
         return;
     }
     bool thin = space == SPACE_PLANE_STRESS;
     m->shear = E / (2 * (1 + nu));
-    law_compute_derived_constants(&m->law, m->yield_stress, E, nu, m->shear, m->density);
+    flow_law_compute_derived_constants(&m->law, m->yield_stress, E, nu, m->shear, m->density);
     m->c12 = thin ? E * nu / (1 - nu * nu) : E * nu / ((1 + nu) * (1 - 2 * nu));
     m->c11 = m->c12 + 2 * m->shear;
     m->bulk = m->c12 + 2 * m->shear / space_dim(space);
@@ -120,7 +120,7 @@ void material_compute_derived_constants(struct material *m, enum space space)
  * diagonal, off: entries of normal components, on and off the diagonal; shear: diagonal entry of shear components. */
 static void isotropic_matrix(int dim, real diagonal, real off, real shear, real *matrix)
 {
-    int n = symmetric_component_count(dim);
+    int n = symmetric_tensor_component_count(dim);
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
             bool normal = i < dim && j < dim;

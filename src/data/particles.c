@@ -12,7 +12,7 @@
  * not exist. dim: dimensions; optional: the optional arrays that the scene needs (sum of WITH_*). */
 static int one(int dim, int optional) { return (void)dim, (void)optional, 1; }
 static int vector(int dim, int optional) { return (void)optional, dim; }
-static int symmetric(int dim, int optional) { return (void)optional, symmetric_component_count(dim); }
+static int symmetric(int dim, int optional) { return (void)optional, symmetric_tensor_component_count(dim); }
 static int if_gradient(int dim, int optional) { return optional & WITH_GRADIENT ? dim * dim : 0; }
 static int if_stretch(int dim, int optional) { return optional & WITH_STRETCH ? dim : 0; }
 static int if_plastic(int dim, int optional) { return (void)dim, optional & WITH_PLASTIC ? 1 : 0; }
@@ -24,16 +24,16 @@ static int if_moment(int dim, int optional) { return optional & WITH_ROTATIONS ?
 static int if_strength(int dim, int optional) { return (void)dim, optional & WITH_STRENGTH ? 1 : 0; }
 static int if_plastic_correction(int dim, int optional)
 {
-    return optional & WITH_PLASTIC_CORRECTION ? symmetric_component_count(dim) : 0;
+    return optional & WITH_PLASTIC_CORRECTION ? symmetric_tensor_component_count(dim) : 0;
 }
 static int if_back_stress(int dim, int optional)
 {
-    return optional & WITH_BACK_STRESS ? symmetric_component_count(dim) : 0;
+    return optional & WITH_BACK_STRESS ? symmetric_tensor_component_count(dim) : 0;
 }
 static int if_temperature(int dim, int optional) { return (void)dim, optional & WITH_TEMPERATURE ? 1 : 0; }
 static int if_mesh_stress(int dim, int optional)
 {
-    return optional & WITH_MESH_STRESS ? symmetric_component_count(dim) : 0;
+    return optional & WITH_MESH_STRESS ? symmetric_tensor_component_count(dim) : 0;
 }
 static int if_return(int dim, int optional) { return (void)dim, optional & WITH_REVERSION ? 1 : 0; }
 
@@ -147,8 +147,8 @@ void particles_free(struct particles *p)
     *p = (struct particles){0};
 }
 
-void particles_copy_fields(struct particles *p, const struct particles *previous, const int32_t *new_index,
-                           int optional_arrays)
+void particles_copy_fields_by_new_index(struct particles *p, const struct particles *previous, const int32_t *new_index,
+                                        int optional_arrays)
 {
     for (const struct particle_field *f = particle_fields; f < particle_fields + particle_fields_count; f++)
         for (int k = 0; k < f->count(p->dim, optional_arrays); k++) {

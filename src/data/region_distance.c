@@ -60,7 +60,8 @@ static bool run_within(const struct solid *s, const struct region_run *run, cons
     bool within = false;
     if (run->count == 1) return solid_level_set_is_at_most(s, X, dim, most);
     box_search_start(&near, &run->tree, X, dim);
-    for (int k; !within && (k = box_search_find_next_box_within(&near, solid_distance_bound_from_level(most))) >= 0;)
+    for (int k;
+         !within && (k = box_search_find_next_box_within(&near, solid_distance_upper_bound_from_level_set(most))) >= 0;)
         within = solid_level_set_is_at_most(&s[k], X, dim, most);
     return within;
 }
@@ -73,7 +74,7 @@ static real run_level(const struct solid *s, const struct region_run *run, const
     real nearest = INFINITY;
     if (run->count == 1) return solid_level_set_value(s, X, dim);
     box_search_start(&near, &run->tree, X, dim);
-    for (int k; (k = box_search_find_next_box_within(&near, solid_distance_bound_from_level(nearest))) >= 0;)
+    for (int k; (k = box_search_find_next_box_within(&near, solid_distance_upper_bound_from_level_set(nearest))) >= 0;)
         nearest = real_min(nearest, solid_level_set_value(&s[k], X, dim));
     return nearest;
 }
@@ -89,7 +90,8 @@ static real run_distance(const struct solid *s, const struct region_run *run, co
     if (run->count == 1) return solid_signed_distance(s, X, dim, normal);
     for (int d = 0; d < dim; d++) normal[d] = d == 0;
     box_search_start(&near, &run->tree, X, dim);
-    for (int k; (k = box_search_find_next_box_within(&near, solid_distance_bound_from_level(nearest))) >= 0;) {
+    for (int k;
+         (k = box_search_find_next_box_within(&near, solid_distance_upper_bound_from_level_set(nearest))) >= 0;) {
         const real distance = solid_signed_distance(&s[k], X, dim, own);
         if (!(distance < nearest || (distance == nearest && k < first))) continue;
         nearest = distance, first = k;
@@ -136,13 +138,13 @@ real region_level_set_value(const struct region *r, const real *X, int dim)
     return level;
 }
 
-bool region_contains_infinite_box_solid(const struct region *r, int dim)
+bool region_has_box_with_infinite_side(const struct region *r, int dim)
 {
     bool endless = false;
     for (int k = 0; k < r->n; k++) {
         const struct solid *s = &r->solid[k];
         for (int d = 0; d < dim && s->kind == SOLID_BOX; d++) endless |= !isfinite(s->from[d]) || !isfinite(s->to[d]);
-        endless |= region_contains_infinite_box_solid(&s->region, dim);
+        endless |= region_has_box_with_infinite_side(&s->region, dim);
     }
     return endless;
 }

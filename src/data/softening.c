@@ -66,7 +66,7 @@ real softening_normalised_dissipated_energy(const struct softening_curve *c, rea
 {
     const real x = real_min(1, (largest_stretch - onset) / (breaking_stretch - onset));
     if (!(x > 0)) return 0;
-    const real force = onset * softening_curve_value(c, x);
+    const real force = onset * softening_curve_normalised_force(c, x);
     return 0.5 * square(onset) + onset * (breaking_stretch - onset) * area_to(c, x) -
            0.5 * force * real_min(largest_stretch, breaking_stretch);
 }
@@ -97,7 +97,7 @@ struct directions {
 static real bond_tension(const struct directions *a, real s)
 {
     if (s <= 1) return s;
-    return a->reach > 0 ? softening_curve_value(a->curve, (s - 1) / a->reach) : 0;
+    return a->reach > 0 ? softening_curve_normalised_force(a->curve, (s - 1) / a->reach) : 0;
 }
 
 /* Returns the secant stiffness of a softening bond at the stretch s, divided by its initial stiffness [1]. s is in
@@ -240,21 +240,22 @@ static real peak(const struct directions *a, real (*stress)(const struct directi
 
 static const struct softening_model bond_based = {0, 0, false};
 
-struct softening_strength softening_model_normalised_strengths(const struct softening_curve *c, enum space space,
-                                                               real squared_stretch_ratio,
-                                                               const struct softening_model *model)
+struct softening_strength softening_model_normalised_peak_stresses(const struct softening_curve *c, enum space space,
+                                                                   real squared_stretch_ratio,
+                                                                   const struct softening_model *model)
 {
     const struct directions a = {c, space, (squared_stretch_ratio - 1) / (2 * c->area), model};
     return (struct softening_strength){peak(&a, tension_at), peak(&a, biaxial_at), peak(&a, shear_at)};
 }
 
-struct softening_strength softening_curve_normalised_strengths(const struct softening_curve *c, enum space space,
-                                                               real squared_stretch_ratio)
+struct softening_strength softening_curve_normalised_peak_stresses(const struct softening_curve *c, enum space space,
+                                                                   real squared_stretch_ratio)
 {
-    return softening_model_normalised_strengths(c, space, squared_stretch_ratio, &bond_based);
+    return softening_model_normalised_peak_stresses(c, space, squared_stretch_ratio, &bond_based);
 }
 
-real softening_model_onset_stretch(const struct material *m, enum space space, const struct softening_model *model)
+real softening_model_onset_stretch_from_strength(const struct material *m, enum space space,
+                                                 const struct softening_model *model)
 {
     const struct softening_curve c = softening_curve_of_law(m->softening);
     const real strain = m->tensile_strength / material_uniaxial_tension_modulus(m, space);
@@ -272,14 +273,14 @@ real softening_model_onset_stretch(const struct material *m, enum space space, c
 
 real softening_onset_stretch_from_strength(const struct material *m, enum space space)
 {
-    return softening_model_onset_stretch(m, space, &bond_based);
+    return softening_model_onset_stretch_from_strength(m, space, &bond_based);
 }
 
 /* ---- rates ------------------------------------------------------------------------------------------------------- */
 
 /* Interpolates a quantity that is table_values[k] at the strain rate r->rate[k] to the strain rate `rate` [1/s] and
  * returns it: linear in the logarithm of the rate, constant beyond the table. */
-real strength_rate_interpolate_table(const struct strength_rate *r, const real *table_values, real rate)
+real strength_rate_table_interpolate_in_log_rate(const struct strength_rate *r, const real *table_values, real rate)
 {
     int k = 0;
     while (k < r->points && r->rate[k] < rate) k++;
@@ -288,14 +289,14 @@ real strength_rate_interpolate_table(const struct strength_rate *r, const real *
     return table_values[k - 1] + part * (table_values[k] - table_values[k - 1]);
 }
 
-real strength_rate_compute_onsets_and_least_ratio(struct material *m, enum space space,
-                                                  const struct softening_model *model)
+real strength_rate_set_onsets_return_stretch_ratio(struct material *m, enum space space,
+                                                   const struct softening_model *model)
 {
     real least = INFINITY;
     for (int k = 0; k < m->rate.points; k++) {
         struct material stronger = *m;
         stronger.tensile_strength *= m->rate.factor[k];
-        const real onset = softening_model_onset_stretch(&stronger, space, model);
+        const real onset = softening_model_onset_stretch_from_strength(&stronger, space, model);
         m->rate.onset[k] = onset / m->onset_stretch;
         least = real_min(least, square(m->critical_stretch / onset));
     }

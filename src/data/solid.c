@@ -400,13 +400,13 @@ static bool hull_holds(const struct solid *s, const real *X, int dim, real most)
 static real voxels_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     (void)dim;
-    return voxel_part_signed_distance(s->voxels, X, normal);
+    return voxel_solid_signed_distance(s->voxels, X, normal);
 }
 
 static real voxels_level(const struct solid *s, const real *X, int dim)
 {
     (void)dim;
-    return voxel_part_signed_distance(s->voxels, X, NULL);
+    return voxel_solid_signed_distance(s->voxels, X, NULL);
 }
 
 /* Returns the support in the direction along[dim] of the box of the whole voxel image to which s belongs: the maximum

@@ -162,7 +162,7 @@ static void images_index(struct solid *s, int dim)
     memory_free(box);
 }
 
-bool solid_apply_motion_if_not_too_many_copies(struct solid *s, const struct solid_motion *m, int dim)
+bool solid_transform_copies_unless_too_many(struct solid *s, const struct solid_motion *m, int dim)
 {
     const int before = s->images > 0 ? s->images : 1;
     const real count = motion_count(m, dim) * before;
@@ -191,7 +191,8 @@ real solid_signed_distance(const struct solid *s, const real *X, int dim, real *
     if (s->images == 0) return solid_types[s->kind].distance(s, X, dim, normal);
     for (int d = 0; d < dim; d++) normal[d] = d == 0;
     box_search_start(&near, &s->tree, X, dim);
-    for (int k; (k = box_search_find_next_box_within(&near, solid_distance_bound_from_level(nearest))) >= 0;) {
+    for (int k;
+         (k = box_search_find_next_box_within(&near, solid_distance_upper_bound_from_level_set(nearest))) >= 0;) {
         const struct placement *i = &s->image[k];
         place_back(i, X, dim, at);
         const real distance = solid_types[s->kind].distance(s, at, dim, own);
@@ -220,7 +221,8 @@ real solid_level_set_value(const struct solid *s, const real *X, int dim)
     struct box_search near;
     if (s->images == 0) return image_level(s, X, dim);
     box_search_start(&near, &s->tree, X, dim);
-    for (int k; (k = box_search_find_next_box_within(&near, solid_distance_bound_from_level(nearest))) >= 0;) {
+    for (int k;
+         (k = box_search_find_next_box_within(&near, solid_distance_upper_bound_from_level_set(nearest))) >= 0;) {
         place_back(&s->image[k], X, dim, at);
         nearest = real_min(nearest, image_level(s, at, dim));
     }
@@ -242,8 +244,8 @@ bool solid_level_set_is_at_most(const struct solid *s, const real *X, int dim, r
     struct box_search near;
     if (s->images == 0) return image_within(s, X, dim, max_distance);
     box_search_start(&near, &s->tree, X, dim);
-    for (int k;
-         !within && (k = box_search_find_next_box_within(&near, solid_distance_bound_from_level(max_distance))) >= 0;) {
+    for (int k; !within && (k = box_search_find_next_box_within(
+                                &near, solid_distance_upper_bound_from_level_set(max_distance))) >= 0;) {
         place_back(&s->image[k], X, dim, at);
         within = image_within(s, at, dim, max_distance);
     }

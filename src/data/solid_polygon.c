@@ -236,7 +236,7 @@ static enum polygon_fault bends_make(struct polygon *p, int *corner)
     return fault;
 }
 
-enum polygon_fault polygon_check_and_complete(struct polygon *p, int *faulty_corner)
+enum polygon_fault polygon_check_and_compute_rounded_corners(struct polygon *p, int *faulty_corner)
 {
     real twice_area = 0, size2 = 0;
     enum polygon_fault fault = polygon_check(p, faulty_corner);

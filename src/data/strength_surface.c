@@ -10,19 +10,19 @@ static struct strength_surface surface_through(real tension, real g1)
     return (struct strength_surface){tension * (1 / sqrt(3) + g1), g1};
 }
 
-struct strength_surface strength_surface_from_compression(real tensile_strength, real compressive_strength)
+struct strength_surface strength_surface_from_compressive_strength(real tensile_strength, real compressive_strength)
 {
     return surface_through(tensile_strength, (compressive_strength - tensile_strength) /
                                                  (sqrt(3) * (compressive_strength + tensile_strength)));
 }
 
-struct strength_surface strength_surface_from_hydrostatic(real tensile_strength, real hydrostatic_strength)
+struct strength_surface strength_surface_from_hydrostatic_strength(real tensile_strength, real hydrostatic_strength)
 {
     return surface_through(tensile_strength,
                            tensile_strength / (sqrt(3) * (3 * hydrostatic_strength - tensile_strength)));
 }
 
-struct strength_surface strength_surface_from_biaxial(real tensile_strength, real biaxial_strength)
+struct strength_surface strength_surface_from_biaxial_strength(real tensile_strength, real biaxial_strength)
 {
     return surface_through(tensile_strength, (tensile_strength - biaxial_strength) /
                                                  (sqrt(3) * (2 * biaxial_strength - tensile_strength)));
@@ -31,12 +31,12 @@ struct strength_surface strength_surface_from_biaxial(real tensile_strength, rea
 void material_set_strength_surface(struct material *m, enum space space, struct strength_surface surface)
 {
     m->surface = surface;
-    m->surface_least_strain = material_smallest_strain_at_strength(m, space);
+    m->surface_least_strain = material_smallest_strain_on_strength_surface(m, space);
 }
 
-real strength_surface_strength_along(const struct strength_surface *s, const real *direction)
+real strength_surface_strength_in_stress_direction(const struct strength_surface *s, const real *direction)
 {
-    const real share = strength_surface_stress_ratio(s, direction[0], direction[1], direction[2], 0);
+    const real share = strength_surface_stress_to_strength_ratio(s, direction[0], direction[1], direction[2], 0);
     return share > 0 ? 1 / share : INFINITY;
 }
 
@@ -57,14 +57,15 @@ static real largest_strain(const struct material *m, enum space space, real *str
     const int dim = space_dim(space);
     real most = -INFINITY;
     complete_state(m, space, stress);
-    const real strength = strength_surface_strength_along(&m->surface, stress), sum = stress[0] + stress[1] + stress[2];
+    const real strength = strength_surface_strength_in_stress_direction(&m->surface, stress),
+               sum = stress[0] + stress[1] + stress[2];
     for (int k = 0; k < dim; k++) most = real_max(most, ((1 + m->poisson) * stress[k] - m->poisson * sum) / m->young);
     return isinf(strength) ? INFINITY : strength * most;
 }
 
 enum { ANGLES = 360 }; /* of a half circle; the least strain is found to 1e-4 */
 
-real material_smallest_strain_at_strength(const struct material *m, enum space space)
+real material_smallest_strain_on_strength_surface(const struct material *m, enum space space)
 {
     real least = INFINITY;
     for (int k = 0; k < 2 * ANGLES; k++) {
@@ -80,21 +81,22 @@ real material_smallest_strain_at_strength(const struct material *m, enum space s
     return real_max(0, real_min(least, largest_strain(m, space, equal)));
 }
 
-struct surface_strengths material_strength_surface_strengths(const struct material *m, enum space space)
+struct surface_strengths material_strengths_from_strength_surface(const struct material *m, enum space space)
 {
     real tension[] = {1, 0, 0}, biaxial[] = {1, 1, 0};
     const real shear[] = {1, -1, 0}, hydrostatic[] = {1, 1, 1};
     real pressure[] = {-1, 0, 0};
     if (space != SPACE_SOLID)
         complete_state(m, space, tension), complete_state(m, space, biaxial), complete_state(m, space, pressure);
-    return (struct surface_strengths){
-        strength_surface_strength_along(&m->surface, tension), strength_surface_strength_along(&m->surface, biaxial),
-        strength_surface_strength_along(&m->surface, shear), strength_surface_strength_along(&m->surface, hydrostatic),
-        strength_surface_strength_along(&m->surface, pressure)};
+    return (struct surface_strengths){strength_surface_strength_in_stress_direction(&m->surface, tension),
+                                      strength_surface_strength_in_stress_direction(&m->surface, biaxial),
+                                      strength_surface_strength_in_stress_direction(&m->surface, shear),
+                                      strength_surface_strength_in_stress_direction(&m->surface, hydrostatic),
+                                      strength_surface_strength_in_stress_direction(&m->surface, pressure)};
 }
 
 real material_stress_to_strength_ratio(const struct material *m, enum space space, const real *stress)
 {
-    return strength_surface_stress_ratio_of_tensor(&m->surface, stress, space == SPACE_PLANE_STRAIN ? m->poisson : 0,
-                                                   space_dim(space));
+    return strength_surface_tensor_stress_to_strength_ratio(
+        &m->surface, stress, space == SPACE_PLANE_STRAIN ? m->poisson : 0, space_dim(space));
 }

@@ -25,9 +25,9 @@ static struct block_shape block_shape_of(const struct grid *g)
 {
     struct block_shape s = {.dim = g->dim, .cells_in_block = 1, .n = 1};
     for (int d = 0; d < g->dim; d++) {
-        s.first[d] = block_of(g->first[d], transfer_block_edge_length(d));
-        s.blocks[d] = block_of(g->first[d] + g->count[d] - 1, transfer_block_edge_length(d)) - s.first[d] + 1;
-        s.cells_in_block *= transfer_block_edge_length(d);
+        s.first[d] = block_of(g->first[d], transfer_block_edge_length_in_cells(d));
+        s.blocks[d] = block_of(g->first[d] + g->count[d] - 1, transfer_block_edge_length_in_cells(d)) - s.first[d] + 1;
+        s.cells_in_block *= transfer_block_edge_length_in_cells(d);
         s.n *= s.blocks[d];
     }
     return s;
@@ -125,7 +125,7 @@ static void cell_shares_find(struct sorting *s)
 {
     int64_t blocks = 1, cells = 1;
     for (int d = 0; d < s->shape.dim; d++) {
-        const int64_t edge = transfer_block_edge_length(d), first = s->g->first[d];
+        const int64_t edge = transfer_block_edge_length_in_cells(d), first = s->g->first[d];
         s->place[d] = BARE("transfer.place", s->g->count[d], int64_t);
         for (int64_t k = 0; k < s->g->count[d]; k++) {
             const int64_t b = block_of(first + k, edge);

@@ -111,7 +111,7 @@ static struct member *members_sorted(const struct particles *p, real spacing, co
 /* Finds the 26 neighbours of group g of t, a box of points that rotate together. Stores their indices in the array
  * `near` of the group, or -1 where the body has no group. Neighbours displaced along one axis come first, then those
  * displaced along two axes, then along three. */
-static void groups_near(struct rotation_groups *t, int32_t g)
+static void groups_near(struct corotating_groups *t, int32_t g)
 {
     struct turning_group *own = &t->group[g];
     for (int k = 0, n = 0; k < 81; k++) {
@@ -133,7 +133,7 @@ static bool groups_differ(const struct member *a, const struct member *b)
 
 /* Lists in t->run the particles of each group of t (points that rotate together) as runs: at most LANES particles that
  * have consecutive numbers and belong to one group. all[n]: particles sorted by group, then by position. */
-static void runs_make(struct rotation_groups *t, const struct member *all, int64_t n)
+static void runs_make(struct corotating_groups *t, const struct member *all, int64_t n)
 {
     struct turning_group *g = t->group;
     int64_t runs = 0;
@@ -149,14 +149,14 @@ static void runs_make(struct rotation_groups *t, const struct member *all, int64
     }
 }
 
-void rotation_groups_make(struct rotation_groups *t, const struct particles *p, real spacing,
-                          const real *symmetry_plane, const int *first_joined_body, const bool *body_is_supported,
-                          int bodies)
+void corotating_groups_make(struct corotating_groups *t, const struct particles *p, real spacing,
+                            const real *symmetry_plane, const int *first_joined_body, const bool *body_is_supported,
+                            int bodies)
 {
     struct division *division = divisions_make(p, spacing, symmetry_plane, first_joined_body, bodies);
     struct member *all = members_sorted(p, spacing, division, first_joined_body);
     memory_free(division);
-    rotation_groups_free(t);
+    corotating_groups_free(t);
     for (int64_t k = 0; k < p->n; k++) t->groups += k == 0 || groups_differ(&all[k], &all[k - 1]);
     t->group = NEW("turning.group", t->groups, struct turning_group);
     for (int c = p->dim == 2 ? 2 : 0; c < 3; c++) t->turn[c] = NEW("turning.turn", p->n + LANES, real);
@@ -173,9 +173,9 @@ void rotation_groups_make(struct rotation_groups *t, const struct particles *p, 
     memory_free(all);
 }
 
-void rotation_groups_free(struct rotation_groups *t)
+void corotating_groups_free(struct corotating_groups *t)
 {
     memory_free(t->group), memory_free(t->run);
     for (int c = 0; c < 3; c++) memory_free(t->turn[c]);
-    *t = (struct rotation_groups){0};
+    *t = (struct corotating_groups){0};
 }

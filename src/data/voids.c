@@ -42,8 +42,7 @@ static bool solid_convex(const struct solid *s)
 /* Returns true if the part of the solid s at most `reach` [m] from the point X inside it is known to be convex. */
 static bool solid_convex_near(const struct solid *s, const real *X, real reach)
 {
-    if (s->kind == SOLID_HULL && s->images == 0 && s->radius == 0)
-        return hull_is_convex_within_distance(s->hull, X, reach);
+    if (s->kind == SOLID_HULL && s->images == 0 && s->radius == 0) return hull_is_convex_near_point(s->hull, X, reach);
     return solid_convex(s);
 }
 
@@ -68,16 +67,69 @@ static bool region_is_box(const struct region *r)
     real from[DIM_MAX], to[DIM_MAX];
     for (int k = 0; k < r->n; k++) {
         const struct solid *s = &r->solid[k];
-        if (!solid_is_of_kind_and_not_moved(s, SOLID_BOX) || s->subtract || s->intersect) return false;
+        if (!solid_is_untransformed_and_of_kind(s, SOLID_BOX) || s->subtract || s->intersect) return false;
         if (k == 0) array_copy(from, s->from, DIM_MAX, sizeof *from), array_copy(to, s->to, DIM_MAX, sizeof *to);
         if (k > 0 && !box_joins(from, to, s)) return false;
     }
     return true;
 }
 
-bool region_may_have_voids(const struct region *r)
+/* Returns true if the solid s is known to contain the projection of each of its points onto the plane of symmetry
+ * `plane`. If s is also convex, s and its mirror image together are convex. tolerance: distance up to which a position
+ * counts as on the plane [m]. */
+static bool solid_contains_projections(const struct solid *s, const struct mirror_plane *plane, real tolerance)
 {
-    const bool convex = region_is_box(r) || (r->n == 1 && solid_convex(&r->solid[0]));
+    const int axis = plane->axis;
+    const real from = s->from[axis] - plane->at, to = s->to[axis] - plane->at;
+    bool parallel = true;
+    if (s->images > 0) return false;
+    for (int d = 0; d < DIM_MAX; d++) parallel &= d == axis || s->from[d] == s->to[d];
+    switch (s->kind) {
+    case SOLID_ALL:
+        return true;
+    case SOLID_BOX:
+        return from <= tolerance && to >= -tolerance;
+    case SOLID_BALL:
+        return fabs(s->centre[axis] - plane->at) <= tolerance;
+    case SOLID_CYLINDER: /* its axis is in the plane, or normal to the plane and crosses it */
+        return (fabs(from) <= tolerance && fabs(to) <= tolerance) ||
+               (parallel && real_min(from, to) <= tolerance && real_max(from, to) >= -tolerance);
+    case SOLID_HALF_SPACE:
+        return s->normal[axis] == 0;
+    default:
+        return false;
+    }
+}
+
+/* Returns true if the convex solid s is known to stay convex when its mirror images at the planes of symmetry of v are
+ * added. Only planes within `reach` of the point X[v->dim] matter; all planes if X is NULL. */
+static bool mirrors_keep_convex(const struct voids *v, const struct solid *s, const real *X, real reach)
+{
+    for (int m = 0; m < v->mirrors; m++) {
+        const struct mirror_plane *plane = &v->mirror[m];
+        if (X && fabs(X[plane->axis] - plane->at) > reach) continue;
+        if (!solid_contains_projections(s, plane, SEAM * v->spacing)) return false;
+    }
+    return true;
+}
+
+/* Returns true if the region r is known to be convex together with its mirror images at the planes of symmetry of v:
+ * the intersection of convex solids that stay convex with their images. */
+static bool region_is_convex_intersection(const struct region *r, const struct voids *v)
+{
+    bool convex = r->n > 0 && !r->solid[0].intersect;
+    for (int k = 0; k < r->n; k++) {
+        const struct solid *s = &r->solid[k];
+        convex =
+            convex && !s->subtract && s->intersect == (k > 0) && solid_convex(s) && mirrors_keep_convex(v, s, NULL, 0);
+    }
+    return convex;
+}
+
+bool region_may_have_voids(const struct region *r, const struct voids *v)
+{
+    const bool convex =
+        region_is_box(r) || (r->n == 1 && solid_convex(&r->solid[0])) || region_is_convex_intersection(r, v);
     return !convex && !region_has_voxel_image(r);
 }
 
@@ -143,7 +195,7 @@ static void line_normal(const struct voids *v, int body, const struct void_line 
 }
 
 bool void_separates_points(const struct voids *v, int body_number, const real *point, const real *other_point,
-                           bool *facing)
+                           bool *surfaces_face_each_other)
 {
     const int dim = v->dim;
     struct void_line there = {.from = point}, back = {.from = other_point};
@@ -151,18 +203,19 @@ bool void_separates_points(const struct voids *v, int body_number, const real *p
     while (first < dim && point[first] == other_point[first]) first++;
     if (first == dim) return false;
     if (point[first] > other_point[first])
-        return void_separates_points(v, body_number, other_point, point, facing); /* equal bits in both directions */
+        return void_separates_points(v, body_number, other_point, point,
+                                     surfaces_face_each_other); /* equal bits in both directions */
     for (int d = 0; d < dim; d++) there.length += square(other_point[d] - point[d]);
     there.length = back.length = sqrt(there.length);
     for (int d = 0; d < dim; d++)
         there.along[d] = (other_point[d] - point[d]) / there.length, back.along[d] = -there.along[d];
     const real out = line_inside(v, body_number, &there);
     if (out >= there.length) return false;
-    if (!facing) return true;
+    if (!surfaces_face_each_other) return true;
     real normal[DIM_MAX], other[DIM_MAX];
     line_normal(v, body_number, &there, out, normal);
     line_normal(v, body_number, &back, line_inside(v, body_number, &back), other);
-    *facing = dot(normal, other, dim) < 0;
+    *surfaces_face_each_other = dot(normal, other, dim) < 0;
     return true;
 }
 
@@ -181,54 +234,62 @@ bool void_separates_particles(const struct voids *v, const struct particles *p, 
     return void_separates_points(v, p->body[particle], a, b, NULL);
 }
 
-real voids_lower_bound_of_surface_distance(const struct voids *v, const struct particles *p, int64_t particle)
+real voids_particle_surface_distance_lower_bound(const struct voids *v, const struct particles *p, int64_t particle)
 {
     real X[DIM_MAX] = {0};
     particle_reference_position(p, particle, X);
     return real_max(0, -void_level(v, p->body[particle], X));
 }
 
-/* Returns true if the convex solid s stays convex when its mirror images are added. Only planes of symmetry (of v)
- * within `reach` [m] of the point X[dim] matter. Returns false for such a plane unless s is a box that the plane
- * touches or cuts. */
-static bool mirrors_keep_convex(const struct voids *v, const struct solid *s, const real *X, real reach)
+/* Solids of a body around one of its particles: how many of them were seen, how many that are not intersected are
+ * within the distance of the search, and those that show which segments are inside the body, one bit each. */
+struct solids_seen {
+    int solids, within;
+    uint32_t inside;
+};
+
+/* Adds the solids of the region r of a body to *seen, for the point X of this body. An added solid gets its bit in
+ * seen->inside if it contains X, or misses it by at most SEAM spacings, and is convex, with its mirror images, within
+ * `reach` of it, as are all solids that it is intersected with. If X is outside of one of these, no solid of
+ * r gets a bit. Returns false if a solid is subtracted within `reach` of X, or one intersected that is not convex. */
+static bool region_add_solids_around_point(struct solids_seen *seen, const struct voids *v, const struct region *r,
+                                           const real *X, real reach)
 {
-    for (int m = 0; m < v->mirrors; m++) {
-        const struct mirror_plane *plane = &v->mirror[m];
-        if (fabs(X[plane->axis] - plane->at) > reach) continue;
-        if (!solid_is_of_kind_and_not_moved(s, SOLID_BOX) ||
-            !(s->from[plane->axis] <= plane->at && plane->at <= s->to[plane->axis]))
-            return false;
+    const uint32_t before = seen->inside;
+    bool outside = false;
+    for (int l = 0; l < r->n; l++, seen->solids++) {
+        const struct solid *s = &r->solid[l];
+        const real level = solid_level_set_value(s, X, v->dim);
+        const bool near = s->intersect ? level >= -reach : level <= reach;
+        if (near && s->subtract) return false;
+        if (s->subtract) continue;
+        const bool convex = near && solid_convex_near(s, X, reach) && mirrors_keep_convex(v, s, X, reach);
+        if (s->intersect && near && !convex) return false;
+        outside |= s->intersect && level > SEAM * v->spacing;
+        seen->within += near && !s->intersect;
+        if (convex && !s->intersect && level <= SEAM * v->spacing) seen->inside |= 1u << seen->solids;
     }
+    if (outside) seen->inside = before;
     return true;
 }
 
-/* Returns a set of solids of the body of particle i of p, as one bit each: those that contain the particle, or miss it
- * by at most SEAM spacings, and are convex within `reach` of it. Two particles at most `reach` [m] apart have no void
- * between them if they have a bit in common. Returns ALONE instead if there is such a solid and no other solid of the
- * body is within `reach`. Returns 0 if a subtracted or intersected solid is that near, or if the body has more than
- * SOLIDS_MOST solids. v: shapes of the bodies. */
+/* Returns a set of solids of the body of particle i of p, as one bit each: those of which each segment of at most
+ * `reach` [m] from the particle to another point of the solid is inside the body. Two particles at most `reach` apart
+ * have no void between them if they have a bit in common. Returns ALONE instead if there is such a solid and no other
+ * solid of the body is within `reach`. Returns 0 if solids are subtracted that near, or intersected in a way that is
+ * not known to be convex, or if the body has more than SOLIDS_MOST solids. v: shapes of the bodies. */
 static uint32_t solids_around(const struct voids *v, const struct particles *p, int64_t i, real reach)
 {
+    struct solids_seen seen = {0};
     real X[DIM_MAX] = {0};
-    int solids = 0, within = 0;
-    uint32_t inside = 0;
     particle_reference_position(p, i, X);
     for (int k = 0; k < v->shapes; k++) {
         const struct region *r = v->shape[k];
         if (v->body[k] != p->body[i]) continue;
-        if (solids + r->n > SOLIDS_MOST || r->n == 0 || r->solid[0].intersect) return 0;
-        for (int l = 0; l < r->n; l++, solids++) {
-            const struct solid *s = &r->solid[l];
-            const real level = s->intersect ? 0 : solid_level_set_value(s, X, v->dim);
-            if (level > reach) continue;
-            if (s->intersect || s->subtract) return 0;
-            within++;
-            if (level <= SEAM * v->spacing && solid_convex_near(s, X, reach) && mirrors_keep_convex(v, s, X, reach))
-                inside |= 1u << solids;
-        }
+        if (seen.solids + r->n > SOLIDS_MOST || r->n == 0 || r->solid[0].intersect) return 0;
+        if (!region_add_solids_around_point(&seen, v, r, X, reach)) return 0;
     }
-    return within == 1 && inside ? ALONE : inside;
+    return seen.within == 1 && seen.inside ? ALONE : seen.inside;
 }
 
 /* Tests whether voids, spaces without material, separate particle i of p from the neighbours `near` of its own body.
@@ -256,18 +317,18 @@ static uint8_t void_search(const struct voids *v, const struct particles *p, con
     return bits;
 }
 
-void voids_mark_separated_particles(struct voids *v, const struct particles *p, const struct cells *cells,
-                                    const struct image *images, real max_distance)
+void voids_mark_particles_beside_voids(struct voids *v, const struct particles *p, const struct cells *cells,
+                                       const struct image *images, real max_distance)
 {
     real *depth = NEW("voids.depth", p->n_all, real);
     uint32_t *inside = NEW("voids.inside", p->n_all, uint32_t);
     v->near = NEW("voids.near", p->n_all, uint8_t);
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < p->n; i++) {
-        depth[i] = voids_lower_bound_of_surface_distance(v, p, i);
+        depth[i] = voids_particle_surface_distance_lower_bound(v, p, i);
         if (depth[i] < max_distance) inside[i] = solids_around(v, p, i, max_distance);
     }
-    for (int64_t k = p->n; k < p->n_all; k++) depth[k] = depth[image_source_particle(p, images, k)];
+    for (int64_t k = p->n; k < p->n_all; k++) depth[k] = depth[mirror_image_source_particle(p, images, k)];
 #pragma omp parallel
     {
         struct neighbour_list near = {0};
@@ -279,7 +340,7 @@ void voids_mark_separated_particles(struct voids *v, const struct particles *p, 
         }
         memory_free(near.at);
     }
-    for (int64_t k = p->n; k < p->n_all; k++) v->near[k] = v->near[image_source_particle(p, images, k)];
+    for (int64_t k = p->n; k < p->n_all; k++) v->near[k] = v->near[mirror_image_source_particle(p, images, k)];
     memory_free(depth);
     memory_free(inside);
 }

@@ -94,14 +94,14 @@ static void grid_distances(const struct voxels *v, float *f)
 
 /* Returns true if the grey value `grey` is in one of the ranges of p, so that its voxels belong to this part of the
  * image. */
-static bool grey_in(const struct voxel_part *p, int grey)
+static bool grey_in(const struct voxel_solid *p, int grey)
 {
     bool in = false;
     for (int k = 0; k < p->ranges; k++) in = in || (p->range[k].low <= grey && grey <= p->range[k].high);
     return in;
 }
 
-void voxel_part_make_from_grey_value_ranges(struct voxel_part *p)
+void voxel_solid_make_from_grey_value_ranges(struct voxel_solid *p)
 {
     const struct voxels *v = p->of;
     int64_t n[DIM_MAX], all = padded(v, n), inside = 0;
@@ -126,7 +126,7 @@ void voxel_part_make_from_grey_value_ranges(struct voxel_part *p)
     memory_free(out);
 }
 
-void voxel_part_free(struct voxel_part *p)
+void voxel_solid_free(struct voxel_solid *p)
 {
     memory_free(p->level);
     p->level = NULL;
@@ -157,7 +157,7 @@ static real box_beyond(const struct voxels *v, const real *X)
     return sqrt(sum);
 }
 
-real voxel_part_signed_distance(const struct voxel_part *p, const real *X, real *normal)
+real voxel_solid_signed_distance(const struct voxel_solid *p, const real *X, real *normal)
 {
     const struct voxels *v = p->of;
     real size2 = 0;

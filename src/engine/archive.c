@@ -102,15 +102,15 @@ static status body_restore(struct run *e, struct archive *a)
     e->grid->sort_needed = SORT_ALL;
     TRY(bonds_save_or_load(&e->bonds, &e->part, a));
     state_based_update_weighted_volumes(&e->bonds, &e->part, &e->source);
-    coupling_choose_and_compute_partial_stress(e);
-    levels_free(&e->frame->levels);
+    coupling_set_method_and_compute_partial_stress(e);
+    mesh_levels_free(&e->frame->levels);
     mesh_free(&e->frame->mesh);
     memory_free(e->frame->elastic);
-    TRY(coupling_make_reference_frame_mesh(e, true));
+    TRY(coupling_build_total_lagrangian_mesh(e, true));
     return mesh_levels_make_coarse_cells(e, true);
 }
 
-status parts_save_or_load_state(struct run *e, struct archive *a)
+status run_components_save_or_load_state(struct run *e, struct archive *a)
 {
     TRY(loads_save_or_load(&e->loads, a));
     for (const struct part *const *p = e->parts; *p; p++)
@@ -118,7 +118,7 @@ status parts_save_or_load_state(struct run *e, struct archive *a)
     return OK;
 }
 
-status engine_save_or_load_run_state(void *engine, struct archive *a)
+status run_save_or_load_state(void *engine, struct archive *a)
 {
     struct run *e = engine;
     TRY(kernels_archive(&e->warnings, a));
@@ -126,7 +126,7 @@ status engine_save_or_load_run_state(void *engine, struct archive *a)
     TRY(clock_archive(&e->clock, a));
     ARCHIVE_VALUE(a, "engine/damped", e->damped);
     TRY(active_set_save_or_load(&e->bonds.active, "bonds", a));
-    TRY(parts_save_or_load_state(e, a));
+    TRY(run_components_save_or_load_state(e, a));
     const int known = e->warnings.n;
     TRY(warnings_save_or_load(&e->warnings, a));
     warnings_print(&e->warnings, known, stderr);

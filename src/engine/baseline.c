@@ -30,7 +30,7 @@ static void baseline_keep(struct probing *probing, const struct particles *p, re
     probing->has_baseline = true;
 }
 
-status engine_run_mpm_baseline_for_pulse_probe(struct run *e)
+status run_repeat_with_mpm_only_for_pulse_probe(struct run *e)
 {
     if (!wanted(e->scene)) return OK;
     struct scene scene = *e->scene;
@@ -38,10 +38,10 @@ status engine_run_mpm_baseline_for_pulse_probe(struct run *e)
     scene.method = METHOD_MPM;
     scene.probes = 0;
     scene.time_step = e->clock.dt;
-    status s = engine_set_up_run(&twin, &scene, NULL);
+    status s = run_set_up_from_scene(&twin, &scene, NULL);
     twin.report->quiet = true;
-    if (s == OK) s = engine_run_to_end(&twin);
-    if (s == OK) baseline_keep(e->probing, &twin.part, observed_run_view_of(&twin).energy_change);
-    engine_free_run(&twin);
+    if (s == OK) s = run_advance_to_end_time(&twin);
+    if (s == OK) baseline_keep(e->probing, &twin.part, observed_run_make_read_only_view(&twin).energy_change);
+    run_free_memory(&twin);
     return s;
 }

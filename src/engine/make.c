@@ -160,11 +160,13 @@ static void make_mirrors(const struct scene *s, const struct loads *loads, struc
     const real tolerance = LOADS_TOLERANCE * s->spacing;
     tables->mirror_axis = NEW("engine.mirror_axis", s->boundaries, int);
     for (int b = 0; b < s->boundaries; b++)
-        tables->mirror_axis[b] = boundary_is_clamped_mirror(&s->boundary[b], s->dim) ? -1 : s->boundary[b].axis;
+        tables->mirror_axis[b] =
+            boundary_is_mirror_without_tangential_motion(&s->boundary[b], s->dim) ? -1 : s->boundary[b].axis;
     source->mirror_axis = tables->mirror_axis;
     tables->mirror = NEW("engine.mirror", s->boundaries, struct mirror_plane);
     for (int b = 0; b < s->boundaries; b++)
-        if (s->boundary[b].kind == BOUNDARY_MIRROR && !boundary_is_clamped_mirror(&s->boundary[b], s->dim))
+        if (s->boundary[b].kind == BOUNDARY_MIRROR &&
+            !boundary_is_mirror_without_tangential_motion(&s->boundary[b], s->dim))
             tables->mirror[source->mirrors++] =
                 (struct mirror_plane){s->boundary[b].axis, loads->load[b].outside, s->boundary[b].at};
     source->mirror = tables->mirror;
@@ -182,25 +184,25 @@ static status make_bonds(struct run *e, struct predecessor *before)
     const struct scene *s = e->scene;
     make_mirrors(e->scene, &e->loads, &e->tables, &e->source);
     e->source.image = e->loads.image;
-    if (run_list_shapes_with_voids(&e->tables, s, &e->loads)) {
-        voids_mark_separated_particles(&e->tables.voids, &e->part, &e->cells, e->loads.image,
-                                       voids_interaction_distance(s, e->source.family.cutoff));
+    if (material_tables_list_bodies_with_possible_voids(&e->tables, s, &e->loads)) {
+        voids_mark_particles_beside_voids(&e->tables.voids, &e->part, &e->cells, e->loads.image,
+                                          scene_interaction_distance_across_voids(s, e->source.family.cutoff));
         e->source.voids = &e->tables.voids;
     }
-    e->source.room = bonds_neighbour_count_bound(&e->source);
+    e->source.room = bonds_neighbour_count_upper_bound(&e->source);
     if (s->surface == SURFACE_VOLUME && has_peridynamics(s)) {
         e->tables.neighbour_volume = NEW("engine.neighbour_volume", e->part.n_all, real);
         bonds_compute_family_volumes(e->tables.neighbour_volume, &e->part, &e->source);
         e->source.neighbour_volume = e->tables.neighbour_volume;
     }
     if (s->surface == SURFACE_MOMENTS && has_peridynamics(s))
-        TRY(run_compute_surface_bond_weight_factors(&e->tables.surface, &e->source, &e->part, &e->loads, s));
+        TRY(surface_correction_compute_bond_weight_factors(&e->tables.surface, &e->source, &e->part, &e->loads, s));
     if (s->method == METHOD_ADAPTIVE) TRY(precracks_apply_as_slits_or_cut_bonds(e));
     if (before)
-        engine_transfer_particles(
+        run_transfer_particles_from_predecessor(
             e, before); /* after precracks_apply_as_slits_or_cut_bonds, which makes slits from initial particles */
     bonds_make(&e->bonds, NULL, &e->part, &e->source);
-    if (before) engine_transfer_bonds(e, before);
+    if (before) run_transfer_broken_bonds_from_predecessor(e, before);
     e->coupling->conversion.first_time = NAN;
     e->coupling->conversion.start = e->coupling->conversion.peak = e->part.n_of[KIND_PD];
     e->coupling->conversion.peak_bonds = e->bonds.n;
@@ -224,7 +226,7 @@ static void tables_free(struct material_tables *t)
     memory_free(t->elastic), memory_free(t->modulus), memory_free(t->impedance);
     memory_free(t->mirror_axis), memory_free(t->mirror), crack_list_free(&t->cracks);
     voids_free(&t->voids), memory_free(t->void_mirror);
-    memory_free(t->neighbour_volume), surface_weights_free(&t->surface);
+    memory_free(t->neighbour_volume), surface_correction_free(&t->surface);
 }
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
@@ -235,7 +237,7 @@ static int law_arrays(const struct law *law)
 {
     if (!law->given) return 0;
     return WITH_PLASTIC | (law->kinematic.modulus > 0 ? WITH_BACK_STRESS : 0) |
-           (law_heats_material(law) ? WITH_TEMPERATURE : 0);
+           (flow_law_plastic_work_heats_material(law) ? WITH_TEMPERATURE : 0);
 }
 
 /* Returns the set of optional arrays of particles that scene s requires, as a sum of WITH_*. */
@@ -248,7 +250,7 @@ static int optional_arrays(const struct scene *s)
         if (s->material[m].law.given) optional |= meshed | law_arrays(&s->material[m].law);
     if (optional & WITH_PLASTIC && s->space == SPACE_PLANE_STRAIN) optional |= WITH_OUT_OF_PLANE;
     if (s->method == METHOD_ADAPTIVE && s->conversion.reverts) optional |= WITH_REVERSION;
-    if (s->method != METHOD_MPM && scene_strength_scatters(s)) optional |= WITH_STRENGTH;
+    if (s->method != METHOD_MPM && scene_has_random_strength(s)) optional |= WITH_STRENGTH;
     if (s->method == METHOD_ADAPTIVE && s->model != MODEL_BOND)
         optional |= WITH_ENDS | (s->model == MODEL_MOSPD ? WITH_ROTATIONS : 0);
     return optional;
@@ -267,7 +269,7 @@ static enum pd_model law_of(const struct scene *s, const struct bond_source *sou
  * before: NULL if there is none. Returns REFUSED, with a message, if no time step is possible. */
 static status make_time(struct run *e, const struct predecessor *before)
 {
-    if (!before) return scene_prepend_location(e->scene, time_step_choose_and_count_steps(e));
+    if (!before) return scene_prepend_location_to_error_message(e->scene, run_choose_time_step_and_step_count(e));
     e->clock = before->run->clock;
     e->source.limit.dt = before->run->source.limit.dt;
     e->source.core = e->bonds.core = before->run->source.core;
@@ -293,15 +295,17 @@ static status make_particles(struct run *e)
     const struct scene *s = e->scene;
     e->optional = optional_arrays(s);
     make_materials(s, &e->tables, &e->source);
-    e->source.family = scene_family(s);
+    e->source.family = scene_make_complete_lattice_family(s);
     e->source.material = s->material, e->source.materials = s->materials;
     kernels_choose(&e->kernels, s->dim, law_of(s, &e->source), s->shape, s->transfer);
-    TRY(scene_prepend_location(s, cells_without_particles_choose_for_scene(&e->frame->hollow, s, &e->source)));
-    if (!e->frame->hollow.absent) TRY(scene_prepend_location(s, engine_check_memory(s, &e->part, &e->source)));
-    TRY(fill_bodies_with_particles(&e->part, s, &e->frame->hollow, e->optional));
+    TRY(scene_prepend_location_to_error_message(
+        s, cells_without_particles_predict_from_scene(&e->frame->hollow, s, &e->source)));
+    if (!e->frame->hollow.absent)
+        TRY(scene_prepend_location_to_error_message(s, run_check_memory_suffices(s, &e->part, &e->source)));
+    TRY(bodies_fill_with_particles(&e->part, s, &e->frame->hollow, e->optional));
     conversion_stress_reduce_to_weakest_particle(e->tables.elastic, &e->part);
-    return scene_prepend_location(
-        s, engine_check_memory(s, &e->part, &e->source)); /* with the actual number of particles */
+    return scene_prepend_location_to_error_message(
+        s, run_check_memory_suffices(s, &e->part, &e->source)); /* with the actual number of particles */
 }
 
 /* Creates the parts of run e that observe it or act on cracks: crack tips, crack growth, static solver, diagnostics and
@@ -315,16 +319,17 @@ static status make_probes(struct run *e)
                                s->speed_window);
     if (e->coupling->notches.lost)
         tips_ignore_particles_damaged_by_precracks(&e->fracture->tips, e->coupling->notches.lost);
-    TRY(scene_prepend_location(s, sif_growth_check_scene_allows_it(e)));
+    TRY(scene_prepend_location_to_error_message(s, sif_growth_check_direction_is_determinable(e)));
     e->fracture->growth = NEW("engine.growth", s->growths, struct growing_crack);
     e->fracture->growths = s->growths;
     for (int k = 0; k < s->growths; k++) growing_crack_make(&e->fracture->growth[k], &s->growth[k]);
-    if (scene_is_single_equilibrium(s)) TRY(scene_prepend_location(s, engine_static_solver_make(e)));
-    diagnostics_make(e->diagnostics);
+    if (scene_is_single_equilibrium(s))
+        TRY(scene_prepend_location_to_error_message(s, run_make_single_equilibrium_solver(e)));
+    diagnostics_initialise(e->diagnostics);
     e->diagnostics->mass = e->mass;
-    scene_list_wave_pulses(e->scene, e->probing);
-    struct observed_run o = observed_run_view_of(e);
-    return scene_prepend_location(s, probes_make(&e->probing->probes, s->probe, s->probes, &o));
+    scene_list_initial_wave_pulses(e->scene, e->probing);
+    struct observed_run o = observed_run_make_read_only_view(e);
+    return scene_prepend_location_to_error_message(s, probes_make(&e->probing->probes, s->probe, s->probes, &o));
 }
 
 /* Creates loads, bonds, rigid bodies, contact, coupling and mesh of run e, and computes the time step. Call it after
@@ -333,16 +338,19 @@ static status make_probes(struct run *e)
 static status make_forces(struct run *e, struct predecessor *before)
 {
     const struct scene *s = e->scene;
-    TRY(scene_prepend_location(s, body_frames_choose_mesh_or_grid(e->frame, e->grid, &e->part, s)));
+    TRY(scene_prepend_location_to_error_message(
+        s, bodies_choose_material_mesh_or_background_grid(e->frame, e->grid, &e->part, s)));
     if (!scene_is_dynamic(s)) e->boundary = NEW("engine.boundary", s->boundaries, struct boundary);
     if (scene_is_single_equilibrium(s))
         static_boundaries_make_from_dynamic(e->boundary, s->boundary, s->boundaries, s->duration, 1);
     else if (e->boundary)
         array_copy(e->boundary, s->boundary, s->boundaries, sizeof *e->boundary);
-    TRY(scene_prepend_location(s, loads_make(&e->loads, e->boundary ? e->boundary : s->boundary, s->boundaries,
-                                             &e->part, s->spacing, e->source.family.cutoff, e->optional)));
+    TRY(scene_prepend_location_to_error_message(s, loads_make(&e->loads, e->boundary ? e->boundary : s->boundary,
+                                                              s->boundaries, &e->part, s->spacing,
+                                                              e->source.family.cutoff, e->optional)));
     if (has_peridynamics(s))
-        TRY(scene_prepend_location(s, loads_check_bonds_between_mirrors(&e->loads, e->source.family.cutoff)));
+        TRY(scene_prepend_location_to_error_message(
+            s, loads_check_distance_between_mirrors(&e->loads, e->source.family.cutoff)));
     e->tables.impedance = absorbing_boundary_impedances(s, &e->source);
     const struct impedance *z = e->tables.impedance;
     if (z)
@@ -352,40 +360,42 @@ static status make_forces(struct run *e, struct predecessor *before)
     e->source.cells = &e->cells;
     TRY(make_bonds(e, before));
     TRY(rigids_make(e->rigid, s));
-    TRY(rigids_check_start_positions(e->rigid, s, &e->part));
-    TRY(scene_prepend_location(s, joined_bodies_check_close_enough(s, &e->part, &e->cells, e->source.family.cutoff)));
-    TRY(scene_prepend_location(s, statics_check_scene_is_solvable(e)));
+    TRY(rigids_check_no_overlap_at_start(e->rigid, s, &e->part));
+    TRY(scene_prepend_location_to_error_message(
+        s, joined_bodies_check_within_bond_reach(s, &e->part, &e->cells, e->source.family.cutoff)));
+    TRY(scene_prepend_location_to_error_message(s, load_steps_check_scene_is_supported(e)));
     make_contact(e->contact, s, &e->source, e->rigid);
-    coupling_choose_and_compute_partial_stress(e);
-    TRY(scene_prepend_location(s, coupling_make_reference_frame_mesh(e, before != NULL)));
-    TRY(prescribed_motion_check(&e->loads, &e->part, s, before == NULL));
-    bonded_points_update_strain(&e->coupling->partial, e->frame, &e->part, s->material);
-    stability_store_start_speed(e->stability, &e->part);
+    coupling_set_method_and_compute_partial_stress(e);
+    TRY(scene_prepend_location_to_error_message(s, coupling_build_total_lagrangian_mesh(e, before != NULL)));
+    TRY(prescribed_motion_check_is_admissible(&e->loads, &e->part, s, before == NULL));
+    bonded_points_update_strain_from_mesh_or_stress(&e->coupling->partial, e->frame, &e->part, s->material);
+    stability_store_largest_initial_speed(e->stability, &e->part);
     return make_time(e, before);
 }
 
-status engine_create_run_from_predecessor(struct run *e, const struct scene *s, struct output *output,
-                                          struct cells_without_particles omitted_cells, struct predecessor *predecessor)
+status run_create_and_transfer_from_predecessor(struct run *e, const struct scene *s, struct output *output,
+                                                struct cells_without_particles omitted_cells,
+                                                struct predecessor *predecessor)
 {
     memset(e, 0, sizeof *e);
-    run_parts_make(e);
-    e->save = engine_save_or_load_run_state;
+    run_components_allocate(e);
+    e->save = run_save_or_load_state;
     e->scene = s;
-    e->warnings.locate = scene_find_location_of_message, e->warnings.scene = s;
+    e->warnings.locate = scene_find_file_location_of_warning, e->warnings.scene = s;
     e->report->out = output;
     e->report->began = wall_clock_seconds();
     e->frame->hollow = omitted_cells;
     TRY(make_particles(e));
-    TRY(scene_prepend_location(s, reversion_check_scene_allows_reversion(e->scene)));
+    TRY(scene_prepend_location_to_error_message(s, reversion_check_scene_allows_return_to_mpm(e->scene)));
     TRY(make_forces(e, predecessor));
     for (int64_t i = 0; i < e->part.n; i++) e->mass += e->part.mass[i];
     e->mass += (real)(e->part.n_body - e->part.n) * e->part.mass[0];
-    if (!predecessor) TRY(scene_prepend_location(s, mesh_levels_make_coarse_cells(e, false)));
+    if (!predecessor) TRY(scene_prepend_location_to_error_message(s, mesh_levels_make_coarse_cells(e, false)));
     e->coupling->damping_share =
         interface_damping_share(s, e->tables.wave_speed, e->clock.dt, e->grid->field[0].grid.h);
     e->coupling->approaches = s->method == METHOD_ADAPTIVE && s->contact_between != CONTACT_NONE &&
-                              s->contact_convert && joined_bodies_first_body_of_group(s, 1) + s->rigids >= 0 &&
-                              !coupling_has_one_grid(s->coupling);
+                              s->contact_convert && scene_first_body_of_joined_group(s, 1) + s->rigids >= 0 &&
+                              !coupling_moves_all_particles_by_one_grid(s->coupling);
     e->grid->transfer = (struct transfer_data){.order = &e->grid->field[0].order,
                                                .partial = &e->coupling->partial,
                                                .elastic = e->tables.elastic,
@@ -395,27 +405,27 @@ status engine_create_run_from_predecessor(struct run *e, const struct scene *s, 
                                                .laws = e->part.plastic_work != NULL};
     for (int m = 0; m < s->materials; m++) e->grid->transfer.mean_dilatation |= e->tables.elastic[m].mean_dilatation;
     if (e->grid->transfer.mean_dilatation) e->grid->transfer.dilatation = NEW("engine.dilatation", e->part.n, real);
-    grid_rotation_groups_make(e->grid, &e->part, &e->loads, e->scene, e->coupling_kind);
+    corotating_groups_make_for_flip_transfer(e->grid, &e->part, &e->loads, e->scene, e->coupling_kind);
     return make_probes(e);
 }
 
-status engine_set_up_run(struct run *e, const struct scene *s, struct output *output)
+status run_set_up_from_scene(struct run *e, const struct scene *s, struct output *output)
 {
     struct cells_without_particles hollow = {0};
     for (;;) {
-        TRY(engine_create_run_from_predecessor(e, s, output, hollow, NULL));
+        TRY(run_create_and_transfer_from_predecessor(e, s, output, hollow, NULL));
         if (!e->frame->lacks) return OK;
         hollow = e->frame->hollow;
         e->frame->hollow = (struct cells_without_particles){0};
-        engine_free_run(e);
+        run_free_memory(e);
     }
 }
 
-void engine_free_run(struct run *e)
+void run_free_memory(struct run *e)
 {
     if (e->report && e->report->out)
-        (void)output_wait_for_frame(e->report->out); /* the writer of frames still reads the particles */
-    run_parts_free(e);
+        (void)output_wait_until_frame_is_written(e->report->out); /* the writer of frames still reads the particles */
+    run_components_free(e);
     bonds_free(&e->bonds);
     cells_free(&e->cells);
     loads_free(&e->loads);

@@ -84,7 +84,7 @@ real run_estimate_peak_memory_if_all_peridynamic(const struct scene *s, const st
 #define POSITIONS_QUICK 3e7       /* number of lattice positions that are filled in some seconds */
 #define SECONDS_PER_POSITION 1e-6 /* of the set-up, on one thread; measured 0.4 to 1.7 us [s] */
 
-void engine_announce_long_set_up(const struct scene *s)
+void run_print_notice_if_set_up_takes_long(const struct scene *s)
 {
     real longest;
     if (particles_expected(s, true, &longest) < POSITIONS_QUICK) return;
@@ -98,7 +98,8 @@ void engine_announce_long_set_up(const struct scene *s)
             s->spacing, n, longest, n * SECONDS_PER_POSITION / 60);
 }
 
-status engine_check_memory(const struct scene *s, const struct particles *p, const struct bond_source *bond_source)
+status run_check_memory_suffices(const struct scene *s, const struct particles *p,
+                                 const struct bond_source *bond_source)
 {
     const real memory = (real)machine_memory_size(), bytes = run_estimate_peak_memory(s, p, bond_source);
     real longest;
@@ -106,5 +107,6 @@ status engine_check_memory(const struct scene *s, const struct particles *p, con
     return status_set(REFUSED,
                       "particles.spacing: about %.2g particles would need %.2g GB of memory, but %.2g GB are available "
                       "(%s); use a larger spacing",
-                      particles_now(s, p, &longest), bytes * 1e-9, memory * 1e-9, machine_memory_limit_name());
+                      particles_now(s, p, &longest), bytes * 1e-9, memory * 1e-9,
+                      machine_memory_limit_describe_source());
 }

@@ -16,14 +16,14 @@ static const struct part *const parts[] = {&part_grid,        &part_frame,    &p
  * is the offset of this pointer in struct run. */
 static void **part_place(struct run *e, const struct part *p) { return (void **)((char *)e + p->at); }
 
-void run_parts_make(struct run *e)
+void run_components_allocate(struct run *e)
 {
     e->parts = parts;
     for (size_t k = 0; k < COUNT_OF(parts) - 1; k++)
         *part_place(e, parts[k]) = memory_new(parts[k]->name, 1, parts[k]->size);
 }
 
-void run_parts_free(struct run *e)
+void run_components_free(struct run *e)
 {
     for (size_t k = 0; k < COUNT_OF(parts) - 1; k++)
         if (parts[k]->free && *part_place(e, parts[k])) parts[k]->free(e);

@@ -40,7 +40,7 @@ static void swap_arrays(real **a, real **b, int dim)
  * it. Both runs have the same nodes. */
 static void nodes_take(struct run *e, struct run *old)
 {
-    struct reference_frame *r = e->frame, *was = old->frame;
+    struct lagrangian_mesh *r = e->frame, *was = old->frame;
     INVARIANT(r->mesh.grid.n == was->mesh.grid.n);
     swap_arrays(r->mesh.displacement, was->mesh.displacement, e->part.dim);
     swap_arrays(r->mesh.grid.velocity, was->mesh.grid.velocity, e->part.dim);
@@ -49,10 +49,10 @@ static void nodes_take(struct run *e, struct run *old)
     r->levels.fine = &r->mesh;
     was->levels = (struct mesh_levels){0};
     r->coarse = was->coarse, was->coarse = NULL;
-    levels_reconnect_finest_mesh(&r->levels, &e->part, &r->source);
-    mesh_levels_update_node_lists(r, &e->part, &e->bonds, &e->loads);
-    reference_frame_update_point_motion(r, &e->part, &e->loads);
-    bonded_points_update_strain(&e->coupling->partial, r, &e->part, e->scene->material);
+    mesh_levels_reconnect_coarse_to_finest_mesh(&r->levels, &e->part, &r->source);
+    mesh_levels_update_lists_of_loaded_nodes(r, &e->part, &e->bonds, &e->loads);
+    lagrangian_mesh_update_point_motion(r, &e->part, &e->loads);
+    bonded_points_update_strain_from_mesh_or_stress(&e->coupling->partial, r, &e->part, e->scene->material);
 }
 
 /* Moves from run `old` to run e, which replaces it, the state that the state functions of struct part do not transfer:
@@ -76,33 +76,33 @@ static status run_replace(struct run *e)
     struct predecessor before = {.run = old};
     struct memory_archive parts;
     const struct cells_without_particles hollow = e->frame->hollow;
-    memory_archive_make(&parts, ARCHIVE_REBUILD);
-    status s = parts_save_or_load_state(e, &parts.archive);
+    memory_archive_open_for_saving(&parts, ARCHIVE_REBUILD);
+    status s = run_components_save_or_load_state(e, &parts.archive);
     *old = *e;
     old->frame->hollow = (struct cells_without_particles){0};
     leave_derived(old);
-    if (s == OK) s = engine_create_run_from_predecessor(e, old->scene, NULL, hollow, &before);
+    if (s == OK) s = run_create_and_transfer_from_predecessor(e, old->scene, NULL, hollow, &before);
     if (s == OK) {
         rest_take(e, old);
         memory_archive_rewind_for_loading(&parts);
         parts.archive.now = before.now;
-        s = parts_save_or_load_state(e, &parts.archive);
+        s = run_components_save_or_load_state(e, &parts.archive);
     }
     memory_archive_free(&parts);
     memory_free(before.now);
-    engine_free_run(old);
+    run_free_memory(old);
     memory_free(old);
     return s;
 }
 
-status engine_replace_particles(struct run *e, const uint8_t *cell_level)
+status run_replace_particles_for_coarsening_levels(struct run *e, const uint8_t *cell_level)
 {
     if (e->report->out) {
-        TRY(output_wait_for_frame(e->report->out));
-        output_discard_particle_order(e->report->out);
+        TRY(output_wait_until_frame_is_written(e->report->out));
+        output_discard_stored_particle_order_by_id(e->report->out);
     }
     cells_without_particles_update_from_levels(e->frame, cell_level);
     TRY(run_replace(e));
-    if (e->report->out) contact_allocate_force_record(e->contact, &e->part);
+    if (e->report->out) contact_allocate_particle_forces(e->contact, &e->part);
     return OK;
 }

@@ -18,8 +18,8 @@ static status remake(struct run *e, uint8_t *absent)
     hollow.absent = absent, hollow.restored = true;
     e->frame->hollow = (struct cells_without_particles){0};
     e->report = NULL, e->warnings = (struct warnings){0};
-    engine_free_run(e);
-    const status made = engine_create_run_from_predecessor(e, s, NULL, hollow, NULL);
+    run_free_memory(e);
+    const status made = run_create_and_transfer_from_predecessor(e, s, NULL, hollow, NULL);
     memory_free(e->report->record), memory_free(e->report);
     e->report = report, e->warnings = warnings, e->timers = timers;
     return made;
@@ -46,8 +46,8 @@ static status hollow_restore(struct run *e, struct archive *a)
     return remake(e, absent);
 }
 
-status engine_load_checkpoint(void *run, struct archive *a)
+status run_load_checkpoint(void *run, struct archive *a)
 {
     TRY(hollow_restore(run, a));
-    return engine_save_or_load_run_state(run, a);
+    return run_save_or_load_state(run, a);
 }

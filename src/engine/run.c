@@ -11,9 +11,9 @@
 /* Stores position and radius of the integration contours of all SIF probes (stress-intensity factors) of p in f->ring.
  * Cells of the reference frame f (mesh of the undeformed body) inside these contours are not made coarser. seen: view
  * of the run for probes. */
-static void rings_find(struct reference_frame *f, struct probes *p, const struct observed_run *seen)
+static void rings_find(struct lagrangian_mesh *f, struct probes *p, const struct observed_run *seen)
 {
-    if (!f->ring) f->ring = NEW("frame.rings", p->n, struct frame_ring);
+    if (!f->ring) f->ring = NEW("frame.rings", p->n, struct finest_cells_disc);
     f->rings = 0;
     for (int k = 0; k < p->n; k++)
         f->rings += probes_locate_sif_contour(p, k, seen, f->ring[f->rings].place, &f->ring[f->rings].radius);
@@ -25,17 +25,19 @@ static void rings_find(struct reference_frame *f, struct probes *p, const struct
 static status refine(struct run *e)
 {
     if (!mesh_levels_may_change_before_step(&e->frame->levels, e->clock.step)) return OK;
-    const struct observed_run seen = observed_run_view_of(e);
+    const struct observed_run seen = observed_run_make_read_only_view(e);
     rings_find(e->frame, &e->probing->probes, &seen);
-    uint8_t *level = mesh_levels_choose_for_next_steps(e->frame, &e->part, &e->loads, e->clock.step, e->mass);
+    uint8_t *level = mesh_levels_choose_level_of_each_cell(e->frame, &e->part, &e->loads, e->clock.step, e->mass);
     if (!level) return OK;
-    const status s = levels_need_more_particles(&e->frame->mesh, level) ? engine_replace_particles(e, level) : OK;
+    const status s = mesh_cells_to_become_finest_lack_particles(&e->frame->mesh, level)
+                         ? run_replace_particles_for_coarsening_levels(e, level)
+                         : OK;
     if (s == OK) mesh_levels_change_cell_levels(e, level);
     memory_free(level);
     return s;
 }
 
-status engine_adapt_refinement_and_step(struct run *e)
+status run_adapt_mesh_and_advance_one_step(struct run *e)
 {
     TRY(refine(e));
     return step(e);
@@ -45,19 +47,19 @@ status engine_adapt_refinement_and_step(struct run *e)
  * FAILED, with a message, if a step fails; INTERRUPTED if a signal ends the run early. */
 static status run_to_end(struct run *e)
 {
-    if (scene_is_single_equilibrium(e->scene)) return engine_solve_single_equilibrium(e);
-    if (scene_has_load_steps(e->scene)) return engine_run_load_steps(e);
-    TRY(report_start_before_first_step(e));
+    if (scene_is_single_equilibrium(e->scene)) return run_solve_single_equilibrium(e);
+    if (scene_has_load_steps(e->scene)) return run_solve_load_steps(e);
+    TRY(report_open_history_and_write_first_frame(e));
     timers_start(&e->timers);
     while (e->clock.step < e->clock.steps) {
-        TRY(engine_adapt_refinement_and_step(e));
-        TRY(stability_check_after_step(e));
-        TRY(report_finished_step(e));
+        TRY(run_adapt_mesh_and_advance_one_step(e));
+        TRY(run_check_stability_after_step(e));
+        TRY(report_write_outputs_due_after_step(e));
     }
-    return report_finish_after_last_step(e);
+    return report_write_last_checkpoint_and_finish(e);
 }
 
-status engine_run_to_end(struct run *e)
+status run_advance_to_end_time(struct run *e)
 {
     memory_set_reuse_of_freed_arrays(true);
     const status ended = run_to_end(e);

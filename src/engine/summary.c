@@ -42,9 +42,9 @@ static void put_run(struct json *j, const struct run *e, status s, const char *m
 
 static void put_warnings(struct json *j, const struct warnings *w)
 {
-    json_open(j, "warnings", '[');
+    json_begin_object_or_list(j, "warnings", '[');
     for (int k = 0; k < w->n; k++) json_write_text(j, NULL, w->text[k]);
-    json_close(j, ']');
+    json_end_object_or_list(j, ']');
 }
 
 /* ---- fragments --------------------------------------------------------------------------------------------------- */
@@ -61,12 +61,12 @@ static bool has_fragments(const struct scene *scene, const struct diagnostics *d
  * particles without any bond, which are counted separately. */
 static void put_fragments(struct json *j, const struct fragments *f)
 {
-    json_open(j, "fragments", '{');
+    json_begin_object_or_list(j, "fragments", '{');
     json_write_integer(j, "count", f->n);
     json_write_real(j, "mass_max", f->n > 0 ? f->fragment[0].mass : 0);
     json_write_integer(j, "particles_alone", f->singles);
     json_write_real(j, "mass_alone", f->mass_singles);
-    json_close(j, '}');
+    json_end_object_or_list(j, '}');
 }
 
 /* Prints the contents of fragments.csv to `file`: a header, and for each fragment of f, the heaviest first, a line with
@@ -134,9 +134,9 @@ static void put_machine(struct json *j, const struct run_report *r, int64_t step
 /* Writes the times of the sections of the time loop in this process, timers->spent [s], to the JSON object j. */
 static void put_timers(struct json *j, const struct timers *timers)
 {
-    json_open(j, "laps", '{');
+    json_begin_object_or_list(j, "laps", '{');
     for (int k = 0; k < TIMERS; k++) json_write_rounded(j, timer_name[k], timers->spent[k], JSON_TIMING);
-    json_close(j, '}');
+    json_end_object_or_list(j, '}');
 }
 
 /* Prints the contents of summary.json to `file`. e: the run; fragments: its fragments at the end; s: status with which
@@ -157,7 +157,7 @@ static void summary_print(FILE *file, const struct run *e, const struct fragment
     fputs("\n}\n", file);
 }
 
-status summary_write(const struct run *e, status end_status, int thread_count)
+status run_write_summary_files(const struct run *e, status end_status, int thread_count)
 {
     char message[1024], *text = NULL;
     size_t length = 0;

@@ -29,15 +29,15 @@ static int32_t *numbers_now(const struct particles *p, const struct loads *loads
     return now;
 }
 
-void engine_transfer_particles(struct run *e, struct predecessor *predecessor)
+void run_transfer_particles_from_predecessor(struct run *e, struct predecessor *predecessor)
 {
     predecessor->now = numbers_now(&e->part, &e->loads, &predecessor->run->part, &predecessor->run->loads);
-    particles_copy_fields(&e->part, &predecessor->run->part, predecessor->now, e->optional);
+    particles_copy_fields_by_new_index(&e->part, &predecessor->run->part, predecessor->now, e->optional);
     particles_rebuild_lists_by_kind(&e->part);
     mirror_images_copy_particle_kinds(&e->part, &e->source);
 }
 
-void engine_transfer_bonds(struct run *e, const struct predecessor *predecessor)
+void run_transfer_broken_bonds_from_predecessor(struct run *e, const struct predecessor *predecessor)
 {
     struct run *old = predecessor->run;
     bonds_copy_damage_to_new_particles(&e->bonds, &e->part, &e->source.limit, &old->bonds, &old->part,

@@ -48,7 +48,7 @@ static void warn_of_coupling(const struct scene *s, enum coupling kind, struct w
     if ((kind == COUPLING_PM || kind == COUPLING_PMG) && s->shape != SHAPE_LINEAR)
         warnings_add_if_new(to, "coupling: pm and pmg are defined with mpm.shape: linear only, and act as pg and pgg "
                                 "with another shape; set mpm.shape: linear, or coupling: pg or pgg");
-    if (coupling_moves_by_grid(kind) && !scene_silences_warning(s, ACCEPT_COUPLING))
+    if (coupling_moves_pd_particles_by_grid(kind) && !scene_silences_warning(s, ACCEPT_COUPLING))
         warnings_add_if_new(
             to,
             "coupling: %s, as published, has forces that do not derive from an energy, so a long run may gain energy; "
@@ -80,13 +80,13 @@ static void warn_of_cells(const struct scene *s, bool on_grid, struct warnings *
 
 /* Adds warnings to *to about keys for coarse mesh cells and for slits (pre-cracks as gaps in the mesh) that have no
  * effect in the scene s. frame: reference frame of the run, with the mesh of the undeformed body. */
-static void warn_of_idle_keys(const struct scene *s, const struct reference_frame *frame, struct warnings *to)
+static void warn_of_idle_keys(const struct scene *s, const struct lagrangian_mesh *frame, struct warnings *to)
 {
     const char *why = s->method == METHOD_PD    ? "method pd has no cells"
                       : !scene_is_dynamic(s)    ? "a static solver cannot use coarse cells"
                       : frame->mesh.points == 0 ? "no material points are in the reference frame"
                                                 : NULL;
-    const char *all = scene_why_all_particles_needed(s);
+    const char *all = scene_reason_all_particles_must_be_created(s);
     if (s->levels != LEVELS_AUTO && s->levels > 0 && why)
         warnings_add_if_new(to, "mpm.levels: %d has no effect, because %s; set mpm.levels: auto or 0", s->levels, why);
     if (s->fill == FILL_NEEDED && (why || all || frame->levels.n == 0))
@@ -121,7 +121,7 @@ static void warn_of_materials(const struct scene *s, const struct material_table
 
 /* Returns true if `region` contains a particle of `part`. Also returns true if the run has cells whose particles are
  * not created (hollow cells of `frame`), because these cells may be in the region. */
-static bool region_is_met(const struct reference_frame *frame, const struct particles *part,
+static bool region_is_met(const struct lagrangian_mesh *frame, const struct particles *part,
                           const struct region *region)
 {
     bool any = frame->hollow.absent != NULL;
@@ -178,7 +178,7 @@ static void warn_of_fields(unsigned asked, const struct particles *p, const stru
 /* Adds warnings to *to about regions for which scene s requests frames (outputs of particles) of their own but which
  * contain no particle of p. frame: its hollow cells may contain particles that are not created; no region is then
  * reported. */
-static void warn_of_regions(const struct scene *s, const struct reference_frame *frame, const struct particles *p,
+static void warn_of_regions(const struct scene *s, const struct lagrangian_mesh *frame, const struct particles *p,
                             struct warnings *to)
 {
     for (int k = 0; k < s->n_series; k++)
@@ -199,7 +199,7 @@ static void warn_of_boundaries(const struct scene *s, const struct loads *l, con
             warnings_add_if_new(
                 to, "boundary %s contains no particle%s (%s); check its region and the unit (m if none is written)",
                 s->boundary[b].name, s->method == METHOD_PD ? "" : " and acts on grid nodes in its region only",
-                particles_extent_text(p).text);
+                particles_describe_bounding_box(p).text);
 }
 
 /* Adds a warning to *to if the time step of `clock` is above the critical time step, with which the run of scene s is
@@ -243,7 +243,7 @@ static void warn_of_stiffness(const struct scene *s, const struct family *f, str
     real c11, c12;
     const struct material *m = &s->material[0];
     if (s->method == METHOD_MPM || s->model != MODEL_BOND || f->calibration == CALIBRATION_LATTICE) return;
-    family_elastic_constants(f, m, &c11, &c12);
+    family_compute_cubic_elastic_constants(f, m, &c11, &c12);
     const int others = s->dim - 1;
     const real ratio = (c11 + others * c12) / (m->c11 + others * m->c12);
     if (fabs(ratio - 1) > STIFFNESS_APART)
@@ -253,7 +253,7 @@ static void warn_of_stiffness(const struct scene *s, const struct family *f, str
                             f->calibration == CALIBRATION_CONTINUUM ? "continuum" : "vmpd", ratio);
 }
 
-void engine_warn_of_suspicious_input(struct run *e)
+void run_warn_of_suspicious_input(struct run *e)
 {
     const struct scene *s = e->scene;
     struct warnings *to = &e->warnings;
@@ -272,26 +272,26 @@ void engine_warn_of_suspicious_input(struct run *e)
     warn_of_materials(s, &e->tables, to);
     warn_of_lists(s, to);
     warn_of_probes(s, to);
-    engine_warn_of_mistaken_units(s, &e->part, &e->loads, &e->clock, e->tables.wave_speed, to);
-    engine_warn_of_temperatures(s, &e->part, to);
-    engine_warn_of_wide_strength_means(s, &e->part, to);
-    engine_warn_of_isolated_particles(s, &e->cells, &e->bonds, &e->part, to);
-    engine_warn_of_fast_supports(s, &e->loads, &e->part, to);
-    engine_warn_of_particles_faster_than_waves(&e->part, e->tables.wave_speed, to);
-    engine_warn_of_conflicting_supports(s, &e->loads, &e->part, to);
-    if (e->grid->field) engine_warn_of_supports_within_cells(s, &e->loads, &e->part, &e->grid->field[0].grid, to);
-    engine_warn_of_useless_solids(s, to);
-    engine_warn_of_shells_in_shells(s, to);
-    engine_warn_of_uncorrected_faces(s, &e->part, &e->tables.surface, to);
-    engine_warn_of_bodies_that_never_meet(s, &e->part, to);
-    engine_warn_of_overlaps(s, &e->part, to);
-    engine_warn_of_unused_mirrors_and_states(s, &e->part, e->source.family.horizon, to);
-    engine_warn_of_frames_after_end_of_run(s, to);
+    run_warn_of_mistaken_units(s, &e->part, &e->loads, &e->clock, e->tables.wave_speed, to);
+    run_warn_of_suspicious_temperatures(s, &e->part, to);
+    run_warn_of_strength_averaging_over_thin_bodies(s, &e->part, to);
+    run_warn_of_isolated_particles(s, &e->cells, &e->bonds, &e->part, to);
+    run_warn_of_supports_moving_too_fast(s, &e->loads, &e->part, to);
+    run_warn_of_particles_faster_than_waves(&e->part, e->tables.wave_speed, to);
+    run_warn_of_conflicting_supports(s, &e->loads, &e->part, to);
+    if (e->grid->field) run_warn_of_supports_between_grid_nodes(s, &e->loads, &e->part, &e->grid->field[0].grid, to);
+    run_warn_of_solids_without_effect_on_bodies(s, to);
+    run_warn_of_overlapping_surface_shells(s, to);
+    run_warn_of_bodies_too_thin_to_correct_faces(s, &e->part, &e->tables.surface, to);
+    run_warn_of_bodies_that_never_meet(s, &e->part, to);
+    run_warn_of_overlapping_bodies(s, &e->part, to);
+    run_warn_of_gaps_at_mirrors_and_empty_regions(s, &e->part, e->source.family.horizon, to);
+    run_warn_of_frames_after_end_of_run(s, to);
     warn_of_fields(s->fields, &e->part, &e->bonds, to);
     warn_of_regions(s, e->frame, &e->part, to);
     warn_of_boundaries(s, &e->loads, &e->part, to);
-    engine_warn_of_cracks(s, &e->part, &e->cells, &e->bonds, &e->loads, e->source.family.cutoff, e->tables.wave_speed,
-                          to);
+    run_warn_of_ineffective_precracks(s, &e->part, &e->cells, &e->bonds, &e->loads, e->source.family.cutoff,
+                                      e->tables.wave_speed, to);
     for (const struct part *const *p = e->parts; *p; p++)
         if ((*p)->warn) (*p)->warn(e, to);
 }

@@ -14,7 +14,7 @@ bool crack_overlaps_box(const struct crack *c, const real *box_low, const real *
     return meets;
 }
 
-real engine_particle_count_between_positions(const struct scene *s, real low, real high, int axis)
+real scene_particle_count_along_axis_with_mirrors(const struct scene *s, real low, real high, int axis)
 {
     real n = round((high - low) / s->spacing) + 1;
     for (int b = 0; b < s->boundaries; b++)
@@ -22,8 +22,8 @@ real engine_particle_count_between_positions(const struct scene *s, real low, re
     return n;
 }
 
-bool engine_compute_box_of_joined_bodies(const struct scene *s, const struct particles *p, int body_number,
-                                         real *box_low, real *box_high)
+bool joined_bodies_compute_bounding_box(const struct scene *s, const struct particles *p, int body_number,
+                                        real *box_low, real *box_high)
 {
     for (int d = 0; d < s->dim; d++) {
         box_low[d] = INFINITY, box_high[d] = -INFINITY;

@@ -13,7 +13,7 @@ enum { ALONG = 32 };    /* positions along a segment, or along each of two sides
 static bool bonds_are_cut(const struct bonds *b)
 {
     for (int64_t row = 0; row < b->rows; row++)
-        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);)
+        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_iterator_advance(&it);)
             if (it.bond.inverse_length < 0) return true;
     return false;
 }
@@ -92,8 +92,8 @@ static bool can_grow(const struct crack_tips *tips, const struct crack *c)
 {
     bool can = tips->n == TIPS_MAX;
     for (int k = 0; k < tips->n && tips->dim == 3; k++) can |= tips->tip[k].from_crack;
-    return can || (tips->dim == 2 && (tips_start_at_precrack_end(tips, c->corner[0]) ||
-                                      tips_start_at_precrack_end(tips, c->corner[c->n - 1])));
+    return can || (tips->dim == 2 && (tips_any_started_at_precrack_end(tips, c->corner[0]) ||
+                                      tips_any_started_at_precrack_end(tips, c->corner[c->n - 1])));
 }
 
 /* Returns the number of particles within `reach` [m] of the position X[dim] [m], and adds to *loose the number of those
@@ -150,7 +150,7 @@ static void warn_of_fixed_cracks(const struct scene *s, const struct particles *
 {
     enum { CRACKS_MOST = 16 };
     if (p->dim == 1 || scene_silences_warning(s, ACCEPT_GROWTH)) return;
-    uint8_t *prescribed = engine_find_prescribed_components(loads, p);
+    uint8_t *prescribed = loads_find_prescribed_motion_components(loads, p);
     const real longest = particles_bounding_box_longest_edge(p);
     for (int k = 0; k < s->cracks_given && k < CRACKS_MOST && p->n == p->n_body; k++)
         if (!can_grow(tips, &s->crack[k])) warn_of_fixed_crack(s, p, k, reach, longest, prescribed, to);
@@ -161,7 +161,7 @@ static void warn_of_fixed_cracks(const struct scene *s, const struct particles *
  * and no crack is grown by a rule. */
 static void warn_of_unbreakable(const struct scene *s, struct warnings *to)
 {
-    const bool breaks = s->method != METHOD_MPM && (scene_bonds_break(s) || s->growths > 0);
+    const bool breaks = s->method != METHOD_MPM && (scene_bonds_can_break(s) || s->growths > 0);
     for (int k = 0; k < s->probes && !breaks; k++)
         if (s->probe[k].kind == PROBE_TIP || s->probe[k].kind == PROBE_BREAK)
             warnings_add_if_new(
@@ -205,9 +205,9 @@ static void warn_of_growths(const struct scene *s, const struct particles *p, st
     }
 }
 
-void engine_warn_of_cracks(const struct scene *s, const struct particles *p, const struct cells *cells,
-                           const struct bonds *b, const struct loads *loads, real longest_bond, real wave_speed,
-                           struct warnings *warnings)
+void run_warn_of_ineffective_precracks(const struct scene *s, const struct particles *p, const struct cells *cells,
+                                       const struct bonds *b, const struct loads *loads, real longest_bond,
+                                       real wave_speed, struct warnings *warnings)
 {
     struct crack_tips tips;
     warn_of_unbreakable(s, warnings);
@@ -219,7 +219,7 @@ void engine_warn_of_cracks(const struct scene *s, const struct particles *p, con
                                       "body, and their unit (m if none is written)");
     else
         warn_of_fixed_cracks(s, p, loads, &tips, longest_bond, warnings);
-    engine_warn_of_cracks_beyond_waves(s, p, loads, &tips, wave_speed, warnings);
-    engine_warn_of_cracks_pressed_shut(s, p, warnings);
+    run_warn_if_waves_do_not_reach_crack_tips(s, p, loads, &tips, wave_speed, warnings);
+    run_warn_of_precracks_pressed_shut_by_loads(s, p, warnings);
     tips_free(&tips);
 }

@@ -82,7 +82,7 @@ static bool fly_freely(const struct scene *s)
     bool freely = scene_is_dynamic(s) && dot(s->gravity, s->gravity, s->dim) == 0;
     for (int k = 0; k < s->boundaries; k++) {
         const struct boundary *b = &s->boundary[k];
-        freely = freely && (boundary_holds_at_rest(b, s->dim) || b->kind == BOUNDARY_ABSORBING);
+        freely = freely && (boundary_is_support_at_rest(b, s->dim) || b->kind == BOUNDARY_ABSORBING);
     }
     for (int b = s->bodies; b < s->bodies + s->rigids; b++)
         freely = freely && dot(s->body[b].force, s->body[b].force, s->dim) == 0;
@@ -115,7 +115,7 @@ static void warn_of_flight(const struct scene *s, const struct flight *f, int a,
                             s->body[a].name, s->body[other].name);
 }
 
-void engine_warn_of_bodies_that_never_meet(const struct scene *s, const struct particles *p, struct warnings *warnings)
+void run_warn_of_bodies_that_never_meet(const struct scene *s, const struct particles *p, struct warnings *warnings)
 {
     const int bodies = s->bodies + s->rigids;
     if (!fly_freely(s) || bodies < 2 || bodies > FLYING_MOST || p->n < p->n_body) return;

@@ -42,11 +42,11 @@ static bool supported_end_find(const struct scene *s, const struct load *l, cons
     a->low[0] = INFINITY, a->high[0] = -INFINITY, a->body = l->n > 0 ? p->body[l->particle[0]] : -1;
     for (int64_t q = 0; q < l->n; q++) {
         const int32_t i = l->particle[q];
-        if (!particle_moves_with_nodes(p, i)) return false;
+        if (!particle_is_moved_by_grid_or_mesh_nodes(p, i)) return false;
         a->low[0] = real_min(a->low[0], p->X[d][i]), a->high[0] = real_max(a->high[0], p->X[d][i]);
     }
     if (!(a->high[0] - a->low[0] < 0.5 * s->spacing)) return false;
-    if (!engine_compute_box_of_joined_bodies(s, p, a->body, low, high)) return false;
+    if (!joined_bodies_compute_bounding_box(s, p, a->body, low, high)) return false;
     a->low[1] = low[d], a->high[1] = high[d];
     const bool upper = high[d] - a->high[0] < 0.5 * s->spacing, lower = a->low[0] - low[d] < 0.5 * s->spacing;
     a->side = upper - lower;
@@ -88,8 +88,9 @@ static void warn_of_end(const struct supported *a, const char *boundary, const c
         boundary, body, axis, a->end, length, length + off, 100 * tension, 100 * bending, axis, a->end);
 }
 
-void engine_warn_of_supports_within_cells(const struct scene *s, const struct loads *loads, const struct particles *p,
-                                          const struct grid *grid, struct warnings *warnings)
+void run_warn_of_supports_between_grid_nodes(const struct scene *s, const struct loads *loads,
+                                             const struct particles *p, const struct grid *grid,
+                                             struct warnings *warnings)
 {
     for (int b = 0; b < loads->n && s->method != METHOD_PD && s->cell == CELL_OF_PAIRS; b++)
         for (int d = 0; d < s->dim; d++) {

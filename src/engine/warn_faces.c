@@ -15,9 +15,9 @@ static void warn_of_thin(const struct scene *s, const struct particles *p, int b
 {
     real low[DIM_MAX], high[DIM_MAX], rows = INFINITY;
     int axis = 0;
-    if (!engine_compute_box_of_joined_bodies(s, p, b, low, high)) return;
+    if (!joined_bodies_compute_bounding_box(s, p, b, low, high)) return;
     for (int d = 0; d < s->dim; d++) {
-        const real n = engine_particle_count_between_positions(s, low[d], high[d], d);
+        const real n = scene_particle_count_along_axis_with_mirrors(s, low[d], high[d], d);
         if (n < rows) rows = n, axis = d;
     }
     if (rows > ROWS_FEW) return;
@@ -29,8 +29,8 @@ static void warn_of_thin(const struct scene *s, const struct particles *p, int b
         s->body[b].name, rows, rows > 1.5 ? "s" : "", "xyz"[axis], s -> spacing *rows / ROWS_ENOUGH, ROWS_ENOUGH);
 }
 
-void engine_warn_of_uncorrected_faces(const struct scene *s, const struct particles *p,
-                                      const struct surface_weights *weights, struct warnings *warnings)
+void run_warn_of_bodies_too_thin_to_correct_faces(const struct scene *s, const struct particles *p,
+                                                  const struct surface_correction *weights, struct warnings *warnings)
 {
     if (s->surface != SURFACE_MOMENTS || s->method != METHOD_PD || s->dim < 2) return;
     if (weights->residual > UNSOLVED)

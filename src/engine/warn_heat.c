@@ -12,7 +12,7 @@ static void warn_of_celsius(const struct scene *s, struct warnings *to)
 {
     for (int m = 0; m < s->materials && !scene_silences_warning(s, ACCEPT_HEAT); m++) {
         const struct law *law = &s->material[m].law;
-        if (!law_has_room_temperature(law) || law->johnson_cook.T_room >= ROOM_LEAST) continue;
+        if (!flow_law_has_room_temperature(law) || law->johnson_cook.T_room >= ROOM_LEAST) continue;
         warnings_add_if_new(to,
                             "material %s: its T_room is %.4g K, below %d K: temperatures are in kelvin, 20 degrees "
                             "Celsius are 293 K; check T_room and T_melt (%.4g K); if this is intended, add accept: "
@@ -44,7 +44,7 @@ static void warn_of_flow_without_heat(const struct scene *s, struct warnings *to
 {
     for (int m = 0; m < s->materials; m++) {
         const struct material *a = &s->material[m];
-        if (!a->law.given || law_heats_material(&a->law)) continue;
+        if (!a->law.given || flow_law_plastic_work_heats_material(&a->law)) continue;
         warnings_add_if_new(to,
                             "material %s yields but is not heated, so its temperature stays at %.5g K: if heating by "
                             "plastic work matters, give it johnson_cook with specific_heat",
@@ -52,7 +52,7 @@ static void warn_of_flow_without_heat(const struct scene *s, struct warnings *to
     }
 }
 
-void engine_warn_of_temperatures(const struct scene *s, const struct particles *p, struct warnings *warnings)
+void run_warn_of_suspicious_temperatures(const struct scene *s, const struct particles *p, struct warnings *warnings)
 {
     warn_of_celsius(s, warnings);
     if (!p->temperature) return;

@@ -16,7 +16,8 @@ static void warn_of_held(const struct scene *s, const struct load *l, const stru
 {
     const struct boundary *b = l->boundary;
     const unsigned all = (1u << s->dim) - 1;
-    if (!boundary_holds_at_rest(b, s->dim) || l->n < p->n || p->n < p->n_body || (b->components & all) != all) return;
+    if (!boundary_is_support_at_rest(b, s->dim) || l->n < p->n || p->n < p->n_body || (b->components & all) != all)
+        return;
     warnings_add_if_new(to,
                         "boundary %s fixes all %lld particles, so nothing can move; check the units of its region (m "
                         "if none is written)",
@@ -26,7 +27,7 @@ static void warn_of_held(const struct scene *s, const struct load *l, const stru
 /* Returns true if load l prescribes a motion whose displacement is known at all times. */
 static bool motion_known(const struct load *l)
 {
-    return l->boundary->kind == BOUNDARY_VELOCITY && boundary_check_displacement_known(l->boundary) == OK;
+    return l->boundary->kind == BOUNDARY_VELOCITY && boundary_check_displacement_has_closed_form(l->boundary) == OK;
 }
 
 /* Returns the components in which loads a and b prescribe different displacements of one particle of p, as bits (bit d
@@ -75,7 +76,7 @@ static void warn_of_contrary(const struct scene *s, const struct particles *p, c
         common == 1 ? "it" : "them");
 }
 
-uint8_t *engine_find_prescribed_components(const struct loads *loads, const struct particles *p)
+uint8_t *loads_find_prescribed_motion_components(const struct loads *loads, const struct particles *p)
 {
     uint8_t *prescribed = NEW("warn.prescribed", p->n, uint8_t);
     for (int b = 0; b < loads->n; b++) {
@@ -109,7 +110,7 @@ static real force_and_idle_part(const struct scene *s, const struct particles *p
 static void warn_of_idle_forces(const struct scene *s, const struct loads *loads, const struct particles *p,
                                 struct warnings *to)
 {
-    uint8_t *prescribed = engine_find_prescribed_components(loads, p);
+    uint8_t *prescribed = loads_find_prescribed_motion_components(loads, p);
     for (int b = 0; b < loads->n; b++)
         for (int d = 0; d < s->dim; d++) {
             const struct load *l = &loads->load[b];
@@ -126,8 +127,8 @@ static void warn_of_idle_forces(const struct scene *s, const struct loads *loads
     memory_free(prescribed);
 }
 
-void engine_warn_of_conflicting_supports(const struct scene *s, const struct loads *loads, const struct particles *p,
-                                         struct warnings *warnings)
+void run_warn_of_conflicting_supports(const struct scene *s, const struct loads *loads, const struct particles *p,
+                                      struct warnings *warnings)
 {
     for (int a = 0; a < loads->n; a++) {
         warn_of_held(s, &loads->load[a], p, warnings);

@@ -24,7 +24,7 @@ static void lone_add(struct lone *l, int64_t i)
 static bool row_empty(const struct bonds *b, int64_t row)
 {
     struct bond_iterator it = bond_iterator_of_row(b, row);
-    return !bond_next(&it);
+    return !bond_iterator_advance(&it);
 }
 
 /* Returns true if body number `body` of scene s is made from a particle list or a shape file, so that its particles may
@@ -107,7 +107,7 @@ static bool sample_list(const struct scene *s, const struct scene_body *b, const
                         const struct particles *p, struct list_sample *sample)
 {
     static const real ball[] = {0, 2 * NEAR, 3.14159 * NEAR * NEAR, 4.18879 * NEAR * NEAR * NEAR};
-    const real section = scene_section_or_thickness(s);
+    const real section = scene_cross_section_or_thickness(s);
     real apart[SAMPLED], count[SAMPLED], beside[SAMPLED], filled[SAMPLED];
     struct neighbour_list near = {0};
     int64_t own = 0;
@@ -161,8 +161,8 @@ static void warn_of_list_volumes(const struct scene *s, const struct scene_body 
                         b->file, l->filled, l->apart, cell[s->dim], remedy[s->dim]);
 }
 
-void engine_warn_of_isolated_particles(const struct scene *s, const struct cells *cells, const struct bonds *b,
-                                       const struct particles *p, struct warnings *warnings)
+void run_warn_of_isolated_particles(const struct scene *s, const struct cells *cells, const struct bonds *b,
+                                    const struct particles *p, struct warnings *warnings)
 {
     struct lone *lone = NEW("warn.lone", s->bodies, struct lone);
     for (int64_t i = 0; i < p->n; i++) lone[p->body[i]].all++;

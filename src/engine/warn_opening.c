@@ -36,15 +36,16 @@ static real load_distance(const struct load *l, const struct particles *p, const
     return sqrt(least2);
 }
 
-void engine_warn_of_cracks_beyond_waves(const struct scene *s, const struct particles *p, const struct loads *loads,
-                                        const struct crack_tips *tips, real wave_speed, struct warnings *warnings)
+void run_warn_if_waves_do_not_reach_crack_tips(const struct scene *s, const struct particles *p,
+                                               const struct loads *loads, const struct crack_tips *tips,
+                                               real wave_speed, struct warnings *warnings)
 {
     real distance = INFINITY;
     const real reach = wave_speed * s->duration;
     if (!scene_is_dynamic(s) || scene_silences_warning(s, ACCEPT_REACH) || !only_boundaries_load(s, p)) return;
     for (int b = 0; b < loads->n; b++) {
         const struct boundary *a = loads->load[b].boundary;
-        const bool moves = a->kind == BOUNDARY_VELOCITY && !boundary_holds_at_rest(a, s->dim);
+        const bool moves = a->kind == BOUNDARY_VELOCITY && !boundary_is_support_at_rest(a, s->dim);
         for (int k = 0; k < tips->n && (moves || boundary_applies_force(a)); k++)
             if (tips->tip[k].from_crack)
                 distance = real_min(distance, load_distance(&loads->load[b], p, &tips->tip[k]));
@@ -82,13 +83,15 @@ static bool lies_across(const struct crack *c, int dim, int axis)
     return extent[axis] <= ACROSS * largest;
 }
 
-void engine_warn_of_cracks_pressed_shut(const struct scene *s, const struct particles *p, struct warnings *warnings)
+void run_warn_of_precracks_pressed_shut_by_loads(const struct scene *s, const struct particles *p,
+                                                 struct warnings *warnings)
 {
     const struct boundary *load = NULL;
-    bool all = s->cracks_given > 0 && s->dim > 1 && scene_bonds_break(s) && only_boundaries_load(s, p);
+    bool all = s->cracks_given > 0 && s->dim > 1 && scene_bonds_can_break(s) && only_boundaries_load(s, p);
     for (int k = 0; k < s->boundaries && all; k++) {
         const struct boundary *b = &s->boundary[k];
-        if (boundary_holds_at_rest(b, s->dim) || b->kind == BOUNDARY_MIRROR || b->kind == BOUNDARY_ABSORBING) continue;
+        if (boundary_is_support_at_rest(b, s->dim) || b->kind == BOUNDARY_MIRROR || b->kind == BOUNDARY_ABSORBING)
+            continue;
         all = presses(b, s->dim) && (!load || b->face == load->face);
         load = b;
     }

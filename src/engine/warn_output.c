@@ -2,7 +2,7 @@
 
 #include "engine_internal.h"
 
-void engine_warn_of_frames_after_end_of_run(const struct scene *s, struct warnings *warnings)
+void run_warn_of_frames_after_end_of_run(const struct scene *s, struct warnings *warnings)
 {
     const real end = s->duration * (1 + 1e-9);
     if (s->every > end)

@@ -36,7 +36,7 @@ static struct overlap body_overlap(const struct scene *s, const struct particles
     const struct region *shape = &s->body[b].shape;
     struct overlap found = {0};
     real low[DIM_MAX], high[DIM_MAX], normal[DIM_MAX];
-    if (s->body[b].file || shape->n == 0 || region_contains_infinite_box_solid(shape, s->dim)) return found;
+    if (s->body[b].file || shape->n == 0 || region_has_box_with_infinite_side(shape, s->dim)) return found;
     if (!region_compute_bounding_box_if_finite(shape, s->dim, low, high)) return found;
     for (int64_t i = 0; i < p->n; i++) {
         bool near = belongs_to_first_only(s, p, i, a, b);
@@ -66,7 +66,7 @@ static void warn_of_overlap(const struct scene *s, const struct particles *p, in
         name, other, (long long)found->n, name, other, found->depth, particle_position_text(p, found->deepest, 4).text);
 }
 
-void engine_warn_of_overlaps(const struct scene *s, const struct particles *p, struct warnings *warnings)
+void run_warn_of_overlapping_bodies(const struct scene *s, const struct particles *p, struct warnings *warnings)
 {
     const real least = (DEEP + 0.5 * s->irregularity) * s->spacing;
     if (s->bodies > COMPARED_MOST || scene_silences_warning(s, ACCEPT_CONTACT)) return;
@@ -125,7 +125,7 @@ static void warn_of_empty_parts(const struct scene *s, const struct particles *p
             real X[DIM_MAX];
             if (p->body[i] != body->joined) continue;
             particle_reference_position(p, i, X);
-            const int part = scene_part_at_position(s, body, X);
+            const int part = scene_body_part_index_at_position(s, body, X);
             if (part >= 0) held[part] = true;
         }
         for (int k = 0; k < body->parts; k++)
@@ -175,11 +175,11 @@ static void warn_of_mirror_beside(const struct scene *s, const struct particles 
         "boundary %s: its plane of symmetry %c = %.4g m is %.3g m from the nearest particle, but should be half a "
         "spacing (%.3g m) away, so it %s (%s); check its position and unit (m if none is written)",
         mirror->name, "xyz"[mirror->axis], mirror -> at, distance, 0.5 * s -> spacing, effect,
-        particles_extent_text(p).text);
+        particles_describe_bounding_box(p).text);
 }
 
-void engine_warn_of_unused_mirrors_and_states(const struct scene *s, const struct particles *p, real horizon,
-                                              struct warnings *warnings)
+void run_warn_of_gaps_at_mirrors_and_empty_regions(const struct scene *s, const struct particles *p, real horizon,
+                                                   struct warnings *warnings)
 {
     for (int b = 0; b < s->boundaries && p->n > 0; b++) {
         const struct boundary *mirror = &s->boundary[b];
@@ -192,11 +192,11 @@ void engine_warn_of_unused_mirrors_and_states(const struct scene *s, const struc
             warnings_add_if_new(warnings,
                                 "initial[%d]: no particle is in its region, so it has no effect (%s); check the region "
                                 "and its unit (m if none is written)",
-                                k, particles_extent_text(p).text);
+                                k, particles_describe_bounding_box(p).text);
     warn_of_empty_parts(s, p, warnings);
     if (s->has_pd_region && !region_holds_particle(s, p, &s->pd_region, -1))
         warnings_add_if_new(warnings,
                             "pd.region contains no particle, so it has no effect (%s); check the region and its unit "
                             "(m if none is written)",
-                            particles_extent_text(p).text);
+                            particles_describe_bounding_box(p).text);
 }

@@ -82,7 +82,7 @@ static void warn_of_added(const struct scene_body *b, int k, int dim, struct war
                             b->name, k + 1);
 }
 
-void engine_warn_of_useless_solids(const struct scene *s, struct warnings *warnings)
+void run_warn_of_solids_without_effect_on_bodies(const struct scene *s, struct warnings *warnings)
 {
     for (int b = 0; b < s->bodies + s->rigids; b++) {
         const struct scene_body *body = &s->body[b];
@@ -95,11 +95,12 @@ void engine_warn_of_useless_solids(const struct scene *s, struct warnings *warni
     }
 }
 
-void engine_warn_of_shells_in_shells(const struct scene *s, struct warnings *warnings)
+void run_warn_of_overlapping_surface_shells(const struct scene *s, struct warnings *warnings)
 {
     for (const struct shape_file *f = s->shapes; f; f = f->next) {
         const struct hull *h = &f->geometry.whole;
-        const real again = f->kind != SHAPE_IMAGE && h->shells > 1 ? hull_sample_winding_numbers(h).enclosed_again : 0;
+        const real again =
+            f->kind != SHAPE_IMAGE && h->shells > 1 ? hull_sample_winding_number_statistics(h).enclosed_again : 0;
         if (again > AGAIN_LEAST * h->volume)
             warnings_add_if_new(
                 warnings,

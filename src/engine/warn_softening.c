@@ -16,17 +16,18 @@
 static real shortest_side(const struct scene *s, const struct particles *p, int body)
 {
     real low[DIM_MAX], high[DIM_MAX], side = INFINITY;
-    if (!engine_compute_box_of_joined_bodies(s, p, s->body[body].joined, low, high)) return INFINITY;
+    if (!joined_bodies_compute_bounding_box(s, p, s->body[body].joined, low, high)) return INFINITY;
     for (int d = 0; d < p->dim; d++) side = real_min(side, high[d] - low[d] + s->spacing);
     return side;
 }
 
-void engine_warn_of_wide_strength_means(const struct scene *s, const struct particles *p, struct warnings *warnings)
+void run_warn_of_strength_averaging_over_thin_bodies(const struct scene *s, const struct particles *p,
+                                                     struct warnings *warnings)
 {
     for (int b = 0; b < s->bodies; b++) {
         const struct material *m = &s->material[s->body[b].material];
         if (!material_has_strength_surface(m)) continue;
-        const real radius = scene_strength_surface_radius(s, m), side = shortest_side(s, p, b);
+        const real radius = scene_strength_surface_averaging_radius(s, m), side = shortest_side(s, p, b);
         if (!(radius > RADIUS_MOST * side)) continue;
         warnings_add_if_new(warnings,
                             "material %s: its strength surface averages strains over %.3g m, but body %s is only %.3g "

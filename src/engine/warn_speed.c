@@ -37,7 +37,7 @@ static bool moves_freely(const struct driver *d, const struct scene *s, const st
                          const struct particles *p)
 {
     const struct load *own = d->load;
-    bool freely = s->damping == 0 && !scene_bodies_can_meet(s);
+    bool freely = s->damping == 0 && !scene_bodies_can_come_into_contact(s);
     for (int b = 0; b < all->n && freely; b++) {
         const struct load *l = &all->load[b];
         const unsigned both = l->boundary->components & own->boundary->components;
@@ -46,12 +46,12 @@ static bool moves_freely(const struct driver *d, const struct scene *s, const st
             freely = false;
             break;
         case BOUNDARY_MIRROR:
-            freely = !boundary_is_clamped_mirror(l->boundary, s->dim) &&
+            freely = !boundary_is_mirror_without_tangential_motion(l->boundary, s->dim) &&
                      !(own->boundary->components >> l->boundary->axis & 1);
             break;
         case BOUNDARY_VELOCITY:
             freely = l == own || both == 0 || !load_meets(s, p, l, d->body) ||
-                     loads_largest_velocity_difference(own, l, p, s->duration) <= d->limit;
+                     loads_largest_prescribed_velocity_difference(own, l, p, s->duration) <= d->limit;
             break;
         default:
             break;
@@ -69,7 +69,7 @@ static real body_crossing_time(const struct particles *p, const struct scene *s,
     for (int m = 0; m < s->materials; m++) slowest = real_min(slowest, s->material[m].wave_speed);
     for (int b = 0; b < s->bodies; b++) {
         real low[DIM_MAX], high[DIM_MAX], size2 = 0;
-        if (!body[b] || !engine_compute_box_of_joined_bodies(s, p, b, low, high)) continue;
+        if (!body[b] || !joined_bodies_compute_bounding_box(s, p, b, low, high)) continue;
         for (int d = 0; d < p->dim; d++) size2 += square(high[d] - low[d] + s->spacing);
         most = real_max(most, sqrt(size2));
     }
@@ -83,7 +83,7 @@ static void warn_of_change(const struct driver *d, const struct scene *s, const 
                            struct warnings *to)
 {
     const real within = body_crossing_time(p, s, d->body);
-    const real change = load_largest_velocity_change(d->load, p, s->duration, within);
+    const real change = load_largest_prescribed_velocity_change(d->load, p, s->duration, within);
     if (change > d->limit)
         warnings_add_if_new(to,
                             "boundary %s: its velocity changes by up to %.3g m/s within %.3g s, the time a wave takes "
@@ -96,8 +96,8 @@ static void warn_of_change(const struct driver *d, const struct scene *s, const 
  * exceeds the speed at which bonds beside the boundary break. loads: the loads of these boundaries; p: particles. A
  * face moved at speed v strains the material behind it by v/c at once, c being the wave speed. Adds none with static
  * solvers, for method mpm, or if the scene accepts this (accept: [speed]). */
-void engine_warn_of_fast_supports(const struct scene *s, const struct loads *loads, const struct particles *p,
-                                  struct warnings *warnings)
+void run_warn_of_supports_moving_too_fast(const struct scene *s, const struct loads *loads, const struct particles *p,
+                                          struct warnings *warnings)
 {
     real limit = INFINITY;
     if (scene_silences_warning(s, ACCEPT_SPEED)) return;
@@ -107,8 +107,8 @@ void engine_warn_of_fast_supports(const struct scene *s, const struct loads *loa
     for (int b = 0; b < loads->n && s->solver == SOLVER_EXPLICIT && s->method != METHOD_MPM; b++) {
         const struct load *l = &loads->load[b];
         const struct driver driver = {l, body, limit};
-        const real speed = load_largest_displacement_speed(l, p, s->duration);
-        const real jump = load_largest_jump_from_initial_velocity(l, p, s->duration);
+        const real speed = load_largest_speed_of_prescribed_displacement(l, p, s->duration);
+        const real jump = load_largest_prescribed_minus_initial_velocity(l, p, s->duration);
         if (!(speed > limit || jump > limit)) continue;
         bodies_mark(s, p, l, body);
         if (isfinite(speed) && moves_freely(&driver, s, loads, p))
@@ -129,7 +129,7 @@ void engine_warn_of_fast_supports(const struct scene *s, const struct loads *loa
     memory_free(body);
 }
 
-void engine_warn_of_particles_faster_than_waves(const struct particles *p, real wave_speed, struct warnings *warnings)
+void run_warn_of_particles_faster_than_waves(const struct particles *p, real wave_speed, struct warnings *warnings)
 {
     const real speed = particles_largest_speed_of_all(p);
     if (speed > wave_speed)

@@ -184,7 +184,8 @@ static void units_of_rigids(const struct scene *s, struct warnings *to)
     for (int b = s->bodies; b < s->bodies + s->rigids; b++) {
         const struct scene_body *body = &s->body[b];
         if (!(body->mass > 0) || !region_compute_bounding_box_if_finite(&body->shape, s->dim, low, high)) continue;
-        const real volume = region_volume_within_box(&body->shape, s->dim, low, high) * scene_section_or_thickness(s);
+        const real volume =
+            region_volume_within_box(&body->shape, s->dim, low, high) * scene_cross_section_or_thickness(s);
         snprintf(subject, sizeof subject, "body %s", body->name);
         snprintf(note, sizeof note, " (%.3g kg over %.3g m^3)", body->mass, volume);
         units_judge_between(s, ACCEPT_MASS, least, most, subject, body->mass / volume, note, to);
@@ -268,7 +269,7 @@ struct load_figures {
 static real load_stress_at(const struct scene *s, const struct particles *p, const struct load *l, int64_t k, real t)
 {
     real value[DIM_MAX] = {0}, density = 0;
-    load_value_at_particle(l, p, k, t, value);
+    load_prescribed_value_at_particle(l, p, k, t, value);
     if (l->boundary->kind == BOUNDARY_PRESSURE) return fabs(value[0]);
     if (l->boundary->kind == BOUNDARY_TRACTION) return sqrt(dot(value, value, s->dim));
     for (int m = 0; m < s->materials; m++) density = real_max(density, s->material[m].density);
@@ -285,7 +286,8 @@ static void load_figures_at(const struct scene *s, const struct particles *p, co
     const enum boundary_kind kind = l->boundary->kind;
     if (kind == BOUNDARY_TRACTION || kind == BOUNDARY_PRESSURE || kind == BOUNDARY_BODY_FORCE)
         f->stress = real_max(f->stress, load_stress_at(s, p, l, k, t));
-    if (kind != BOUNDARY_VELOCITY || l->boundary->rotates || boundary_check_displacement_known(l->boundary) != OK)
+    if (kind != BOUNDARY_VELOCITY || l->boundary->rotates ||
+        boundary_check_displacement_has_closed_form(l->boundary) != OK)
         return;
     real u[DIM_MAX];
     load_displacement_of_particle(l, p, k, l->boundary->frozen ? INFINITY : t,
@@ -306,7 +308,7 @@ static void load_figures_add(const struct scene *s, const struct particles *p, c
         for (int64_t k = 0; k < l->n; k += 1 + l->n / PLACES_OF_LOADS)
             load_figures_at(s, p, l, k, s->duration * m / MOMENTS_OF_LOADS, f);
     if (!drives || !scene_is_dynamic(s)) return;
-    const real speed = load_largest_driven_speed(l, p, s->duration);
+    const real speed = load_largest_prescribed_speed(l, p, s->duration);
     if (isfinite(speed)) f->speed = real_max(f->speed, speed);
 }
 
@@ -329,7 +331,7 @@ static real units_speed_at_start(const struct scene *s, const struct particles *
 static real units_stress_at_start(const struct particles *p)
 {
     real most = 0;
-    for (int c = 0; c < symmetric_component_count(p->dim); c++)
+    for (int c = 0; c < symmetric_tensor_component_count(p->dim); c++)
         for (int64_t i = 0; i < p->n && p->stress[c]; i++) most = real_max(most, fabs(p->stress[c][i]));
     return most;
 }
@@ -467,7 +469,7 @@ static void units_of_body(const struct scene *s, const char *name, const real *l
     char subject[NAME_MAX_LENGTH + 16], note[80];
     real least = INFINITY;
     for (int d = 0; d < s->dim; d++) {
-        const real n = engine_particle_count_between_positions(s, low[d], high[d], d);
+        const real n = scene_particle_count_along_axis_with_mirrors(s, low[d], high[d], d);
         if (n < least) least = n, snprintf(note, sizeof note, ", along %c", "xyz"[d]);
     }
     snprintf(subject, sizeof subject, "body %s", name);
@@ -482,7 +484,7 @@ static void units_of_particles(const struct scene *s, const struct particles *p,
     for (int b = 0; b < s->bodies && s->cracks > 0 && p->n == p->n_body; b++) {
         real low[DIM_MAX], high[DIM_MAX];
         bool cracked = false;
-        if (!engine_compute_box_of_joined_bodies(s, p, b, low, high)) continue;
+        if (!joined_bodies_compute_bounding_box(s, p, b, low, high)) continue;
         for (int k = 0; k < s->cracks; k++)
             cracked = cracked || crack_overlaps_box(&s->crack[k], low, high, s->dim, s->spacing);
         if (cracked) units_of_body(s, s->body[b].name, low, high, to);
@@ -500,8 +502,8 @@ static void units_of_thickness(const struct scene *s, real longest, struct warni
     units_judge(s, ACCEPT_THICKNESS, "space", s->thickness / longest, note, to);
 }
 
-void engine_warn_of_mistaken_units(const struct scene *s, const struct particles *p, const struct loads *l,
-                                   const struct run_clock *clock, real wave_speed, struct warnings *warnings)
+void run_warn_of_mistaken_units(const struct scene *s, const struct particles *p, const struct loads *l,
+                                const struct run_clock *clock, real wave_speed, struct warnings *warnings)
 {
     units_of_time(s, clock, wave_speed, real_max(particles_bounding_box_longest_edge(p), s->spacing), warnings);
     units_of_thickness(s, particles_bounding_box_longest_edge(p) + s->spacing, warnings);

@@ -12,7 +12,7 @@ static const real WEIGHT_NEAR = 1e-6;
 /* Returns the share beta(r) of the volume of a neighbour at distance r [m] that counts in the LAMMPS styles peri/pmb
  * and peri/lps [1]: beta = 1/2 + (x->cutoff - r)/x->lattice within half a lattice constant of the cutoff, and 1 closer
  * to the particle. x: the export, with cutoff and lattice constant of LAMMPS. */
-static real lammps_share(const struct exported *x, real r)
+static real lammps_share(const struct lammps_export *x, real r)
 {
     return fabs(r - x->cutoff) <= 0.5 * x->lattice ? 0.5 + (x->cutoff - r) / x->lattice : 1;
 }
@@ -29,7 +29,7 @@ static real distance2(const struct particles *p, int64_t i, int64_t j)
 /* Returns the ratio c/c_0 of the micro-modulus c of a bond between the materials number a and b to the micro-modulus
  * c_0 of material 0 in the exported scene of x [1]. The two halves of the bond act as springs in series: c = 2 c_a
  * c_b/(c_a + c_b). */
-static real modulus_ratio(const struct exported *x, int a, int b)
+static real modulus_ratio(const struct lammps_export *x, int a, int b)
 {
     const struct family *f = &x->e->source.family;
     const struct material *m = x->s->material;
@@ -40,7 +40,7 @@ static real modulus_ratio(const struct exported *x, int a, int b)
 
 /* Returns true if the weight of `bond`, a bond of particle i in the export x, equals the weight that LAMMPS would use,
  * to within the relative tolerance WEIGHT_NEAR. */
-static bool weight_alike(const struct exported *x, int64_t i, const struct bond *bond)
+static bool weight_alike(const struct lammps_export *x, int64_t i, const struct bond *bond)
 {
     const struct particles *p = &x->e->part;
     const struct family *f = &x->e->source.family;
@@ -50,7 +50,7 @@ static bool weight_alike(const struct exported *x, int64_t i, const struct bond 
     return fabs(bond->w - lammps_share(x, r) * V2 * law) <= WEIGHT_NEAR * bond->w;
 }
 
-static status bond_refuse(const struct exported *x, int64_t i, const char *what)
+static status bond_refuse(const struct lammps_export *x, int64_t i, const char *what)
 {
     const struct particles *p = &x->e->part;
     return status_set(REFUSED, "%s: a bond of the particle at (%.6g, %.6g, %.6g) m %s", printable_name(x->s->path).text,
@@ -61,11 +61,11 @@ static status bond_refuse(const struct exported *x, int64_t i, const char *what)
  * the number of these bonds in *n. bonded[particles]: 0 before the first call. Returns REFUSED, with a message, if
  * LAMMPS would give a bond another weight, or if a bond is longer than the cutoff of LAMMPS by round-off. The latter
  * can occur for bonds as long as the horizon. */
-static status row_mark(const struct exported *x, int64_t i, int64_t *bonded, int *n)
+static status row_mark(const struct lammps_export *x, int64_t i, int64_t *bonded, int *n)
 {
     const struct run *e = x->e;
     *n = 0;
-    for (struct bond_iterator it = bond_iterator_of_row(&e->bonds, e->bonds.row_of[i]); bond_next(&it);) {
+    for (struct bond_iterator it = bond_iterator_of_row(&e->bonds, e->bonds.row_of[i]); bond_iterator_advance(&it);) {
         if (it.bond.w == 0) continue;
         bonded[it.bond.nbr] = i + 1;
         ++*n;
@@ -82,7 +82,7 @@ static status row_mark(const struct exported *x, int64_t i, int64_t *bonded, int
 
 /* Finds the particles to which LAMMPS would bond particle i: those within the cutoff of the export x. found[capacity]:
  * receives their indices; it must have capacity for all of them. Returns their number. */
-static int lammps_near(const struct exported *x, int64_t i, int32_t *found, int capacity)
+static int lammps_near(const struct lammps_export *x, int64_t i, int32_t *found, int capacity)
 {
     const struct run *e = x->e;
     real X[DIM_MAX];
@@ -105,7 +105,7 @@ static uint64_t mix(uint64_t hash, int64_t word)
     return hash ^ hash >> 29;
 }
 
-static int64_t lattice_place(const struct exported *x, int64_t i, int d)
+static int64_t lattice_place(const struct lammps_export *x, int64_t i, int d)
 {
     return (int64_t)floor((x->e->part.X[d][i] - x->e->part.X[d][0]) / x->s->spacing + 0.5);
 }
@@ -113,7 +113,7 @@ static int64_t lattice_place(const struct exported *x, int64_t i, int d)
 /* Returns a hash of the material, the loads and the lattice position of particle i of the export x. The position is
  * taken modulo 2 m + 1 spacings along each axis, where m is the reach of bonds [spacings]. Two neighbours are at most m
  * spacings apart along each axis, so that the vector between them follows from both reduced positions. */
-static uint64_t key_of(const struct exported *x, int64_t i)
+static uint64_t key_of(const struct lammps_export *x, int64_t i)
 {
     const int64_t period = 2 * (int64_t)floor(x->cutoff / x->s->spacing + 1e-6) + 1;
     uint64_t key = mix(mix(1, x->e->part.material[i]), x->loads[i]);
@@ -122,7 +122,7 @@ static uint64_t key_of(const struct exported *x, int64_t i)
 }
 
 /* Returns a hash of the lattice vector from particle i to particle j of the export x. */
-static uint64_t offset_of(const struct exported *x, int64_t i, int64_t j)
+static uint64_t offset_of(const struct lammps_export *x, int64_t i, int64_t j)
 {
     uint64_t offset = 2;
     for (int d = 0; d < x->s->dim; d++) offset = mix(offset, lattice_place(x, j, d) - lattice_place(x, i, d));
@@ -144,7 +144,7 @@ struct search {
 /* Sets a->number[i] to 1 for each particle i of the export x with at least one cut bond, else to 0. Cut bonds are pairs
  * within the cutoff of LAMMPS that have no bond in the exported scene. *bonds, *cut: receive the number of bonds of the
  * scene and of cut bonds. Returns REFUSED, with a message, if LAMMPS cannot represent a bond of the scene. */
-static status touched_find(const struct exported *x, struct search *a, int64_t *bonds, int64_t *cut)
+static status touched_find(const struct lammps_export *x, struct search *a, int64_t *bonds, int64_t *cut)
 {
     int64_t ends = 0, ends_cut = 0;
     for (int64_t i = 0; i < x->e->part.n; i++) {
@@ -161,7 +161,7 @@ static status touched_find(const struct exported *x, struct search *a, int64_t *
 /* Lists in t the particles of the export x for which a->number is 1, those with a cut bond (a pair that LAMMPS would
  * bond and the scene does not). Allocates t->key, which later holds a sort key for each. Replaces a->number[i] by the
  * index of particle i in the list, or -1 for other particles. Call it after touched_find. */
-static void touched_list(struct touched *t, const struct exported *x, struct search *a)
+static void touched_list(struct particles_at_cut_bonds *t, const struct lammps_export *x, struct search *a)
 {
     const int64_t n = x->e->part.n;
     for (int64_t i = 0; i < n; i++) t->n += a->number[i];
@@ -178,7 +178,7 @@ static void touched_list(struct touched *t, const struct exported *x, struct sea
  * the particle, and the kind of each pair: bonded or cut in the scene. Computes t->key of the particle: the sum of a
  * hash of its material, loads and lattice position and of hashes of the lattice vectors to the neighbours at its cut
  * bonds. a: work arrays, after touched_list. */
-static void touched_near(struct touched *t, const struct exported *x, struct search *a)
+static void touched_near(struct particles_at_cut_bonds *t, const struct lammps_export *x, struct search *a)
 {
     for (int64_t k = 0; k < t->n; k++) {
         const int64_t i = t->particle[k];
@@ -200,13 +200,13 @@ static void touched_near(struct touched *t, const struct exported *x, struct sea
     }
 }
 
-status lammps_find_bonds_to_cut(struct touched *touched, struct exported *x)
+status lammps_find_bonds_to_cut(struct particles_at_cut_bonds *touched, struct lammps_export *x)
 {
-    struct search a = {.room = bonds_neighbour_count_bound(&x->e->source) + 1};
+    struct search a = {.room = bonds_neighbour_count_upper_bound(&x->e->source) + 1};
     a.found = NEW("touched.found", a.room, int32_t);
     a.bonded = NEW("touched.bonded", x->e->part.n_all, int64_t);
     a.number = NEW("touched.number", x->e->part.n_all, int32_t);
-    *touched = (struct touched){0};
+    *touched = (struct particles_at_cut_bonds){0};
     const status s = touched_find(x, &a, &x->bonds, &x->cut);
     if (s == OK && !x->bond_style) touched_list(touched, x, &a), touched_near(touched, x, &a);
     memory_free(a.found);

@@ -55,7 +55,7 @@ static status carries_materials(const struct scene *s, bool bond_style)
     if (s->rigids > 0)
         return lammps_refuse(
             s, "rigid bodies cannot be exported to LAMMPS; use a body of particles that a boundary drives");
-    if (scene_strength_scatters(s))
+    if (scene_has_random_strength(s))
         return lammps_refuse(
             s, "a strength that scatters in space cannot be exported to the atom types of LAMMPS; remove scatter");
     if (s->damping > 0) return lammps_refuse(s, "damping cannot be exported to LAMMPS; set damping: 0");
@@ -92,9 +92,9 @@ static void contact_settings(struct lammps_settings *to, const struct scene *s, 
     settings_add(to, s->contact_stiffness != 1, "contact.stiffness", "1", effect);
 }
 
-bool lammps_keeps_weighted_volume_of_intact_family(const struct scene *s)
+bool lammps_keeps_weighted_volume_after_bonds_break(const struct scene *s)
 {
-    return s->model == MODEL_OSPD && scene_bonds_break(s);
+    return s->model == MODEL_OSPD && scene_bonds_can_break(s);
 }
 
 /* Appends to the list `to` the peridynamic settings of the scene s that differ from the fixed rules of LAMMPS, with the
@@ -116,12 +116,13 @@ static void pd_settings(struct lammps_settings *to, const struct scene *s, bool 
                  state ? "inverse" : "one", "the weight of a bond is another function of its length");
     settings_add(to, state && s->bulk, "pd.normalisation", "local",
                  "constants come from the neighbourhood that a particle has, so those of particles at faces differ");
-    settings_add(to, scene_bonds_break(s) && s->last_force != LAST_FORCE_WHOLE, "pd.last_force", "whole",
+    settings_add(to, scene_bonds_can_break(s) && s->last_force != LAST_FORCE_WHOLE, "pd.last_force", "whole",
                  "a bond acts for the whole step in which it breaks: it breaks one step later, which decides between "
                  "two almost equal paths of a crack");
 }
 
-status lammps_list_required_key_changes(struct lammps_settings *changes, const struct scene *s, bool bond_style)
+status lammps_list_input_changes_for_equal_results(struct lammps_settings *changes, const struct scene *s,
+                                                   bool bond_style)
 {
     changes->n = 0;
     TRY(carries_method(s));

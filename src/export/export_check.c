@@ -11,7 +11,7 @@ static void joined_volume(real *volume, const struct particles *part, const stru
 {
     for (int64_t i = 0; i < part->n; i++) {
         volume[i] = 0;
-        for (struct bond_iterator it = bond_iterator_of_row(bonds, bonds->row_of[i]); bond_next(&it);)
+        for (struct bond_iterator it = bond_iterator_of_row(bonds, bonds->row_of[i]); bond_iterator_advance(&it);)
             if (it.bond.w != 0) volume[i] += part->volume0[it.bond.nbr];
     }
 }
@@ -28,12 +28,12 @@ static void check_rows_write(FILE *to, const struct particles *p, const real *be
     }
 }
 
-int64_t lammps_reference_step_count(const struct exported *exported)
+int64_t lammps_comparison_step_count(const struct lammps_export *exported)
 {
     return exported->e->clock.steps < CHECK_STEPS ? exported->e->clock.steps : CHECK_STEPS;
 }
 
-status lammps_run_and_write_comparison_positions(FILE *file, struct exported *x)
+status lammps_run_and_write_comparison_positions(FILE *file, struct lammps_export *x)
 {
     struct run *e = x->e;
     const int64_t n = e->part.n, steps = e->clock.steps;
@@ -42,8 +42,8 @@ status lammps_run_and_write_comparison_positions(FILE *file, struct exported *x)
     joined_volume(before, &e->part, &e->bonds);
     array_copy(damage, e->part.damage, n, sizeof *damage);
     e->report->quiet = e->report->excerpt = true;
-    e->clock.steps = lammps_reference_step_count(x);
-    const status ran = engine_run_to_end(e);
+    e->clock.steps = lammps_comparison_step_count(x);
+    const status ran = run_advance_to_end_time(e);
     e->clock.steps = steps;
     if (ran == OK) {
         /* In LAMMPS the new positions have already broken bonds. */

@@ -9,28 +9,31 @@
 
 #include "base/memory.h"
 
-void touched_particles_free(struct touched *touched)
+void particles_at_cut_bonds_free(struct particles_at_cut_bonds *touched)
 {
     memory_free(touched->particle);
     memory_free(touched->first);
     memory_free(touched->near);
     memory_free(touched->cut);
     memory_free(touched->key);
-    *touched = (struct touched){0};
+    *touched = (struct particles_at_cut_bonds){0};
 }
 
 /* Colours assigned so far to the particles at cut bonds. of[k]: colour of particle k in the list of these particles,
  * -1: none yet; n: number of colours; key[c]: key that all particles with colour c have; pair[COLOURS_MOST * a + b]:
  * kind (bonded or cut) of pairs of particles with the colours a and b. */
 struct colouring {
-    const struct touched *t;
+    const struct particles_at_cut_bonds *t;
     int32_t *of;
     int n;
     uint64_t *key;
     uint8_t *pair;
 };
 
-static uint8_t pair_kind(const struct touched *t, int64_t q) { return t->cut[q] ? PAIR_CUT : PAIR_BONDED; }
+static uint8_t pair_kind(const struct particles_at_cut_bonds *t, int64_t q)
+{
+    return t->cut[q] ? PAIR_CUT : PAIR_BONDED;
+}
 
 /* Returns true if particle k in the list a->t of particles at cut bonds can have colour c. LAMMPS excludes bonds by
  * pairs of particle types, and colours become types: all pairs of particles with the same two colours must be of one
@@ -79,7 +82,7 @@ static bool colours_share(struct colouring *a)
     return true;
 }
 
-int particle_colours_assign_and_count(int32_t *colour, const struct touched *t)
+int particles_at_cut_bonds_assign_and_count_colours(int32_t *colour, const struct particles_at_cut_bonds *t)
 {
     struct colouring a = {t, colour, 0, NEW("colours.key", COLOURS_MOST, uint64_t),
                           NEW("colours.pair", (int64_t)COLOURS_MOST * COLOURS_MOST, uint8_t)};
@@ -93,7 +96,8 @@ int particle_colours_assign_and_count(int32_t *colour, const struct touched *t)
     return a.n;
 }
 
-uint8_t *particle_colours_find_bonded_pairs(const int32_t *colour, int colour_count, const struct touched *t)
+uint8_t *colour_pairs_find_bonded_or_cut(const int32_t *colour, int colour_count,
+                                         const struct particles_at_cut_bonds *t)
 {
     uint8_t *pair = NEW("colours.pairs", (int64_t)colour_count * colour_count, uint8_t);
     for (int64_t k = 0; k < t->n; k++)

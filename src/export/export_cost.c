@@ -33,7 +33,7 @@ static struct duration duration_of(real seconds)
     return d;
 }
 
-void lammps_write_run_time_estimate(FILE *file, const struct exported *x)
+void lammps_write_run_time_estimate(FILE *file, const struct lammps_export *x)
 {
     const struct bond_time t = bond_time_of(x->s);
     const real there = x->bond_style ? t.there_bonds : t.there, work = 2e-9 * (real)x->bonds * (real)x->e->clock.steps;

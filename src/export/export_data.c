@@ -12,7 +12,7 @@ static int bond_type(int materials, int a, int b)
     return low * materials - low * (low - 1) / 2 + high - low + 1;
 }
 
-static void box_write(FILE *to, const struct exported *x)
+static void box_write(FILE *to, const struct lammps_export *x)
 {
     static const char *const name[DIM_MAX] = {"xlo xhi", "ylo yhi", "zlo zhi"};
     const real margin = 4 * x->s->spacing;
@@ -23,7 +23,7 @@ static void box_write(FILE *to, const struct exported *x)
     }
 }
 
-static void atoms_write(FILE *to, const struct exported *x, const struct lammps_types *t)
+static void atoms_write(FILE *to, const struct lammps_export *x, const struct lammps_types *t)
 {
     const struct particles *p = &x->e->part;
     fprintf(to, "\nAtoms # %s\n\n", x->bond_style ? "bond" : "peri");
@@ -37,12 +37,12 @@ static void atoms_write(FILE *to, const struct exported *x, const struct lammps_
     }
 }
 
-static void velocities_write(FILE *to, const struct exported *x)
+static void velocities_write(FILE *to, const struct lammps_export *x)
 {
     real v[DIM_MAX];
     fputs("\nVelocities\n\n", to);
     for (int64_t i = 0; i < x->e->part.n; i++) {
-        lammps_initial_velocity(x, i, v);
+        lammps_compute_initial_velocity_of_particle(x, i, v);
         fprintf(to, "%d %.17g %.17g %.17g\n", x->e->part.id[i] + 1, v[0], v[1], v[2]);
     }
 }
@@ -50,32 +50,32 @@ static void velocities_write(FILE *to, const struct exported *x)
 /* Writes the section of the LAMMPS file plate.data with the per-particle columns of loads and displacements of the
  * export x to the stream `to`. It must be the last section, since LAMMPS of 2021 reads no section after one of `fix
  * property/atom`. */
-static void columns_write(FILE *to, const struct exported *x)
+static void columns_write(FILE *to, const struct lammps_export *x)
 {
     fputs("\nColumns\n\n", to);
     for (int64_t i = 0; i < x->e->part.n; i++) {
         fprintf(to, "%d", x->e->part.id[i] + 1);
         if (x->bond_style) fprintf(to, " %.17g 0", x->e->part.volume0[i]);
-        for (int c = 0; c < x->columns; c++) fprintf(to, " %.17g", lammps_column_value(x, c, i));
+        for (int c = 0; c < x->columns; c++) fprintf(to, " %.17g", lammps_data_file_column_value(x, c, i));
         fputc('\n', to);
     }
 }
 
-static void bonds_write(FILE *to, const struct exported *x)
+static void bonds_write(FILE *to, const struct lammps_export *x)
 {
     const struct run *e = x->e;
     const uint8_t *material = e->part.material;
     int64_t k = 0;
     fputs("\nBonds\n\n", to);
     for (int64_t i = 0; i < e->part.n; i++)
-        for (struct bond_iterator it = bond_iterator_of_row(&e->bonds, e->bonds.row_of[i]); bond_next(&it);)
+        for (struct bond_iterator it = bond_iterator_of_row(&e->bonds, e->bonds.row_of[i]); bond_iterator_advance(&it);)
             if (it.bond.w != 0 && it.bond.nbr > i)
                 fprintf(to, "%lld %d %d %d\n", (long long)++k,
                         bond_type(x->s->materials, material[i], material[it.bond.nbr]), e->part.id[i] + 1,
                         e->part.id[it.bond.nbr] + 1);
 }
 
-void lammps_data_write(FILE *file, const struct exported *x, const struct lammps_types *types)
+void lammps_data_write(FILE *file, const struct lammps_export *x, const struct lammps_types *types)
 {
     const struct particles *p = &x->e->part;
     fprintf(file, "%s, by Cleave\n\n%lld atoms\n%d atom types\n", x->s->name, (long long)p->n, types->n);

@@ -257,7 +257,7 @@ static void info_write(struct exodus_export *x)
     snprintf(line, sizeof line, "spacing %.9g m, horizon %.9g m", s->spacing, s->horizon * s->spacing);
     netcdf_write_text_row(&x->w, line, LINE_WIDTH);
     for (int k = 0; k < x->mesh.materials; k++) {
-        const struct material *m = scene_material_of_number(s, k);
+        const struct material *m = scene_find_material_by_number(s, k);
         snprintf(line, sizeof line, "block_%d: %.24s: density %.5g kg/m^3, E %.5g Pa, nu %.4g", k + 1, m->name,
                  m->density, m->young, m->poisson);
         netcdf_write_text_row(&x->w, line, LINE_WIDTH);
@@ -383,7 +383,7 @@ static status exodus_check_name(const char *path)
  * REFUSED or FAILED if the scene or a frame cannot be read, or the file cannot be written. */
 static status exodus_make(struct exodus_export *x, const struct export_request *scene)
 {
-    TRY(export_mesh_make(&x->mesh, scene));
+    TRY(export_mesh_create_from_input_file(&x->mesh, scene));
     if (x->mesh.n > NETCDF_NUMBERS_MOST)
         return status_set(REFUSED,
                           "%s: %lld particles are more than the %d of an Exodus file; use a larger particles.spacing",

@@ -55,16 +55,16 @@ static status scene_to_export(struct scene *s, struct lammps_settings *settings,
 {
     const struct lammps_settings none = {0};
     TRY(scene_read(s, r->scene, r->override, r->overrides));
-    TRY(lammps_list_required_key_changes(settings, s, r->bond_style));
+    TRY(lammps_list_input_changes_for_equal_results(settings, s, r->bond_style));
     scene_free(s);
     TRY(scene_make(s, r, &none));
-    TRY(lammps_list_required_key_changes(settings, s, r->bond_style));
-    if (settings->n == 0 && !lammps_keeps_weighted_volume_of_intact_family(s)) return OK;
+    TRY(lammps_list_input_changes_for_equal_results(settings, s, r->bond_style));
+    if (settings->n == 0 && !lammps_keeps_weighted_volume_after_bonds_break(s)) return OK;
     if (!r->allow_different) return settings_refuse(settings, s);
     struct lammps_settings left;
     scene_free(s);
     TRY(scene_make(s, r, settings));
-    TRY(lammps_list_required_key_changes(&left, s, r->bond_style));
+    TRY(lammps_list_input_changes_for_equal_results(&left, s, r->bond_style));
     if (left.n > 0) return settings_refuse(&left, s);
     return OK;
 }
@@ -83,10 +83,10 @@ static void left_out_write(FILE *to, const struct scene *s)
     fputs("; plate.dump has positions, velocities and damage\n", to);
 }
 
-static void readme_write(FILE *to, const struct exported *x)
+static void readme_write(FILE *to, const struct lammps_export *x)
 {
     const char *style = x->bond_style ? "bond_style bpm/peri" : x->s->model == MODEL_BOND ? "peri/pmb" : "peri/lps";
-    const long long steps = (long long)lammps_reference_step_count(x);
+    const long long steps = (long long)lammps_comparison_step_count(x);
     fprintf(to,
             "%s for LAMMPS (%s), exported by Cleave %s\n\n    lmp -in in.lammps                       # or: mpirun -np "
             "16 lmp -in in.lammps\n    cleave compare RESULTS_OF_CLEAVE .      # displacement, velocity, damage; and "
@@ -103,7 +103,7 @@ static void readme_write(FILE *to, const struct exported *x)
         fprintf(to, "%s%s: %s   %s\n",
                 k ? "" : "\nThe results differ from those of the scene as it was, by LAMMPS' rules:\n",
                 x->settings.of[k].key, x->settings.of[k].value, x->settings.of[k].effect);
-    if (lammps_keeps_weighted_volume_of_intact_family(x->s))
+    if (lammps_keeps_weighted_volume_after_bonds_break(x->s))
         fputs("\nThe results differ once bonds break: neighbourhoods of LAMMPS keep the weight of their broken bonds, "
               "those "
               "of Cleave\ndo not. check.csv agrees to round-off only until the first bond breaks.\n",
@@ -124,33 +124,33 @@ static void readme_write(FILE *to, const struct exported *x)
 /* A file of an export and the function that writes it. */
 struct export_file {
     const char *name;
-    status (*write)(FILE *to, struct exported *x, const struct lammps_types *t);
+    status (*write)(FILE *to, struct lammps_export *x, const struct lammps_types *t);
 };
 
-static status put_data(FILE *to, struct exported *x, const struct lammps_types *t)
+static status put_data(FILE *to, struct lammps_export *x, const struct lammps_types *t)
 {
     return lammps_data_write(to, x, t), OK;
 }
 
-static status put_readme(FILE *to, struct exported *x, const struct lammps_types *t)
+static status put_readme(FILE *to, struct lammps_export *x, const struct lammps_types *t)
 {
     (void)t;
     return readme_write(to, x), OK;
 }
 
-static status put_scene_text(FILE *to, struct exported *x, const struct lammps_types *t)
+static status put_scene_text(FILE *to, struct lammps_export *x, const struct lammps_types *t)
 {
     (void)t;
     return fputs(x->s->text, to), OK;
 }
 
-static status put_check(FILE *to, struct exported *x, const struct lammps_types *t)
+static status put_check(FILE *to, struct lammps_export *x, const struct lammps_types *t)
 {
     (void)t;
     return lammps_run_and_write_comparison_positions(to, x);
 }
 
-static status put_script(FILE *to, struct exported *x, const struct lammps_types *t)
+static status put_script(FILE *to, struct lammps_export *x, const struct lammps_types *t)
 {
     return lammps_script_write(to, x, t), OK;
 }
@@ -166,9 +166,10 @@ static const struct export_file files[] = {{"plate.data", put_data},
 /* Writes the file f of the export x under its temporary name and synchronises it with the disk. t: particle types of
  * LAMMPS. Returns FAILED, with the temporary file removed, if it cannot be written completely, or the status of
  * f->write. */
-static status file_export(const struct export_file *f, struct exported *x, const struct lammps_types *t)
+static status file_export(const struct export_file *f, struct lammps_export *x, const struct lammps_types *t)
 {
-    const struct path path = path_join(x->request->folder, f->name), aside = file_begin_writing_temporary(path.text);
+    const struct path path = path_join(x->request->folder, f->name),
+                      aside = file_register_and_name_temporary(path.text);
     unlink(aside.text); /* a link of this name is not followed */
     FILE *to = fopen(aside.text, "wx");
     if (!to) return file_report_write_failure(path.text, errno);
@@ -219,7 +220,7 @@ static status export_guard(const struct export_request *r)
  * renamed, the script last, because a folder without a script is not recognised as an export. t: particle types of
  * LAMMPS. Returns FAILED, with the temporary files removed, if a file cannot be written; REFUSED if the folder may not
  * be written to. */
-static status files_write_locked(struct exported *x, const struct lammps_types *t)
+static status files_write_locked(struct lammps_export *x, const struct lammps_types *t)
 {
     const char *folder = x->request->folder;
     size_t written = 0, published = 0;
@@ -233,10 +234,10 @@ static status files_write_locked(struct exported *x, const struct lammps_types *
     return s;
 }
 
-static status files_write(struct exported *x, const struct lammps_types *t)
+static status files_write(struct lammps_export *x, const struct lammps_types *t)
 {
     struct folder_lock lock;
-    TRY(folder_make(x->request->folder));
+    TRY(folder_create_with_parents(x->request->folder));
     TRY(folder_lock(&lock, x->request->folder));
     const status s = files_write_locked(x, t);
     folder_unlock(&lock, x->request->folder);
@@ -247,7 +248,7 @@ static status files_write(struct exported *x, const struct lammps_types *t)
 
 /* Prints to standard output how to start LAMMPS on the export x, whether its style has been tested, the number of bonds
  * that the export cuts, the estimated cost, and how the results differ from the scene. t: particle types of LAMMPS. */
-static void export_print(const struct exported *x, const struct lammps_types *t)
+static void export_print(const struct lammps_export *x, const struct lammps_types *t)
 {
     printf("%s: run LAMMPS in this folder with: lmp -in in.lammps\n", printable_name(x->request->folder).text);
     if (x->bond_style)
@@ -261,11 +262,11 @@ static void export_print(const struct exported *x, const struct lammps_types *t)
     left_out_write(stdout, x->s);
     for (int k = 0; k < x->settings.n; k++)
         printf("differs from the scene: %s: %s\n", x->settings.of[k].key, x->settings.of[k].value);
-    if (lammps_keeps_weighted_volume_of_intact_family(x->s))
+    if (lammps_keeps_weighted_volume_after_bonds_break(x->s))
         puts("differs from Cleave once bonds break: peri/lps keeps broken bonds in the weighted volume of a particle");
 }
 
-static status export_write(struct exported *x)
+static status export_write(struct lammps_export *x)
 {
     struct lammps_types t = {0};
     const struct family *f = &x->e->source.family;
@@ -285,13 +286,13 @@ status export_lammps(const struct export_request *request)
 {
     struct scene s = {0};
     struct run *e = NEW("export.engine", 1, struct run);
-    struct exported *x = NEW("export", 1, struct exported);
+    struct lammps_export *x = NEW("export", 1, struct lammps_export);
     x->s = &s, x->e = e, x->request = request, x->bond_style = request->bond_style;
     status result = scene_to_export(&s, &x->settings, request);
     if (result == OK) result = export_guard(request);
-    if (result == OK) result = engine_set_up_run(e, &s, NULL);
+    if (result == OK) result = run_set_up_from_scene(e, &s, NULL);
     if (result == OK) result = export_write(x);
-    engine_free_run(e);
+    run_free_memory(e);
     scene_free(&s);
     memory_free(x);
     memory_free(e);

@@ -60,9 +60,9 @@ static status load_carries(const struct load *load)
     return why ? status_set(REFUSED, "%s%s", b->place, why) : OK;
 }
 
-static void columns_make(struct exported *x);
+static void columns_make(struct lammps_export *x);
 
-status lammps_find_loads_of_particles(struct exported *exported)
+status lammps_find_loads_of_particles(struct lammps_export *exported)
 {
     const struct loads *l = &exported->e->loads;
     for (int k = 0; k < l->n; k++) TRY(load_carries(&l->load[k]));
@@ -76,7 +76,8 @@ status lammps_find_loads_of_particles(struct exported *exported)
     return OK;
 }
 
-void lammps_initial_velocity(const struct exported *exported, int64_t particle, real velocity[DIM_MAX])
+void lammps_compute_initial_velocity_of_particle(const struct lammps_export *exported, int64_t particle,
+                                                 real velocity[DIM_MAX])
 {
     const struct loads *l = &exported->e->loads;
     const int dim = exported->e->part.dim;
@@ -96,7 +97,7 @@ void lammps_initial_velocity(const struct exported *exported, int64_t particle, 
 /* Returns component d of the force that `load` of the export x exerts on its k-th particle, from 0, at the factor 1 of
  * its time function. For bond styles of LAMMPS it is the force [N]; for pair styles, in which the density stands for
  * the mass, the force per volume [N/m^3]. */
-static real force_on(const struct exported *x, const struct load *load, int d, int64_t k)
+static real force_on(const struct lammps_export *x, const struct load *load, int d, int64_t k)
 {
     const real force = load->boundary->value[d] * load->share[d][k];
     return x->bond_style ? force : force / x->e->part.volume0[load->particle[k]];
@@ -109,7 +110,7 @@ static bool pushes_along(const struct load *load, int d)
 
 /* Returns true if component d of the forces that `load` of the export x exerts differs between its particles by more
  * than round-off. Only for components in which it exerts a force. */
-static bool force_varies(const struct exported *x, const struct load *load, int d)
+static bool force_varies(const struct lammps_export *x, const struct load *load, int d)
 {
     for (int64_t k = 1; k < load->n; k++)
         if (!(fabs(force_on(x, load, d, k) / force_on(x, load, d, 0) - 1) <= 1e-14)) return true;
@@ -127,7 +128,7 @@ static bool is_displaced(const struct particles *p)
 /* Lists in x->column the per-particle columns of the file plate.data that the export x needs. There is one for each
  * component of a force that varies over the particles of its load. If particles are displaced at the start
  * (x->displaced is set), there is also one for each component of displacement. */
-static void columns_make(struct exported *x)
+static void columns_make(struct lammps_export *x)
 {
     const struct loads *l = &x->e->loads;
     for (int k = 0; k < l->n; k++)
@@ -148,12 +149,12 @@ static struct word column_name(const struct lammps_column *c)
     return w;
 }
 
-void lammps_write_column_names(FILE *file, const struct exported *x)
+void lammps_write_per_particle_column_names(FILE *file, const struct lammps_export *x)
 {
     for (int c = 0; c < x->columns; c++) fprintf(file, " d_%s", column_name(&x->column[c]).text);
 }
 
-void lammps_write_compute_commands(FILE *file, const struct exported *x)
+void lammps_write_compute_commands(FILE *file, const struct lammps_export *x)
 {
     for (int c = 0; c < x->columns; c++) {
         const struct word name = column_name(&x->column[c]);
@@ -176,7 +177,7 @@ static int64_t index_in_load(const struct load *load, int64_t i)
     return low < load->n && load->particle[low] == i ? low : -1;
 }
 
-real lammps_column_value(const struct exported *exported, int c, int64_t particle)
+real lammps_data_file_column_value(const struct lammps_export *exported, int c, int64_t particle)
 {
     const int d = exported->column[c].axis;
     if (exported->column[c].load < 0) return exported->e->part.x[d][particle] - exported->e->part.X[d][particle];
@@ -248,7 +249,7 @@ static void put_function(FILE *to, const struct time_function *f, const char *t)
 
 /* Writes the LAMMPS command that defines the group of the particles on which load k, from 0, acts, by their types, to
  * the script `to`. t: particle types of LAMMPS, from 1; x: the export. */
-static void group_write(FILE *to, int k, const struct lammps_types *t, const struct exported *x)
+static void group_write(FILE *to, int k, const struct lammps_types *t, const struct lammps_export *x)
 {
     fprintf(to, "group load%d type", k + 1);
     for (int type = 1; type <= t->n; type++)
@@ -259,7 +260,7 @@ static void group_write(FILE *to, int k, const struct lammps_types *t, const str
 /* Returns component d of the force of load k of the export x as an argument of a LAMMPS command: a number, or the name
  * of a variable if the force depends on time or on the particle. In the latter case the definition of the variable is
  * written to the script `to` first. */
-static struct word force_word(FILE *to, const struct exported *x, int k, int d)
+static struct word force_word(FILE *to, const struct lammps_export *x, int k, int d)
 {
     const struct load *load = &x->e->loads.load[k];
     struct word w = {"0.0"};
@@ -281,7 +282,7 @@ static struct word force_word(FILE *to, const struct exported *x, int k, int d)
 /* Writes the LAMMPS commands that apply the force of load k of the export x to its particles to the script `to`. LAMMPS
  * uses a force in a velocity update that extends from half a step before to half a step after the time of a step. The
  * time function is therefore replaced by the mean of its values at the beginning and at the end of the update. */
-static void force_write(FILE *to, const struct exported *x, int k)
+static void force_write(FILE *to, const struct lammps_export *x, int k)
 {
     const struct load *load = &x->e->loads.load[k];
     struct word w[DIM_MAX];
@@ -299,7 +300,7 @@ static void force_write(FILE *to, const struct exported *x, int k)
 /* Writes the definition of a LAMMPS variable for particles of the export x with a prescribed displacement to the script
  * `to`: component d of the force by which they reach the prescribed position at the end of a step. k: number of the
  * load that prescribes the displacement. */
-static void displacement_write(FILE *to, const struct exported *x, int k, int d)
+static void displacement_write(FILE *to, const struct lammps_export *x, int k, int d)
 {
     const struct boundary *b = x->e->loads.load[k].boundary;
     fprintf(to, "variable drive%d%c atom \"(step>0)*mass*((", k + 1, axis_name[d]);
@@ -313,7 +314,7 @@ static void displacement_write(FILE *to, const struct exported *x, int k, int d)
  * displacement to the script `to`. LAMMPS cannot prescribe these; instead, a force replaces the force on the particles
  * in each step. It changes their velocity from the value in the middle of the previous step to the prescribed one in
  * the middle of this step. */
-static void drive_write(FILE *to, const struct exported *x, int k)
+static void drive_write(FILE *to, const struct lammps_export *x, int k)
 {
     const struct boundary *b = x->e->loads.load[k].boundary;
     const bool varies = !is_constant(&x->e->loads.load[k]);
@@ -341,7 +342,7 @@ static void drive_write(FILE *to, const struct exported *x, int k)
     fprintf(to, "fix load%d load%d setforce %s %s %s\n", k + 1, k + 1, w[0].text, w[1].text, w[2].text);
 }
 
-void lammps_loads_write(FILE *file, const struct exported *x, const struct lammps_types *types)
+void lammps_loads_write(FILE *file, const struct lammps_export *x, const struct lammps_types *types)
 {
     const struct loads *l = &x->e->loads;
     bool places = false;

@@ -34,11 +34,11 @@ static int mesh_key_order(const void *a, const void *b)
     return p[0] != q[0] ? (p[0] > q[0]) - (p[0] < q[0]) : (p[1] > q[1]) - (p[1] < q[1]);
 }
 
-status export_mesh_make(struct export_mesh *m, const struct export_request *r)
+status export_mesh_create_from_input_file(struct export_mesh *m, const struct export_request *r)
 {
     *m = (struct export_mesh){.e = NEW("export.engine", 1, struct run)};
     TRY(scene_make_whole(m, r));
-    TRY(engine_set_up_run(m->e, &m->scene, NULL));
+    TRY(run_set_up_from_scene(m->e, &m->scene, NULL));
     const struct particles *p = &m->e->part;
     int64_t(*key)[3] = memory_new("export.order", p->n, sizeof *key);
     for (int64_t i = 0; i < p->n; i++)
@@ -58,7 +58,7 @@ status export_mesh_make(struct export_mesh *m, const struct export_request *r)
 
 void export_mesh_free(struct export_mesh *m)
 {
-    if (m->e) engine_free_run(m->e);
+    if (m->e) run_free_memory(m->e);
     scene_free(&m->scene);
     memory_free(m->e);
     memory_free(m->particle);
@@ -107,7 +107,7 @@ status export_check_file_may_be_written(const char *path, const char *format_sig
     char begin[1024] = "";
     size_t n = 0;
     if (path_is_folder(path)) return status_set(REFUSED, "%s is a folder; give the name of a file: -o FILE", path);
-    if (!path_exists(path)) return folder_make_for_file(path);
+    if (!path_exists(path)) return folder_create_parents_of_file(path);
     FILE *file = fopen(path, "rb");
     if (file) n = fread(begin, 1, sizeof begin, file), fclose(file);
     if (!memmem(begin, n, format_signature, strlen(format_signature)))
@@ -118,7 +118,7 @@ status export_check_file_may_be_written(const char *path, const char *format_sig
 
 status export_write_file_and_rename(const char *path, status (*write_contents)(FILE *to, void *context), void *context)
 {
-    const struct path aside = file_begin_writing_temporary(path);
+    const struct path aside = file_register_and_name_temporary(path);
     unlink(aside.text); /* a link of this name is not followed */
     FILE *to = fopen(aside.text, "wx");
     if (!to) return file_report_write_failure(path, errno);

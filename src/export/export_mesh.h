@@ -20,7 +20,7 @@ struct export_mesh {
 /* Reads the input file of the request with its overrides, creates all particles of its bodies and sorts the particles
  * by material and id into *m. Returns REFUSED, with a message, if the input file is faulty. Release *m with
  * export_mesh_free, also after a failure. */
-status export_mesh_make(struct export_mesh *m, const struct export_request *request);
+status export_mesh_create_from_input_file(struct export_mesh *m, const struct export_request *request);
 
 /* Name of a set of nodes in the exported mesh; a structure, so that functions can return a name by value. */
 struct set_name {
@@ -37,7 +37,7 @@ struct set_name export_node_set_name_of_load(const struct export_mesh *m, int lo
  * releases the array with memory_free. */
 int32_t *export_node_set_particles_of_load(const struct export_mesh *m, int load_number);
 
-/* Releases the arrays of the mesh *m, which export_mesh_make has allocated. */
+/* Releases the arrays of the mesh *m, which export_mesh_create_from_input_file has allocated. */
 void export_mesh_free(struct export_mesh *m);
 
 /* Checks that the file `path` may be written: it must not exist or, if `overwrite` is true, be an export of Cleave.

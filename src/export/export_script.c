@@ -10,13 +10,13 @@
 #define FRAMES_MOST 1000 /* largest number of frames at irregular steps, each a term of a variable of LAMMPS */
 #define FAR 0.5          /* stretch beyond which ghost particles of unbreakable bonds may be lost */
 
-static real stretch_of(const struct exported *x, int a, int b)
+static real stretch_of(const struct lammps_export *x, int a, int b)
 {
     const real limit = x->e->tables.pair_stretch[a * x->s->materials + b];
     return isfinite(limit) ? limit : 1e30;
 }
 
-static real modulus_of(const struct exported *x, int a, int b)
+static real modulus_of(const struct lammps_export *x, int a, int b)
 {
     const struct family *f = &x->e->source.family;
     const real first = family_micro_modulus(f, &x->s->material[a]),
@@ -27,7 +27,7 @@ static real modulus_of(const struct exported *x, int a, int b)
 /* Writes the coefficients of the material law for bonds between the materials a and b of the export x to the LAMMPS
  * script `to`, as arguments of pair_coeff or bond_coeff. In 2D, the shear and bulk moduli G_L = 8 G/15 and K_L = 4
  * (lambda + G)/9 turn the 3D law of LAMMPS into the 2D law. */
-static void law_write(FILE *to, const struct exported *x, int a, int b)
+static void law_write(FILE *to, const struct lammps_export *x, int a, int b)
 {
     const struct material *m = &x->s->material[a];
     if (x->s->model == MODEL_BOND)
@@ -58,7 +58,7 @@ static bool is_there(const struct lammps_types *t, int material)
     return there;
 }
 
-static void pairs_write(FILE *to, const struct exported *x, const struct lammps_types *t)
+static void pairs_write(FILE *to, const struct lammps_export *x, const struct lammps_types *t)
 {
     fprintf(to, "pair_style peri/%s\n", x->s->model == MODEL_BOND ? "pmb" : "lps");
     for (int a = 0; a < x->s->materials; a++)
@@ -78,7 +78,7 @@ static void pairs_write(FILE *to, const struct exported *x, const struct lammps_
     }
 }
 
-static void bond_style_write(FILE *to, const struct exported *x)
+static void bond_style_write(FILE *to, const struct lammps_export *x)
 {
     int type = 0;
     fprintf(
@@ -94,11 +94,11 @@ static void bond_style_write(FILE *to, const struct exported *x)
         }
 }
 
-static void settings_write(FILE *to, const struct exported *x)
+static void settings_write(FILE *to, const struct lammps_export *x)
 {
     const real h = x->s->spacing;
     real stretch = FAR;
-    for (int k = 0; k < x->s->materials * x->s->materials && scene_bonds_break(x->s); k++)
+    for (int k = 0; k < x->s->materials * x->s->materials && scene_bonds_can_break(x->s); k++)
         stretch = real_min(stretch, real_max(0, x->e->tables.pair_stretch[k]));
     fprintf(to, "units si\nboundary m m m\natom_style %s\natom_modify map array sort 0 0.0\n",
             x->bond_style ? "bond" : "peri");
@@ -110,14 +110,14 @@ static void settings_write(FILE *to, const struct exported *x)
             SKIN * h, x->cutoff * (1 + stretch) + (1 + SKIN) * h, x->lattice);
 }
 
-static void particles_write(FILE *to, const struct exported *x)
+static void particles_write(FILE *to, const struct lammps_export *x)
 {
     if (x->columns == 0 && !x->bond_style) {
         fputs("read_data plate.data\n", to);
         return;
     }
     fprintf(to, "fix columns all property/atom%s", x->bond_style ? " d_vfrac d_damage" : "");
-    lammps_write_column_names(to, x);
+    lammps_write_per_particle_column_names(to, x);
     fprintf(to, "%s\nread_data plate.data fix columns NULL Columns\n", x->bond_style ? " ghost yes" : "");
     lammps_write_compute_commands(to, x);
     if (x->bond_style) fputs("compute damage all property/atom d_damage\n", to);
@@ -127,7 +127,7 @@ static void particles_write(FILE *to, const struct exported *x)
  * zero steps, then initial displacements and time integration. Pairs of types that were excluded while bonds were
  * created are no longer excluded, since excluded pairs cannot come into contact. t: particle types, with these
  * pairs. */
-static void start_write(FILE *to, const struct exported *x, const struct lammps_types *t)
+static void start_write(FILE *to, const struct lammps_export *x, const struct lammps_types *t)
 {
     fprintf(to, "\ntimestep %.17g\nthermo 1000\n", x->e->clock.dt);
     if (x->displaced) /* variables may use only quantities computed in the current step */
@@ -173,7 +173,7 @@ static int64_t frame_distance(const struct run *e, int64_t frames)
 /* Writes the LAMMPS command `dump` of the export x to the script `to`, with output at exactly the steps of Cleave's
  * frames (outputs of all particles). If their distance varies, a variable returns the step of the next frame; with more
  * than FRAMES_MOST such frames, the dump has a constant distance. */
-static void frames_write(FILE *to, const struct exported *x)
+static void frames_write(FILE *to, const struct lammps_export *x)
 {
     static const char columns[] = "plate.dump id x y z vx vy vz c_damage\n"
                                   "dump_modify frames sort id format float %.17g";
@@ -197,9 +197,9 @@ static void frames_write(FILE *to, const struct exported *x)
     fprintf(to, "\ndump frames all custom %lld %s every v_next first yes\n", (long long)steps, columns);
 }
 
-static void runs_write(FILE *to, const struct exported *x)
+static void runs_write(FILE *to, const struct lammps_export *x)
 {
-    const int64_t steps = x->e->clock.steps, check = lammps_reference_step_count(x);
+    const int64_t steps = x->e->clock.steps, check = lammps_comparison_step_count(x);
     if (!x->bond_style) fputs("\ncompute damage all damage/atom\n", to);
     frames_write(to, x);
     fprintf(to,
@@ -211,7 +211,7 @@ static void runs_write(FILE *to, const struct exported *x)
     test_write(to, check);
 }
 
-void lammps_script_write(FILE *file, const struct exported *x, const struct lammps_types *types)
+void lammps_script_write(FILE *file, const struct lammps_export *x, const struct lammps_types *types)
 {
     fprintf(file, "# %s, exported by Cleave %s for %s\n", x->s->name, CLEAVE_VERSION,
             x->bond_style ? "bond_style bpm/peri (LAMMPS of September 2026 and later, package BPM)"

@@ -15,7 +15,7 @@ struct classes {
 
 /* Returns true if the particles i and j of the export x can have the same LAMMPS type: if they have the same material,
  * the same loads and, for bond styles, the same mass. */
-static bool class_alike(const struct exported *x, int64_t i, int64_t j)
+static bool class_alike(const struct lammps_export *x, int64_t i, int64_t j)
 {
     const struct particles *p = &x->e->part;
     return p->material[i] == p->material[j] && x->loads[i] == x->loads[j] &&
@@ -25,7 +25,7 @@ static bool class_alike(const struct exported *x, int64_t i, int64_t j)
 /* Returns the index in c, from 0, of the class of particle i of the export x. Particles of one class have the same
  * material, the same loads and, for bond styles, the same mass. Adds a class to c if particle i belongs to none.
  * Returns -1 if there would be more than CLASSES_MOST classes. */
-static int class_of(struct classes *c, const struct exported *x, int64_t i)
+static int class_of(struct classes *c, const struct lammps_export *x, int64_t i)
 {
     for (int k = c->n; k-- > 0;)
         if (class_alike(x, c->any[k], i)) return k;
@@ -38,7 +38,8 @@ static int class_of(struct classes *c, const struct exported *x, int64_t i)
 /* Numbers n particle types of the export x from 1, such that the types of one material are consecutive. any[n]: index
  * of a particle of each type before the renumbering; number[n]: receives the new number of each type. Allocates
  * t->material and t->any and fills them in the order of the new numbers. */
-static void types_number(struct lammps_types *t, const struct exported *x, int32_t *number, const int32_t *any, int n)
+static void types_number(struct lammps_types *t, const struct lammps_export *x, int32_t *number, const int32_t *any,
+                         int n)
 {
     t->material = NEW("types.material", n + 1, int32_t);
     t->any = NEW("types.any", n + 1, int32_t);
@@ -70,7 +71,7 @@ static void types_exclude(struct lammps_types *t, const int32_t *number, const u
 /* Finds the class of every particle of the export x (particles with the same material, loads and, for bond styles,
  * mass) and stores it in t->of, which is allocated. c: receives the classes. Returns REFUSED, with a message, if there
  * are more than CLASSES_MOST classes. */
-static status classes_find(struct classes *c, struct lammps_types *t, const struct exported *x)
+static status classes_find(struct classes *c, struct lammps_types *t, const struct lammps_export *x)
 {
     t->of = NEW("types.of", x->e->part.n, int32_t);
     for (int64_t i = 0; i < x->e->part.n; i++)
@@ -87,7 +88,7 @@ static status classes_find(struct classes *c, struct lammps_types *t, const stru
  * from its colour. Lists the excluded pairs of types. colour[touched->n]: colours of the listed particles, 0 .. colours
  * - 1; pair[a * colours + b]: kind of the pair of colours a and b, bonded or cut, or NULL if no bond is cut. Returns
  * REFUSED, with a message, if the particles have more than CLASSES_MOST classes. */
-static status types_give(struct lammps_types *t, struct exported *x, const struct touched *touched,
+static status types_give(struct lammps_types *t, struct lammps_export *x, const struct particles_at_cut_bonds *touched,
                          const int32_t *colour, int colours, const uint8_t *pair)
 {
     const int64_t n = x->e->part.n;
@@ -108,26 +109,27 @@ static status types_give(struct lammps_types *t, struct exported *x, const struc
     return made;
 }
 
-status lammps_types_assign_to_particles(struct lammps_types *types, struct exported *x)
+status lammps_types_assign_to_particles(struct lammps_types *types, struct lammps_export *x)
 {
-    struct touched touched;
+    struct particles_at_cut_bonds touched;
     *types = (struct lammps_types){0};
     status s = lammps_find_bonds_to_cut(&touched, x);
     int32_t *colour = NEW("types.colour", touched.n, int32_t);
     uint8_t *pair = NULL;
-    const int colours = s == OK && touched.n > 0 ? particle_colours_assign_and_count(colour, &touched) : 0;
+    const int colours =
+        s == OK && touched.n > 0 ? particles_at_cut_bonds_assign_and_count_colours(colour, &touched) : 0;
     if (s == OK && touched.n > 0 && colours == 0)
         s = status_set(REFUSED,
                        "%s: the cracks touch %lld particles, which need more than %d atom types, the limit of the "
                        "tables of LAMMPS; use straight cracks along the lattice",
                        printable_name(x->s->path).text, (long long)touched.n, COLOURS_MOST);
-    if (s == OK && colours > 0 && !(pair = particle_colours_find_bonded_pairs(colour, colours, &touched)))
+    if (s == OK && colours > 0 && !(pair = colour_pairs_find_bonded_or_cut(colour, colours, &touched)))
         s = status_set(FAILED, "export: the cracks cut bonds that the atom types of LAMMPS cannot distinguish from "
                                "uncut ones; use straight cracks");
     if (s == OK) s = types_give(types, x, &touched, colour, colours, pair);
     memory_free(pair);
     memory_free(colour);
-    touched_particles_free(&touched);
+    particles_at_cut_bonds_free(&touched);
     return s;
 }
 

@@ -11,7 +11,7 @@ static void fracture_free_all(struct run *e)
     memory_free(f->growth);
 }
 
-bool cracks_have_gradually_weakening_bonds(const struct fracture_state *f)
+bool any_growing_crack_weakens_bonds_gradually(const struct fracture_state *f)
 {
     bool fades = false;
     for (int k = 0; k < f->growths; k++) fades |= f->growth[k].n > 0;

@@ -22,7 +22,7 @@ static void join_ends(int32_t *leader, const struct bonds *b, const struct parti
     for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
         const int32_t i = p->list[KIND_PD][k];
         int32_t own = fragment_leader(leader, i);
-        for (struct bond_iterator it = bond_iterator_of_row(b, b->row_of[i]); bond_next(&it);) {
+        for (struct bond_iterator it = bond_iterator_of_row(b, b->row_of[i]); bond_iterator_advance(&it);) {
             const int32_t j = it.bond.nbr;
             if (it.bond.w == 0 || j >= p->n || leader[j] == own) continue; /* mirror images belong to other particles */
             const int32_t other = fragment_leader(leader, j);

@@ -54,7 +54,7 @@ static void target_speed_find(struct growing_crack *g, const struct growth_contr
 static void target_speed_update(struct growing_crack *g, const struct growth_control *control, real horizon, real t,
                                 real dt)
 {
-    if (!growth_speed_is_controlled(g->rule)) return;
+    if (!growth_rule_controls_speed_by_toughness(g->rule)) return;
     if (!control) {
         g->target_speed = 0;
         return;
@@ -75,7 +75,7 @@ static bool grows(const struct growing_crack *g, real t)
     const struct growth_rule *r = g->rule;
     if (t < r->start || g->grown >= r->length) return false;
     if (!r->probe[0]) return true;
-    if (growth_speed_is_controlled(r)) return g->target_speed > 0;
+    if (growth_rule_controls_speed_by_toughness(r)) return g->target_speed > 0;
     return g->intensity >= r->toughness;
 }
 
@@ -131,7 +131,7 @@ static void cross_row(struct growing_crack *g, const struct bonds *b, const stru
 {
     real X[DIM_MAX], Y[DIM_MAX];
     particle_reference_position(p, i, X);
-    for (struct bond_iterator it = bond_iterator_of_row(b, b->row_of[i]); bond_next(&it);) {
+    for (struct bond_iterator it = bond_iterator_of_row(b, b->row_of[i]); bond_iterator_advance(&it);) {
         const int32_t j = it.bond.nbr;
         if (it.bond.w == 0) continue;
         particle_reference_position(p, j, Y);
@@ -200,8 +200,8 @@ static void cross(struct growing_crack *g, const struct bonds *b, struct particl
 static int64_t growth_entry_of(struct bonds *b, int32_t i, int32_t j, int64_t *row)
 {
     *row = b->row_of[i];
-    for (struct bond_iterator it = bond_iterator_of_row(b, *row); bond_next(&it);)
-        if (it.bond.nbr == j) return bond_index_for_writing(b, it.row_block, it.k - 1, it.lane);
+    for (struct bond_iterator it = bond_iterator_of_row(b, *row); bond_iterator_advance(&it);)
+        if (it.bond.nbr == j) return bond_copy_on_write_and_return_array_index(b, it.row_block, it.k - 1, it.lane);
     return -1;
 }
 
@@ -216,7 +216,7 @@ static void step_back(struct growing_crack *g, struct bonds *b)
         const int64_t q = growth_entry_of(b, bond->i, bond->j, &row);
         if (q < 0 || (b->w[q] == 0 && bond->now > 0)) continue;
         b->w[q] = bond->before;
-        bond_column_update_after_bond_change(b, row, q);
+        bond_update_cached_data_after_modification(b, row, q);
         g->fading[kept++] = *bond;
     }
     g->n = kept;
@@ -267,7 +267,7 @@ int64_t growing_crack_advance_and_count_cut_bonds(struct growing_crack *g, struc
     /* a crack that starts among material points waits one step for the bonds that it will cross */
     if (grows(g, t) && (claim(g, p, source) == 0 || g->grown > 0)) {
         if (g->rule->probe[0]) growth_turn(g, control);
-        g->speed = growth_speed_is_controlled(g->rule) ? g->target_speed : g->rule->speed;
+        g->speed = growth_rule_controls_speed_by_toughness(g->rule) ? g->target_speed : g->rule->speed;
         if (isnan(g->start_time)) g->start_time = t;
         growth_advance(g, real_min(g->speed * dt, g->rule->length - g->grown), source->family.horizon);
         cross(g, b, p, source, from);

@@ -9,7 +9,8 @@
 
 #define AT_THE_TIP 1e-9 /* tolerance of positions at the tip or on the crack [outer radius] */
 
-void sif_contour_weight(enum sif_weight form, const struct contour *c, real distance, real *weight, real *slope)
+void sif_contour_weight_and_slope(enum sif_weight form, const struct contour *c, real distance, real *weight,
+                                  real *slope)
 {
     const real width = c->outer - c->inner, z = real_max(0, real_min(1, (distance - c->inner) / width));
     const bool ramp = distance > c->inner && distance < c->outer;
@@ -64,7 +65,7 @@ real sif_interaction_integrand(const struct sif_tip *tip, const struct contour *
 {
     const real r = hypot(x[0], x[1]), n[2] = {x[0] / r, x[1] / r};
     real q, slope, sum = 0;
-    sif_contour_weight(tip->weight, c, r, &q, &slope);
+    sif_contour_weight_and_slope(tip->weight, c, r, &q, &slope);
     if (slope != 0) sum += slope * ring_density(actual, auxiliary, tip->medium.density, n);
     if (inertia_factor > 0 && q > 0) sum += inertia_factor * q * disc_density(actual, auxiliary, tip->medium.density);
     return sum;
@@ -205,7 +206,7 @@ static real core_share(const struct sif_tip *tip, real r)
     const struct contour edge = {tip->core / 3, tip->core * 5 / 3};
     real q, slope;
     if (tip->speed == 0 || tip->core == 0) return 1;
-    sif_contour_weight(SIF_QUINTIC, &edge, r, &q, &slope);
+    sif_contour_weight_and_slope(SIF_QUINTIC, &edge, r, &q, &slope);
     return 1 - q;
 }
 
@@ -223,7 +224,7 @@ static void points_block(const void *context, int64_t first, int64_t end, real *
         const real inside = s->inner ? core_share(tip, r) : 0;
         struct crack_field field;
         for (int mode = 0; mode < MODES; mode++) {
-            crack_tip_field(&tip->medium, mode, tip->speed, point->x, &field);
+            crack_tip_field_resting_or_moving(&tip->medium, mode, tip->speed, point->x, &field);
             sum[mode] +=
                 point->area * sif_interaction_integrand(tip, s->contour, point->x, &point->state, &field.state, inside);
         }
@@ -244,8 +245,8 @@ void sif_compute_by_interaction_integral(const struct sif_tip *tip, const struct
         s.contour = &contour[k];
         reproducible_sums(s.n, MODES + 1, points_block, &s, sum);
         for (int mode = 0; mode < MODES; mode++)
-            result[k].K[mode] =
-                tip->medium.modulus * sum[mode] / (2 * crack_universal_function(&tip->medium, mode, tip->speed));
+            result[k].K[mode] = tip->medium.modulus * sum[mode] /
+                                (2 * crack_tip_speed_universal_function(&tip->medium, mode, tip->speed));
         result[k].J = 0.5 * sum[MODES];
     }
     memory_free(s.particle);

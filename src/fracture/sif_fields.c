@@ -128,8 +128,8 @@ void crack_tip_field_moving(const struct crack_medium *m, enum crack_mode mode, 
     }
 }
 
-void crack_tip_field(const struct crack_medium *m, enum crack_mode mode, real speed, const real x[2],
-                     struct crack_field *f)
+void crack_tip_field_resting_or_moving(const struct crack_medium *m, enum crack_mode mode, real speed, const real x[2],
+                                       struct crack_field *f)
 {
     if (speed < REST * m->shear_speed)
         crack_tip_field_at_rest(m, mode, x, f);
@@ -137,7 +137,7 @@ void crack_tip_field(const struct crack_medium *m, enum crack_mode mode, real sp
         crack_tip_field_moving(m, mode, speed, x, f);
 }
 
-real crack_universal_function(const struct crack_medium *m, enum crack_mode mode, real speed)
+real crack_tip_speed_universal_function(const struct crack_medium *m, enum crack_mode mode, real speed)
 {
     real a[2];
     if (speed < REST * m->shear_speed) return 1;

@@ -16,7 +16,7 @@ enum { QUADRATIC = 6, LINEAR = 3 }; /* terms of complete polynomials in the plan
 static bool bond_broken(const struct bonds *b, int64_t i, int32_t j)
 {
     if (!b || b->rows == 0) return false;
-    for (struct bond_iterator it = bond_iterator_of_row(b, b->row_of[i]); bond_next(&it);)
+    for (struct bond_iterator it = bond_iterator_of_row(b, b->row_of[i]); bond_iterator_advance(&it);)
         if (it.bond.nbr == j) return it.bond.inverse_length < 0;
     return false;
 }

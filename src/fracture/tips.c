@@ -65,7 +65,7 @@ static int64_t next_damaged(const struct particles *p, int64_t first)
 {
     for (; first < p->n_of[KIND_PD]; first += TIP_PIECE) {
         const int32_t *at = p->list[KIND_PD] + first;
-        const int64_t n = tip_end_of_particle_list_piece(p, first) - first;
+        const int64_t n = peridynamic_particle_list_chunk_end_index(p, first) - first;
         real most = 0;
         if (!any_damage(p, at, n)) continue;
         for (int64_t k = 0; k < n; k++) most = real_max(most, p->damage[at[k]]);
@@ -239,7 +239,7 @@ static bool flood_nucleate(struct flood *f)
     if (tip < TIPS_MAX) {
         real X[DIM_MAX];
         particle_reference_position(p, best, X);
-        tip_add_without_growth(f->t, p->body[best], X, NULL);
+        crack_tips_append_tip_without_growth(f->t, p->body[best], X, NULL);
         f->into[tip] = tip, f->grown_by[tip] = false;
     } else {
         tip = tip_nearest(f->t, p, best);
@@ -283,12 +283,13 @@ static void flood_make(struct flood *f, struct crack_tips *t, const struct parti
     const int64_t n = p->n_of[KIND_PD];
     *f = (struct flood){.t = t, .search = {.p = p, .c = c}};
     for (int64_t b = next_damaged(p, 0); b < n; b = next_damaged(p, b + TIP_PIECE))
-        for (int64_t k = b; k < tip_end_of_particle_list_piece(p, b); k++) f->n_fresh += can_belong(t, p, list[k]);
+        for (int64_t k = b; k < peridynamic_particle_list_chunk_end_index(p, b); k++)
+            f->n_fresh += can_belong(t, p, list[k]);
     f->fresh = NEW("tips.fresh", f->n_fresh, int32_t);
     f->queue = NEW("tips.queue", f->n_fresh, int32_t);
     int64_t fresh = 0;
     for (int64_t b = next_damaged(p, 0); b < n && fresh < f->n_fresh; b = next_damaged(p, b + TIP_PIECE))
-        for (int64_t k = b; k < tip_end_of_particle_list_piece(p, b); k++)
+        for (int64_t k = b; k < peridynamic_particle_list_chunk_end_index(p, b); k++)
             if (can_belong(t, p, list[k])) f->fresh[fresh++] = list[k];
     for (int m = 0; m < t->n; m++) f->into[m] = m;
 }
@@ -325,7 +326,7 @@ static void flood_all(struct flood *f)
  * another crack has been merged into this one in this sample. If the growth then jumps by more than JOIN_JUMP spacings,
  * the jump is added to tip->joined, so that it does not count for the speed, and the crack gets a new number,
  * ++t->begun. */
-static void tip_move(struct crack_tip *tip, const struct tip_reach *r, struct crack_tips *t, real time, bool took_in)
+static void tip_move(struct crack_tip *tip, const struct crack_extent *r, struct crack_tips *t, real time, bool took_in)
 {
     real gain = r->farthest - tip->growth;
     tip->particles = r->particles;
@@ -409,7 +410,7 @@ void tips_update_from_damage(struct crack_tips *t, const struct particles *p, co
     if (f.n_fresh > 0) flood_all(&f);
     flood_free(&f);
 
-    struct tip_reach reach[TIPS_MAX] = {{0}};
+    struct crack_extent reach[TIPS_MAX] = {{0}};
     tips_compute_crack_extents(t, p, reach);
     record_grow(t, t->samples + 1);
     int64_t s = t->samples++;
@@ -449,7 +450,7 @@ const struct crack_tip *tips_find_tip_with_largest_growth(const struct crack_tip
     return longest;
 }
 
-int64_t tips_count_ends_with_largest_growth(const struct crack_tips *t)
+int64_t tips_count_crack_ends_with_largest_growth(const struct crack_tips *t)
 {
     const struct crack_tip *longest = tips_find_tip_with_largest_growth(t);
     int64_t tied = 0;

@@ -102,7 +102,8 @@ bool tip_grows_on_mirror_plane(const struct crack_tips *t, const struct crack_ti
     return on;
 }
 
-void tips_place_on_mirror_planes(struct crack_tips *t, const struct mirror_plane *mirror, int mirror_count)
+void tips_snap_onto_mirror_planes_they_grow_along(struct crack_tips *t, const struct mirror_plane *mirror,
+                                                  int mirror_count)
 {
     for (int k = 0; k < t->n; k++)
         for (int m = 0; m < mirror_count; m++) {
@@ -156,7 +157,7 @@ static int bar_place_order(const void *a, const void *b)
 static void bar_bonds_reach(const struct bonds *b, const struct particles *p, int32_t i, int side, real *kept,
                             real *lost)
 {
-    for (struct bond_iterator it = bond_iterator_of_row(b, b->row_of[i]); bond_next(&it);) {
+    for (struct bond_iterator it = bond_iterator_of_row(b, b->row_of[i]); bond_iterator_advance(&it);) {
         const real to = side * p->X[0][it.bond.nbr];
         if (it.bond.w != 0)
             *kept = real_max(*kept, to);
@@ -165,7 +166,7 @@ static void bar_bonds_reach(const struct bonds *b, const struct particles *p, in
     }
 }
 
-struct crack_area bar_total_crack_area(const struct bonds *b, const struct particles *p, real section)
+struct crack_area bar_total_crack_area(const struct bonds *b, const struct particles *p, real cross_section)
 {
     const int64_t n = p->n_of[KIND_PD];
     struct bar_place *at = NEW("tips.bar", n, struct bar_place);
@@ -185,6 +186,6 @@ struct crack_area bar_total_crack_area(const struct bonds *b, const struct parti
         cuts += cut && k + 1 < n, beside_mirror += cut && k + 1 == n;
     }
     memory_free(at);
-    return (struct crack_area){.face = section * (real)(cuts + beside_mirror),
-                               .own = section * ((real)cuts + 0.5 * (real)beside_mirror)};
+    return (struct crack_area){.face = cross_section * (real)(cuts + beside_mirror),
+                               .own = cross_section * ((real)cuts + 0.5 * (real)beside_mirror)};
 }

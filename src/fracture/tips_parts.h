@@ -18,7 +18,7 @@ enum { TIP_PIECE = 64 };
 /* Returns the end (index after the last entry) of the part of the list of peridynamic particles of p that begins at
  * entry `piece_start`: piece_start + TIP_PIECE, or the length of the list if that is smaller. The list is tested in
  * parts of TIP_PIECE entries. */
-static inline int64_t tip_end_of_particle_list_piece(const struct particles *p, int64_t piece_start)
+static inline int64_t peridynamic_particle_list_chunk_end_index(const struct particles *p, int64_t piece_start)
 {
     return piece_start + TIP_PIECE < p->n_of[KIND_PD] ? piece_start + TIP_PIECE : p->n_of[KIND_PD];
 }
@@ -33,7 +33,7 @@ static inline bool particles_have_consecutive_numbers(const int32_t *particle_nu
 /* Extent of a crack. farthest: largest distance of its particles from its start [m]; place: position of its end, the
  * middle of the farthest particles (of one group, if they form several) [m]; ends: number of separate groups of
  * farthest particles; particles: number of particles of the crack. */
-struct tip_reach {
+struct crack_extent {
     real farthest, place[DIM_MAX];
     int64_t ends, particles;
 };
@@ -42,7 +42,7 @@ struct tip_reach {
  * distance of a particle from the start of the crack, the position of this farthest particle, and the number of
  * branches, i.e. of separate groups of particles at most one spacing nearer. extent: receives an element for each of
  * TIPS_MAX tips; must be 0 on entry. */
-void tips_compute_crack_extents(const struct crack_tips *t, const struct particles *p, struct tip_reach *extent);
+void tips_compute_crack_extents(const struct crack_tips *t, const struct particles *p, struct crack_extent *extent);
 
 /* Search for particles near a position, with a result array that is reused. p: particles; c: search cells over their
  * reference positions; room: capacity of `found`, which the caller releases with memory_free. */
@@ -67,7 +67,7 @@ real segment_distance_and_offset_to_point(const real *centre, const real *half_v
 /* Adds a crack tip without growth to t, which must have fewer than TIPS_MAX. body_number: number of the body;
  * start_position: start position [m]; direction: unit vector of the direction of the crack, NULL for the x axis.
  * Returns the new tip, an element of t->tip. */
-struct crack_tip *tip_add_without_growth(struct crack_tips *t, int body_number, const real *start_position,
-                                         const real *direction);
+struct crack_tip *crack_tips_append_tip_without_growth(struct crack_tips *t, int body_number,
+                                                       const real *start_position, const real *direction);
 
 #endif

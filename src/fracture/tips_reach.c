@@ -16,7 +16,7 @@ static int64_t next_of_crack(const struct crack_tips *t, const struct particles 
 {
     for (; first < p->n_of[KIND_PD]; first += TIP_PIECE) {
         const int32_t *at = p->list[KIND_PD] + first;
-        const int64_t n = tip_end_of_particle_list_piece(p, first) - first;
+        const int64_t n = peridynamic_particle_list_chunk_end_index(p, first) - first;
         uint8_t any = 0;
         if (particles_have_consecutive_numbers(at, n))
             for (int64_t k = 0; k < n; k++) any |= is_of_crack(t->label[at[0] + k]);
@@ -44,7 +44,7 @@ static real tips_reach_of(const struct crack_tips *t, const struct particles *p,
 struct ahead {
     const struct crack_tips *t;
     const struct particles *p;
-    struct tip_reach *reach; /* [tips] extent of each crack */
+    struct crack_extent *reach; /* [tips] extent of each crack */
     int64_t n[TIPS_MAX];
     struct place *place[TIPS_MAX]; /* positions of the particles; NULL: counted only */
 };
@@ -58,7 +58,7 @@ static void each_of_crack(struct ahead *a, of_crack_fn *visit)
     const int32_t *list = a->p->list[KIND_PD];
     const int64_t n = a->p->n_of[KIND_PD];
     for (int64_t b = next_of_crack(a->t, a->p, 0); b < n; b = next_of_crack(a->t, a->p, b + TIP_PIECE))
-        for (int64_t k = b; k < tip_end_of_particle_list_piece(a->p, b); k++)
+        for (int64_t k = b; k < peridynamic_particle_list_chunk_end_index(a->p, b); k++)
             if (is_of_crack(a->t->label[list[k]])) visit(a, list[k], a->t->label[list[k]] - 1);
 }
 
@@ -66,7 +66,7 @@ static void each_of_crack(struct ahead *a, of_crack_fn *visit)
  * the largest distance from the start of the crack to that of the particle. */
 static void extent_find(struct ahead *a, int32_t i, int tip)
 {
-    struct tip_reach *r = &a->reach[tip];
+    struct crack_extent *r = &a->reach[tip];
     r->particles++;
     r->farthest = real_max(r->farthest, tips_reach_of(a->t, a->p, i));
 }
@@ -87,7 +87,7 @@ static void farthest_collect(struct ahead *a, int32_t i, int tip)
     a->n[tip]++;
 }
 
-void tips_compute_crack_extents(const struct crack_tips *t, const struct particles *p, struct tip_reach *extent)
+void tips_compute_crack_extents(const struct crack_tips *t, const struct particles *p, struct crack_extent *extent)
 {
     struct ahead a = {.t = t, .p = p, .reach = extent};
     each_of_crack(&a, extent_find);
@@ -98,8 +98,8 @@ void tips_compute_crack_extents(const struct crack_tips *t, const struct particl
     for (int k = 0; k < t->n; k++) {
         const real touch = (TIP_TOUCH + TIP_EQUAL) * t->spacing;
         if (a.n[k] > 0)
-            extent[k].ends = positions_count_clusters_and_find_centre(a.place[k], a.n[k], t->dim, touch, t->tip[k].edge,
-                                                                      extent[k].place);
+            extent[k].ends = position_clusters_count_and_find_foremost_centre(a.place[k], a.n[k], t->dim, touch,
+                                                                              t->tip[k].edge, extent[k].place);
         memory_free(a.place[k]);
     }
 }

@@ -38,7 +38,7 @@ real segment_distance_and_offset_to_point(const real *centre, const real *half_v
     return sqrt(dot(offset, offset, dim));
 }
 
-bool tips_start_at_precrack_end(const struct crack_tips *t, const real *end)
+bool tips_any_started_at_precrack_end(const struct crack_tips *t, const real *end)
 {
     for (int k = 0; k < t->n; k++)
         if (t->tip[k].from_crack && arrays_equal(t->tip[k].origin, end, t->dim, sizeof *end)) return true;
@@ -80,8 +80,8 @@ static int body_ahead(const struct crack_tips *t, struct tip_search *s, const re
     return free_ones >= 2 ? body : -1;
 }
 
-struct crack_tip *tip_add_without_growth(struct crack_tips *t, int body_number, const real *start_position,
-                                         const real *direction)
+struct crack_tip *crack_tips_append_tip_without_growth(struct crack_tips *t, int body_number,
+                                                       const real *start_position, const real *direction)
 {
     INVARIANT(t->n < TIPS_MAX);
     struct crack_tip *tip = &t->tip[t->n++];
@@ -113,7 +113,7 @@ static void start_at_end(struct crack_tips *t, struct tip_search *s, const struc
     if (!(length > 0) || t->n == TIPS_MAX || on_another(t, crack, cracks, self, to)) return;
     for (int d = 0; d < t->dim; d++) along[d] /= length;
     int body = body_ahead(t, s, to, along);
-    if (body >= 0) tip_add_without_growth(t, body, to, along)->from_crack = true;
+    if (body >= 0) crack_tips_append_tip_without_growth(t, body, to, along)->from_crack = true;
 }
 
 /* Computes outward[3], the unit vector in the plane of polygon c perpendicular to its edge k (from corner k to the next
@@ -157,7 +157,7 @@ static void start_at_edge(struct crack_tips *t, struct tip_search *s, const stru
     }
     if (body < 0) return;
     for (int d = 0; d < 3; d++) X[d] = a[d] + 0.5 * (first + last) * edge[d];
-    struct crack_tip *tip = tip_add_without_growth(t, body, X, outward);
+    struct crack_tip *tip = crack_tips_append_tip_without_growth(t, body, X, outward);
     tip->from_crack = true;
     for (int d = 0; d < 3; d++) tip->edge[d] = 0.5 * (last - first) * edge[d];
 }

@@ -13,22 +13,25 @@
 
 enum { PARTS_MAX = 256, DEPTH_MAX = 10, PATH_LENGTH = 4096 };
 
-static const char *parameter(const struct deck *d, const char *name) { return abaqus_parameter(&d->key, name); }
+static const char *parameter(const struct abaqus_input_deck *d, const char *name)
+{
+    return abaqus_keyword_parameter_value(&d->key, name);
+}
 
 /* ---- nodes and elements ---------------------------------------------------------------------------------------- */
 
 /* Reads the data lines of *NODE in deck d, each a label and coordinates. If the keyword has the parameter NSET, the
  * nodes are added to this set. Returns REFUSED, with a message, for malformed lines and for other than Cartesian
  * coordinates. */
-static status nodes_read(struct deck *d)
+static status nodes_read(struct abaqus_input_deck *d)
 {
     int set;
     const char *system = parameter(d, "SYSTEM");
     if (system && strcasecmp(system, "R") != 0)
-        return source_report_fault(d->s, "coordinates of the system %.10s are not supported; use Cartesian x, y, z",
-                                   system);
-    TRY(abaqus_find_set_of_keyword(d, "NSET", true, &set));
-    for (char field[FIELD]; abaqus_find_data_line(d->s); source_skip_to_next_line(d->s)) {
+        return geometry_file_report_fault(
+            d->s, "coordinates of the system %.10s are not supported; use Cartesian x, y, z", system);
+    TRY(abaqus_find_or_create_set_named_by_parameter(d, "NSET", true, &set));
+    for (char field[FIELD]; abaqus_find_data_line(d->s); geometry_file_skip_to_next_line(d->s)) {
         int32_t label;
         real X[DIM_MAX] = {0};
         abaqus_read_field(d->s, field);
@@ -43,7 +46,8 @@ static status nodes_read(struct deck *d)
 /* Reads from deck d the node labels of an element, which may continue on further lines. Stores the labels of its
  * corners in node[] and of its middle nodes in middle[], in the order of elements.h. The interior node of elements with
  * 27 nodes is skipped. size: shape and number of nodes. Returns REFUSED if the element has another number of labels. */
-static status element_nodes(struct deck *d, const struct abaqus_shape *size, int32_t *node, int32_t *middle)
+static status element_nodes(struct abaqus_input_deck *d, const struct abaqus_shape *size, int32_t *node,
+                            int32_t *middle)
 {
     const int corners = element_corners[size->kind], edges = element_edges[size->kind].n;
     char field[FIELD];
@@ -51,9 +55,9 @@ static status element_nodes(struct deck *d, const struct abaqus_shape *size, int
     for (int k = 0; k < size->nodes;) {
         int32_t label;
         if (!abaqus_read_field(d->s, field)) {
-            source_skip_to_next_line(d->s);
+            geometry_file_skip_to_next_line(d->s);
             if (!abaqus_find_data_line(d->s))
-                return source_report_fault(
+                return geometry_file_report_fault(
                     d->s, "an element should have the %d nodes of its type, but lists only %d; add the missing nodes",
                     size->nodes, k);
             continue;
@@ -66,7 +70,7 @@ static status element_nodes(struct deck *d, const struct abaqus_shape *size, int
         k++;
     }
     if (!abaqus_read_field(d->s, field) || field[0] == '\0') return OK;
-    return source_report_fault(
+    return geometry_file_report_fault(
         d->s, "an element has more nodes than the %d of its type, such as %.20s; remove the surplus nodes", size->nodes,
         field);
 }
@@ -74,20 +78,20 @@ static status element_nodes(struct deck *d, const struct abaqus_shape *size, int
 /* Reads the data lines of *ELEMENT in deck d, each a label and nodes. If the keyword has the parameter ELSET, the
  * elements are added to this set. Points, lines and joints are skipped. Returns REFUSED, with a message, for unknown
  * types and malformed lines. */
-static status elements_read(struct deck *d)
+static status elements_read(struct abaqus_input_deck *d)
 {
     int set;
     char type[FIELD], field[FIELD];
-    abaqus_plain_word(type, parameter(d, "TYPE") ? parameter(d, "TYPE") : "");
+    abaqus_copy_word_in_capitals(type, parameter(d, "TYPE") ? parameter(d, "TYPE") : "");
     const struct abaqus_shape *size;
-    TRY(abaqus_shape_of_type(&size, d->s, type));
-    TRY(abaqus_find_set_of_keyword(d, "ELSET", false, &set));
+    TRY(abaqus_find_shape_of_element_type(&size, d->s, type));
+    TRY(abaqus_find_or_create_set_named_by_parameter(d, "ELSET", false, &set));
     if (!size) {
         snprintf(d->m->skipped, sizeof d->m->skipped, "%.40s", type);
         text_replace_control_characters(d->m->skipped);
         return OK;
     }
-    for (; abaqus_find_data_line(d->s); source_skip_to_next_line(d->s)) {
+    for (; abaqus_find_data_line(d->s); geometry_file_skip_to_next_line(d->s)) {
         int32_t label, node[ELEMENT_CORNERS_MAX], middle[ELEMENT_MIDDLES_MAX];
         abaqus_read_field(d->s, field);
         TRY(abaqus_parse_label(d->s, field, &label));
@@ -103,11 +107,12 @@ static status elements_read(struct deck *d)
 
 /* Replaces the node label *node of element number k of deck d by the index of the node. scope: the part to which the
  * element belongs. Returns REFUSED, with a message, if the part has no such node. */
-static status node_resolve(const struct deck *d, const struct scope *scope, int64_t k, int32_t *node)
+static status node_resolve(const struct abaqus_input_deck *d, const struct abaqus_label_scope *scope, int64_t k,
+                           int32_t *node)
 {
     const int64_t index = label_map_find(&scope->node_of, *node);
     if (index < 0)
-        return source_report_fault(
+        return geometry_file_report_fault(
             d->s, "element %lld has node %d, but its part has no such node; define it, or correct the element",
             (long long)d->m->element_label[k], (int)*node);
     *node = (int32_t)index;
@@ -117,18 +122,18 @@ static status node_resolve(const struct deck *d, const struct scope *scope, int6
 /* Ends the current part of deck d (an Abaqus input file), or the section outside parts, and replaces its node and
  * element labels by indices. A middle node with label 0 is missing; its edge is then straight. Returns REFUSED, with a
  * message, for unknown or repeated labels. */
-static status scope_end(struct deck *d)
+static status scope_end(struct abaqus_input_deck *d)
 {
-    struct scope *scope = &d->scope[d->now];
+    struct abaqus_label_scope *scope = &d->scope[d->now];
     struct element_mesh *m = d->m;
     int64_t twice;
     scope->node_end = m->nodes, scope->element_end = m->elements, scope->set_end = m->sets;
     label_map_make(&scope->node_of, m->node_label + scope->node, scope->node, m->nodes - scope->node);
     label_map_make(&scope->element_of, m->element_label + scope->element, scope->element, m->elements - scope->element);
     if (label_map_find_duplicate(&scope->node_of, &twice))
-        return source_report_fault(d->s, "node %lld is given twice; remove one of the two", (long long)twice);
+        return geometry_file_report_fault(d->s, "node %lld is given twice; remove one of the two", (long long)twice);
     if (label_map_find_duplicate(&scope->element_of, &twice))
-        return source_report_fault(d->s, "element %lld is given twice; remove one of the two", (long long)twice);
+        return geometry_file_report_fault(d->s, "element %lld is given twice; remove one of the two", (long long)twice);
     for (int64_t k = scope->element; k < m->elements; k++) {
         struct element *e = &m->element[k];
         for (int c = 0; c < element_corners[e->kind]; c++) TRY(node_resolve(d, scope, k, &e->node[c]));
@@ -140,16 +145,16 @@ static status scope_end(struct deck *d)
                 *middle = -1;
         }
     }
-    abaqus_resolve_sets(d, scope);
+    abaqus_replace_set_labels_by_indices(d, scope);
     return OK;
 }
 
 /* Begins a part of deck d called `name` and makes it the current one. name: "" for the section outside parts. */
-static void scope_begin(struct deck *d, const char *name)
+static void scope_begin(struct abaqus_input_deck *d, const char *name)
 {
     GROW("abaqus.parts", d->scope, d->scopes + 1);
     d->now = d->scopes++;
-    struct scope *scope = &d->scope[d->now];
+    struct abaqus_label_scope *scope = &d->scope[d->now];
     snprintf(scope->name, sizeof scope->name, "%s", name);
     scope->node = d->m->nodes, scope->element = d->m->elements, scope->set = d->m->sets;
 }
@@ -157,10 +162,10 @@ static void scope_begin(struct deck *d, const char *name)
 /* Ends the current part of deck d (an Abaqus input file), or the section outside parts, and begins the next one. name:
  * name of the part that begins; NULL for the section outside parts. Returns REFUSED if the file has more than PARTS_MAX
  * parts, or if labels in the ended one are invalid. */
-static status scope_change(struct deck *d, const char *name)
+static status scope_change(struct abaqus_input_deck *d, const char *name)
 {
     if (d->scopes >= PARTS_MAX)
-        return source_report_fault(d->s, "the file has more than %d parts; join some", PARTS_MAX);
+        return geometry_file_report_fault(d->s, "the file has more than %d parts; join some", PARTS_MAX);
     TRY(scope_end(d));
     scope_begin(d, name ? name : "");
     return OK;
@@ -169,22 +174,22 @@ static status scope_change(struct deck *d, const char *name)
 /* Reads an instance of deck d: up to two lines, with a displacement, then two points of an axis and an angle in
  * degrees. Moves the nodes of its part to this position, and names the sets of the part by the instance. Returns
  * REFUSED, with a message, if the part is unknown or already has an instance. */
-static status instance_read(struct deck *d)
+static status instance_read(struct abaqus_input_deck *d)
 {
     const char *part = parameter(d, "PART"), *name = parameter(d, "NAME");
-    const int scope = part ? abaqus_find_part(d, part, false) : -1;
+    const int scope = part ? abaqus_find_part_by_own_or_instance_name(d, part, false) : -1;
     real shift[DIM_MAX] = {0}, turn[7] = {0};
     char field[FIELD];
     if (scope < 0)
-        return source_report_fault(
+        return geometry_file_report_fault(
             d->s, "an instance uses part %.40s, but the file has no such part; check its spelling", part ? part : "?");
-    struct scope *p = &d->scope[scope];
+    struct abaqus_label_scope *p = &d->scope[scope];
     if (p->placed)
-        return source_report_fault(d->s, "part %.40s is in the assembly twice; give each instance a part of its own",
-                                   p->name);
+        return geometry_file_report_fault(
+            d->s, "part %.40s is in the assembly twice; give each instance a part of its own", p->name);
     if (abaqus_find_data_line(d->s)) {
         for (int k = 0; k < 3 && abaqus_read_field(d->s, field); k++) TRY(abaqus_parse_real(d->s, field, &shift[k]));
-        source_skip_to_next_line(d->s);
+        geometry_file_skip_to_next_line(d->s);
     }
     if (abaqus_find_data_line(d->s))
         for (int k = 0; k < 7 && abaqus_read_field(d->s, field); k++) TRY(abaqus_parse_real(d->s, field, &turn[k]));
@@ -195,7 +200,7 @@ static status instance_read(struct deck *d)
     }
     p->placed = true;
     snprintf(p->instance, sizeof p->instance, "%s", name ? name : p->name);
-    abaqus_name_sets_by_instance(d, p);
+    abaqus_prefix_set_names_with_instance(d, p);
     return OK;
 }
 
@@ -203,44 +208,45 @@ static status instance_read(struct deck *d)
 
 /* Reads all keywords of the input file d. Returns REFUSED, with a message, for invalid ones. Declared before its
  * definition because a keyword may include another file, whose keywords are read in turn. */
-static status keywords_read(struct deck *d);
+static status keywords_read(struct abaqus_input_deck *d);
 
 /* Calls read(d) for the file that the parameter INPUT of the current keyword names, sought in the folder of the file
  * that names it. keywords: true if the file has keywords, as that of *INCLUDE; false if it has the data lines of the
  * current keyword. Returns REFUSED if the file cannot be read or has the other kind of lines, or if files include each
  * other without end. */
-static status input_read(struct deck *d, status (*read)(struct deck *d), bool keywords)
+static status input_read(struct abaqus_input_deck *d, status (*read)(struct abaqus_input_deck *d), bool keywords)
 {
     const char *name = parameter(d, "INPUT"), *folder = d->s->path, *slash = strrchr(folder, '/');
-    struct source file, *const outer = d->s;
+    struct geometry_file file, *const outer = d->s;
     char path[PATH_LENGTH], keyword[FIELD];
     snprintf(keyword, sizeof keyword, "%s", d->key.name);
-    if (!name || !*name) return source_report_fault(d->s, "*%s has no file name; add INPUT=FILE", keyword);
+    if (!name || !*name) return geometry_file_report_fault(d->s, "*%s has no file name; add INPUT=FILE", keyword);
     const int before = slash && *name != '/' ? (int)(slash - folder) + 1 : 0;
     if (snprintf(path, sizeof path, "%.*s%s", before, folder, name) >= (int)sizeof path)
-        return source_report_fault(d->s, "the name of an included file is too long; shorten it");
+        return geometry_file_report_fault(d->s, "the name of an included file is too long; shorten it");
     if (d->depth >= DEPTH_MAX)
-        return source_report_fault(d->s, "more than %d files are nested by *INCLUDE; put them into one file",
-                                   DEPTH_MAX);
-    if (source_read_whole_file(&file, path) != OK)
-        return source_report_fault(d->s, "*%s: %.200s", keyword, status_message());
+        return geometry_file_report_fault(d->s, "more than %d files are nested by *INCLUDE; put them into one file",
+                                          DEPTH_MAX);
+    if (geometry_file_read_whole(&file, path) != OK)
+        return geometry_file_report_fault(d->s, "*%s: %.200s", keyword, status_message());
     d->s = &file, d->depth++, d->length += file.length;
     status s = OK;
     if (keywords && abaqus_find_data_line(&file))
-        s = source_report_fault(&file, "an included file does not begin with a keyword; add one, such as *NODE");
+        s = geometry_file_report_fault(&file, "an included file does not begin with a keyword; add one, such as *NODE");
     if (s == OK) s = read(d);
-    while (s == OK && abaqus_find_data_line(&file)) source_skip_to_next_line(&file); /* of types that are left out */
+    while (s == OK && abaqus_find_data_line(&file))
+        geometry_file_skip_to_next_line(&file); /* of types that are left out */
     if (s == OK && file.at < file.length)
-        s = source_report_fault(
+        s = geometry_file_report_fault(
             &file, "a keyword is among the data lines of *%.40s; only data lines are possible there", keyword);
     d->s = outer, d->depth--;
-    source_close(&file);
+    geometry_file_close(&file);
     return s;
 }
 
 /* Reads the data lines of the current keyword of deck d, *NODE, *ELEMENT, *NSET or *ELSET. Returns REFUSED for invalid
  * data. */
-static status data_read(struct deck *d)
+static status data_read(struct abaqus_input_deck *d)
 {
     const char *name = d->key.name;
     if (strcmp(name, "NODE") == 0) return nodes_read(d);
@@ -249,13 +255,13 @@ static status data_read(struct deck *d)
 
 /* Reads the data lines of the current keyword of deck d, or skips them if it has no meaning for the mesh. Returns
  * REFUSED for invalid data, and for keywords that generate nodes or elements. */
-static status keyword_follow(struct deck *d)
+static status keyword_follow(struct abaqus_input_deck *d)
 {
     static const char *const makers[] = {"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM"};
     const char *name = d->key.name;
     for (size_t k = 0; k < COUNT_OF(makers); k++)
         if (strcmp(name, makers[k]) == 0)
-            return source_report_fault(
+            return geometry_file_report_fault(
                 d->s, "keyword *%s is not supported; write a deck that lists all nodes and elements in x, y, z", name);
     if (strcmp(name, "STEP") == 0) d->in_step = true;
     if (strcmp(name, "ENDSTEP") == 0) d->in_step = false;
@@ -271,27 +277,28 @@ static status keyword_follow(struct deck *d)
 
 /* Reads all keywords of the current file of deck d, with their data. Returns REFUSED, with a message, for invalid
  * ones. */
-static status keywords_read(struct deck *d)
+static status keywords_read(struct abaqus_input_deck *d)
 {
-    while (source_skip_blanks(d->s)) {
-        while (abaqus_find_data_line(d->s)) source_skip_to_next_line(d->s); /* data lines of a skipped keyword */
+    while (geometry_file_skip_blanks(d->s)) {
+        while (abaqus_find_data_line(d->s)) geometry_file_skip_to_next_line(d->s); /* data lines of a skipped keyword */
         if (d->s->at >= d->s->length) break;
-        source_skip_blanks(d->s);
+        geometry_file_skip_blanks(d->s);
         abaqus_read_keyword(d->s, &d->key);
         TRY(keyword_follow(d));
     }
     return OK;
 }
 
-status abaqus_read(struct element_mesh *m, struct source *s)
+status abaqus_read(struct element_mesh *m, struct geometry_file *s)
 {
-    struct deck d = {.s = s, .m = m, .length = s->length};
+    struct abaqus_input_deck d = {.s = s, .m = m, .length = s->length};
     scope_begin(&d, "");
     status result = keywords_read(&d);
     if (result == OK) result = scope_end(&d);
     if (result == OK && m->nodes == 0)
-        result = source_report_fault(s, "has no *NODE, so this is not a mesh in the format of Abaqus; give an Abaqus "
-                                        "input file with nodes and elements");
+        result =
+            geometry_file_report_fault(s, "has no *NODE, so this is not a mesh in the format of Abaqus; give an Abaqus "
+                                          "input file with nodes and elements");
     for (int k = 0; k < d.scopes; k++) {
         label_map_free(&d.scope[k].node_of);
         label_map_free(&d.scope[k].element_of);

@@ -12,9 +12,9 @@ enum { LABEL_MAX = 999999999 }; /* largest number of a node or element in a deck
 /* ---- lines and fields ------------------------------------------------------------------------------------------ */
 
 /* Returns true if the reading position of s is at the end of a line or of the file. */
-static bool at_end_of_line(const struct source *s) { return s->at >= s->length || s->text[s->at] == '\n'; }
+static bool at_end_of_line(const struct geometry_file *s) { return s->at >= s->length || s->text[s->at] == '\n'; }
 
-bool abaqus_read_field(struct source *s, char field[FIELD])
+bool abaqus_read_field(struct geometry_file *s, char field[FIELD])
 {
     size_t n = 0;
     while (!at_end_of_line(s) && isspace((unsigned char)s->text[s->at])) s->at++;
@@ -27,7 +27,7 @@ bool abaqus_read_field(struct source *s, char field[FIELD])
     return true;
 }
 
-bool abaqus_find_data_line(struct source *s)
+bool abaqus_find_data_line(struct geometry_file *s)
 {
     while (s->at < s->length) {
         int64_t at = s->at;
@@ -35,12 +35,12 @@ bool abaqus_find_data_line(struct source *s)
         const bool empty = at >= s->length || s->text[at] == '\n';
         const bool comment = at + 1 < s->length && s->text[at] == '*' && s->text[at + 1] == '*';
         if (!empty && !comment) return s->text[at] != '*';
-        source_skip_to_next_line(s);
+        geometry_file_skip_to_next_line(s);
     }
     return false;
 }
 
-status abaqus_parse_real(const struct source *s, const char *field, real *value)
+status abaqus_parse_real(const struct geometry_file *s, const char *field, real *value)
 {
     char text[FIELD], *end;
     snprintf(text, sizeof text, "%s", field);
@@ -49,18 +49,19 @@ status abaqus_parse_real(const struct source *s, const char *field, real *value)
     *value = strtod(text, &end);
     if (field[0] == '\0') *value = 0; /* the deck's default for an empty field */
     if (*end == '\0' && isfinite(*value) && !strpbrk(text, "xX")) return OK;
-    return source_report_fault(s, "%.40s is not a number; correct this entry", field);
+    return geometry_file_report_fault(s, "%.40s is not a number; correct this entry", field);
 }
 
-bool abaqus_is_label(const char *field) { return isdigit((unsigned char)field[0]); }
+bool abaqus_field_is_label(const char *field) { return isdigit((unsigned char)field[0]); }
 
-status abaqus_parse_label(const struct source *s, const char *field, int32_t *label)
+status abaqus_parse_label(const struct geometry_file *s, const char *field, int32_t *label)
 {
     real value;
     *label = 0;
     TRY(abaqus_parse_real(s, field, &value));
     if (!(value >= 0 && value <= LABEL_MAX && value == floor(value)))
-        return source_report_fault(s, "%.40s is not the number of a node or an element; correct this entry", field);
+        return geometry_file_report_fault(s, "%.40s is not the number of a node or an element; correct this entry",
+                                          field);
     *label = (int32_t)value;
     return OK;
 }
@@ -68,7 +69,7 @@ status abaqus_parse_label(const struct source *s, const char *field, int32_t *la
 /* ---- keywords ------------------------------------------------------------------------------------------------- */
 
 /* Copies the word `from` to to[FIELD] in capitals and without blanks; a longer word is cut. */
-void abaqus_plain_word(char *to, const char *from)
+void abaqus_copy_word_in_capitals(char *to, const char *from)
 {
     size_t n = 0;
     for (; *from && n + 1 < FIELD; from++)
@@ -89,16 +90,16 @@ static void parameter_add(struct abaqus_keyword *k, char *field)
         equals += strspn(equals, " \t\"");
         snprintf(p->value, sizeof p->value, "%.*s", (int)strcspn(equals, "\""), equals);
     }
-    abaqus_plain_word(p->name, field);
+    abaqus_copy_word_in_capitals(p->name, field);
 }
 
-void abaqus_read_keyword(struct source *s, struct abaqus_keyword *keyword)
+void abaqus_read_keyword(struct geometry_file *s, struct abaqus_keyword *keyword)
 {
     char field[FIELD];
     bool more;
     *keyword = (struct abaqus_keyword){0};
     abaqus_read_field(s, field);
-    abaqus_plain_word(keyword->name, field + (field[0] == '*'));
+    abaqus_copy_word_in_capitals(keyword->name, field + (field[0] == '*'));
     do {
         while (abaqus_read_field(s, field)) parameter_add(keyword, field);
         int64_t last = s->at - 1;
@@ -107,7 +108,7 @@ void abaqus_read_keyword(struct source *s, struct abaqus_keyword *keyword)
     } while (more);
 }
 
-const char *abaqus_parameter(const struct abaqus_keyword *keyword, const char *name)
+const char *abaqus_keyword_parameter_value(const struct abaqus_keyword *keyword, const char *name)
 {
     for (int k = 0; k < keyword->n; k++)
         if (strcmp(keyword->of[k].name, name) == 0) return keyword->of[k].value;

@@ -17,20 +17,22 @@ static int name_join(char *text, const char *owner, const char *name)
     return own;
 }
 
-status abaqus_find_set_of_keyword(struct deck *d, const char *name, bool of_nodes, int *set)
+status abaqus_find_or_create_set_named_by_parameter(struct abaqus_input_deck *d, const char *name, bool of_nodes,
+                                                    int *set)
 {
     char whole[2 * FIELD];
-    const char *given = abaqus_parameter(&d->key, name);
+    const char *given = abaqus_keyword_parameter_value(&d->key, name);
     *set = -1;
     if (!given) return OK;
     const int own = name_join(whole, d->scope[d->now].name, given);
     *set = element_mesh_find_or_create_set(d->m, whole, of_nodes);
-    if (*set < 0) return source_report_fault(d->s, "the file has more than %d sets; remove some", ELEMENT_SETS_MAX);
+    if (*set < 0)
+        return geometry_file_report_fault(d->s, "the file has more than %d sets; remove some", ELEMENT_SETS_MAX);
     d->m->set[*set].own = own;
     return OK;
 }
 
-int abaqus_find_part(const struct deck *d, const char *name, bool instance)
+int abaqus_find_part_by_own_or_instance_name(const struct abaqus_input_deck *d, const char *name, bool instance)
 {
     for (int k = 1; k < d->scopes; k++)
         if (strcasecmp(instance ? d->scope[k].instance : d->scope[k].name, name) == 0) return k;
@@ -39,17 +41,17 @@ int abaqus_find_part(const struct deck *d, const char *name, bool instance)
 
 /* Counts n members that deck d adds to a set without listing them. Returns REFUSED, with a message, if more than
  * GENERATED_MOST for each byte of the file have been added in this way, because the file is then damaged. */
-static status generated_add(struct deck *d, int64_t n)
+static status generated_add(struct abaqus_input_deck *d, int64_t n)
 {
     d->generated += n;
     if (d->generated <= GENERATED_MOST * d->length) return OK;
-    return source_report_fault(
+    return geometry_file_report_fault(
         d->s, "sets list more nodes or elements than the file has, so it is damaged; write the deck again");
 }
 
 /* Adds the node or element with the index `index` in the mesh to set number `number` of deck d. The first set->resolved
  * members of a set are such indices; the members behind them are labels, which become indices when their part ends. */
-static void set_add_index(struct deck *d, int number, int64_t index)
+static void set_add_index(struct abaqus_input_deck *d, int number, int64_t index)
 {
     element_mesh_add_to_set(d->m, number, index);
     struct element_set *set = &d->m->set[number];
@@ -60,7 +62,7 @@ static void set_add_index(struct deck *d, int number, int64_t index)
 /* Adds the node or element with the number `label` in the file to set number `set` of deck d. part: a part that has
  * been read completely; its node or element is added by index, and a label that it does not have is left out. NULL: the
  * part that is being read; the label is added and becomes an index when the part ends. */
-static void set_add_label(struct deck *d, int set, const struct scope *part, int64_t label)
+static void set_add_label(struct abaqus_input_deck *d, int set, const struct abaqus_label_scope *part, int64_t label)
 {
     if (!part) {
         element_mesh_add_to_set(d->m, set, label);
@@ -73,14 +75,14 @@ static void set_add_label(struct deck *d, int set, const struct scope *part, int
 /* Reads a line of deck d after GENERATE: first label, last label and step. Adds the labels first, first + step, .. last
  * to set number `set` (set_add_label, which describes `part`). Returns REFUSED, with a message, if the step is not
  * positive, last is below first, or there are too many members. */
-static status generate_line(struct deck *d, int set, const struct scope *part)
+static status generate_line(struct abaqus_input_deck *d, int set, const struct abaqus_label_scope *part)
 {
     int32_t bound[3] = {0, 0, 1};
     char field[FIELD];
     for (int k = 0; k < 3 && abaqus_read_field(d->s, field); k++) TRY(abaqus_parse_label(d->s, field, &bound[k]));
     if (bound[2] < 1 || bound[1] < bound[0])
-        return source_report_fault(d->s,
-                                   "a set with GENERATE lacks its first number, last number or step; give all three");
+        return geometry_file_report_fault(
+            d->s, "a set with GENERATE lacks its first number, last number or step; give all three");
     TRY(generated_add(d, (bound[1] - bound[0]) / bound[2] + 1));
     for (int64_t label = bound[0]; label <= bound[1]; label += bound[2]) set_add_label(d, set, part, label);
     return OK;
@@ -89,7 +91,8 @@ static status generate_line(struct deck *d, int set, const struct scope *part)
 /* Returns the index of the set of nodes (of_nodes is true) or elements called `name` in the input file d; -1 if there
  * is none. The set is one of `part`, the part of an instance, if it has such a set; else one of the part that is being
  * read or, outside parts, of the file. */
-static int set_index(const struct deck *d, const struct scope *part, const char *name, bool of_nodes)
+static int set_index(const struct abaqus_input_deck *d, const struct abaqus_label_scope *part, const char *name,
+                     bool of_nodes)
 {
     char whole[2 * FIELD];
     name_join(whole, part ? part->instance : d->scope[d->now].name, name);
@@ -101,7 +104,7 @@ static int set_index(const struct deck *d, const struct scope *part, const char 
 /* Adds what the text `field` of a data line names to set number `set` of deck d: the members of a set, as Name or
  * Instance.Name, or the node or element Instance.Number. part: part of the instance that the keyword names; NULL: none.
  * Returns REFUSED, with a message, if there is no such set, or if there are too many members. */
-static status set_join(struct deck *d, int set, const struct scope *part, const char *field)
+static status set_join(struct abaqus_input_deck *d, int set, const struct abaqus_label_scope *part, const char *field)
 {
     const bool of_nodes = d->m->set[set].of_nodes;
     const char *dot = strrchr(field, '.');
@@ -109,14 +112,14 @@ static status set_join(struct deck *d, int set, const struct scope *part, const 
     int32_t label;
     const int other = set_index(d, part, field, of_nodes);
     snprintf(owner, sizeof owner, "%.*s", dot ? (int)(dot - field) : 0, field);
-    const int scope = dot && dot > field ? abaqus_find_part(d, owner, true) : -1;
-    if (other < 0 && scope >= 0 && abaqus_is_label(dot + 1)) {
+    const int scope = dot && dot > field ? abaqus_find_part_by_own_or_instance_name(d, owner, true) : -1;
+    if (other < 0 && scope >= 0 && abaqus_field_is_label(dot + 1)) {
         TRY(abaqus_parse_label(d->s, dot + 1, &label));
         set_add_label(d, set, &d->scope[scope], label);
         return OK;
     }
     if (other < 0)
-        return source_report_fault(
+        return geometry_file_report_fault(
             d->s, "set %.40s lists %.40s, which is not the name of an earlier set; give that set before",
             d->m->set[set].name, field);
     TRY(generated_add(d, d->m->set[other].n));
@@ -130,7 +133,7 @@ static status set_join(struct deck *d, int set, const struct scope *part, const 
     return OK;
 }
 
-void abaqus_resolve_sets(struct deck *d, const struct scope *scope)
+void abaqus_replace_set_labels_by_indices(struct abaqus_input_deck *d, const struct abaqus_label_scope *scope)
 {
     for (int k = 0; k < d->m->sets; k++) {
         struct element_set *set = &d->m->set[k];
@@ -148,7 +151,8 @@ void abaqus_resolve_sets(struct deck *d, const struct scope *scope)
  * input file, with the mesh d->m; k: index of the element in d->m->element, or < 0, for which nothing is added. node:
  * index of the node in the mesh, or its label in the file while the part (Abaqus keyword *PART) that contains the
  * element is still being read. */
-static void nodes_of_element_add(struct deck *d, int set, int64_t k, void (*add)(struct deck *, int, int64_t))
+static void nodes_of_element_add(struct abaqus_input_deck *d, int set, int64_t k,
+                                 void (*add)(struct abaqus_input_deck *, int, int64_t))
 {
     const struct element *e = k < 0 ? NULL : &d->m->element[k];
     for (int c = 0; e && c < element_corners[e->kind]; c++) add(d, set, e->node[c]);
@@ -157,18 +161,22 @@ static void nodes_of_element_add(struct deck *d, int set, int64_t k, void (*add)
 }
 
 /* Appends `label` to set number `set` of deck d. */
-static void label_append(struct deck *d, int set, int64_t label) { element_mesh_add_to_set(d->m, set, label); }
+static void label_append(struct abaqus_input_deck *d, int set, int64_t label)
+{
+    element_mesh_add_to_set(d->m, set, label);
+}
 
 /* Adds the nodes of the elements that are in the element set called `name` so far to set number `set` of the input file
  * d, for *NSET with the parameter ELSET. part: part of the instance that the keyword names; NULL: none. Returns REFUSED
  * if there is no such set, or if there are too many members. */
-static status set_join_nodes_of(struct deck *d, int set, const struct scope *part, const char *name)
+static status set_join_nodes_of(struct abaqus_input_deck *d, int set, const struct abaqus_label_scope *part,
+                                const char *name)
 {
     const int64_t first = d->scope[d->now].element;
     const int other = set_index(d, part, name, false);
     struct label_map of;
     if (other < 0)
-        return source_report_fault(
+        return geometry_file_report_fault(
             d->s, "no element set %.40s is defined before this line; define it earlier in the file", name);
     TRY(generated_add(d, (ELEMENT_CORNERS_MAX + ELEMENT_MIDDLES_MAX) * d->m->set[other].n));
     label_map_make(&of, d->m->element_label + first, first, d->m->elements - first);
@@ -183,19 +191,20 @@ static status set_join_nodes_of(struct deck *d, int set, const struct scope *par
     return OK;
 }
 
-status abaqus_read_set(struct deck *d, bool of_nodes)
+status abaqus_read_set(struct abaqus_input_deck *d, bool of_nodes)
 {
     int set;
-    const char *instance = abaqus_parameter(&d->key, "INSTANCE"), *elements = abaqus_parameter(&d->key, "ELSET");
-    const bool generate = abaqus_parameter(&d->key, "GENERATE") != NULL;
-    const int scope = instance ? abaqus_find_part(d, instance, true) : -1;
-    const struct scope *part = scope >= 0 ? &d->scope[scope] : NULL;
-    TRY(abaqus_find_set_of_keyword(d, of_nodes ? "NSET" : "ELSET", of_nodes, &set));
-    if (set < 0) return source_report_fault(d->s, "a set has no name; give it one");
+    const char *instance = abaqus_keyword_parameter_value(&d->key, "INSTANCE"),
+               *elements = abaqus_keyword_parameter_value(&d->key, "ELSET");
+    const bool generate = abaqus_keyword_parameter_value(&d->key, "GENERATE") != NULL;
+    const int scope = instance ? abaqus_find_part_by_own_or_instance_name(d, instance, true) : -1;
+    const struct abaqus_label_scope *part = scope >= 0 ? &d->scope[scope] : NULL;
+    TRY(abaqus_find_or_create_set_named_by_parameter(d, of_nodes ? "NSET" : "ELSET", of_nodes, &set));
+    if (set < 0) return geometry_file_report_fault(d->s, "a set has no name; give it one");
     if (instance && !part)
-        return source_report_fault(d->s, "the assembly has no instance %.40s; check the spelling", instance);
+        return geometry_file_report_fault(d->s, "the assembly has no instance %.40s; check the spelling", instance);
     if (of_nodes && elements) TRY(set_join_nodes_of(d, set, part, elements));
-    for (char field[FIELD]; abaqus_find_data_line(d->s); source_skip_to_next_line(d->s)) {
+    for (char field[FIELD]; abaqus_find_data_line(d->s); geometry_file_skip_to_next_line(d->s)) {
         int32_t label;
         if (generate) {
             TRY(generate_line(d, set, part));
@@ -203,7 +212,7 @@ status abaqus_read_set(struct deck *d, bool of_nodes)
         }
         while (abaqus_read_field(d->s, field)) {
             if (field[0] == '\0') continue;
-            if (!abaqus_is_label(field)) {
+            if (!abaqus_field_is_label(field)) {
                 TRY(set_join(d, set, part, field));
                 continue;
             }
@@ -214,7 +223,7 @@ status abaqus_read_set(struct deck *d, bool of_nodes)
     return OK;
 }
 
-void abaqus_name_sets_by_instance(struct deck *d, const struct scope *part)
+void abaqus_prefix_set_names_with_instance(struct abaqus_input_deck *d, const struct abaqus_label_scope *part)
 {
     for (int k = part->set; k < part->set_end; k++) {
         struct element_set *set = &d->m->set[k];

@@ -29,7 +29,8 @@ static const struct abaqus_shape shapes[] = {
 /* Letters that may follow the number of nodes: reduced integration, hybrid, temperature and so on; 5: of shells. */
 #define VARIANTS "DEHIMPRSTVW5"
 
-status abaqus_shape_of_type(const struct abaqus_shape **shape, const struct source *file, const char *type)
+status abaqus_find_shape_of_element_type(const struct abaqus_shape **shape, const struct geometry_file *file,
+                                         const char *type)
 {
     *shape = NULL;
     for (size_t k = 0; k < COUNT_OF(left_out); k++)
@@ -46,6 +47,6 @@ status abaqus_shape_of_type(const struct abaqus_shape **shape, const struct sour
                 return OK;
             }
     }
-    return source_report_fault(file, "element type %.40s is unknown; use one such as C3D8R, C3D10M, CPS4R or S4",
-                               *type ? type : "without a name");
+    return geometry_file_report_fault(file, "element type %.40s is unknown; use one such as C3D8R, C3D10M, CPS4R or S4",
+                                      *type ? type : "without a name");
 }

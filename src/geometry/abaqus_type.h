@@ -15,6 +15,7 @@ struct abaqus_shape {
 /* Finds the shape of the element type `type`, such as C3D10M or CPS4R, in capitals; *shape receives a pointer to a
  * constant. Stores NULL in *shape for types that are left out: points, beams, and connectors between elements. Returns
  * REFUSED, with a message that gives file and line, for any other type. */
-status abaqus_shape_of_type(const struct abaqus_shape **shape, const struct source *file, const char *type);
+status abaqus_find_shape_of_element_type(const struct abaqus_shape **shape, const struct geometry_file *file,
+                                         const char *type);
 
 #endif

@@ -89,7 +89,8 @@ enum { ELEMENT_SETS_MAX = 1000 };
 
 /* Appends a node with the three coordinates `coordinates` [unit of the file] to the mesh m. label: its number in the
  * file; file: for the message. Returns REFUSED, with a message, if there are too many nodes for 32-bit indices. */
-status element_mesh_add_node(struct element_mesh *m, const struct source *file, const real *coordinates, int64_t label);
+status element_mesh_add_node(struct element_mesh *m, const struct geometry_file *file, const real *coordinates,
+                             int64_t label);
 
 /* Appends a node with the three coordinates `coordinates` [unit of the file] to the mesh m and returns its index.
  * label: its number in the file, -1 for nodes that are not in the file. The number of nodes is not checked. */
@@ -98,7 +99,7 @@ int32_t element_mesh_add_node_unchecked(struct element_mesh *m, const real *coor
 /* Appends an element of the kind `kind` to the mesh m. corner_node: its corners, as indices of nodes or, in Abaqus
  * files, as node numbers of the file that are replaced later; label: number of the element in the file; file: for the
  * message. Returns REFUSED, with a message, if there are too many elements. */
-status element_mesh_add_element(struct element_mesh *m, const struct source *file, enum element_kind kind,
+status element_mesh_add_element(struct element_mesh *m, const struct geometry_file *file, enum element_kind kind,
                                 const int32_t *corner_node, int64_t label);
 
 /* Sets the middle nodes (on edges and sides) of the last element of the mesh m. middle_node: as many indices, or node
@@ -149,20 +150,20 @@ bool label_map_find_duplicate(const struct label_map *map, int64_t *label);
 /* Reads the Gmsh file `file` into the empty mesh m. Returns REFUSED, with a message that contains the line, if the file
  * is malformed or contains elements of an unsupported kind. The caller releases m with element_mesh_free, also after a
  * failure. */
-status gmsh_read(struct element_mesh *m, struct source *file);
+status gmsh_read(struct element_mesh *m, struct geometry_file *file);
 
 /* Reads the Abaqus input deck `file` into the empty mesh m. Returns REFUSED, with a message that contains the line, if
  * the file is malformed. The caller releases m with element_mesh_free, also after a failure. */
-status abaqus_read(struct element_mesh *m, struct source *file);
+status abaqus_read(struct element_mesh *m, struct geometry_file *file);
 
 /* Reads the Exodus II file `file` into the empty mesh m. Returns REFUSED, with a message, if the file is malformed or
  * contains elements of an unsupported kind. The caller releases m with element_mesh_free, also after a failure. */
-status exodus_read(struct element_mesh *m, struct source *file);
+status exodus_read(struct element_mesh *m, struct geometry_file *file);
 
 /* Reads the text or binary STL file `file` into the empty mesh m. Corners of triangles that are nearer to each other
  * than a millionth of the extent of the mesh become one node. Returns REFUSED, with a message, if the file is
  * malformed. The caller releases m with element_mesh_free, also after a failure. */
-status stl_read(struct element_mesh *m, struct source *file);
+status stl_read(struct element_mesh *m, struct geometry_file *file);
 
 /* Creates g: the surface of the body that the elements of m fill, in metres, and the surfaces of the named sets of m.
  * Release g with geometry_free. path: file, for messages; dim: dimensions of the space; unit_length: length of the unit

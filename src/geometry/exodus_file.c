@@ -16,7 +16,7 @@
  * factor. */
 enum { UNPACKED_MOST = 1024 };
 
-status exodus_report_fault(const struct exodus_file *f, const char *format, ...)
+status exodus_refuse_with_message(const struct exodus_file *f, const char *format, ...)
 {
     char what[256];
     va_list more;
@@ -47,7 +47,7 @@ static status arrays_open(struct exodus_file *f)
     if (f->length >= 8 && memcmp(text, hdf5, 8) == 0) return exodus_hdf5_open(f);
     if (f->length >= 8 && memcmp(text, "CDF", 3) == 0 && (text[3] == 1 || text[3] == 2 || text[3] == 5))
         return exodus_classic_open(f);
-    return exodus_report_fault(f, "does not begin like a netCDF file; give a file in the format Exodus II");
+    return exodus_refuse_with_message(f, "does not begin like a netCDF file; give a file in the format Exodus II");
 }
 
 /* Reads the dimension and the numbers of nodes, blocks and sets, which every mesh has, into f. Returns REFUSED, with a
@@ -62,10 +62,11 @@ static status counts_read(struct exodus_file *f)
     f->element_sets = exodus_read_dimension_length(f, "num_elem_sets", 0);
     f->dim = (int)dim;
     if (dim >= 1 && dim <= DIM_MAX && f->nodes >= 1) return OK;
-    return exodus_report_fault(f,
-                               "this netCDF file has num_dim = %lld and num_nodes = %lld, so it is not a mesh; give "
-                               "one in the format Exodus II",
-                               (long long)dim, (long long)f->nodes);
+    return exodus_refuse_with_message(
+        f,
+        "this netCDF file has num_dim = %lld and num_nodes = %lld, so it is not a mesh; give "
+        "one in the format Exodus II",
+        (long long)dim, (long long)f->nodes);
 }
 
 status exodus_open_from_memory(struct exodus_file *f, const char *path, const char *content, int64_t length)
@@ -79,13 +80,13 @@ status exodus_open_from_memory(struct exodus_file *f, const char *path, const ch
 
 status exodus_open_from_path(struct exodus_file *f, const char *path)
 {
-    struct source s;
-    TRY(source_read_whole_file(&s, path));
+    struct geometry_file s;
+    TRY(geometry_file_read_whole(&s, path));
     const status opened = exodus_open_from_memory(f, path, s.text, s.length);
     if (opened == OK)
         f->owned = s.text;
     else
-        source_close(&s);
+        geometry_file_close(&s);
     return opened;
 }
 
@@ -143,17 +144,21 @@ bool exodus_has_array(const struct exodus_file *f, const char *name, int64_t nam
  * not have n numbers, contains letters, or is larger than its file can be. */
 static status array_check(const struct exodus_file *f, const char *name, int64_t n, struct exodus_array *a)
 {
-    if (!array_find(f, name, a)) return exodus_report_fault(f, "the array %s is missing; write the file again", name);
+    if (!array_find(f, name, a))
+        return exodus_refuse_with_message(f, "the array %s is missing; write the file again", name);
     if (a->type == EXODUS_CHAR)
-        return exodus_report_fault(f, "array %s contains letters in place of numbers; write the file again", name);
+        return exodus_refuse_with_message(f, "array %s contains letters in place of numbers; write the file again",
+                                          name);
     if (a->extent[0] * a->extent[1] != n)
-        return exodus_report_fault(f, "array %s has %lld x %lld numbers, but must have %lld; write the file again",
-                                   name, (long long)a->extent[0], (long long)a->extent[1], (long long)n);
+        return exodus_refuse_with_message(f,
+                                          "array %s has %lld x %lld numbers, but must have %lld; write the file again",
+                                          name, (long long)a->extent[0], (long long)a->extent[1], (long long)n);
     if (f->hdf5 < 0 || n <= f->length * UNPACKED_MOST) return OK;
-    return exodus_report_fault(f,
-                               "array %s claims %lld numbers, more than the file can contain, so it is cut off or "
-                               "damaged; write the file again",
-                               name, (long long)n);
+    return exodus_refuse_with_message(
+        f,
+        "array %s claims %lld numbers, more than the file can contain, so it is cut off or "
+        "damaged; write the file again",
+        name, (long long)n);
 }
 
 /* Reads the array called `name` followed by `number` (n numbers) from the file f into the new array *reals or
@@ -174,11 +179,12 @@ static status array_read(const struct exodus_file *f, const char *name, int64_t 
     if (f->hdf5 < 0)
         exodus_classic_read_array(f, &a, n, real_value, whole_value);
     else if (n > 0 && !exodus_hdf5_read_array(f, &a, real_value, whole_value, NULL))
-        s = exodus_report_fault(f, "array %s cannot be read, because the file is damaged; write it again", called);
+        s = exodus_refuse_with_message(f, "array %s cannot be read, because the file is damaged; write it again",
+                                       called);
     for (int64_t k = 0; k < n && s == OK && real_value; k++)
         if (!isfinite(real_value[k]))
-            s = exodus_report_fault(f, "array %s: number %lld is infinite or not a number; correct it", called,
-                                    (long long)k + 1);
+            s = exodus_refuse_with_message(f, "array %s: number %lld is infinite or not a number; correct it", called,
+                                           (long long)k + 1);
     if (s != OK) {
         memory_free(real_value), memory_free(whole_value);
         return s;
@@ -243,11 +249,11 @@ status exodus_read_block_header(const struct exodus_file *f, int64_t block_numbe
     struct exodus_array a;
     name_numbered(called, "connect", block_number);
     if (!array_find(f, called, &a) || a.type == EXODUS_CHAR)
-        return exodus_report_fault(
+        return exodus_refuse_with_message(
             f, "block %lld lacks the array %s, the nodes of its elements; add the array, or remove the block",
             (long long)block_number, called);
     if (!a.elements[0])
-        return exodus_report_fault(
+        return exodus_refuse_with_message(
             f, "block %lld does not name the type of its elements; add the attribute elem_type to the variable %s",
             (long long)block_number, called);
     *elements = a.extent[0], *nodes_per_element = a.extent[1];

@@ -9,7 +9,7 @@
 status exodus_hdf5_open(struct exodus_file *f)
 {
     crash_message_set_file_in_use(f->path);
-    hdf_prepare();
+    hdf_disable_exit_handler_and_messages();
     H5E_BEGIN_TRY /* one message per fault: the error stack of HDF5 is not printed */
     {
         f->hdf5 = H5Fopen(f->path, H5F_ACC_RDONLY, H5P_DEFAULT);
@@ -37,7 +37,7 @@ static hid_t dataset_open(const struct exodus_file *f, const char *name, int64_t
     const hid_t space = H5Dget_space(set);
     const int ranks = H5Sget_simple_extent_ndims(space);
     const bool good = (ranks == 1 || ranks == 2) && H5Sget_simple_extent_dims(space, lengths, NULL) == ranks &&
-                      lengths[0] <= INT32_MAX && lengths[1] <= INT32_MAX && hdf_dataset_is_in_its_file(set);
+                      lengths[0] <= INT32_MAX && lengths[1] <= INT32_MAX && hdf_dataset_is_stored_in_own_file(set);
     H5Sclose(space);
     extent[0] = (int64_t)lengths[0], extent[1] = (int64_t)lengths[1];
     if (good) return set;

@@ -14,7 +14,7 @@
 /* Functions that read meshes, by the extension of the file name. */
 static const struct format {
     const char *ending;
-    status (*read)(struct element_mesh *, struct source *);
+    status (*read)(struct element_mesh *, struct geometry_file *);
 } formats[] = {{".stl", stl_read}, {".msh", gmsh_read}, {".inp", abaqus_read}}, exodus = {".exo", exodus_read};
 
 /* Returns the format of the file `path` by the extension of its name, in capital or small letters (a row of a constant
@@ -59,7 +59,7 @@ static status check_closed(const struct hull *s, const char *path)
             return status_set(REFUSED, "%s: coordinates of up to %.3g m are too large; check the unit of the file",
                               path, real_max(fabs(s->node[0].low[d]), fabs(s->node[0].high[d])));
     TRY(check_not_plane(s, path));
-    const real doubt = s->open_edges > 0 ? hull_sample_winding_numbers(s).unclear : 0;
+    const real doubt = s->open_edges > 0 ? hull_sample_winding_number_statistics(s).unclear : 0;
     if (doubt > DOUBT_MOST)
         return status_set(REFUSED,
                           "%s: its surface is open or turned inside out at %lld edges, one at (%.6g, %.6g, %.6g) m, so "
@@ -77,13 +77,13 @@ static status read_elements(struct geometry *g, const char *path, int dim, real 
 {
     const struct format *format = format_of(path);
     struct element_mesh m = {0};
-    struct source source;
+    struct geometry_file source;
     if (!format)
         return status_set(REFUSED, "%s: is not a shape file; give one that ends in .stl, .msh, .inp or .exo (.e, .g)",
                           path);
-    TRY(source_read_whole_file(&source, path));
+    TRY(geometry_file_read_whole(&source, path));
     status s = format->read(&m, &source);
-    source_close(&source);
+    geometry_file_close(&source);
     if (s == OK) s = geometry_from_elements(g, &m, path, dim, scale, fine);
     element_mesh_free(&m);
     return s == OK && g->whole.dim > 0 ? check_closed(&g->whole, path) : s;
@@ -97,7 +97,7 @@ status geometry_read(struct geometry *g, const char *path, int dim, real scale, 
     return s;
 }
 
-bool geometry_set_has_own_name(const struct geometry_set *set, const char *name)
+bool geometry_set_name_matches_after_instance_prefix(const struct geometry_set *set, const char *name)
 {
     return set->own > 0 && strcasecmp(set->name + set->own, name) == 0;
 }
@@ -108,7 +108,7 @@ const struct geometry_set *geometry_find_named_part(const struct geometry *g, co
         if (strcasecmp(g->set[k].name, name) == 0) return &g->set[k];
     const struct geometry_set *found = NULL;
     for (int k = 0; k < g->sets; k++)
-        if (geometry_set_has_own_name(&g->set[k], name)) {
+        if (geometry_set_name_matches_after_instance_prefix(&g->set[k], name)) {
             if (found) return NULL;
             found = &g->set[k];
         }

@@ -11,15 +11,16 @@
 
 /* Reads a text in double quotes from the file s into text[capacity]; longer texts are cut off. Returns REFUSED if the
  * text does not begin with a quote, or does not end with one on the same line. */
-static status quoted_next(struct source *s, char *text, size_t capacity)
+static status quoted_next(struct geometry_file *s, char *text, size_t capacity)
 {
     size_t n = 0;
-    if (!source_skip_blanks(s) || s->text[s->at] != '"')
-        return source_report_fault(s, "the name of this group is not in quotes; write it in quotes");
+    if (!geometry_file_skip_blanks(s) || s->text[s->at] != '"')
+        return geometry_file_report_fault(s, "the name of this group is not in quotes; write it in quotes");
     for (s->at++; s->at < s->length && s->text[s->at] != '"' && s->text[s->at] != '\n'; s->at++)
         if (n + 1 < capacity) text[n++] = s->text[s->at];
     text[n] = '\0';
-    if (s->at >= s->length || s->text[s->at] != '"') return source_report_fault(s, "a name has no closing quote");
+    if (s->at >= s->length || s->text[s->at] != '"')
+        return geometry_file_report_fault(s, "a name has no closing quote");
     s->at++;
     return OK;
 }
@@ -29,16 +30,17 @@ static status quoted_next(struct source *s, char *text, size_t capacity)
 static status names_read(struct gmsh *g)
 {
     int64_t n;
-    TRY(source_read_integer(g->s, "number of names", &n));
-    TRY(source_check_count_fits_file(g->s, "names", n, 4));
+    TRY(geometry_file_read_integer(g->s, "number of names", &n));
+    TRY(geometry_file_check_count_fits_size(g->s, "names", n, 4));
     g->announced = n, g->items = "names";
     if (n > ELEMENT_SETS_MAX)
-        return source_report_fault(g->s, "the mesh has more than %d physical groups; remove some", ELEMENT_SETS_MAX);
+        return geometry_file_report_fault(g->s, "the mesh has more than %d physical groups; remove some",
+                                          ELEMENT_SETS_MAX);
     GROW("gmsh.names", g->name, n);
     for (g->names = 0; g->names < n; g->names++) {
         struct group_name *name = &g->name[g->names];
-        TRY(source_read_integer(g->s, "dimension of a group", &name->dim));
-        TRY(source_read_integer(g->s, "tag of a group", &name->tag));
+        TRY(geometry_file_read_integer(g->s, "dimension of a group", &name->dim));
+        TRY(geometry_file_read_integer(g->s, "tag of a group", &name->tag));
         TRY(quoted_next(g->s, name->text, sizeof name->text));
     }
     return OK;
@@ -59,18 +61,18 @@ static status entity_read(struct gmsh *g, int64_t dim)
 {
     int64_t tag, groups, group, bounds;
     real box;
-    TRY(source_read_int32(g->s, "tag of an entity", &tag));
-    for (int k = 0; k < (dim == 0 ? 3 : 6); k++) TRY(source_read_real(g->s, "coordinate", &box));
-    TRY(source_read_int64(g->s, "number of groups", &groups));
-    TRY(source_check_count_fits_file(g->s, "groups", groups, 2));
+    TRY(geometry_file_read_int32(g->s, "tag of an entity", &tag));
+    for (int k = 0; k < (dim == 0 ? 3 : 6); k++) TRY(geometry_file_read_real(g->s, "coordinate", &box));
+    TRY(geometry_file_read_int64(g->s, "number of groups", &groups));
+    TRY(geometry_file_check_count_fits_size(g->s, "groups", groups, 2));
     for (int64_t k = 0; k < groups; k++) {
-        TRY(source_read_int32(g->s, "tag of a group", &group));
-        entity_group_add(g, gmsh_entity_key(dim, tag), group < 0 ? -group : group);
+        TRY(geometry_file_read_int32(g->s, "tag of a group", &group));
+        entity_group_add(g, gmsh_key_of_dimension_and_tag(dim, tag), group < 0 ? -group : group);
     }
     if (dim == 0) return OK;
-    TRY(source_read_int64(g->s, "number of bounding entities", &bounds));
-    TRY(source_check_count_fits_file(g->s, "bounding entities", bounds, 2));
-    for (int64_t k = 0; k < bounds; k++) TRY(source_read_int32(g->s, "tag of an entity", &tag));
+    TRY(geometry_file_read_int64(g->s, "number of bounding entities", &bounds));
+    TRY(geometry_file_check_count_fits_size(g->s, "bounding entities", bounds, 2));
+    for (int64_t k = 0; k < bounds; k++) TRY(geometry_file_read_int32(g->s, "tag of an entity", &tag));
     return OK;
 }
 
@@ -80,9 +82,9 @@ static status entities_read(struct gmsh *g)
 {
     int64_t n[1 + DIM_MAX];
     g->announced = 0, g->items = "entities";
-    for (int d = 0; d <= DIM_MAX; d++) TRY(source_read_int64(g->s, "number of entities", &n[d]));
+    for (int d = 0; d <= DIM_MAX; d++) TRY(geometry_file_read_int64(g->s, "number of entities", &n[d]));
     for (int d = 0; d <= DIM_MAX; d++) {
-        TRY(source_check_count_fits_file(g->s, "entities", n[d], 8));
+        TRY(geometry_file_check_count_fits_size(g->s, "entities", n[d], 8));
         g->announced += n[d];
         for (int64_t k = 0; k < n[d]; k++) TRY(entity_read(g, d));
     }
@@ -95,7 +97,7 @@ static status entities_read(struct gmsh *g)
 /* Reports that the file of g has the format `version` of Gmsh, which is not read. Returns REFUSED. */
 static status format_refuse(const struct gmsh *g, const char *version)
 {
-    return source_report_fault(
+    return geometry_file_report_fault(
         g->s, "Gmsh's file format %s is not supported; save the mesh as 4.1 (gmsh -save -format msh41) or 2.2",
         version);
 }
@@ -106,28 +108,28 @@ static status format_read(struct gmsh *g)
 {
     char version[16];
     int64_t bytes, size, one;
-    source_read_word(g->s, version, sizeof version);
+    geometry_file_read_word(g->s, version, sizeof version);
     g->old = strcmp(version, "2.2") == 0 || strcmp(version, "2") == 0;
     if (!g->old && strcmp(version, "4.1") != 0) return format_refuse(g, version);
-    TRY(source_read_integer(g->s, "kind of file", &bytes));
-    TRY(source_read_integer(g->s, "size of numbers", &size));
+    TRY(geometry_file_read_integer(g->s, "kind of file", &bytes));
+    TRY(geometry_file_read_integer(g->s, "size of numbers", &size));
     if (size != 8)
-        return source_report_fault(
+        return geometry_file_report_fault(
             g->s, "numbers have %lld bytes each, but need 8 (double precision); save the mesh with 8", (long long)size);
     g->bytes = bytes != 0;
     if (!g->bytes) return OK;
-    source_skip_to_next_line(g->s);
+    geometry_file_skip_to_next_line(g->s);
     g->s->binary = true;
-    TRY(source_read_int32(g->s, "the number 1", &one));
+    TRY(geometry_file_read_int32(g->s, "the number 1", &one));
     g->s->binary = false;
     if (one == 1) return OK;
-    return source_report_fault(g->s,
-                               "the file has the byte order of another kind of processor; save it as text (ASCII)");
+    return geometry_file_report_fault(
+        g->s, "the file has the byte order of another kind of processor; save it as text (ASCII)");
 }
 
 /* Skips the rest of the section `name` of the file s, such as $Nodes: advances to the line after its last one, such as
  * $EndNodes, or to the end of the file. */
-static void section_skip(struct source *s, const char *name)
+static void section_skip(struct geometry_file *s, const char *name)
 {
     char end[48];
     const int length = snprintf(end, sizeof end, "$End%s", name + 1);
@@ -141,13 +143,14 @@ static status section_end(struct gmsh *g, const char *name)
 {
     char end[48], word[sizeof end];
     snprintf(end, sizeof end, "$End%s", name + 1);
-    source_skip_blanks(g->s);
-    source_read_word(g->s, word, sizeof word);
+    geometry_file_skip_blanks(g->s);
+    geometry_file_read_word(g->s, word, sizeof word);
     if (strcmp(word, end) == 0) return OK;
-    return source_report_fault(g->s,
-                               "%s gives %lld %s, but more follow in place of %s, so the count is wrong or the file "
-                               "damaged; save the mesh again",
-                               name, (long long)g->announced, g->items, end);
+    return geometry_file_report_fault(
+        g->s,
+        "%s gives %lld %s, but more follow in place of %s, so the count is wrong or the file "
+        "damaged; save the mesh again",
+        name, (long long)g->announced, g->items, end);
 }
 
 /* Reads the section `name` of the file g, such as $Nodes, or skips it if it is not needed. Returns REFUSED if it is
@@ -162,12 +165,13 @@ static status section_read(struct gmsh *g, const char *name)
                     {"$Elements", gmsh22_read_elements, gmsh41_read_elements},
                     {"$Entities", NULL, entities_read}};
     if (strcmp(name, "$PartitionedEntities") == 0)
-        return source_report_fault(g->s, "the mesh has partitions, which are not supported; save it without them");
+        return geometry_file_report_fault(g->s,
+                                          "the mesh has partitions, which are not supported; save it without them");
     if (strcmp(name, "$Nodes") == 0 && g->node.entry)
-        return source_report_fault(g->s, "the mesh has a second section of nodes; remove one of the two");
+        return geometry_file_report_fault(g->s, "the mesh has a second section of nodes; remove one of the two");
     for (size_t k = 0; k < COUNT_OF(sections); k++) {
         if (strcmp(name, sections[k].name) != 0 || (g->old && !sections[k].old)) continue;
-        if (!g->old && g->bytes && k > 0) source_skip_to_next_line(g->s);
+        if (!g->old && g->bytes && k > 0) geometry_file_skip_to_next_line(g->s);
         g->s->binary = !g->old && g->bytes && k > 0; /* names are text also in binary files */
         const status s = (g->old ? sections[k].old : sections[k].new)(g);
         g->s->binary = false;
@@ -181,25 +185,25 @@ static status section_read(struct gmsh *g, const char *name)
 static status sections_read(struct gmsh *g)
 {
     char name[40];
-    source_read_word(g->s, name, sizeof name);
+    geometry_file_read_word(g->s, name, sizeof name);
     if (strcmp(name, "$NOD") == 0) return format_refuse(g, "1");
     if (strcmp(name, "$MeshFormat") != 0)
-        return source_report_fault(
+        return geometry_file_report_fault(
             g->s, "the file does not begin with $MeshFormat, so it is not a mesh of Gmsh; save it with Gmsh");
     TRY(format_read(g));
     section_skip(g->s, name);
-    while (source_skip_blanks(g->s)) {
-        source_read_word(g->s, name, sizeof name);
+    while (geometry_file_skip_blanks(g->s)) {
+        geometry_file_read_word(g->s, name, sizeof name);
         if (name[0] != '$')
-            return source_report_fault(
+            return geometry_file_report_fault(
                 g->s, "%.30s is not the beginning of a section, such as $Nodes; save the mesh again", name);
         TRY(section_read(g, name));
     }
-    if (!g->node.entry) return source_report_fault(g->s, "ends without $Nodes");
-    return g->m->elements > 0 ? OK : source_report_fault(g->s, "ends without $Elements");
+    if (!g->node.entry) return geometry_file_report_fault(g->s, "ends without $Nodes");
+    return g->m->elements > 0 ? OK : geometry_file_report_fault(g->s, "ends without $Elements");
 }
 
-status gmsh_read(struct element_mesh *m, struct source *s)
+status gmsh_read(struct element_mesh *m, struct geometry_file *s)
 {
     struct gmsh g = {.s = s, .m = m, .last_set = -1};
     const status result = sections_read(&g);

@@ -7,11 +7,11 @@
 static status read_count(struct gmsh *g, const char *what, int64_t bytes, int64_t *n)
 {
     g->s->binary = false;
-    TRY(source_read_integer(g->s, what, n));
-    source_skip_to_next_line(g->s);
+    TRY(geometry_file_read_integer(g->s, what, n));
+    geometry_file_skip_to_next_line(g->s);
     g->s->binary = g->bytes;
     g->announced = *n, g->items = what;
-    return source_check_count_fits_file(g->s, what, *n, bytes);
+    return geometry_file_check_count_fits_size(g->s, what, *n, bytes);
 }
 
 status gmsh22_read_nodes(struct gmsh *g)
@@ -20,8 +20,8 @@ status gmsh22_read_nodes(struct gmsh *g)
     TRY(read_count(g, "nodes", 8, &n));
     for (int64_t k = 0; k < n; k++) {
         real X[DIM_MAX];
-        TRY(source_read_int32(g->s, "number of a node", &label));
-        for (int d = 0; d < DIM_MAX; d++) TRY(source_read_real(g->s, "coordinate", &X[d]));
+        TRY(geometry_file_read_int32(g->s, "number of a node", &label));
+        for (int d = 0; d < DIM_MAX; d++) TRY(geometry_file_read_real(g->s, "coordinate", &X[d]));
         TRY(element_mesh_add_node(g->m, g->s, X, label));
     }
     return gmsh_map_node_labels(g);
@@ -46,11 +46,11 @@ static void merge_repeated_element(struct gmsh *g, int64_t group)
 static status read_element(struct gmsh *g, const struct gmsh_type *type, int64_t label, int64_t tags)
 {
     int64_t tag, group = 0;
-    TRY(source_check_count_fits_file(g->s, "tags", tags, 2));
-    for (int64_t k = 0; k < tags; k++) TRY(source_read_int32(g->s, "tag", k == 0 ? &group : &tag));
+    TRY(geometry_file_check_count_fits_size(g->s, "tags", tags, 2));
+    for (int64_t k = 0; k < tags; k++) TRY(geometry_file_read_int32(g->s, "tag", k == 0 ? &group : &tag));
     TRY(gmsh_read_element(g, type, label));
     merge_repeated_element(g, group);
-    return group == 0 ? OK : gmsh_add_element_to_group(g, element_dim[type->kind], group, g->m->elements - 1);
+    return group == 0 ? OK : gmsh_add_element_to_physical_group(g, element_dim[type->kind], group, g->m->elements - 1);
 }
 
 status gmsh22_read_elements(struct gmsh *g)
@@ -59,15 +59,15 @@ status gmsh22_read_elements(struct gmsh *g)
     const struct gmsh_type *type = NULL;
     TRY(read_count(g, "elements", 8, &n));
     for (int64_t k = 0; k < n; k += block) {
-        if (!g->bytes) TRY(source_read_int32(g->s, "number of an element", &label));
-        TRY(source_read_int32(g->s, "type of an element", &number));
-        if (g->bytes) TRY(source_read_int32(g->s, "number of elements", &block));
-        TRY(source_read_int32(g->s, "number of tags", &tags));
-        TRY(gmsh_find_type(g->s, number, &type));
-        if (block < 1) return source_report_fault(g->s, "a block of %lld elements", (long long)block);
-        TRY(source_check_count_fits_file(g->s, "elements", block, g->bytes ? 8 : 2));
+        if (!g->bytes) TRY(geometry_file_read_int32(g->s, "number of an element", &label));
+        TRY(geometry_file_read_int32(g->s, "type of an element", &number));
+        if (g->bytes) TRY(geometry_file_read_int32(g->s, "number of elements", &block));
+        TRY(geometry_file_read_int32(g->s, "number of tags", &tags));
+        TRY(gmsh_find_element_type(g->s, number, &type));
+        if (block < 1) return geometry_file_report_fault(g->s, "a block of %lld elements", (long long)block);
+        TRY(geometry_file_check_count_fits_size(g->s, "elements", block, g->bytes ? 8 : 2));
         for (int64_t e = 0; e < block; e++) {
-            if (g->bytes) TRY(source_read_int32(g->s, "number of an element", &label));
+            if (g->bytes) TRY(geometry_file_read_int32(g->s, "number of an element", &label));
             TRY(read_element(g, type, label, tags));
         }
     }

@@ -7,11 +7,11 @@
 static status read_head_of_section(struct gmsh *g, const char *what, int64_t *blocks, int64_t *total)
 {
     int64_t skipped;
-    TRY(source_read_int64(g->s, "number of blocks", blocks));
-    TRY(source_read_int64(g->s, what, total));
-    for (int k = 0; k < 2; k++) TRY(source_read_int64(g->s, what, &skipped));
+    TRY(geometry_file_read_int64(g->s, "number of blocks", blocks));
+    TRY(geometry_file_read_int64(g->s, what, total));
+    for (int k = 0; k < 2; k++) TRY(geometry_file_read_int64(g->s, what, &skipped));
     g->announced = *blocks, g->items = "blocks";
-    return source_check_count_fits_file(g->s, "blocks", *blocks, 8);
+    return geometry_file_check_count_fits_size(g->s, "blocks", *blocks, 8);
 }
 
 /* Checks a section of the file g in format 4.1: returns REFUSED, with a message, unless `found`, the number of rows in
@@ -19,7 +19,7 @@ static status read_head_of_section(struct gmsh *g, const char *what, int64_t *bl
 static status check_total(const struct gmsh *g, const char *what, int64_t announced, int64_t found)
 {
     if (found == announced) return OK;
-    return source_report_fault(
+    return geometry_file_report_fault(
         g->s, "the section gives %lld %s, but its blocks contain %lld, so the file is damaged; save it again",
         (long long)announced, what, (long long)found);
 }
@@ -29,22 +29,23 @@ static status check_total(const struct gmsh *g, const char *what, int64_t announ
 static status read_node_block(struct gmsh *g)
 {
     int64_t dim, tag, parametric, n, label;
-    TRY(source_read_int32(g->s, "dimension", &dim));
-    TRY(source_read_int32(g->s, "tag of an entity", &tag));
-    TRY(source_read_int32(g->s, "parametric", &parametric));
-    TRY(source_read_int64(g->s, "number of nodes", &n));
-    TRY(source_check_count_fits_file(g->s, "nodes", n, 8));
+    TRY(geometry_file_read_int32(g->s, "dimension", &dim));
+    TRY(geometry_file_read_int32(g->s, "tag of an entity", &tag));
+    TRY(geometry_file_read_int32(g->s, "parametric", &parametric));
+    TRY(geometry_file_read_int64(g->s, "number of nodes", &n));
+    TRY(geometry_file_check_count_fits_size(g->s, "nodes", n, 8));
     if (dim < 0 || dim > 3)
-        return source_report_fault(g->s, "a block of $Nodes has the dimension %lld; give 0 to 3", (long long)dim);
+        return geometry_file_report_fault(g->s, "a block of $Nodes has the dimension %lld; give 0 to 3",
+                                          (long long)dim);
     const int64_t first = g->m->nodes;
     for (int64_t k = 0; k < n; k++) {
-        TRY(source_read_int64(g->s, "number of a node", &label));
+        TRY(geometry_file_read_int64(g->s, "number of a node", &label));
         TRY(element_mesh_add_node(g->m, g->s, (const real[DIM_MAX]){0}, label));
     }
     for (int64_t k = first; k < first + n; k++) {
         real own;
-        for (int d = 0; d < DIM_MAX; d++) TRY(source_read_real(g->s, "coordinate", &g->m->node[k][d]));
-        for (int d = 0; d < dim && parametric != 0; d++) TRY(source_read_real(g->s, "coordinate", &own));
+        for (int d = 0; d < DIM_MAX; d++) TRY(geometry_file_read_real(g->s, "coordinate", &g->m->node[k][d]));
+        for (int d = 0; d < dim && parametric != 0; d++) TRY(geometry_file_read_real(g->s, "coordinate", &own));
     }
     return OK;
 }
@@ -65,20 +66,21 @@ static status read_element_block(struct gmsh *g)
 {
     int64_t dim, tag, number, n, label;
     const struct gmsh_type *type = NULL;
-    TRY(source_read_int32(g->s, "dimension", &dim));
-    TRY(source_read_int32(g->s, "tag of an entity", &tag));
-    TRY(source_read_int32(g->s, "type of an element", &number));
-    TRY(source_read_int64(g->s, "number of elements", &n));
-    TRY(gmsh_find_type(g->s, number, &type));
-    TRY(source_check_count_fits_file(g->s, "elements", n, 4));
-    const int64_t key = gmsh_entity_key(dim, tag), link = label_map_find(&g->of_entity, key), first = g->m->elements;
+    TRY(geometry_file_read_int32(g->s, "dimension", &dim));
+    TRY(geometry_file_read_int32(g->s, "tag of an entity", &tag));
+    TRY(geometry_file_read_int32(g->s, "type of an element", &number));
+    TRY(geometry_file_read_int64(g->s, "number of elements", &n));
+    TRY(gmsh_find_element_type(g->s, number, &type));
+    TRY(geometry_file_check_count_fits_size(g->s, "elements", n, 4));
+    const int64_t key = gmsh_key_of_dimension_and_tag(dim, tag), link = label_map_find(&g->of_entity, key),
+                  first = g->m->elements;
     for (int64_t k = 0; k < n; k++) {
-        TRY(source_read_int64(g->s, "number of an element", &label));
+        TRY(geometry_file_read_int64(g->s, "number of an element", &label));
         TRY(gmsh_read_element(g, type, label));
     }
     for (int64_t l = link; l >= 0 && l < g->links && l < link + GROUPS_MAX && g->entity[l] == key; l++)
         for (int64_t k = first; k < first + n; k++)
-            TRY(gmsh_add_element_to_group(g, element_dim[type->kind], g->group[l], k));
+            TRY(gmsh_add_element_to_physical_group(g, element_dim[type->kind], g->group[l], k));
     return OK;
 }
 

@@ -32,20 +32,21 @@ static const signed char middle_at[ELEMENT_KINDS][1 + ELEMENT_MIDDLES_MAX] = {
     [ELEMENT_HEXAHEDRON] = {0, 3, 8, 1, 9, 2, 10, 11, 4, 7, 5, 6, 12, 14, 17, 15, 16, 13, -1}};
 #define STRAIGHT 1e-6 /* an edge is straight up to this distance of its nodes from the chord [length of the edge] */
 
-status gmsh_find_type(const struct source *s, int64_t number, const struct gmsh_type **type)
+status gmsh_find_element_type(const struct geometry_file *s, int64_t number, const struct gmsh_type **type)
 {
     for (size_t k = 0; k < COUNT_OF(types); k++)
         if (types[k].type == number) {
             *type = &types[k];
             return OK;
         }
-    return source_report_fault(s,
-                               "Gmsh's element type %lld is not supported; use lines, triangles, quadrilaterals, "
-                               "tetrahedra, hexahedra, prisms or pyramids",
-                               (long long)number);
+    return geometry_file_report_fault(
+        s,
+        "Gmsh's element type %lld is not supported; use lines, triangles, quadrilaterals, "
+        "tetrahedra, hexahedra, prisms or pyramids",
+        (long long)number);
 }
 
-status gmsh_add_element_to_group(struct gmsh *g, int64_t dim, int64_t tag, int64_t element)
+status gmsh_add_element_to_physical_group(struct gmsh *g, int64_t dim, int64_t tag, int64_t element)
 {
     if (g->last_set < 0 || dim != g->last_dim || tag != g->last_tag) {
         char name[LONG_NAME_LENGTH];
@@ -55,7 +56,8 @@ status gmsh_add_element_to_group(struct gmsh *g, int64_t dim, int64_t tag, int64
         g->last_dim = dim, g->last_tag = tag, g->last_set = element_mesh_find_or_create_set(g->m, name, false);
     }
     if (g->last_set < 0)
-        return source_report_fault(g->s, "the mesh has more than %d physical groups; remove some", ELEMENT_SETS_MAX);
+        return geometry_file_report_fault(g->s, "the mesh has more than %d physical groups; remove some",
+                                          ELEMENT_SETS_MAX);
     element_mesh_add_to_set(g->m, g->last_set, element);
     struct element_set *set = &g->m->set[g->last_set];
     set->mixed = set->mixed || element_dim[g->m->element[set->member[0]].kind] != dim;
@@ -67,11 +69,11 @@ status gmsh_add_element_to_group(struct gmsh *g, int64_t dim, int64_t tag, int64
 static status node_next(struct gmsh *g, int32_t *index)
 {
     int64_t label;
-    TRY((g->old ? source_read_int32 : source_read_int64)(g->s, "node of an element", &label));
+    TRY((g->old ? geometry_file_read_int32 : geometry_file_read_int64)(g->s, "node of an element", &label));
     const int64_t found = label_map_find(&g->node, label);
     if (found < 0)
-        return source_report_fault(g->s, "an element has node %lld, but $Nodes does not define it; save the mesh again",
-                                   (long long)label);
+        return geometry_file_report_fault(
+            g->s, "an element has node %lld, but $Nodes does not define it; save the mesh again", (long long)label);
     *index = (int32_t)found;
     return OK;
 }
@@ -89,7 +91,7 @@ static status check_straight(const struct gmsh *g, const struct gmsh_type *type,
     for (int d = 0; d < DIM_MAX; d++)
         along2 += square(b[d] - a[d]), arm2 += square(c[d] - a[d]), both += (b[d] - a[d]) * (c[d] - a[d]);
     if (arm2 * along2 - square(both) <= square(STRAIGHT * along2)) return OK;
-    return source_report_fault(
+    return geometry_file_report_fault(
         g->s, "curved elements of order %d are not supported; save them with order 2 (gmsh -order 2)", type->order);
 }
 
@@ -116,5 +118,5 @@ status gmsh_map_node_labels(struct gmsh *g)
     int64_t twice;
     label_map_make(&g->node, g->m->node_label, 0, g->m->nodes);
     if (!label_map_find_duplicate(&g->node, &twice)) return OK;
-    return source_report_fault(g->s, "node %lld is given twice; remove one of the two", (long long)twice);
+    return geometry_file_report_fault(g->s, "node %lld is given twice; remove one of the two", (long long)twice);
 }

@@ -18,19 +18,19 @@ struct gmsh_type {
 
 /* A Gmsh file while it is read. */
 struct gmsh {
-    struct source *s;       /* the text of the file, and where it is read */
-    struct element_mesh *m; /* the mesh that is made from the file */
-    bool bytes, old;        /* numbers are binary; format 2.2 */
-    const char *items;      /* what the current section counts, such as "nodes" or "blocks"; NULL: nothing */
-    int64_t announced;      /* number of these items according to the file */
-    struct label_map node;  /* index of each node label, once the nodes are read */
-    int64_t names;          /* number of physical groups that have a name: name[names] */
+    struct geometry_file *s; /* the text of the file, and where it is read */
+    struct element_mesh *m;  /* the mesh that is made from the file */
+    bool bytes, old;         /* numbers are binary; format 2.2 */
+    const char *items;       /* what the current section counts, such as "nodes" or "blocks"; NULL: nothing */
+    int64_t announced;       /* number of these items according to the file */
+    struct label_map node;   /* index of each node label, once the nodes are read */
+    int64_t names;           /* number of physical groups that have a name: name[names] */
     struct group_name {
         int64_t dim, tag;
         char text[LONG_NAME_LENGTH];
     } * name;
     int64_t links;              /* number of pairs of an entity and a physical group to which it belongs */
-    int64_t *entity, *group;    /* [links] key of the entity (gmsh_entity_key); tag of the group */
+    int64_t *entity, *group;    /* [links] key of the entity (gmsh_key_of_dimension_and_tag); tag of the group */
     struct label_map of_entity; /* pairs of each entity */
     int64_t last_dim, last_tag; /* dimension and tag of the group of the last element added; last_set: its set */
     int last_set;
@@ -38,16 +38,16 @@ struct gmsh {
 
 /* Returns a number that identifies an entity of a Gmsh file (point, curve, surface or volume) by its dimension dim (0
  * to 3) and its number `tag` in the file. */
-static inline int64_t gmsh_entity_key(int64_t dim, int64_t tag) { return tag * 4 + dim; }
+static inline int64_t gmsh_key_of_dimension_and_tag(int64_t dim, int64_t tag) { return tag * 4 + dim; }
 
 /* Sets *type to the element type with Gmsh's number `number`. Returns REFUSED, with a message, for an unsupported type.
  */
-status gmsh_find_type(const struct source *s, int64_t number, const struct gmsh_type **type);
+status gmsh_find_element_type(const struct geometry_file *s, int64_t number, const struct gmsh_type **type);
 
 /* Adds an element to the set that the mesh of g has of a physical group, which is created if it is new. dim, tag:
  * dimension and number of the group; element: index of the element in the mesh. Returns REFUSED, with a message, if
  * there are too many groups. */
-status gmsh_add_element_to_group(struct gmsh *g, int64_t dim, int64_t tag, int64_t element);
+status gmsh_add_element_to_physical_group(struct gmsh *g, int64_t dim, int64_t tag, int64_t element);
 
 /* Reads the nodes of an element of type `type` from the file g and appends it to the mesh. Stores middle nodes of
  * second-order elements only; edges of higher order must be straight. label: number of the element in the file. Returns

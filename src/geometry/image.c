@@ -10,7 +10,8 @@ enum { BYTES_A_VOXEL = 16 };            /* memory for grey values and levels per
 
 int luminance(int red, int green, int blue) { return (int)(0.2126 * red + 0.7152 * green + 0.0722 * blue + 0.5); }
 
-status pages_append_page(struct pages *p, const struct source *s, int64_t width, int64_t height, uint16_t **grey_values)
+status image_pages_append_page(struct image_pages *p, const struct geometry_file *s, int64_t width, int64_t height,
+                               uint16_t **grey_values)
 {
     const int64_t memory = machine_memory_size();
     const real all = (real)width * (real)height * (real)(p->n + 1);
@@ -36,23 +37,23 @@ status pages_append_page(struct pages *p, const struct source *s, int64_t width,
 
 /* Appends all pages of the PNG or TIFF file `path` to p. Returns REFUSED, with a message, if the file is neither or
  * malformed. */
-static status file_read(struct pages *p, const char *path)
+static status file_read(struct image_pages *p, const char *path)
 {
-    struct source s;
-    TRY(source_read_whole_file(&s, path));
+    struct geometry_file s;
+    TRY(geometry_file_read_whole(&s, path));
     const bool png = s.length > 4 && memcmp(s.text, "\x89PNG", 4) == 0;
     const bool tiff = s.length > 4 && (memcmp(s.text, "II", 2) == 0 || memcmp(s.text, "MM", 2) == 0);
     const status result =
         png    ? png_read_pages(p, &s)
         : tiff ? tiff_read_pages(p, &s)
                : status_set(REFUSED, "%s: the file is neither PNG nor TIFF; save it as one of them", path);
-    source_close(&s);
+    geometry_file_close(&s);
     return result;
 }
 
 /* Appends the pages of the files path[files] to p. dim: dimensions of the space. Returns REFUSED, with a message, for
  * an invalid file, and if there is more than one page in 2D. */
-static status files_read(struct pages *p, int files, char *const *path, int dim)
+static status files_read(struct image_pages *p, int files, char *const *path, int dim)
 {
     for (int k = 0; k < files; k++) TRY(file_read(p, path[k]));
     if (dim == 3 || p->n == 1) return OK;
@@ -61,7 +62,7 @@ static status files_read(struct pages *p, int files, char *const *path, int dim)
 }
 
 /* Reverses the order of rows in each page of p: the file has the top row first, and y must increase with the row. */
-static void rows_flip(struct pages *p)
+static void rows_flip(struct image_pages *p)
 {
     for (int64_t k = 0; k < p->n; k++)
         for (int64_t j = 0; j < p->height / 2; j++) {
@@ -77,7 +78,7 @@ static void rows_flip(struct pages *p)
 status image_read_voxels(struct voxels *v, int file_count, char *const *file_paths, int dim, const real *voxel_size,
                          const real *lower_corner)
 {
-    struct pages p = {0};
+    struct image_pages p = {0};
     const status result = files_read(&p, file_count, file_paths, dim);
     *v = (struct voxels){0};
     if (result != OK) {

@@ -11,7 +11,7 @@
  * ends before. png: state of libpng, which has the file. */
 static void bytes_next(png_structp png, png_bytep to, size_t n)
 {
-    struct source *s = png_get_io_ptr(png);
+    struct geometry_file *s = png_get_io_ptr(png);
     if ((int64_t)n > s->length - s->at) png_error(png, "it is cut off");
     memcpy(to, s->text + s->at, n);
     s->at += (int64_t)n;
@@ -44,13 +44,13 @@ static void make_grey(png_structp png, png_infop info)
 /* Reads the image png, info into a new page of p. s: the file. *rows, *bytes: working memory, which the caller frees,
  * also after a failure. Returns REFUSED, with a message, for an image of another size than the other pages, or of an
  * unsupported kind. */
-static status page_read(png_structp png, png_infop info, struct pages *p, const struct source *s,
+static status page_read(png_structp png, png_infop info, struct image_pages *p, const struct geometry_file *s,
                         png_bytep *volatile *rows, png_bytep volatile *bytes)
 {
     uint16_t *page;
     png_read_info(png, info);
     const int64_t width = png_get_image_width(png, info), height = png_get_image_height(png, info);
-    TRY(pages_append_page(p, s, width, height, &page));
+    TRY(image_pages_append_page(p, s, width, height, &page));
     make_grey(png, info);
     const int64_t row = (int64_t)png_get_rowbytes(png, info);
     const bool wide = png_get_bit_depth(png, info) == 16;
@@ -66,7 +66,7 @@ static status page_read(png_structp png, png_infop info, struct pages *p, const 
     return OK;
 }
 
-status png_read_pages(struct pages *p, struct source *s)
+status png_read_pages(struct image_pages *p, struct geometry_file *s)
 {
     char what[128] = "";
     png_bytep *volatile rows = NULL;

@@ -12,7 +12,7 @@
  * end of the file. */
 static tmsize_t tiff_take(thandle_t handle, void *to, tmsize_t n)
 {
-    struct source *s = handle;
+    struct geometry_file *s = handle;
     const int64_t rest = s->length - s->at, taken = n < rest ? n : rest;
     if (taken <= 0) return 0;
     array_copy(to, s->text + s->at, taken, 1);
@@ -31,7 +31,7 @@ static tmsize_t tiff_write(thandle_t handle, void *from, tmsize_t n)
  * (SEEK_SET, SEEK_CUR, SEEK_END). Returns the position, or -1 if it is outside the file. */
 static toff_t tiff_seek(thandle_t handle, toff_t offset, int whence)
 {
-    struct source *s = handle;
+    struct geometry_file *s = handle;
     const int64_t base = whence == SEEK_SET ? 0 : whence == SEEK_CUR ? s->at : s->length, to = base + (int64_t)offset;
     if (to < 0 || to > s->length) return (toff_t)-1;
     s->at = to;
@@ -42,7 +42,7 @@ static toff_t tiff_seek(thandle_t handle, toff_t offset, int whence)
 static int tiff_close(thandle_t handle) { return (void)handle, 0; }
 
 /* Callback of libtiff for the size of the file `handle` [byte]. */
-static toff_t tiff_size(thandle_t handle) { return (toff_t)((struct source *)handle)->length; }
+static toff_t tiff_size(thandle_t handle) { return (toff_t)((struct geometry_file *)handle)->length; }
 
 /* ---- pages ------------------------------------------------------------------------------------------------------- */
 
@@ -201,12 +201,12 @@ static bool colours_read(TIFF *tiff, uint16_t *page, int64_t width, int64_t heig
 
 /* Appends the current page of `tiff` to the pages p. s: the file. Returns REFUSED, with a message, if its samples are
  * not supported or it is malformed. */
-static status tiff_page(TIFF *tiff, struct pages *p, const struct source *s)
+static status tiff_page(TIFF *tiff, struct image_pages *p, const struct geometry_file *s)
 {
     const struct samples a = samples_of(tiff);
     uint16_t *page;
     TRY(check_samples(&a, s->path));
-    TRY(pages_append_page(p, s, a.width, a.height, &page));
+    TRY(image_pages_append_page(p, s, a.width, a.height, &page));
     const bool good = samples_used(&a) > 0 ? samples_read(tiff, page, &a) : colours_read(tiff, page, a.width, a.height);
     return good ? OK
                 : status_set(REFUSED,
@@ -215,7 +215,7 @@ static status tiff_page(TIFF *tiff, struct pages *p, const struct source *s)
                              s->path, (long long)p->n);
 }
 
-status tiff_read_pages(struct pages *p, struct source *s)
+status tiff_read_pages(struct image_pages *p, struct geometry_file *s)
 {
     TIFFSetErrorHandler(NULL), TIFFSetWarningHandler(NULL);
     TIFF *tiff = TIFFClientOpen(s->path, "rm", s, tiff_take, tiff_write, tiff_seek, tiff_close, tiff_size, NULL, NULL);

@@ -258,7 +258,7 @@ static void cracks_of_group(struct crack **crack, int *n, const struct sheet *s,
     memory_free(corner);
 }
 
-void geometry_append_slits_as_precracks(const struct hull *h, struct crack **crack, int *n)
+void geometry_append_mesh_slits_as_precracks(const struct hull *h, struct crack **crack, int *n)
 {
     if (h->open) return;
     struct sheets s = sheets_doubled(h);

@@ -12,10 +12,10 @@
 
 enum { FILE_SHARE = 8 }; /* a file may take up to an eighth of the memory, because its data need more */
 
-status source_read_whole_file(struct source *s, const char *path)
+status geometry_file_read_whole(struct geometry_file *s, const char *path)
 {
     FILE *file;
-    *s = (struct source){.path = path};
+    *s = (struct geometry_file){.path = path};
     TRY(input_file_open(&file, path, NULL));
     const bool sized = fseeko(file, 0, SEEK_END) == 0;
     const int64_t length = sized ? (int64_t)ftello(file) : -1, memory = machine_memory_size();
@@ -28,7 +28,7 @@ status source_read_whole_file(struct source *s, const char *path)
     }
     fclose(file);
     if (s->length == length && length > 0) return OK;
-    source_close(s);
+    geometry_file_close(s);
     if (!fits)
         return status_set(REFUSED,
                           "%s: its %.3g GB do not fit into the memory of this machine; use a smaller file or a machine "
@@ -37,13 +37,13 @@ status source_read_whole_file(struct source *s, const char *path)
     return status_set(REFUSED, length == 0 ? "%s: empty" : "%s: cannot be read", path);
 }
 
-void source_close(struct source *s)
+void geometry_file_close(struct geometry_file *s)
 {
     memory_free(s->text);
-    *s = (struct source){0};
+    *s = (struct geometry_file){0};
 }
 
-status source_report_fault(const struct source *s, const char *format, ...)
+status geometry_file_report_fault(const struct geometry_file *s, const char *format, ...)
 {
     char what[256];
     int64_t line = 1;
@@ -59,16 +59,16 @@ status source_report_fault(const struct source *s, const char *format, ...)
 
 static bool blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
-bool source_skip_blanks(struct source *s)
+bool geometry_file_skip_blanks(struct geometry_file *s)
 {
     while (s->at < s->length && blank(s->text[s->at])) s->at++;
     return s->at < s->length;
 }
 
-void source_read_word(struct source *s, char *word, size_t capacity)
+void geometry_file_read_word(struct geometry_file *s, char *word, size_t capacity)
 {
     size_t n = 0;
-    source_skip_blanks(s);
+    geometry_file_skip_blanks(s);
     for (; s->at < s->length && !blank(s->text[s->at]); s->at++)
         if (n + 1 < capacity) word[n++] = s->text[s->at];
     word[n] = '\0';
@@ -77,71 +77,73 @@ void source_read_word(struct source *s, char *word, size_t capacity)
 /* Parses the next word of the text file s as a number *value. what: name of the number, for messages. Returns REFUSED,
  * with a message, if it is no finite number. Words are limited to 63 characters, so that a long file without blanks is
  * refused at once. */
-static status text_real(struct source *s, const char *what, real *value)
+static status text_real(struct geometry_file *s, const char *what, real *value)
 {
     char word[64], *end;
-    if (!source_skip_blanks(s)) return source_report_fault(s, "ends where %s is expected", what);
+    if (!geometry_file_skip_blanks(s)) return geometry_file_report_fault(s, "ends where %s is expected", what);
     const int64_t from = s->at;
-    source_read_word(s, word, sizeof word);
+    geometry_file_read_word(s, word, sizeof word);
     *value = strtod(word, &end);
     if (end != word && *end == '\0' && isfinite(*value)) return OK;
     s->at = from;
-    return source_report_fault(s, "%.40s is not a %s; write a number", word, what);
+    return geometry_file_report_fault(s, "%.40s is not a %s; write a number", word, what);
 }
 
 /* Copies the next `size` bytes of the binary file s to `value`. what: name of the value, for messages. Returns REFUSED,
  * with a message, if the file ends before. */
-static status bytes_take(struct source *s, const char *what, void *value, int64_t size)
+static status bytes_take(struct geometry_file *s, const char *what, void *value, int64_t size)
 {
     if (s->length - s->at < size)
-        return source_report_fault(s, "the file ends where %s is expected, so it is cut off; write it again", what);
+        return geometry_file_report_fault(s, "the file ends where %s is expected, so it is cut off; write it again",
+                                          what);
     array_copy(value, s->text + s->at, size, 1);
     s->at += size;
     return OK;
 }
 
-status source_read_real(struct source *s, const char *quantity, real *value)
+status geometry_file_read_real(struct geometry_file *s, const char *quantity, real *value)
 {
     if (!s->binary) return text_real(s, quantity, value);
     TRY(bytes_take(s, quantity, value, sizeof *value));
-    return isfinite(*value) ? OK : source_report_fault(s, "%s is not finite", quantity);
+    return isfinite(*value) ? OK : geometry_file_report_fault(s, "%s is not finite", quantity);
 }
 
-status source_read_integer(struct source *s, const char *quantity, int64_t *value)
+status geometry_file_read_integer(struct geometry_file *s, const char *quantity, int64_t *value)
 {
     real number = 0;
     TRY(text_real(s, quantity, &number));
     if (number != floor(number) || fabs(number) > 9e15)
-        return source_report_fault(s, "%s is %.17g; write a whole number", quantity, number);
+        return geometry_file_report_fault(s, "%s is %.17g; write a whole number", quantity, number);
     *value = (int64_t)number;
     return OK;
 }
 
-status source_read_int32(struct source *s, const char *quantity, int64_t *value)
+status geometry_file_read_int32(struct geometry_file *s, const char *quantity, int64_t *value)
 {
     int32_t number = 0;
-    if (!s->binary) return source_read_integer(s, quantity, value);
+    if (!s->binary) return geometry_file_read_integer(s, quantity, value);
     TRY(bytes_take(s, quantity, &number, sizeof number));
     *value = number;
     return OK;
 }
 
-status source_read_int64(struct source *s, const char *quantity, int64_t *value)
+status geometry_file_read_int64(struct geometry_file *s, const char *quantity, int64_t *value)
 {
-    return s->binary ? bytes_take(s, quantity, value, sizeof *value) : source_read_integer(s, quantity, value);
+    return s->binary ? bytes_take(s, quantity, value, sizeof *value) : geometry_file_read_integer(s, quantity, value);
 }
 
-status source_check_count_fits_file(const struct source *s, const char *item_name, int64_t count,
-                                    int64_t bytes_per_item)
+status geometry_file_check_count_fits_size(const struct geometry_file *s, const char *item_name, int64_t count,
+                                           int64_t bytes_per_item)
 {
     if (count >= 0 && count <= (s->length - s->at) / bytes_per_item) return OK;
-    return source_report_fault(s,
-                               "the header gives %lld %s, more than the rest of the file can contain, so it is cut off "
-                               "or damaged; write it again",
-                               (long long)count, item_name);
+    return geometry_file_report_fault(
+        s,
+        "the header gives %lld %s, more than the rest of the file can contain, so it is cut off "
+        "or damaged; write it again",
+        (long long)count, item_name);
 }
 
-void source_skip_to_next_line(struct source *s)
+void geometry_file_skip_to_next_line(struct geometry_file *s)
 {
     const char *end = memchr(s->text + s->at, '\n', (size_t)(s->length - s->at));
     s->at = end ? end - s->text + 1 : s->length;

@@ -283,7 +283,7 @@ static real mass_against(const struct grid *g, int64_t I, const real *normal, re
     return held2 > 0.5 ? INFINITY : g->mass[I];
 }
 
-real grid_contact_apply_impulses_and_return_loss(struct grid_contact *c, const struct grid_contact_side *side)
+real grid_contact_apply_impulses_return_dissipation(struct grid_contact *c, const struct grid_contact_side *side)
 {
     real lost = 0;
     c->touching = 0, c->begun = 0;
@@ -320,7 +320,7 @@ real grid_contact_apply_impulses_and_return_loss(struct grid_contact *c, const s
     return lost;
 }
 
-real grid_contact_energy_lost_by_second_mapping(struct grid_contact *c, const struct grid_contact_side *side)
+real grid_contact_add_second_mapping_dissipation(struct grid_contact *c, const struct grid_contact_side *side)
 {
     real lost = 0;
     for (int64_t k = 0; k < c->nodes; k++) {

@@ -57,7 +57,7 @@ void grid_coupled_clear_particles_moved_by_grid(struct grid_coupled *c, struct p
 void grid_coupled_select_particles_moved_by_grid(struct grid_coupled *c, enum coupling coupling, struct particles *p,
                                                  const struct grid *g)
 {
-    const bool unified = coupling_has_one_grid(coupling);
+    const bool unified = coupling_moves_all_particles_by_one_grid(coupling);
     int64_t k[DIM_MAX] = {0};
     GROW("grid_coupled.list", c->list, p->n);
     c->n = 0;

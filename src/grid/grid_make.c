@@ -33,7 +33,7 @@ void grid_choose_reference_node_position(const struct scene *s, const real *body
     }
 }
 
-int joined_bodies_first_body_of_group(const struct scene *s, int k)
+int scene_first_body_of_joined_group(const struct scene *s, int k)
 {
     for (int b = 0; b < s->bodies; b++)
         if (s->body[b].joined == b && k-- == 0) return b;
@@ -46,13 +46,13 @@ int joined_bodies_first_body_of_group(const struct scene *s, int k)
 static void make_fields(const struct scene *s, struct grid_method *grid)
 {
     const bool meet = !scene_is_single_equilibrium(s) && s->method != METHOD_PD && s->contact_between != CONTACT_NONE &&
-                      !coupling_moves_by_grid(s->coupling);
+                      !coupling_moves_pd_particles_by_grid(s->coupling);
     grid->fields = 1;
-    while (meet && joined_bodies_first_body_of_group(s, grid->fields) >= 0) grid->fields++;
+    while (meet && scene_first_body_of_joined_group(s, grid->fields) >= 0) grid->fields++;
     grid->field = NEW("engine.fields", grid->fields, struct grid_field);
 }
 
-real grid_shape_reach_beyond_cell(const struct scene *s)
+real grid_shape_function_reach_beyond_cell(const struct scene *s)
 {
     const real cell = s->cell * s->spacing;
     return s->shape == SHAPE_LINEAR      ? 0
@@ -82,7 +82,7 @@ void background_grids_make(struct grid_method *mpm, const struct scene *s, const
         site[d] = p->X[d][0];
     }
     grid_choose_reference_node_position(s, from, site, nodes_midway_between_particles, g->anchor);
-    real section = scene_section_or_thickness(s), lightest = INFINITY;
+    real section = scene_cross_section_or_thickness(s), lightest = INFINITY;
     for (int m = 0; m < s->materials; m++) lightest = real_min(lightest, s->material[m].density);
     const real light = !scene_is_single_equilibrium(s) ? GRID_MASS_LIGHT : GRID_MASS_STATIC;
     const real full = lightest * pow(g->h, s->dim) * section;
@@ -90,12 +90,12 @@ void background_grids_make(struct grid_method *mpm, const struct scene *s, const
     g->light_mass = s->transfer == TRANSFER_APIC ? light * full : 0;
     for (int k = 0; k < mpm->fields && mpm->fields > 1; k++) {
         mpm->field[k].grid = *g;
-        mpm->field[k].grid.body = 1 + joined_bodies_first_body_of_group(s, k);
+        mpm->field[k].grid.body = 1 + scene_first_body_of_joined_group(s, k);
     }
     grid_contact_free(&mpm->contact);
     mpm->contact = (struct grid_contact){.friction = s->contact_friction,
                                          .spacing = s->spacing,
-                                         .half_width = grid_shape_reach_beyond_cell(s),
+                                         .half_width = grid_shape_function_reach_beyond_cell(s),
                                          .smallest_mass = GRID_MASS_CONTACT * full,
                                          .began = NAN,
                                          .ended = NAN};

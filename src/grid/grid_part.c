@@ -6,7 +6,7 @@
 static void grid_free_all(struct run *e)
 {
     struct grid_method *g = e->grid;
-    active_points_free(&g->active), rotation_groups_free(&g->turning), grid_coupled_free(&g->coupled);
+    active_points_free(&g->active), corotating_groups_free(&g->turning), grid_coupled_free(&g->coupled);
     for (int k = 0; k < g->fields; k++) {
         struct grid_field *f = &g->field[k];
         grid_free(&f->grid), transfer_order_free(&f->order);

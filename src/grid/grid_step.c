@@ -42,7 +42,7 @@ static status field_sort(struct grid_field *f, const struct particles *p, enum c
     for (int k = 0; k < KINDS; k++)
         if (k == KIND_MPM)
             bounds_widen(p, list, n, from, to);
-        else if (coupling_has_one_grid(coupling))
+        else if (coupling_moves_all_particles_by_one_grid(coupling))
             bounds_widen(p, p->list[k], p->n_of[k], from, to);
     for (int d = 0; d < p->dim && (n > 0 || !f->list); d++)
         if (!isfinite(to[d] - from[d])) {
@@ -81,7 +81,7 @@ static status field_sort_left(struct grid_field *f, const struct particles *p, e
 static status points_sort(struct grid_method *mpm, const struct particles *p, enum coupling coupling, bool *lost)
 {
     const bool few = mpm->sort_needed == SORT_LEFT && mpm->transfer.order == &mpm->field[0].order &&
-                     !coupling_has_one_grid(coupling);
+                     !coupling_moves_all_particles_by_one_grid(coupling);
     if (mpm->sort_needed == SORT_NONE) return OK;
     for (int k = 0; k < mpm->fields; k++)
         TRY(few ? field_sort_left(&mpm->field[k], p, coupling, lost) : field_sort(&mpm->field[k], p, coupling, lost));
@@ -97,7 +97,7 @@ static void update_active_points(struct run *e)
 {
     const struct grid_method *mpm = e->grid;
     if (!e->scene->active_set || mpm->active.over || mpm->fields > 1 || mpm->turning.groups > 0 ||
-        coupling_moves_by_grid(e->coupling_kind) || !scene_is_dynamic(e->scene))
+        coupling_moves_pd_particles_by_grid(e->coupling_kind) || !scene_is_dynamic(e->scene))
         return;
     e->grid->transfer.order = active_points_update_transfer_order(
         &e->grid->active, &e->grid->field[0].order, e->grid->transfer.order, &e->part, &e->grid->field[0].grid,
@@ -107,13 +107,13 @@ static void update_active_points(struct run *e)
 status grid_sort_points_into_cells(struct run *e, bool *position_not_finite)
 {
     *position_not_finite = false;
-    if (e->part.n_free == 0 && !coupling_has_one_grid(e->coupling_kind)) {
+    if (e->part.n_free == 0 && !coupling_moves_all_particles_by_one_grid(e->coupling_kind)) {
         grid_coupled_clear_particles_moved_by_grid(&e->grid->coupled, &e->part);
         return OK;
     }
     if (!e->grid->sort_needed && e->clock.step % ACTIVE_POINTS_STEPS == 0) update_active_points(e);
     TRY(points_sort(e->grid, &e->part, e->coupling_kind, position_not_finite));
-    if (coupling_moves_by_grid(e->coupling_kind))
+    if (coupling_moves_pd_particles_by_grid(e->coupling_kind))
         grid_coupled_select_particles_moved_by_grid(&e->grid->coupled, e->coupling_kind, &e->part,
                                                     &e->grid->field[0].grid);
     return OK;
@@ -146,7 +146,7 @@ static bool grid_holds(const struct particles *part) { return part->n_free + par
 static void grid_receive(struct grid_method *mpm, struct particles *p, const struct kernels *kernels)
 {
     const struct transfer_data grid_coupled = grid_coupled_data(mpm);
-    if (mpm->turning.groups > 0) rotation_groups_compute_spins(&mpm->turning, p, mpm->spacing);
+    if (mpm->turning.groups > 0) corotating_groups_compute_spins(&mpm->turning, p, mpm->spacing);
     for (int k = 0; k < mpm->fields; k++) {
         const struct transfer_data own = field_data(mpm, k);
         grid_clear(&mpm->field[k].grid);
@@ -181,7 +181,7 @@ static void grids_move(struct run *e, const struct grid_contact_side *side, real
                                         middle, e->clock.dt);
         grid_advance(&f->grid, transfer, dt, mpm->smallest_mass);
     }
-    if (side) e->damped += grid_contact_apply_impulses_and_return_loss(&mpm->contact, side);
+    if (side) e->damped += grid_contact_apply_impulses_return_dissipation(&mpm->contact, side);
     for (int k = 0; k < mpm->fields; k++)
         grid_constrain(&mpm->field[k].grid, transfer, mpm->smallest_mass, e->loads.impulse, &e->loads.constraint_work);
 }
@@ -201,7 +201,7 @@ static void grids_move(struct run *e, const struct grid_contact_side *side, real
  * shape functions, whose slopes jump between cells, and cubic ones, whose weights would reach one more node; and if it
  * is below AHEAD_LEAST or above AHEAD_MOST. If it is not 0, sets the nodal masses to 0, since the second map adds those
  * of the displaced points. */
-static void field_set_flight(struct grid_field *f, const struct rotation_groups *t, enum shape shape, real dt)
+static void field_set_flight(struct grid_field *f, const struct corotating_groups *t, enum shape shape, real dt)
 {
     struct grid *g = &f->grid;
     real mass = 0, momentum[DIM_MAX] = {0}, far = 0;
@@ -235,7 +235,7 @@ static void grids_remap(struct run *e, const struct grid_contact_side *side)
         else
             e->kernels.turn_gather(&e->grid->field[k].grid, &e->part, &own);
     }
-    if (e->grid->turning.groups > 0) rotation_groups_restore_angular_momentum(&e->grid->turning, &e->part);
+    if (e->grid->turning.groups > 0) corotating_groups_restore_angular_momentum(&e->grid->turning, &e->part);
     for (int k = 0; k < e->grid->fields && e->grid->turning.groups > 0; k++) {
         const struct transfer_data own = field_data(e->grid, k);
         field_set_flight(&e->grid->field[k], &e->grid->turning, e->scene->shape, e->clock.dt);
@@ -244,7 +244,7 @@ static void grids_remap(struct run *e, const struct grid_contact_side *side)
     if (e->part.n_grid_coupled > 0) e->kernels.remap(&e->grid->field[0].grid, &e->part, &grid_coupled);
     timer_add_elapsed_to_section(&e->timers, TIMER_SCATTER);
     for (int k = 0; k < e->grid->fields; k++) grid_remapped(&e->grid->field[k].grid, e->grid->smallest_mass);
-    if (side) e->damped += grid_contact_energy_lost_by_second_mapping(&e->grid->contact, side);
+    if (side) e->damped += grid_contact_add_second_mapping_dissipation(&e->grid->contact, side);
     timer_add_elapsed_to_section(&e->timers, TIMER_GRID);
 }
 
@@ -310,7 +310,7 @@ status grid_advance_material_points_one_step(struct run *e, real t_middle)
 /* Returns the power of the forces on the grids of run e at the start of a step [W]: the sum of P . f/m over the nodes
  * before they move, with the nodal momentum P, nodal mass m, and f the change of momentum per time by forces, contact
  * and walls. t_middle: time in the middle of the step [s]. Returns 0 if no particle is on a grid. */
-real grid_power_of_forces(struct run *e, real t_middle)
+real grid_power_of_forces_on_material_points(struct run *e, real t_middle)
 {
     real power = 0;
     bool lost;

@@ -24,11 +24,11 @@ static void mark_held(const struct loads *loads, const struct particles *p, cons
     }
 }
 
-void grid_rotation_groups_make(struct grid_method *mpm, const struct particles *p, const struct loads *loads,
-                               const struct scene *s, enum coupling coupling)
+void corotating_groups_make_for_flip_transfer(struct grid_method *mpm, const struct particles *p,
+                                              const struct loads *loads, const struct scene *s, enum coupling coupling)
 {
     if (p->dim < 2 || s->transfer != TRANSFER_FLIP || !scene_is_dynamic(s) || s->method == METHOD_PD ||
-        coupling_moves_by_grid(coupling) || coupling_has_one_grid(coupling))
+        coupling_moves_pd_particles_by_grid(coupling) || coupling_moves_all_particles_by_one_grid(coupling))
         return;
     bool *held = NEW("engine.held", s->bodies, bool), all = true;
     int *one = NEW("engine.one", s->bodies, int);
@@ -38,7 +38,7 @@ void grid_rotation_groups_make(struct grid_method *mpm, const struct particles *
     for (int b = 0; b < s->boundaries; b++)
         if (s->boundary[b].kind == BOUNDARY_MIRROR) plane[s->boundary[b].axis] = s->boundary[b].at;
     for (int b = 0; b < s->bodies; b++) all &= held[one[b]];
-    if (!all) rotation_groups_make(&mpm->turning, p, s->spacing, plane, one, held, s->bodies);
+    if (!all) corotating_groups_make(&mpm->turning, p, s->spacing, plane, one, held, s->bodies);
     for (int c = 0; c < 3; c++) mpm->transfer.turn[c] = mpm->turning.turn[c];
     /* with the second map the hand-shake coupling gains 1e-7 of its energy a step */
     mpm->transfer.second_map = mpm->turning.groups > 0 && coupling != COUPLING_HANDSHAKE;

@@ -26,7 +26,7 @@ static bool active_set_is_inactive(const struct bonds *b, const struct particles
 {
     for (int64_t row = row_block * LANES; row < b->rows && row < (row_block + 1) * LANES; row++) {
         const int32_t i = b->particle[row];
-        if (particle_is_loaded(l, i) || particle_moves_with_nodes(p, i)) return false;
+        if (particle_is_loaded(l, i) || particle_is_moved_by_grid_or_mesh_nodes(p, i)) return false;
         for (int d = 0; d < p->dim; d++)
             if (!reals_are_bitwise_equal(p->v[d][i], 0) || p->f[d][i] != 0) return false;
     }
@@ -41,7 +41,7 @@ static int64_t row_block_of(const struct bonds *b, const struct particles *p, co
                             const struct column_copy *column, int lane)
 {
     if (column->inverse_length[lane] == 0) return -1;
-    const int32_t row = b->row_of[image_source_particle(p, l->image, column->nbr[lane])];
+    const int32_t row = b->row_of[mirror_image_source_particle(p, l->image, column->nbr[lane])];
     return row < 0 ? -1 : row / LANES;
 }
 
@@ -54,7 +54,7 @@ static void row_block_activate(struct bonds *b, const struct particles *p, const
 {
     if (b->active.level[row_block] >= level) return;
     b->active.level[row_block] = (uint8_t)level;
-    for (int64_t k = 0; k < bond_row_block_column_count(b, row_block) && level > 1; k++) {
+    for (int64_t k = 0; k < bond_row_block_bond_slots_per_particle(b, row_block) && level > 1; k++) {
         struct column_copy column;
         bond_column_read_eight_bonds(&column, b, row_block, k);
         for (int lane = 0; lane < LANES; lane++) {
@@ -70,7 +70,7 @@ static void row_block_activate(struct bonds *b, const struct particles *p, const
 static bool is_next_to(const struct bonds *b, const struct particles *p, const struct loads *l, int64_t row_block,
                        int level)
 {
-    for (int64_t k = 0; k < bond_row_block_column_count(b, row_block); k++) {
+    for (int64_t k = 0; k < bond_row_block_bond_slots_per_particle(b, row_block); k++) {
         struct column_copy column;
         bond_column_read_eight_bonds(&column, b, row_block, k);
         for (int lane = 0; lane < LANES; lane++) {
@@ -125,7 +125,7 @@ static void active_set_follow(struct bonds *b, const struct particles *p, const 
     r->resumed = false;
 }
 
-void active_rows_update_after_step(struct bonds *b, const struct particles *p, const struct loads *l)
+void active_bond_rows_update_after_step(struct bonds *b, const struct particles *p, const struct loads *l)
 {
     if (b->active.is_current) {
         active_set_follow(b, p, l);
@@ -135,8 +135,8 @@ void active_rows_update_after_step(struct bonds *b, const struct particles *p, c
     active_set_rebuild_active_block_list(&b->active);
 }
 
-void active_rows_activate_rows_of_particles(struct bonds *b, const struct particles *p, const struct loads *l,
-                                            const int32_t *particle_list, int64_t particle_count)
+void active_bond_rows_activate_rows_of_particles(struct bonds *b, const struct particles *p, const struct loads *l,
+                                                 const int32_t *particle_list, int64_t particle_count)
 {
     bool any = false;
     if (!b->active.is_current) return;

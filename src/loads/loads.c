@@ -18,7 +18,7 @@ static void loads_list(struct loads *l, const struct particles *p)
 {
     int64_t most = 0;
     for (int b = 0; b < l->n; b++)
-        most += l->load[b].n + (boundary_is_clamped_mirror(l->load[b].boundary, p->dim) ? p->n : 0);
+        most += l->load[b].n + (boundary_is_mirror_without_tangential_motion(l->load[b].boundary, p->dim) ? p->n : 0);
     if (most == 0) return;
     l->loaded = NEW("loads.loaded", p->n + LANES, uint8_t);
     for (int b = 0; b < l->n; b++)
@@ -29,10 +29,10 @@ static void loads_list(struct loads *l, const struct particles *p)
         if (l->loaded[i]) l->list[l->listed++] = (int32_t)i;
 }
 
-uint8_t boundary_prescribed_components(const struct boundary *b, int dim)
+uint8_t boundary_prescribed_component_mask(const struct boundary *b, int dim)
 {
     if (b->kind == BOUNDARY_VELOCITY) return b->components;
-    if (boundary_is_clamped_mirror(b, dim)) return (uint8_t)((1 << dim) - 1);
+    if (boundary_is_mirror_without_tangential_motion(b, dim)) return (uint8_t)((1 << dim) - 1);
     return b->kind == BOUNDARY_MIRROR ? (uint8_t)(1 << b->axis) : 0;
 }
 
@@ -44,7 +44,7 @@ static void loads_divide_components(struct loads *l, int64_t particles, int dim)
     uint8_t *taken = NEW("loads.taken", particles, uint8_t);
     for (int b = l->n; b-- > 0;) {
         struct load *load = &l->load[b];
-        const uint8_t components = boundary_prescribed_components(load->boundary, dim);
+        const uint8_t components = boundary_prescribed_component_mask(load->boundary, dim);
         if (components == 0 || load->n == 0) continue;
         load->prescribes = NEW("loads.prescribes", load->n, uint8_t);
         for (int64_t k = 0; k < load->n; k++) {
@@ -65,15 +65,16 @@ status loads_make(struct loads *l, const struct boundary *boundary, int boundari
     l->spacing = spacing;
     l->load = NEW("loads.load", boundaries, struct load);
     for (int b = 0; b < boundaries; b++)
-        TRY(status_prepend_location(boundary[b].place,
-                                    load_find_particles_of_boundary(&l->load[b], &boundary[b], p, spacing)));
+        TRY(status_message_prepend_location(boundary[b].place,
+                                            load_find_particles_of_boundary(&l->load[b], &boundary[b], p, spacing)));
     loads_divide_components(l, p->n, p->dim);
     for (int b = 0; b < boundaries; b++)
-        TRY(status_prepend_location(boundary[b].place,
-                                    load_find_pressure_faces(&l->load[b], boundary, boundaries, b, p, spacing)));
+        TRY(status_message_prepend_location(
+            boundary[b].place, load_find_pressure_faces(&l->load[b], boundary, boundaries, b, p, spacing)));
     for (int b = 0; b < boundaries; b++)
-        TRY(status_prepend_location(boundary[b].place, load_prepare_varying_particle_shares(&l->load[b], p)));
-    TRY(absorbing_boundaries_check(l, p));
+        TRY(status_message_prepend_location(boundary[b].place,
+                                            load_prepare_time_varying_particle_factors(&l->load[b], p)));
+    TRY(absorbing_boundaries_check_for_overlap(l, p));
     loads_merge_equal_particle_lists(l, p->dim);
     TRY(loads_make_mirror_images(l, p, mirror_reach, optional_arrays));
     loads_list(l, p);
@@ -83,7 +84,7 @@ status loads_make(struct loads *l, const struct boundary *boundary, int boundari
 /* Replaces the particles of p on which contact acts (mark TOUCHES in l->loaded) by the indices list[n], in ascending
  * order, copied. Rebuilds l->list, all marked particles in ascending order; particles that have no mark left are
  * removed from it. */
-void loads_set_contact_particles(struct loads *l, const struct particles *p, const int32_t *list, int64_t n)
+void loads_set_particles_with_contact_forces(struct loads *l, const struct particles *p, const int32_t *list, int64_t n)
 {
     if (!l->loaded && n == 0) return;
     if (!l->loaded) l->loaded = NEW("loads.loaded", p->n + LANES, uint8_t);
@@ -104,10 +105,10 @@ void loads_set_contact_particles(struct loads *l, const struct particles *p, con
 
 void loads_free(struct loads *l)
 {
-    loads_shares_free(l);
+    loads_particle_factors_free(l);
     absorbing_dashpots_free(l);
     for (int b = 0; b < l->n; b++) {
-        load_varying_shares_free(&l->load[b]);
+        load_time_varying_particle_factors_free(&l->load[b]);
         memory_free(l->load[b].particle);
         memory_free(l->load[b].prescribes);
     }
@@ -136,7 +137,7 @@ static void drive(struct loads *l, struct load *load, struct particles *p, const
     for (int64_t k = 0; k < load->n; k++) {
         int32_t i = load->particle[k];
         real X[DIM_MAX];
-        if (particle_moves_with_nodes(p, i)) continue;
+        if (particle_is_moved_by_grid_or_mesh_nodes(p, i)) continue;
         particle_reference_position(p, i, X);
         for (int d = 0; d < p->dim; d++) {
             if (!(load->prescribes[k] >> d & 1)) continue;
@@ -213,7 +214,7 @@ static void displacement_update(struct load *load, const struct particles *p, co
     }
 }
 
-void loads_apply_to_particle_forces(struct loads *l, struct particles *p, real t, real dt, real dt_velocity)
+void loads_apply_forces_and_motion_constraints(struct loads *l, struct particles *p, real t, real dt, real dt_velocity)
 {
     if (l->images > 0) mirror_impulse(l, p, dt_velocity);
     for (int c = 0; c < l->n; c++) {
@@ -243,7 +244,8 @@ static void velocities_set(struct loads *l, const struct load *load, struct part
     for (int64_t k = 0; k < load->n; k++) {
         int32_t i = load->particle[k];
         real X[DIM_MAX];
-        if (!particle_moves_with_nodes(p, i) || p->flag[i] & FLAG_MESHED) continue; /* the mesh constrains nodes */
+        if (!particle_is_moved_by_grid_or_mesh_nodes(p, i) || p->flag[i] & FLAG_MESHED)
+            continue; /* the mesh constrains nodes */
         particle_reference_position(p, i, X);
         for (int d = 0; d < p->dim; d++) {
             if (!(load->prescribes[k] >> d & 1)) continue;
@@ -271,7 +273,7 @@ static bool positions_set(const struct load *load, struct particles *p, const st
     bool moved = false;
     for (int64_t k = 0; k < load->n; k++) {
         const int32_t i = load->particle[k];
-        const bool on_grid = particle_moves_with_nodes(p, i);
+        const bool on_grid = particle_is_moved_by_grid_or_mesh_nodes(p, i);
         real X[DIM_MAX];
         if (on_grid && p->flag[i] & FLAG_MESHED) continue;
         particle_reference_position(p, i, X);
@@ -289,7 +291,7 @@ static bool positions_set(const struct load *load, struct particles *p, const st
 void loads_add_grid_reactions(struct loads *l, const struct grid *g, real dt_velocity)
 {
     const real inverse = 1 / dt_velocity;
-    loads_add_absorbed_energy(l, &g->absorbed);
+    loads_add_absorbed_energy_and_impulse(l, &g->absorbed);
     for (int64_t q = 0; q < g->walls;) { /* walls of one load and component are consecutive */
         const struct wall first = g->wall[q];
         real sum = 0;

@@ -47,7 +47,7 @@ static status absorbing_mirrors_check(const struct loads *l, const struct partic
         for (int m = 0; m < l->n; m++) {
             const struct boundary *one = l->load[b].boundary, *mirror = l->load[m].boundary;
             if (!is_absorbing(&l->load[b]) || !absorbs_in_mirror(&l->load[b], &l->load[m], p, l->spacing)) continue;
-            return status_prepend_location(
+            return status_message_prepend_location(
                 one->place, status_set(REFUSED,
                                        "boundary %s: mirror %s is a plane of symmetry at this face, so the whole body "
                                        "has no surface here; choose a face that no mirror touches",
@@ -56,7 +56,7 @@ static status absorbing_mirrors_check(const struct loads *l, const struct partic
     return OK;
 }
 
-status absorbing_boundaries_check(const struct loads *l, const struct particles *p)
+status absorbing_boundaries_check_for_overlap(const struct loads *l, const struct particles *p)
 {
     TRY(absorbing_mirrors_check(l, p));
     for (int b = 0; b < l->n; b++)
@@ -64,11 +64,11 @@ status absorbing_boundaries_check(const struct loads *l, const struct particles 
             const struct boundary *one = l->load[a].boundary, *other = l->load[b].boundary;
             const bool both = is_absorbing(&l->load[a]) && is_absorbing(&l->load[b]);
             if (!both || !absorb_same(&l->load[a], &l->load[b])) continue;
-            return status_prepend_location(other->place,
-                                           status_set(REFUSED,
-                                                      "boundary %s: boundary %s already absorbs at this face; give "
-                                                      "each part of a face in one boundary only",
-                                                      other->name, one->name));
+            return status_message_prepend_location(
+                other->place, status_set(REFUSED,
+                                         "boundary %s: boundary %s already absorbs at this face; give "
+                                         "each part of a face in one boundary only",
+                                         other->name, one->name));
         }
     return OK;
 }
@@ -168,23 +168,23 @@ void absorbing_dashpots_free(struct loads *l)
 void loads_add_dashpot_forces(struct loads *l, struct particles *p, real dt_velocity)
 {
     struct absorbing *a = &l->absorbing;
-    struct absorbed sum = {0};
+    struct dashpot_effect sum = {0};
     a->kick = 0;
     if (a->idle) return;
     for (int64_t k = 0; k < a->n; k++) {
         const int32_t i = a->particle[k];
-        if (particle_moves_with_nodes(p, i)) continue;
+        if (particle_is_moved_by_grid_or_mesh_nodes(p, i)) continue;
         for (int d = 0; d < p->dim; d++) {
             const real rate = a->rate[MOVED_BY_BONDS][d][k], change = dt_velocity * p->f[d][i] / p->mass[i];
             if (rate == 0) continue;
-            p->f[d][i] +=
-                dashpot_add_impulse(&sum, d, dt_velocity * rate, p->mass[i], p->v[d][i], change) / dt_velocity;
+            p->f[d][i] += dashpot_compute_and_add_impulse(&sum, d, dt_velocity * rate, p->mass[i], p->v[d][i], change) /
+                          dt_velocity;
         }
     }
-    loads_add_absorbed_energy(l, &sum);
+    loads_add_absorbed_energy_and_impulse(l, &sum);
 }
 
-void loads_add_absorbed_energy(struct loads *l, const struct absorbed *absorbed)
+void loads_add_absorbed_energy_and_impulse(struct loads *l, const struct dashpot_effect *absorbed)
 {
     l->absorbing.energy += absorbed->energy;
     l->absorbing.kick += absorbed->kick;
@@ -259,7 +259,8 @@ void loads_add_grid_dashpots(struct loads *l, struct grid *g, const struct parti
     real *value = NEW("loads.value", a->n * p->dim, real);
     for (int64_t q = 0; q < a->n; q++) {
         const int32_t i = a->particle[q];
-        if (!particle_moves_with_nodes(p, i) || p->flag[i] & FLAG_MESHED || (g->body > 0 && g->body != p->body[i] + 1))
+        if (!particle_is_moved_by_grid_or_mesh_nodes(p, i) || p->flag[i] & FLAG_MESHED ||
+            (g->body > 0 && g->body != p->body[i] + 1))
             continue;
         for (int d = 0; d < p->dim; d++) value[d * a->n + n] = a->rate[MOVED_BY_GRID][d][q];
         list[n++] = i;

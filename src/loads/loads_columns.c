@@ -367,8 +367,8 @@ static bool faced_next(struct faced *f, const struct boundary *b, const struct p
     return true;
 }
 
-void face_visit_surface_particles(const struct boundary *b, const struct particles *p, const uint8_t *selected,
-                                  real spacing, face_particle_fn *visit, void *context)
+void boundary_face_visit_surface_particles(const struct boundary *b, const struct particles *p, const uint8_t *selected,
+                                           real spacing, face_particle_fn *visit, void *context)
 {
     for (struct faced f = {0}; faced_next(&f, b, p, selected, spacing);) {
         const struct columns *c = &f.columns;
@@ -380,17 +380,17 @@ void face_visit_surface_particles(const struct boundary *b, const struct particl
     }
 }
 
-void exposed_face_compute_areas(struct exposed_face *f, const struct boundary *b, const struct particles *p,
-                                const uint8_t *selected, real spacing, bool extrapolate)
+void exposed_face_compute_particle_areas(struct exposed_face *f, const struct boundary *b, const struct particles *p,
+                                         const uint8_t *selected, real spacing, bool extrapolate_traction)
 {
     *f = (struct exposed_face){NEW("loads.normal", p->n, real), NEW("loads.along", p->n, real)};
     for (struct faced of = {0}; faced_next(&of, b, p, selected, spacing);)
         for (int64_t k = 0; k < of.columns.n; k++)
-            face_add(f, &of.columns, k, b, p, selected, column_area(&of.columns, b, p->dim), extrapolate);
+            face_add(f, &of.columns, k, b, p, selected, column_area(&of.columns, b, p->dim), extrapolate_traction);
 }
 
-void face_mark_particles_in_layer(const struct boundary *b, const struct particles *p, const uint8_t *selected,
-                                  real spacing, uint8_t *in_layer)
+void boundary_face_mark_particles_in_layer(const struct boundary *b, const struct particles *p, const uint8_t *selected,
+                                           real spacing, uint8_t *in_layer)
 {
     for (struct faced f = {0}; faced_next(&f, b, p, selected, spacing);) {
         const struct columns *c = &f.columns;

@@ -27,7 +27,7 @@ static void rotation_matrix(const struct boundary *b, int dim, real angle, real 
  * prescribed_displacement_at: evaluates the function of time and the rotation once. dim: dimension of the body. */
 struct prescribed_displacement prescribed_displacement_make(const struct boundary *b, int dim, real t)
 {
-    struct prescribed_displacement s = {.boundary = b, .dim = dim, .t = boundary_evaluation_time(b, t)};
+    struct prescribed_displacement s = {.boundary = b, .dim = dim, .t = boundary_formula_time_frozen_or_clamped(b, t)};
     s.factor = b->displaces ? time_function_value(&b->time, t) : time_function_integral(&b->time, t);
     if (b->rotates) rotation_matrix(b, dim, b->rate * s.factor, s.turned);
     return s;
@@ -56,7 +56,7 @@ void load_displacement_of_particle(const struct load *l, const struct particles 
         displacement[d] = l->boundary->components >> d & 1 ? prescribed_displacement_at(&by, X, d) : 0;
 }
 
-status boundary_check_displacement_known(const struct boundary *b)
+status boundary_check_displacement_has_closed_form(const struct boundary *b)
 {
     if (b->kind != BOUNDARY_VELOCITY || b->displaces || b->frozen || !boundary_formula_uses_time(b)) return OK;
     return status_set(
@@ -110,7 +110,7 @@ real prescribed_velocity_at(const struct prescribed_motion *motion, const real *
     if (!b->rotates)
         return motion->factor * b->value[component] *
                (b->formula[component].n > 0 ? expression_evaluate(&b->formula[component], X, motion->dim,
-                                                                  boundary_evaluation_time(b, motion->t))
+                                                                  boundary_formula_time_frozen_or_clamped(b, motion->t))
                                             : 1);
     for (int k = 0; k < motion->dim; k++) arm[k] = X[k] - b->centre[k];
     if (at_present_position) return rotation_increment(motion, arm, component) / motion->dt;
@@ -140,7 +140,7 @@ static real formula_speed(const struct load *l, const struct particles *p, int64
     return most;
 }
 
-real load_largest_displacement_speed(const struct load *l, const struct particles *p, real t_end)
+real load_largest_speed_of_prescribed_displacement(const struct load *l, const struct particles *p, real t_end)
 {
     const struct boundary *b = l->boundary;
     const bool formula = b->formula[0].n + b->formula[1].n + b->formula[2].n > 0;
@@ -170,7 +170,7 @@ static real velocity_jump_at(const struct load *l, const struct particles *p, in
     return l->boundary->rotates ? fabs(sqrt(driven2) - sqrt(own2)) : sqrt(jump2);
 }
 
-real load_largest_jump_from_initial_velocity(const struct load *l, const struct particles *p, real t_end)
+real load_largest_prescribed_minus_initial_velocity(const struct load *l, const struct particles *p, real t_end)
 {
     const struct boundary *b = l->boundary;
     real most = 0;
@@ -184,10 +184,10 @@ real load_largest_jump_from_initial_velocity(const struct load *l, const struct 
     return most;
 }
 
-real load_largest_driven_speed(const struct load *l, const struct particles *p, real t_end)
+real load_largest_prescribed_speed(const struct load *l, const struct particles *p, real t_end)
 {
-    return l->boundary->displaces ? load_largest_displacement_speed(l, p, t_end)
-                                  : load_largest_jump_from_initial_velocity(l, p, t_end);
+    return l->boundary->displaces ? load_largest_speed_of_prescribed_displacement(l, p, t_end)
+                                  : load_largest_prescribed_minus_initial_velocity(l, p, t_end);
 }
 
 enum { LAGS = 9 }; /* number of time spans, each 0.6 of the previous one, so that no period is missed */
@@ -211,7 +211,8 @@ static real velocity_change_at(const struct load *l, const struct particles *p, 
     return l->boundary->rotates ? fabs(sqrt(now2) - sqrt(then2)) : sqrt(change2);
 }
 
-real load_largest_velocity_change(const struct load *l, const struct particles *p, real t_end, real time_span)
+real load_largest_prescribed_velocity_change(const struct load *l, const struct particles *p, real t_end,
+                                             real time_span)
 {
     const struct boundary *b = l->boundary;
     const real step = t_end / (MOMENTS - 1), dt = 0.02 * real_max(time_span, step);
@@ -231,8 +232,8 @@ real load_largest_velocity_change(const struct load *l, const struct particles *
     return most;
 }
 
-real loads_largest_velocity_difference(const struct load *load, const struct load *other_load,
-                                       const struct particles *p, real t_end)
+real loads_largest_prescribed_velocity_difference(const struct load *load, const struct load *other_load,
+                                                  const struct particles *p, real t_end)
 {
     const unsigned both = load->boundary->components & other_load->boundary->components;
     real most = 0;

@@ -130,19 +130,19 @@ static status mirrors_differ(const struct boundary *b, int n, real spacing)
     int m;
     const int k = close_mirrors(b, n, 1e-6 * spacing, &m);
     if (k < 0) return OK;
-    return status_prepend_location(
+    return status_message_prepend_location(
         b[k].place,
         status_set(REFUSED, "boundary %s: its mirror plane is also that of boundary %s; remove one of the two",
                    b[k].name, b[m].name));
 }
 
-status loads_check_bonds_between_mirrors(const struct loads *l, real bond_length)
+status loads_check_distance_between_mirrors(const struct loads *l, real bond_length)
 {
     const struct boundary *b = l->n ? l->load[0].boundary : NULL;
     int m;
     const int k = close_mirrors(b, l->n, bond_length - l->spacing, &m);
     if (k < 0) return OK;
-    return status_prepend_location(
+    return status_message_prepend_location(
         b[k].place,
         status_set(REFUSED,
                    "boundary %s: its mirror plane is %.6g m from that of boundary %s, but bonds of %.6g m need more "
@@ -157,7 +157,7 @@ status loads_make_mirror_images(struct loads *l, struct particles *p, real mirro
     for (int d = 0; d < p->dim; d++) l->place_step[d] = place_step(boundary, l->n, p, mirror_reach, d);
     for (int b = 0; b < l->n; b++) {
         if (boundary[b].kind != BOUNDARY_MIRROR) continue;
-        TRY(status_prepend_location(boundary[b].place, mirror_checked(&boundary[b], p, l->spacing)));
+        TRY(status_message_prepend_location(boundary[b].place, mirror_checked(&boundary[b], p, l->spacing)));
         l->load[b].outside = mirror_outside(&boundary[b], p);
         mirror_make(l, b, p, mirror_reach, optional_arrays);
     }
@@ -170,7 +170,7 @@ void loads_flag_particles_at_clamped_mirrors(struct loads *l, const struct parti
 {
     for (int b = 0; b < l->n; b++) {
         const struct boundary *clamp = l->load[b].boundary;
-        for (int64_t i = 0; i < p->n && boundary_is_clamped_mirror(clamp, p->dim); i++)
+        for (int64_t i = 0; i < p->n && boundary_is_mirror_without_tangential_motion(clamp, p->dim); i++)
             if ((clamp->body < 0 || p->body[i] == clamp->body) && fabs(p->X[clamp->axis][i] - clamp->at) <= l->reach)
                 l->loaded[i] |= MOVES_LATER;
     }

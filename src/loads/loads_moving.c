@@ -22,7 +22,7 @@ static real formula_at(const struct boundary *b, int d, const struct particles *
     real X[DIM_MAX];
     if (formula_of(b, d)->n == 0) return 1;
     particle_reference_position(p, i, X);
-    return expression_evaluate(formula_of(b, d), X, p->dim, boundary_evaluation_time(b, t));
+    return expression_evaluate(formula_of(b, d), X, p->dim, boundary_formula_time_frozen_or_clamped(b, t));
 }
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
@@ -40,7 +40,7 @@ static status formula_finite(const struct load *l, const struct particles *p, re
                               "boundary %s: its formula has no finite value at (%.4g, %.4g, %.4g) m and t = %.4g s; "
                               "check its divisions and powers",
                               b->name, p->X[0][i], p->dim > 1 ? p->X[1][i] : 0, p->dim > 2 ? p->X[2][i] : 0,
-                              boundary_evaluation_time(b, t));
+                              boundary_formula_time_frozen_or_clamped(b, t));
         }
     return OK;
 }
@@ -50,7 +50,7 @@ status loads_check_formulas_are_finite(const struct loads *l, const struct parti
     for (int b = 0; b < l->n; b++) {
         const struct boundary *by = l->load[b].boundary;
         if (boundary_formula_uses_time(by))
-            TRY(status_prepend_location(by->place, formula_finite(&l->load[b], p, t, FAILED)));
+            TRY(status_message_prepend_location(by->place, formula_finite(&l->load[b], p, t, FAILED)));
     }
     return OK;
 }
@@ -69,7 +69,7 @@ static void shares_part(struct load *l, const struct particles *p, bool with, re
     }
 }
 
-status load_prepare_varying_particle_shares(struct load *l, const struct particles *p)
+status load_prepare_time_varying_particle_factors(struct load *l, const struct particles *p)
 {
     const struct boundary *b = l->boundary;
     bool any = false;
@@ -85,7 +85,7 @@ status load_prepare_varying_particle_shares(struct load *l, const struct particl
     return OK;
 }
 
-void load_varying_shares_free(struct load *l)
+void load_time_varying_particle_factors_free(struct load *l)
 {
     for (int d = 0; d < DIM_MAX; d++) memory_free(l->base[d]);
     load_surface_free(l->surface);
@@ -124,7 +124,7 @@ static void moving_update(struct loads *l, const struct particles *p, real t, re
     }
 }
 
-void loads_average_shares_over_velocity_update(struct loads *l, const struct particles *p, real t, real dt_velocity)
+void loads_update_mean_particle_factors_for_forces(struct loads *l, const struct particles *p, real t, real dt_velocity)
 {
     moving_update(l, p, t, dt_velocity, 1);
 }
@@ -134,7 +134,7 @@ void loads_average_shares_over_velocity_update(struct loads *l, const struct par
  * the formula. The result is the mean of the present shares, used in the velocity update before, and the shares of the
  * velocity update after it. Call after the position update, since the shares after it depend on the new positions. dt:
  * time step [s]. */
-void loads_average_shares_over_step_for_work(struct loads *l, const struct particles *p, real t, real dt)
+void loads_update_mean_particle_factors_for_work(struct loads *l, const struct particles *p, real t, real dt)
 {
     moving_update(l, p, t + dt, dt, 0.5);
 }
@@ -153,7 +153,7 @@ void load_force_on_particle(const struct load *l, const struct particles *p, int
     }
 }
 
-void load_sum_force_and_mean_displacement(struct load *l, const struct particles *p, real t)
+void load_compute_total_force_and_mean_displacement(struct load *l, const struct particles *p, real t)
 {
     real force[DIM_MAX], *const *share = l->moving ? l->base : l->share;
     memset(l->reaction, 0, sizeof l->reaction);
@@ -171,7 +171,7 @@ void load_sum_force_and_mean_displacement(struct load *l, const struct particles
     }
 }
 
-void load_value_at_particle(const struct load *l, const struct particles *p, int64_t k, real t, real *value)
+void load_prescribed_value_at_particle(const struct load *l, const struct particles *p, int64_t k, real t, real *value)
 {
     const struct boundary *b = l->boundary;
     const real factor = b->frozen ? 1 : time_function_value(&b->time, t);

@@ -47,14 +47,15 @@ static void end_found(void *context, int32_t i, real area)
     if (!is_mirrored(e, i)) e->found(e->context, i, e->boundary->face, e->boundary->side, area);
 }
 
-void pressure_visit_faces(const struct boundary *boundary, int boundaries, int number, const struct particles *p,
-                          real spacing, const uint8_t *selected, pressure_face_fn *visit, void *context)
+void pressure_boundary_visit_free_faces(const struct boundary *boundary, int boundaries, int number,
+                                        const struct particles *p, real spacing, const uint8_t *selected,
+                                        pressure_face_fn *visit, void *context)
 {
     struct boundary one = boundary[number];
     for (one.face = 0; one.face < p->dim; one.face++)
         for (one.side = -1; one.side <= 1; one.side += 2) {
             struct ends e = {&one, boundary, boundaries, p, spacing, visit, context};
-            face_visit_surface_particles(&one, p, selected, spacing, end_found, &e);
+            boundary_face_visit_surface_particles(&one, p, selected, spacing, end_found, &e);
         }
 }
 
@@ -96,7 +97,7 @@ static bool pressure_shares(struct load *l, struct particles *p, real *const *ar
     uint8_t *chosen = NEW("loads.chosen", p->n, uint8_t);
     for (int d = 0; d < p->dim; d++)
         for (int64_t i = 0; i < p->n; i++) chosen[i] |= area[d][i] != 0;
-    load_set_particle_list_from_marks(l, chosen, p);
+    load_set_particle_list_from_selected_flags(l, chosen, p);
     for (int d = 0; d < p->dim; d++)
         for (int64_t k = 0; k < l->n; k++) l->share[d][k] = -area[d][l->particle[k]];
     memory_free(chosen);
@@ -113,17 +114,19 @@ status load_find_pressure_faces(struct load *l, const struct boundary *boundary,
     status s = OK;
     if (b->kind != BOUNDARY_PRESSURE) return OK;
     uint8_t *selected = NEW("loads.selected", p->n, uint8_t);
-    const bool any = load_mark_particles_in_region(b, p, spacing, selected);
+    const bool any = boundary_select_particles_in_region(b, p, spacing, selected);
     for (int d = 0; d < p->dim; d++) area[d] = NEW("loads.area", p->n, real);
     struct pressed pressed = {area, follows ? &faces : NULL};
-    if (any) pressure_visit_faces(boundary, boundaries, boundary_number, p, spacing, selected, face_pressed, &pressed);
+    if (any)
+        pressure_boundary_visit_free_faces(boundary, boundaries, boundary_number, p, spacing, selected, face_pressed,
+                                           &pressed);
     if (!any)
         s = status_set(
             REFUSED,
             "boundary %s: no particle is in its region (%s); check the region and its unit (m if none is written)",
-            b->name, particles_extent_text(p).text);
+            b->name, particles_describe_bounding_box(p).text);
     else if (follows)
-        s = load_surface_make(l, &faces, boundary, boundaries, p, spacing);
+        s = load_surface_make_from_free_faces(l, &faces, boundary, boundaries, p, spacing);
     else if (!pressure_shares(l, p, area))
         s = status_set(REFUSED,
                        "boundary %s: no particle in its region has a free face; let the region contain part of the "

@@ -63,7 +63,7 @@ static bool needs_face(const struct boundary *b)
            (b->kind == BOUNDARY_VELOCITY && b->side != 0);
 }
 
-void load_set_particle_list_from_marks(struct load *l, const uint8_t *selected, struct particles *p)
+void load_set_particle_list_from_selected_flags(struct load *l, const uint8_t *selected, struct particles *p)
 {
     for (int64_t i = 0; i < p->n; i++) l->n += selected[i] > 0;
     l->particle = NEW("loads.particle", l->n, int32_t);
@@ -83,9 +83,9 @@ static void select_face(struct load *l, const uint8_t *selected, struct particle
 {
     struct exposed_face face;
     uint8_t *chosen = NEW("loads.chosen", p->n, uint8_t);
-    exposed_face_compute_areas(&face, l->boundary, p, selected, spacing, has_tangential(l->boundary, p->dim));
+    exposed_face_compute_particle_areas(&face, l->boundary, p, selected, spacing, has_tangential(l->boundary, p->dim));
     for (int64_t i = 0; i < p->n; i++) chosen[i] = face.normal[i] != 0 || face.along[i] != 0;
-    load_set_particle_list_from_marks(l, chosen, p);
+    load_set_particle_list_from_selected_flags(l, chosen, p);
     for (int64_t k = 0; k < l->n; k++)
         for (int d = 0; d < p->dim; d++)
             l->share[d][k] = (d == l->boundary->face ? face.normal : face.along)[l->particle[k]];
@@ -101,9 +101,9 @@ static void select_absorbing(struct load *l, const uint8_t *selected, struct par
 {
     struct exposed_face face;
     uint8_t *chosen = NEW("loads.chosen", p->n, uint8_t);
-    exposed_face_compute_areas(&face, l->boundary, p, selected, spacing, true);
+    exposed_face_compute_particle_areas(&face, l->boundary, p, selected, spacing, true);
     for (int64_t i = 0; i < p->n; i++) chosen[i] = face.along[i] != 0;
-    load_set_particle_list_from_marks(l, chosen, p);
+    load_set_particle_list_from_selected_flags(l, chosen, p);
     l->outer = NEW("loads.outer", l->n, real), l->edge = NEW("loads.edge", l->n, real);
     for (int64_t k = 0; k < l->n; k++)
         l->outer[k] = face.normal[l->particle[k]], l->edge[k] = face.along[l->particle[k]];
@@ -116,12 +116,13 @@ static void select_absorbing(struct load *l, const uint8_t *selected, struct par
 static void select_layer(struct load *l, const uint8_t *selected, struct particles *p, real spacing)
 {
     uint8_t *taken = NEW("loads.layer", p->n, uint8_t);
-    face_mark_particles_in_layer(l->boundary, p, selected, spacing, taken);
-    load_set_particle_list_from_marks(l, taken, p);
+    boundary_face_mark_particles_in_layer(l->boundary, p, selected, spacing, taken);
+    load_set_particle_list_from_selected_flags(l, taken, p);
     memory_free(taken);
 }
 
-bool load_mark_particles_in_region(const struct boundary *b, const struct particles *p, real spacing, uint8_t *selected)
+bool boundary_select_particles_in_region(const struct boundary *b, const struct particles *p, real spacing,
+                                         uint8_t *selected)
 {
     bool any = false;
     for (int64_t i = 0; i < p->n; i++) {
@@ -141,7 +142,7 @@ static bool is_in_plane(const struct boundary *b, const struct particles *p, int
 
 status load_find_particles_of_boundary(struct load *l, const struct boundary *b, struct particles *p, real spacing)
 {
-    const bool clamp = boundary_is_clamped_mirror(b, p->dim);
+    const bool clamp = boundary_is_mirror_without_tangential_motion(b, p->dim);
     bool any = false;
     l->boundary = b;
     if ((b->kind == BOUNDARY_MIRROR && !clamp) || b->kind == BOUNDARY_PRESSURE) return OK;
@@ -157,14 +158,14 @@ status load_find_particles_of_boundary(struct load *l, const struct boundary *b,
     else if (needs_face(b))
         select_layer(l, selected, p, spacing);
     else
-        load_set_particle_list_from_marks(l, selected, p);
+        load_set_particle_list_from_selected_flags(l, selected, p);
     if (b->kind == BOUNDARY_BODY_FORCE) body_shares(l, p);
     memory_free(selected);
     if (!any && (boundary_applies_force(b) || needs_face(b)))
         return status_set(
             REFUSED,
             "boundary %s: no particle is in its region (%s); check the region and its unit (m if none is written)",
-            b->name, particles_extent_text(p).text);
+            b->name, particles_describe_bounding_box(p).text);
     if (l->n > 0 || !needs_face(b)) return OK;
     return status_set(REFUSED,
                       "boundary %s: seen from %c%c, other particles of the body are in front of every particle in its "

@@ -39,8 +39,8 @@ static real static_displacement(const struct prescribed_displacement *by, const 
     return prescribed_displacement_at(by, X, d);
 }
 
-void loads_compute_static_displacements(struct loads *l, const struct particles *p, real ramp_time,
-                                        real *const *displacement, uint8_t *driven_components)
+void loads_compute_prescribed_static_displacements(struct loads *l, const struct particles *p, real ramp_time,
+                                                   real *const *displacement, uint8_t *driven_components)
 {
     for (int c = 0; c < l->n; c++) {
         struct load *load = &l->load[c];
@@ -110,7 +110,7 @@ void loads_add_static_forces(const struct loads *l, struct particles *p)
     }
 }
 
-void loads_collect_static_reactions(struct loads *l, struct particles *p)
+void loads_extract_static_reactions_from_forces(struct loads *l, struct particles *p)
 {
     for (int c = 0; c < l->n; c++) {
         struct load *load = &l->load[c];

@@ -143,7 +143,7 @@ static status mirrors_between(const struct sites *s, const struct surface_faces 
             const real twice = mirror_steps(s, &s->all[m], s->p->body[i]);
             if (fabs(s->p->X[s->all[m].axis][i] - s->all[m].at) > BESIDE * s->spacing) continue;
             if (fabs(remainder(twice - 1, 2)) < 2 * OFF_LATTICE) continue;
-            return status_prepend_location(
+            return status_message_prepend_location(
                 s->all[m].place,
                 status_set(REFUSED,
                            "boundary %s: follow: true needs mirror planes midway between particles; move the plane to "
@@ -373,7 +373,7 @@ static void surface_fill(struct surface *a, struct load *l, const struct sites *
     corners_make(a, s, all, f);
     uint8_t *chosen = NEW("loads.chosen", p->n, uint8_t);
     for (int64_t q = 0; q < a->first[a->corners]; q++) chosen[a->particle[q]] = 1;
-    load_set_particle_list_from_marks(l, chosen, p);
+    load_set_particle_list_from_selected_flags(l, chosen, p);
     a->particles = l->n;
     shares_transpose(a, l, p->n);
     a->x = NEW("loads.corner_x", a->corners * a->dim, real);
@@ -384,8 +384,9 @@ static void surface_fill(struct surface *a, struct load *l, const struct sites *
     memory_free(all);
 }
 
-status load_surface_make(struct load *l, const struct surface_faces *free_faces, const struct boundary *all_boundaries,
-                         int boundary_count, struct particles *p, real spacing)
+status load_surface_make_from_free_faces(struct load *l, const struct surface_faces *free_faces,
+                                         const struct boundary *all_boundaries, int boundary_count, struct particles *p,
+                                         real spacing)
 {
     struct sites s = {.p = p, .all = all_boundaries, .boundaries = boundary_count, .spacing = spacing};
     if (free_faces->n == 0)

@@ -23,15 +23,16 @@ struct surface_faces {
  * pressure is multiplied to obtain forces. all_boundaries: the boundary conditions of the input file, `boundary_count`
  * in number, including mirrors; spacing: lattice spacing [m]. Returns REFUSED, with a message, if a body is not a
  * lattice, or a mirror plane is not midway between two lattice sites. Release with load_surface_free. */
-status load_surface_make(struct load *l, const struct surface_faces *free_faces, const struct boundary *all_boundaries,
-                         int boundary_count, struct particles *p, real spacing);
+status load_surface_make_from_free_faces(struct load *l, const struct surface_faces *free_faces,
+                                         const struct boundary *all_boundaries, int boundary_count, struct particles *p,
+                                         real spacing);
 
 /* Computes, for each particle of the load to which the surface s belongs, the area vector that its forces act on,
  * pointing into the body, from the present positions of the particles p. area: [dim][number of particles of the load]
  * [m^2]. */
 void load_surface_compute_area_vectors(struct surface *s, const struct particles *p, real *const *area);
 
-/* Frees the surface s, which load_surface_make has made, with its arrays; s may be NULL. */
+/* Frees the surface s, which load_surface_make_from_free_faces has made, with its arrays; s may be NULL. */
 void load_surface_free(struct surface *s);
 
 #endif

@@ -32,7 +32,7 @@ static bool node_constrained(const struct load *load, const struct grid *g, cons
            load->outside * (x[b->axis] - b->at) >= -tolerance;
 }
 
-bool mirror_plane_fits_grid_nodes(const struct boundary *b, const struct grid *g, real spacing)
+bool mirror_plane_is_at_or_midway_between_nodes(const struct boundary *b, const struct grid *g, real spacing)
 {
     const real steps = 2 * (b->at - g->anchor[b->axis]) / g->h;
     return fabs(steps - nearbyint(steps)) * g->h <= 2 * LOADS_TOLERANCE * spacing;
@@ -50,7 +50,7 @@ static bool node_reflect(const struct load *load, const struct grid *g, real spa
     const real away = b->at - grid_node_position(g, b->axis, k[b->axis]);
     if (-load->outside * away <= LOADS_TOLERANCE * spacing) return true;
     const int64_t whole = llround(2 * away / g->h);
-    if (!mirror_plane_fits_grid_nodes(b, g, spacing) || whole < -4 || whole > 4) return false;
+    if (!mirror_plane_is_at_or_midway_between_nodes(b, g, spacing) || whole < -4 || whole > 4) return false;
     k[b->axis] += whole;
     for (int d = 0; d < DIM_MAX; d++)
         if (d == b->axis || b->hold_tangential) f->sign[d] = (int8_t)-f->sign[d];
@@ -93,7 +93,7 @@ static bool load_holds(const struct load *load, const struct grid *g, const stru
  * (gaps between cells) are at the position of their regular node. */
 static void node_at(const struct grid *g, const struct mesh *mesh, int64_t I, real *x)
 {
-    const int64_t at = mesh ? mesh_regular_node_of_doubled_node(mesh, I) : I;
+    const int64_t at = mesh ? mesh_original_node_of_doubled_node(mesh, I) : I;
     for (int d = 0; d < g->dim; d++) x[d] = grid_node_position(g, d, at / g->stride[d] % g->count[d]);
 }
 
@@ -123,7 +123,7 @@ static void constrained_find(const struct loads *l, struct constrained_set *s, s
     for (int64_t I = 0; I < g->n; I++) {
         real x[DIM_MAX];
         const bool behind = mesh && I >= mesh->slits.first;
-        if (behind && mesh_regular_node_of_doubled_node(mesh, I) == I) continue; /* unused index */
+        if (behind && mesh_original_node_of_doubled_node(mesh, I) == I) continue; /* unused index */
         if (!behind && node_mirrored(l, g, I, &mirror_node)) {
             grid_add_mirror_node(g, &mirror_node);
             continue;
@@ -144,7 +144,7 @@ static bool component_is_prescribed_twice(const struct loads *l, int dim)
 {
     uint8_t once = 0, twice = 0;
     for (int b = 0; b < l->n; b++) {
-        const uint8_t components = boundary_prescribed_components(l->load[b].boundary, dim);
+        const uint8_t components = boundary_prescribed_component_mask(l->load[b].boundary, dim);
         twice |= once & components, once |= components;
     }
     return twice != 0;
@@ -187,7 +187,7 @@ static bool constrained_is_current(const struct constrained_set *s, const struct
 /* Returns true if particle i of p is a material point whose motion is that of grid g, not of a mesh. */
 static bool point_is_on(const struct grid *g, const struct particles *p, int32_t i)
 {
-    return particle_moves_with_nodes(p, i) && !(p->flag[i] & FLAG_MESHED) &&
+    return particle_is_moved_by_grid_or_mesh_nodes(p, i) && !(p->flag[i] & FLAG_MESHED) &&
            (g->body == 0 || g->body == p->body[i] + 1);
 }
 
@@ -250,7 +250,7 @@ static bool points_choose_driven_nodes(const struct loads *l, int which, const s
 {
     const struct load *load = &l->load[which];
     int64_t points = 0;
-    for (int64_t q = 0; q < load->n; q++) points += particle_moves_with_nodes(p, load->particle[q]);
+    for (int64_t q = 0; q < load->n; q++) points += particle_is_moved_by_grid_or_mesh_nodes(p, load->particle[q]);
     bool choose = 2 * points > load->n;
     for (int64_t q = 0; q < s->n && choose; q++) choose = s->held[q].load != which || !(g->mass[s->held[q].node] > 0);
     return choose;
@@ -430,8 +430,8 @@ static void reference_walls(const struct loads *l, const struct constrained_set 
     constrained_walls(held, g, mesh, by, true);
 }
 
-void loads_prescribe_coarse_velocities(const struct loads *l, const struct constrained_set *driven_nodes,
-                                       struct grid *g, real t, real dt)
+void loads_prescribe_coarse_node_velocities(const struct loads *l, const struct constrained_set *driven_nodes,
+                                            struct grid *g, real t, real dt)
 {
     reference_walls(l, driven_nodes, g, NULL, t, dt);
 }

@@ -90,7 +90,7 @@ static bool wall_is_fixed(const struct loads *l, const struct wall *w)
     return b->kind == BOUNDARY_MIRROR || b->value[w->component] == 0;
 }
 
-void active_nodes_add_blocks_at_exposed_points(struct mesh *mesh)
+void active_nodes_activate_at_bonded_or_loaded_points(struct mesh *mesh)
 {
     const int dim = mesh->grid.dim;
     for (int64_t k = 0; k < mesh->exposed && mesh->active.is_current; k++)
@@ -121,10 +121,10 @@ static void mesh_find_levels(struct mesh *mesh, const struct loads *l)
     for (int64_t k = 0; k < mesh->grid.walls; k++)
         if (!wall_is_fixed(l, &mesh->grid.wall[k]))
             mesh_activate(mesh, mesh_block_of_node(mesh, mesh->grid.wall[k].node));
-    active_nodes_add_blocks_at_exposed_points(mesh); /* makes the list */
+    active_nodes_activate_at_bonded_or_loaded_points(mesh); /* makes the list */
 }
 
-void active_nodes_update_block_list(struct mesh *mesh, const struct loads *l)
+void active_nodes_update_list_of_active_blocks(struct mesh *mesh, const struct loads *l)
 {
     struct active_set *r = &mesh->active;
     if (!r->is_current) {

@@ -70,7 +70,7 @@ static const char *frame_obstacle(const struct particles *p, const struct scene 
 
 /* Returns REFUSED, with a message, if scene s has a plane of symmetry at which a body of p in the reference frame r (on
  * a mesh of the undeformed body) has no nodes; else OK. */
-static status planes_check(const struct reference_frame *r, const struct particles *p, const struct scene *s)
+static status planes_check(const struct lagrangian_mesh *r, const struct particles *p, const struct scene *s)
 {
     for (int body = 0; body < s->bodies; body++) {
         const struct boundary *b =
@@ -88,7 +88,7 @@ static status planes_check(const struct reference_frame *r, const struct particl
 /* Adds a warning to *to if body `body` of p, which is in the reference frame r (on a mesh of the undeformed body), does
  * not reach a plane of symmetry of scene s at the start. In this frame only nodes of the undeformed body on the plane
  * are constrained, so that the plane never acts on such a body, even if the body later moves through it. */
-static void warn_of_plane_apart(const struct reference_frame *r, const struct particles *p, const struct scene *s,
+static void warn_of_plane_apart(const struct lagrangian_mesh *r, const struct particles *p, const struct scene *s,
                                 int body, struct warnings *to)
 {
     const struct boundary *b = plane_with_fit(p, s, body, r->hollow.absent, PLANE_APART);
@@ -105,12 +105,12 @@ static void warn_of_plane_apart(const struct reference_frame *r, const struct pa
  * at the start of a dynamic run. Measured with inputs/bar_converge.yaml: displacements are 11 to 24 % off if mirrors
  * are 0.15 and 0.25 of a cell from a node, with 50 to 200 points per metre; half the spacing reduces the error by at
  * most a third. */
-void frame_warn_of_unfitting_mirror_planes(const struct run *e, struct warnings *warning_list)
+void mirror_planes_warn_if_not_fitting_grid_or_mesh(const struct run *e, struct warnings *warning_list)
 {
     const struct scene *s = e->scene;
     for (int b = 0; b < s->boundaries; b++)
         if (s->method != METHOD_PD && s->boundary[b].kind == BOUNDARY_MIRROR &&
-            !mirror_plane_fits_grid_nodes(&s->boundary[b], &e->grid->field[0].grid, s->spacing))
+            !mirror_plane_is_at_or_midway_between_nodes(&s->boundary[b], &e->grid->field[0].grid, s->spacing))
             warnings_add_if_new(
                 warning_list,
                 "boundary %s: the mirror plane is neither on a grid node nor midway between two nodes: displacements "
@@ -127,14 +127,14 @@ static void take_frame(struct frame_choice *f, bool reference, const char *reaso
 
 /* Sets FLAG_MESHED, the mark of points of the mesh, for all particles of `part` in those bodies that are in the
  * reference frame (on a mesh of the undeformed body) according to frame->choice. */
-static void frames_mark(struct particles *part, struct reference_frame *frame)
+static void frames_mark(struct particles *part, struct lagrangian_mesh *frame)
 {
     for (int64_t i = 0; i < part->n; i++)
         if (frame->choice[part->body[i]].reference) part->flag[i] |= FLAG_MESHED;
 }
 
-status body_frames_choose_mesh_or_grid(struct reference_frame *r, struct grid_method *mpm, struct particles *p,
-                                       const struct scene *s)
+status bodies_choose_material_mesh_or_background_grid(struct lagrangian_mesh *r, struct grid_method *mpm,
+                                                      struct particles *p, const struct scene *s)
 {
     r->bodies = s->bodies;
     r->spacing = s->spacing;
@@ -145,7 +145,7 @@ status body_frames_choose_mesh_or_grid(struct reference_frame *r, struct grid_me
     r->choice = NEW("engine.frame", s->bodies, struct frame_choice);
     for (int b = 0; b < s->bodies && s->method != METHOD_PD; b++) {
         const enum grid_frame said = s->body[b].frame;
-        const char *why = scene_why_reference_frame_unsupported(s, b);
+        const char *why = scene_reason_total_lagrangian_mpm_unsupported(s, b);
         if (why && said == FRAME_REFERENCE)
             return status_set(REFUSED,
                               "mpm.frame: body %s cannot be in the reference frame: %s; set mpm.frame: current, or "
@@ -154,27 +154,27 @@ status body_frames_choose_mesh_or_grid(struct reference_frame *r, struct grid_me
         take_frame(&r->choice[b], said != FRAME_CURRENT,
                    said == FRAME_REFERENCE ? "the scene sets this" : s->body[b].frame_reason);
     }
-    background_grids_make(mpm, s, p, reference_frame_is_in_use(r));
+    background_grids_make(mpm, s, p, lagrangian_mesh_is_used_by_any_body(r));
     if (s->bodies == 1 && s->body[0].frame == FRAME_AUTO && s->method != METHOD_PD) {
         const char *why = frame_obstacle(p, s, mpm, &r->hollow);
         take_frame(&r->choice[0], !why,
                    why             ? why
                    : s->rigids > 0 ? "its points keep their neighbours and have contact with rigid bodies only"
                                    : "its points keep their neighbours and have no contact with other bodies");
-        if (why) background_grids_make(mpm, s, p, reference_frame_is_in_use(r));
+        if (why) background_grids_make(mpm, s, p, lagrangian_mesh_is_used_by_any_body(r));
     }
     if (s->method != METHOD_PD) TRY(planes_check(r, p, s));
     frames_mark(p, r);
     return OK;
 }
 
-bool reference_frame_is_possible(const struct reference_frame *r, const struct particles *p, const struct scene *s,
-                                 const struct grid_method *mpm)
+bool lagrangian_mesh_can_be_made_for_scene(const struct lagrangian_mesh *r, const struct particles *p,
+                                           const struct scene *s, const struct grid_method *mpm)
 {
     return frame_obstacle(p, s, mpm, &r->hollow) == NULL;
 }
 
-bool reference_frame_is_in_use(const struct reference_frame *r)
+bool lagrangian_mesh_is_used_by_any_body(const struct lagrangian_mesh *r)
 {
     for (int b = 0; b < r->bodies; b++)
         if (r->choice[b].reference) return true;
@@ -193,22 +193,22 @@ static struct elastic *cell_constants(const struct scene *s, const struct elasti
         real c12;
         cell[m] = own[m];
         if (!s->lattice_constants) continue;
-        family_elastic_constants(family, &s->material[m], &cell[m].c11, &c12);
+        family_compute_cubic_elastic_constants(family, &s->material[m], &cell[m].c11, &c12);
         if (s->dim > 1) cell[m].c12 = cell[m].shear = c12;
     }
     return cell;
 }
 
-void reference_frame_list_bonded_or_loaded_points(struct reference_frame *r, const struct particles *p,
+void lagrangian_mesh_list_bonded_or_loaded_points(struct lagrangian_mesh *r, const struct particles *p,
                                                   const struct bonds *bonds, struct loads *loads)
 {
     mesh_list_bonded_or_loaded_points(&r->mesh, p, bonds, loads);
     loads_find_driven_mesh_nodes(loads, &r->mesh, p);
 }
 
-status reference_frame_make_mesh(struct run *e, const struct mesh_source *source, bool caller_sets_motion)
+status lagrangian_mesh_make_for_run(struct run *e, const struct mesh_source *source, bool caller_sets_motion)
 {
-    struct reference_frame *r = e->frame;
+    struct lagrangian_mesh *r = e->frame;
     const struct grid *g = &e->grid->field[0].grid;
     r->elastic = cell_constants(e->scene, e->tables.elastic, &e->source.family);
     r->source = (struct mesh_source){.elastic = r->elastic,
@@ -225,8 +225,8 @@ status reference_frame_make_mesh(struct run *e, const struct mesh_source *source
     TRY(mesh_make(&r->mesh, &e->part, g, &r->source));
     /* a mesh rebuilt after a restart has no mirrors, though its box is unchanged */
     e->loads.constrained_mesh.count[0] = 0;
-    mesh_levels_find_highest_allowed_by_thickness(r, e->scene, e->part.n_body);
-    reference_frame_list_bonded_or_loaded_points(r, &e->part, &e->bonds, &e->loads);
+    mesh_levels_store_coarsening_limits_by_thickness(r, e->scene, e->part.n_body);
+    lagrangian_mesh_list_bonded_or_loaded_points(r, &e->part, &e->bonds, &e->loads);
     return OK;
 }
 
@@ -234,7 +234,7 @@ status reference_frame_make_mesh(struct run *e, const struct mesh_source *source
  * later leave any subset of points in a cell. With partial stress, no such cell has a smaller critical step than the
  * initial cells. With hand-shake coupling, a cell with a single point has a smaller one, which is then included. s:
  * scene, with the densities; coupling: how points and particles are coupled. */
-real reference_frame_critical_time_step(const struct reference_frame *r, const struct scene *s, enum coupling coupling)
+real lagrangian_mesh_critical_time_step(const struct lagrangian_mesh *r, const struct scene *s, enum coupling coupling)
 {
     real density[UINT8_MAX], step = INFINITY;
     for (int m = 0; m < s->materials; m++) density[m] = s->material[m].density;
@@ -248,31 +248,32 @@ real reference_frame_critical_time_step(const struct reference_frame *r, const s
 
 /* Updates from the mesh nodes of r the positions of the exposed points of p (points with bonds or loads, whose motion
  * is needed in every step), and the strains at points with state-based bonds to peridynamic particles. */
-void reference_frame_move_bonded_or_loaded_points(struct reference_frame *r, struct particles *p)
+void lagrangian_mesh_move_bonded_or_loaded_points(struct lagrangian_mesh *r, struct particles *p)
 {
     mesh_exposed_move(&r->mesh, p);
     mesh_ends_update(&r->mesh, p, r->finite);
 }
 
-void reference_frame_compute_forces(struct reference_frame *r, struct particles *p, int64_t step)
+void lagrangian_mesh_compute_nodal_forces(struct lagrangian_mesh *r, struct particles *p, int64_t step)
 {
     mesh_clear(&r->mesh);
     mesh_exposed_force(&r->mesh, p);
     mesh_force(&r->mesh, p, r->elastic, r->finite);
-    levels_compute_forces_of_coarse_cells(&r->levels, p, r->coarse, r->finite,
-                                          levels_highest_level_due_in_step(&r->levels, step));
+    mesh_levels_compute_forces_of_coarse_cells(&r->levels, p, r->coarse, r->finite,
+                                               mesh_levels_coarsest_level_integrated_in_step(&r->levels, step));
 }
 
 /* Sets the velocities that `loads` prescribe at nodes of the mesh of r and of the levels 1 .. due of coarse cells. A
  * cell of level k has 2^k times the edge of the finest, and its step is 2^k times as long. due: highest level that
  * begins a step now; middle: time in the middle of the step of the mesh [s]; dt: length of that step [s]. */
-static void nodes_walls(struct reference_frame *r, const struct loads *loads, real middle, real dt, int due)
+static void nodes_walls(struct lagrangian_mesh *r, const struct loads *loads, real middle, real dt, int due)
 {
     loads_prescribe_mesh_velocities(loads, &r->mesh, middle, dt);
     for (int k = 1; k <= due; k++) {
         struct mesh_level *level = &r->levels.at[k];
         const real longer = (real)(1 << k) * dt;
-        loads_prescribe_coarse_velocities(loads, &level->held, &level->mesh.grid, middle + 0.5 * (longer - dt), longer);
+        loads_prescribe_coarse_node_velocities(loads, &level->held, &level->mesh.grid, middle + 0.5 * (longer - dt),
+                                               longer);
     }
 }
 
@@ -280,67 +281,70 @@ static void nodes_walls(struct reference_frame *r, const struct loads *loads, re
  * cells, to the loads that prescribe them. A cell of level k has 2^k times the edge of the finest. due: highest level
  * that makes a step now; dt_velocity: time over which the nodes of the mesh were accelerated [s]; for level k it is 2^k
  * times as long. */
-static void nodes_react(struct loads *loads, struct reference_frame *frame, real dt_velocity, int due)
+static void nodes_react(struct loads *loads, struct lagrangian_mesh *frame, real dt_velocity, int due)
 {
     loads_add_grid_reactions(loads, &frame->mesh.grid, dt_velocity);
     for (int level = 1; level <= due; level++)
         loads_add_grid_reactions(loads, &frame->levels.at[level].mesh.grid, dt_velocity * (real)(1 << level));
 }
 
-void reference_frame_move_nodes(struct reference_frame *r, struct particles *p, struct loads *loads,
+void lagrangian_mesh_move_nodes(struct lagrangian_mesh *r, struct particles *p, struct loads *loads,
                                 const struct run_clock *clock, real t_middle, real dt_velocity)
 {
-    const int due = levels_highest_level_due_in_step(&r->levels, clock->step);
+    const int due = mesh_levels_coarsest_level_integrated_in_step(&r->levels, clock->step);
     if (r->mesh.points == 0) return;
     if (r->converts) mesh_points_mark(&r->mesh, p, r->elastic, r->finite);
     if (p->mesh_stress[0] && clock->step == 0) mesh_points_flow(&r->mesh, p, r->elastic, 0, r->finite);
     nodes_walls(r, loads, t_middle, clock->dt, due);
-    r->speed = r->levels.n > 0 ? levels_move_nodes_return_largest_velocity(&r->levels, clock->dt, dt_velocity, due,
-                                                                           loads->impulse, &loads->constraint_work)
+    r->speed = r->levels.n > 0 ? mesh_levels_move_nodes_return_largest_velocity(&r->levels, clock->dt, dt_velocity, due,
+                                                                                loads->impulse, &loads->constraint_work)
                                : mesh_move(&r->mesh, clock->dt, dt_velocity, loads->impulse, &loads->constraint_work);
     nodes_react(loads, r, dt_velocity, due);
     if (p->mesh_stress[0]) mesh_points_flow(&r->mesh, p, r->elastic, clock->dt, r->finite);
-    reference_frame_move_bonded_or_loaded_points(r, p);
-    if (r->active_set && r->levels.n == 0) active_nodes_update_block_list(&r->mesh, loads);
+    lagrangian_mesh_move_bonded_or_loaded_points(r, p);
+    if (r->active_set && r->levels.n == 0) active_nodes_update_list_of_active_blocks(&r->mesh, loads);
 }
 
-void reference_frame_update_point_motion(struct reference_frame *r, struct particles *p, const struct loads *loads)
+void lagrangian_mesh_update_point_motion(struct lagrangian_mesh *r, struct particles *p, const struct loads *loads)
 {
     if (r->mesh.points == 0) return;
-    levels_prolong_motion_to_nodes_near_points(&r->levels);
+    mesh_levels_prolong_motion_near_particles(&r->levels);
     mesh_points_move(&r->mesh, p);
     loads_update_mirror_images(loads, p);
 }
 
-void reference_frame_update_motion_and_stress(struct reference_frame *r, struct particles *p, const struct loads *loads)
+void lagrangian_mesh_update_point_motion_and_stress(struct lagrangian_mesh *r, struct particles *p,
+                                                    const struct loads *loads)
 {
     if (r->mesh.points == 0) return;
-    reference_frame_update_point_motion(r, p, loads);
+    lagrangian_mesh_update_point_motion(r, p, loads);
     mesh_points_stress(&r->mesh, p, r->elastic, r->finite);
 }
 
-void reference_frame_update_listed_points(struct reference_frame *r, struct particles *p, const struct loads *loads,
-                                          const int32_t *point_list, int64_t point_count)
+void lagrangian_mesh_update_motion_of_listed_points(struct lagrangian_mesh *r, struct particles *p,
+                                                    const struct loads *loads, const int32_t *point_list,
+                                                    int64_t point_count)
 {
     if (r->mesh.points == 0) return;
     mesh_listed_move(&r->mesh, p, point_list, point_count);
     loads_update_mirror_images(loads, p);
 }
 
-bool reference_frame_update_after_conversion(struct reference_frame *r, struct particles *p, int64_t converted_count,
-                                             const struct partial_stress *partial, real *energy_lost)
+bool lagrangian_mesh_update_after_point_conversion(struct lagrangian_mesh *r, struct particles *p,
+                                                   int64_t converted_count, const struct partial_stress *partial,
+                                                   real *energy_lost)
 {
     if (r->mesh.points == 0) return false;
     /* if bonds break without conversion, the same cells stay partial: their stiffness is recomputed in place */
     if (converted_count == 0 &&
-        mesh_update_stiffness_of_partial_cells(&r->mesh, p, &r->source, partial->touched, partial->touches))
+        mesh_try_update_stiffness_for_partial_stress(&r->mesh, p, &r->source, partial->touched, partial->touches))
         return false;
     *energy_lost +=
         mesh_remove_points_and_return_lost_energy(&r->mesh, p, &r->source, partial->touched, partial->touches);
     return true;
 }
 
-void reference_frame_insert_points(struct reference_frame *r, struct particles *p, const int32_t *inserted_points,
+void lagrangian_mesh_insert_points(struct lagrangian_mesh *r, struct particles *p, const int32_t *inserted_points,
                                    int64_t inserted_count, real *energy_lost)
 {
     int32_t *own = NEW("engine.own", inserted_count, int32_t);

@@ -21,15 +21,15 @@ enum { MARGIN = 4, AHEAD = 16 };
 
 /* Returns the reason in words why scene s needs all particles; NULL if those inside coarse cells need not be created.
  * The text is not to be freed. */
-const char *scene_why_all_particles_needed(const struct scene *s)
+const char *scene_reason_all_particles_must_be_created(const struct scene *s)
 {
     if (s->fill == FILL_ALL) return "the scene sets this";
     if (s->method == METHOD_PD || scene_is_single_equilibrium(s) || s->levels == 0) return "there are no coarse cells";
     if (s->bodies != 1 || s->rigids > 0) return "bodies may touch";
     if (s->body[0].file) return "the particles come from a list";
-    if (scene_strength_scatters(s)) return "the strength varies in space (scatter)";
+    if (scene_has_random_strength(s)) return "the strength varies in space (scatter)";
     if (s->body[0].parts > 0) return "the body has parts of another material";
-    if (s->body[0].frame == FRAME_CURRENT || scene_why_reference_frame_not_chosen_by_auto(s, 0))
+    if (s->body[0].frame == FRAME_CURRENT || scene_reason_auto_rejects_total_lagrangian_mpm(s, 0))
         return "the body is in the current frame";
     if (s->initials > 0 || dot(s->body[0].velocity, s->body[0].velocity, s->dim) > 0)
         return "the body moves at the start";
@@ -59,7 +59,7 @@ const char *scene_why_all_particles_needed(const struct scene *s)
 static status box_find(struct grid *box, const struct scene *s)
 {
     real from[DIM_MAX], to[DIM_MAX], site[DIM_MAX];
-    TRY(fill_compute_lattice_site_position(s, 0, site));
+    TRY(body_lattice_compute_first_site_position(s, 0, site));
     region_compute_bounding_box_if_finite(&s->body[0].shape, s->dim, from, to);
     box->dim = s->dim, box->h = s->cell * s->spacing;
     grid_choose_reference_node_position(s, from, site, true, box->anchor);
@@ -155,7 +155,7 @@ static bool cell_needed(const struct scene *s, const struct bond_source *source,
 {
     for (int c = 0; c < 1 << s->dim; c++) {
         real X[DIM_MAX] = {0};
-        for (int d = 0; d < s->dim; d++) X[d] = grid_cell_particle_coordinate(&h->box, I, c, d);
+        for (int d = 0; d < s->dim; d++) X[d] = grid_cell_quadrature_point_coordinate(&h->box, I, c, d);
         if (c == 0 && (near_cracks(s, source, X, h->box.h) || probed(s, X, h->box.h))) return true;
         if (loads_reach(s, X, s->spacing) || face_loaded(s, h, I, X)) return true;
         if (s->has_pd_region && region_contains(&s->pd_region, X, s->dim, 2 * source->family.cutoff)) return true;
@@ -163,15 +163,15 @@ static bool cell_needed(const struct scene *s, const struct bond_source *source,
     return false;
 }
 
-status cells_without_particles_choose_for_scene(struct cells_without_particles *h, const struct scene *s,
-                                                const struct bond_source *source)
+status cells_without_particles_predict_from_scene(struct cells_without_particles *h, const struct scene *s,
+                                                  const struct bond_source *source)
 {
     int64_t absent = 0;
-    if (h->whole || scene_why_all_particles_needed(s)) return OK;
+    if (h->whole || scene_reason_all_particles_must_be_created(s)) return OK;
     TRY(box_find(&h->box, s));
     const int64_t least = s->fill == FILL_NEEDED ? 0 : PAYS >> h->box.dim;
     if (h->box.n <= least) return OK;
-    fill_mark_cells_inside_body(h, s, 0);
+    body_mark_cells_with_all_sites_inside(h, s, 0);
     h->absent = NEW("hollow.absent", h->box.n, uint8_t);
 #pragma omp parallel for schedule(dynamic, 4096) reduction(+ : absent)
     for (int64_t I = 0; I < h->box.n; I++) {
@@ -190,7 +190,7 @@ status cells_without_particles_choose_for_scene(struct cells_without_particles *
 
 /* Returns true if a cell whose particles were not created now has level 0, the finest, so that the run must be set up
  * again with more particles. new_cell_level[mesh->grid.n]: level of each cell of the mesh, 0: finest. */
-bool levels_need_more_particles(const struct mesh *mesh, const uint8_t *new_cell_level)
+bool mesh_cells_to_become_finest_lack_particles(const struct mesh *mesh, const uint8_t *new_cell_level)
 {
     for (int64_t I = 0; I < mesh->grid.n && mesh->absent; I++)
         if (mesh->absent[I] && new_cell_level[I] == 0) return true;
@@ -201,7 +201,7 @@ bool levels_need_more_particles(const struct mesh *mesh, const uint8_t *new_cell
  * Particles are created near cells of level 0, the finest: within `margin` cells, and within `ahead` cells of those
  * that have no particles at present. A coarse cell has all of its particles or none. level: level of each cell of the
  * mesh of r. Release the flags with memory_free. */
-static uint8_t *absent_with(const struct reference_frame *r, const uint8_t *level, int margin, int ahead)
+static uint8_t *absent_with(const struct lagrangian_mesh *r, const uint8_t *level, int margin, int ahead)
 {
     const struct cells_without_particles *h = &r->hollow;
     const struct grid *g = &r->mesh.grid;
@@ -212,13 +212,13 @@ static uint8_t *absent_with(const struct reference_frame *r, const uint8_t *leve
         keep[I] = level[I] == 0 && (mesh_cell_contains_material(&r->mesh, I) || (J >= 0 && h->whole[J]));
         outgrown[I] = keep[I] && r->mesh.absent && r->mesh.absent[I];
     }
-    levels_mark_cells_near_marked_cells(&r->levels, keep, margin);
-    levels_mark_cells_near_marked_cells(&r->levels, outgrown, ahead);
+    mesh_levels_mark_cells_near_marked_cells(&r->levels, keep, margin);
+    mesh_levels_mark_cells_near_marked_cells(&r->levels, outgrown, ahead);
     for (int64_t I = 0; I < g->n; I++) {
         const int64_t J = grid_cell_index_in_other_grid(g, I, &h->box);
         keep[I] = keep[I] || outgrown[I] || J < 0 || !h->whole[J];
     }
-    levels_mark_all_cells_in_marked_coarse_cells(&r->levels, level, keep);
+    mesh_levels_extend_marks_to_whole_coarse_cells(&r->levels, level, keep);
     for (int64_t I = 0; I < g->n; I++)
         if (!keep[I]) absent[grid_cell_index_in_other_grid(g, I, &h->box)] = 1;
     memory_free(outgrown);
@@ -226,7 +226,7 @@ static uint8_t *absent_with(const struct reference_frame *r, const uint8_t *leve
     return absent;
 }
 
-bool initial_levels_have_all_needed_particles(struct reference_frame *r, const uint8_t *cell_level)
+bool initial_finest_cells_have_all_particles(struct lagrangian_mesh *r, const uint8_t *cell_level)
 {
     if (!r->hollow.absent) return true;
     if (r->hollow.restored) return false; /* the checkpoint contains the levels */
@@ -235,7 +235,7 @@ bool initial_levels_have_all_needed_particles(struct reference_frame *r, const u
         r->hollow.absent = NULL, r->lacks = true;
         return false;
     }
-    r->lacks = levels_need_more_particles(&r->mesh, cell_level);
+    r->lacks = mesh_cells_to_become_finest_lack_particles(&r->mesh, cell_level);
     if (!r->lacks) return true;
     uint8_t *absent = absent_with(r, cell_level, 0, 0);
     for (int64_t J = 0; J < r->hollow.box.n; J++) r->hollow.absent[J] &= absent[J];
@@ -243,7 +243,7 @@ bool initial_levels_have_all_needed_particles(struct reference_frame *r, const u
     return false;
 }
 
-void cells_without_particles_update_from_levels(struct reference_frame *r, const uint8_t *cell_level)
+void cells_without_particles_update_from_levels(struct lagrangian_mesh *r, const uint8_t *cell_level)
 {
     uint8_t *absent = absent_with(r, cell_level, MARGIN, AHEAD);
     memory_free(r->hollow.absent);

@@ -14,7 +14,7 @@ static void cell_points(struct particles *p, const struct mesh *mesh, const stru
     for (int c = 0; c < 1 << g->dim; c++) {
         const int64_t i = first + c;
         point[c] = (int32_t)i;
-        for (int d = 0; d < g->dim; d++) p->X[d][i] = grid_cell_particle_coordinate(g, cell, c, d);
+        for (int d = 0; d < g->dim; d++) p->X[d][i] = grid_cell_quadrature_point_coordinate(g, cell, c, d);
         p->volume0[i] = p->volume[i] = mesh->volume;
         p->material[i] = mesh->material[cell];
         p->mass[i] = m[p->material[i]].density * mesh->volume;
@@ -26,7 +26,7 @@ static void cell_points(struct particles *p, const struct mesh *mesh, const stru
  * cell[cells] of `level`, which have the edge of 2^level finest cells. The points are stored in r->shown.part from
  * index `first` on, and move with the nodes of these cells. body: the particles of the run; m: materials of the
  * scene. */
-static void level_points(struct reference_frame *r, const struct particles *body, const struct material *m, int level,
+static void level_points(struct lagrangian_mesh *r, const struct particles *body, const struct material *m, int level,
                          const int64_t *cell, int64_t cells, int64_t first)
 {
     struct particles *p = &r->shown.part;
@@ -57,8 +57,8 @@ void coarse_cell_points_free(struct coarse_cell_points *h)
     }
 }
 
-bool coarse_cell_points_make_for_output(struct reference_frame *r, const struct particles *body,
-                                        const struct material *m, bool with_gradients)
+bool coarse_cell_points_interpolate_for_output(struct lagrangian_mesh *r, const struct particles *body,
+                                               const struct material *m, bool with_gradients)
 {
     struct mesh_levels *l = &r->levels;
     const int dim = body->dim;
@@ -66,14 +66,14 @@ bool coarse_cell_points_make_for_output(struct reference_frame *r, const struct 
     coarse_cell_points_free(&r->shown);
     if (!r->hollow.absent) return false;
     for (int level = 1; level <= l->n; level++)
-        points += (cells[level] = levels_list_cells_without_particles(l, level, NULL)) << dim;
+        points += (cells[level] = mesh_levels_list_cells_without_particles(l, level, NULL)) << dim;
     particles_make(&r->shown.part, dim, points, 0);
     r->shown.part.plane_strain = body->plane_strain;
     r->shown.spacing = NEW("report.spacing", points, real);
     for (int k = 0; k < dim * dim && with_gradients; k++) r->shown.gradient[k] = NEW("report.gradient", points, real);
     for (int level = 1, first = 0; level <= l->n; first += (int)cells[level] << dim, level++) {
         int64_t *cell = BARE("report.cell", cells[level], int64_t);
-        levels_list_cells_without_particles(l, level, cell);
+        mesh_levels_list_cells_without_particles(l, level, cell);
         level_points(r, body, m, level, cell, cells[level], first);
         memory_free(cell);
     }

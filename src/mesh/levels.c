@@ -33,7 +33,7 @@ static status level_make(struct mesh_levels *l, int level, const struct mesh_sou
         like.anchor[d] = grid_node_position(fine, d, l->offset[0][d]);
         to[d] = grid_node_position(fine, d, fine->count[d]);
     }
-    TRY(mesh_allocate_box(mesh, &like, like.anchor, to, NULL, NULL));
+    TRY(mesh_allocate_arrays_for_box(mesh, &like, like.anchor, to, NULL, NULL));
     for (int d = 0; d < fine->dim; d++) l->offset[level][d] = -mesh->grid.first[d];
     mesh->volume = l->fine->volume * (real)(1 << fine->dim * level);
     mesh->material = NEW("levels.material", mesh->grid.n, uint8_t);
@@ -43,8 +43,9 @@ static status level_make(struct mesh_levels *l, int level, const struct mesh_sou
     return OK;
 }
 
-status levels_make_over_finest_mesh(struct mesh_levels *l, int coarse_level_count, struct mesh *finest_mesh,
-                                    const struct particles *p, const struct mesh_source *source, const real *density)
+status mesh_levels_make_over_finest_mesh(struct mesh_levels *l, int coarse_level_count, struct mesh *finest_mesh,
+                                         const struct particles *p, const struct mesh_source *source,
+                                         const real *density)
 {
     memset(l, 0, sizeof *l);
     if (coarse_level_count == 0 || finest_mesh->points == 0) return OK;
@@ -57,11 +58,11 @@ status levels_make_over_finest_mesh(struct mesh_levels *l, int coarse_level_coun
     l->safe = NEW("levels.safe", finest_mesh->grid.n, uint8_t);
     finest_mesh->level = l->level;
     for (int level = 1; level <= coarse_level_count; level++) TRY(level_make(l, level, source, density));
-    levels_classify_distances_to_coarse_cells(l);
+    mesh_levels_classify_cells_by_distance_to_coarse(l);
     return OK;
 }
 
-void levels_free(struct mesh_levels *l)
+void mesh_levels_free(struct mesh_levels *l)
 {
     for (int level = 1; level <= l->n; level++) {
         mesh_free(&l->at[level].mesh);
@@ -81,87 +82,87 @@ void levels_free(struct mesh_levels *l)
 
 /* Copies displacement and velocity to all ghosts of the coarse levels of l. A ghost is a node of a coarser mesh at
  * which the next finer mesh has a node, too; it moves with that finer node. */
-void levels_copy_motion_to_ghost_nodes(struct mesh_levels *l)
+void mesh_levels_copy_motion_to_ghost_nodes(struct mesh_levels *l)
 {
-    for (int level = 1; level <= l->n; level++) levels_copy_motion_to_ghosts_of_one_level(l, level);
+    for (int level = 1; level <= l->n; level++) mesh_levels_copy_motion_to_ghosts_of_one_level(l, level);
 }
 
-void levels_prolong_motion_to_fine_nodes(struct mesh_levels *l)
+void mesh_levels_prolong_motion_to_fine_nodes(struct mesh_levels *l)
 {
-    levels_copy_motion_to_ghost_nodes(l);
-    if (l->n > 0) levels_interpolate_motion_to_fine_nodes(l, true);
+    mesh_levels_copy_motion_to_ghost_nodes(l);
+    if (l->n > 0) mesh_levels_interpolate_motion_to_fine_nodes(l, true);
 }
 
-void levels_prolong_motion_to_nodes_near_points(struct mesh_levels *l)
+void mesh_levels_prolong_motion_near_particles(struct mesh_levels *l)
 {
-    levels_copy_motion_to_ghost_nodes(l);
-    if (l->n > 0) levels_interpolate_motion_to_fine_nodes(l, false);
+    mesh_levels_copy_motion_to_ghost_nodes(l);
+    if (l->n > 0) mesh_levels_interpolate_motion_to_fine_nodes(l, false);
 }
 
-bool levels_contain_inverted_cell(const struct mesh_levels *l, real *X)
+bool mesh_levels_find_inverted_coarse_cell(const struct mesh_levels *l, real *X)
 {
     for (int level = 1; level <= l->n; level++) {
         const struct mesh *mesh = &l->at[level].mesh;
         for (int64_t I = 0; I < mesh->grid.n; I++) {
             if (mesh->kind[I] != CELL_WHOLE || !mesh_cell_is_inverted(mesh, I)) continue;
-            for (int d = 0; d < mesh->grid.dim; d++) X[d] = grid_cell_particle_coordinate(&mesh->grid, I, 0, d);
+            for (int d = 0; d < mesh->grid.dim; d++) X[d] = grid_cell_quadrature_point_coordinate(&mesh->grid, I, 0, d);
             return true;
         }
     }
     return false;
 }
 
-int64_t levels_list_cells_without_particles(const struct mesh_levels *l, int level, int64_t *cell_index)
+int64_t mesh_levels_list_cells_without_particles(const struct mesh_levels *l, int level, int64_t *cell_index)
 {
     const struct mesh *mesh = &l->at[level].mesh;
     int64_t n = 0, k[DIM_MAX] = {0};
     for (int64_t I = 0; I < mesh->grid.n && l->fine->absent; I++, grid_advance_to_next_node_indices(&mesh->grid, k)) {
         bool absent = false;
         if (mesh->kind[I] != CELL_WHOLE) continue;
-        for (int part = 0; part < levels_fine_cells_per_cell(l, level) && !absent; part++)
-            absent = l->fine->absent[levels_fine_cell_in_coarse_cell(
-                l, level, levels_fine_node_of_coarse_node(l, level, k), part)];
+        for (int part = 0; part < mesh_levels_fine_cells_per_cell(l, level) && !absent; part++)
+            absent = l->fine->absent[mesh_levels_fine_cell_in_coarse_cell(
+                l, level, mesh_levels_fine_node_of_coarse_node(l, level, k), part)];
         if (absent && cell_index) cell_index[n] = I;
         n += absent;
     }
     return n;
 }
 
-int64_t levels_count_cells_of_level(const struct mesh_levels *l, int level)
+int64_t mesh_levels_count_cells_of_level(const struct mesh_levels *l, int level)
 {
     int64_t cells = 0;
     if (level > 0) return l->at[level].cells;
-    for (int64_t I = 0; I < l->fine->grid.n; I++) cells += mesh_cell_computes_forces(l->fine, I);
+    for (int64_t I = 0; I < l->fine->grid.n; I++) cells += mesh_cell_contributes_forces_to_nodes(l->fine, I);
     return cells;
 }
 
 /* ---- sums -------------------------------------------------------------------------------------------------------- */
 
 /* Returns the kinetic energy of the nodes of all coarse levels of l [J], without that of level 0, the finest. */
-real levels_kinetic_energy_of_coarse_levels(const struct mesh_levels *l)
+real mesh_levels_kinetic_energy_of_coarse_levels(const struct mesh_levels *l)
 {
     real sum = 0;
     for (int level = 1; level <= l->n; level++) sum += mesh_kinetic(&l->at[level].mesh);
     return sum;
 }
 
-real levels_strain_energy_of_coarse_cells(struct mesh_levels *l, const struct particles *p, const struct elastic *m,
-                                          bool finite_strain)
+real mesh_levels_strain_energy_of_coarse_cells(struct mesh_levels *l, const struct particles *p,
+                                               const struct elastic *m, bool finite_strain)
 {
     real sum = 0;
-    levels_copy_motion_to_ghost_nodes(l);
+    mesh_levels_copy_motion_to_ghost_nodes(l);
     for (int level = 1; level <= l->n; level++) sum += mesh_strain(&l->at[level].mesh, p, m, finite_strain);
     return sum;
 }
 
-real levels_leapfrog_energy_gap(const struct mesh_levels *l, real dt)
+real mesh_levels_leapfrog_kinetic_energy_correction(const struct mesh_levels *l, real dt)
 {
     real sum = 0;
     for (int level = 1; level <= l->n; level++) sum += mesh_kick(&l->at[level].mesh, dt * (real)(1 << level));
     return sum;
 }
 
-real levels_power_of_coarse_nodal_forces(const struct mesh_levels *l)
+real mesh_levels_power_of_coarse_nodal_forces(const struct mesh_levels *l)
 {
     real power = 0;
     for (int level = 1; level <= l->n; level++) {
@@ -208,14 +209,15 @@ static status stressed_archive(struct mesh *mesh, int level, struct archive *a)
 static void cells_from_levels(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source)
 {
     mesh_rebuild_cells_after_level_change(l->fine, p, source, l->level);
-    levels_compute_coarse_cells_and_masses(l, p);
-    levels_find_ghost_and_hanging_nodes(l);
-    levels_add_masses_of_dependent_nodes(l, false);
-    levels_make_cell_rows_and_node_spans(l);
-    levels_classify_distances_to_coarse_cells(l);
+    mesh_levels_compute_coarse_cells_and_masses(l, p);
+    mesh_levels_find_ghost_and_hanging_nodes(l);
+    mesh_levels_add_masses_of_dependent_nodes(l, false);
+    mesh_levels_find_uniform_cell_rows_and_node_spans(l);
+    mesh_levels_classify_cells_by_distance_to_coarse(l);
 }
 
-void levels_reconnect_finest_mesh(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source)
+void mesh_levels_reconnect_coarse_to_finest_mesh(struct mesh_levels *l, const struct particles *p,
+                                                 const struct mesh_source *source)
 {
     uint8_t *stressed[LEVELS_MAX + 1];
     l->fine->level = l->level;
@@ -245,8 +247,8 @@ static status level_archive(struct mesh *mesh, int level, struct archive *a)
     return stressed_archive(mesh, level, a);
 }
 
-status levels_save_or_load(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
-                           struct archive *a)
+status mesh_levels_save_or_load(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
+                                struct archive *a)
 {
     if (l->n == 0) return OK;
     const size_t cells = (size_t)l->fine->grid.n;
@@ -256,7 +258,7 @@ status levels_save_or_load(struct mesh_levels *l, const struct particles *p, con
     ARCHIVE_VALUE(a, "levels/any_wanted", l->any_wanted);
     ARCHIVE_VALUE(a, "levels/changes", l->changes);
     if (!a->saving) {
-        if (!levels_are_consistent(l))
+        if (!mesh_levels_coarse_cells_are_uniform_and_filled(l))
             return status_set(FAILED, "cannot resume: the refinement levels in the checkpoint do not form a valid "
                                       "mesh; it is damaged, start again with --overwrite");
         cells_from_levels(l, p, source);

@@ -8,8 +8,8 @@
 
 /* Makes the coarse cells of l from l->level, the coarsening level of each cell of level 0 (the finest): kind and
  * material of the cells, their number, and the masses of their nodes from the particles p. Transfers no mass between
- * levels; levels_add_masses_of_dependent_nodes does that. */
-void levels_compute_coarse_cells_and_masses(struct mesh_levels *l, const struct particles *p)
+ * levels; mesh_levels_add_masses_of_dependent_nodes does that. */
+void mesh_levels_compute_coarse_cells_and_masses(struct mesh_levels *l, const struct particles *p)
 {
     const struct mesh *fine = l->fine;
     const int corners = 1 << fine->grid.dim;
@@ -22,11 +22,11 @@ void levels_compute_coarse_cells_and_masses(struct mesh_levels *l, const struct 
     }
     for (int64_t I = 0; I < fine->grid.n; I++, grid_advance_to_next_node_indices(&fine->grid, k)) {
         const int level = l->level[I];
-        if (level == 0 || !levels_fine_cell_is_at_lower_corner(l, level, k)) continue;
+        if (level == 0 || !mesh_levels_fine_cell_is_at_lower_corner(l, level, k)) continue;
         struct mesh *mesh = &l->at[level].mesh;
-        const int64_t J = levels_coarse_cell_of_fine_cell(l, level, k, NULL);
+        const int64_t J = mesh_levels_coarse_cell_of_fine_cell(l, level, k, NULL);
         mesh->kind[J] = CELL_WHOLE;
-        mesh->material[J] = mesh_whole_cell_material(fine, p, I);
+        mesh->material[J] = mesh_material_of_filled_cell(fine, p, I);
         for (int c = 0; c < corners; c++)
             mesh->grid.mass[J + mesh->corner[c]] += mesh->cell_mass[mesh->material[J]] / corners;
         l->at[level].cells++;
@@ -43,7 +43,7 @@ static bool node_acts(const struct mesh *mesh, int64_t I)
     bool acts = false;
     for (int c = 0; c < 1 << mesh->grid.dim && !acts; c++) {
         const int64_t cell = I - mesh->corner[c];
-        acts = cell >= 0 && mesh_cell_computes_forces(mesh, cell);
+        acts = cell >= 0 && mesh_cell_contributes_forces_to_nodes(mesh, cell);
     }
     return acts;
 }
@@ -63,7 +63,7 @@ static bool coarse_beside(const struct mesh_levels *l, int level, const int64_t 
             twice = twice || (below && odd);
             J += ((at[d] >> 1) - (below && !odd) + l->offset[level][d]) * mesh->grid.stride[d];
         }
-        if (!twice && J >= 0 && J < mesh->grid.n && mesh_cell_computes_forces(mesh, J)) return true;
+        if (!twice && J >= 0 && J < mesh->grid.n && mesh_cell_contributes_forces_to_nodes(mesh, J)) return true;
     }
     return false;
 }
@@ -99,7 +99,7 @@ static void hanging_add(struct mesh_level *m, const struct mesh *mesh, int64_t I
 static void interface_find(struct mesh_levels *l, int level)
 {
     struct mesh_level *m = &l->at[level];
-    const struct mesh *below = level_mesh_read_only(l, level - 1);
+    const struct mesh *below = mesh_levels_mesh_of_level_read_only(l, level - 1);
     int64_t k[DIM_MAX] = {0}, at[DIM_MAX];
     m->ghosts = m->hangings = 0;
     for (int64_t I = 0; I < below->grid.n; I++, grid_advance_to_next_node_indices(&below->grid, k)) {
@@ -138,7 +138,7 @@ static void matched_find(struct mesh *mesh)
     }
 }
 
-void levels_find_ghost_and_hanging_nodes(struct mesh_levels *l)
+void mesh_levels_find_ghost_and_hanging_nodes(struct mesh_levels *l)
 {
     for (int level = 1; level <= l->n; level++) {
         interface_find(l, level);
@@ -162,11 +162,11 @@ static void hanging_give(struct grid *g, const struct mesh_hanging *h, int d)
     g->momentum[d][h->node] = 0;
 }
 
-void levels_add_masses_of_dependent_nodes(struct mesh_levels *l, bool transfer_momenta)
+void mesh_levels_add_masses_of_dependent_nodes(struct mesh_levels *l, bool transfer_momenta)
 {
     for (int level = 1; level <= l->n; level++) {
         struct mesh_level *m = &l->at[level];
-        struct grid *coarse = &m->mesh.grid, *fine = &level_mesh(l, level - 1)->grid;
+        struct grid *coarse = &m->mesh.grid, *fine = &mesh_levels_mesh_of_level(l, level - 1)->grid;
         for (int64_t k = 0; k < m->ghosts; k++) {
             const struct mesh_ghost s = m->ghost[k];
             give(coarse->mass, s.coarse, fine->mass, s.fine, 1);
@@ -184,20 +184,20 @@ void levels_add_masses_of_dependent_nodes(struct mesh_levels *l, bool transfer_m
         }
     }
     for (int level = 0; level <= l->n; level++) {
-        struct mesh *mesh = level_mesh(l, level);
+        struct mesh *mesh = mesh_levels_mesh_of_level(l, level);
         for (int64_t I = 0; I < mesh->grid.n; I++)
             mesh->inverse_mass[I] = mesh->grid.mass[I] > 0 ? 1 / mesh->grid.mass[I] : 0;
     }
 }
 
-void levels_make_cell_rows_and_node_spans(struct mesh_levels *l)
+void mesh_levels_find_uniform_cell_rows_and_node_spans(struct mesh_levels *l)
 {
-    for (int level = 1; level <= l->n; level++) mesh_make_cell_rows_and_node_spans(&l->at[level].mesh);
+    for (int level = 1; level <= l->n; level++) mesh_find_uniform_cell_rows_and_node_spans(&l->at[level].mesh);
     mesh_find_node_spans_with_mass(l->fine);
     mesh_activate_node_blocks_at_cells(l->fine);
 }
 
-void levels_match_wave_dispersion_of_bonds(struct mesh_levels *l, real edge, real wave_speed, real dt)
+void mesh_levels_match_wave_dispersion_of_bonds(struct mesh_levels *l, real edge, real wave_speed, real dt)
 {
     l->wave_speed = wave_speed;
     for (int level = 1; level <= l->n; level++) {

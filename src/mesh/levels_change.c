@@ -37,7 +37,7 @@ static struct cell_around coarse_around(const struct mesh_levels *l, int64_t I, 
     if (corner < 0) return a;
     a.level = l->level[I - fine->corner[corner]];
     for (int d = 0; d < dim; d++) own[d] = k[d] - (corner >> d & 1);
-    a.cell = levels_coarse_cell_of_fine_cell(l, a.level, own, q);
+    a.cell = mesh_levels_coarse_cell_of_fine_cell(l, a.level, own, q);
     for (int d = 0; d < dim; d++)
         a.t[d] = (real)(k[d] - l->offset[0][d] - ((q[d] - l->offset[a.level][d]) << a.level)) / (real)(1 << a.level);
     return a;
@@ -91,7 +91,7 @@ static void row_interpolate(struct mesh_levels *l, int64_t row)
     for (int64_t I = first; I < first + g->count[0]; I++, k[0]++) node_interpolate(l, I, k);
 }
 
-void levels_interpolate_motion_to_fine_nodes(struct mesh_levels *l, bool all_nodes)
+void mesh_levels_interpolate_motion_to_fine_nodes(struct mesh_levels *l, bool all_nodes)
 {
     struct mesh *fine = l->fine;
     if (all_nodes || !fine->absent) {
@@ -123,7 +123,7 @@ static void nodes_sample(struct mesh_levels *l)
         int64_t k[DIM_MAX] = {0};
         for (int64_t J = 0; J < mesh->grid.n; J++, grid_advance_to_next_node_indices(&mesh->grid, k)) {
             const real mass = mesh->grid.mass[J];
-            const int64_t I = mass > 0 ? levels_fine_node_of_coarse_node(l, level, k) : 0;
+            const int64_t I = mass > 0 ? mesh_levels_fine_node_of_coarse_node(l, level, k) : 0;
             for (int d = 0; d < fine->grid.dim; d++) {
                 mesh->displacement[d][J] = mass > 0 ? fine->displacement[d][I] : 0;
                 mesh->grid.velocity[d][J] = mass > 0 ? fine->grid.velocity[d][I] : 0;
@@ -139,11 +139,11 @@ static void nodes_sample(struct mesh_levels *l)
  * field: a value for each node of level 0. */
 static real cell_mean(const struct mesh_levels *l, int level, int64_t first, const real *field)
 {
-    const int dim = l->fine->grid.dim, parts = levels_fine_cells_per_cell(l, level);
+    const int dim = l->fine->grid.dim, parts = mesh_levels_fine_cells_per_cell(l, level);
     real sum = 0;
     for (int part = 0; part < parts; part++)
         for (int c = 0; c < 1 << dim; c++)
-            sum += field[levels_fine_cell_in_coarse_cell(l, level, first, part) + l->fine->corner[c]];
+            sum += field[mesh_levels_fine_cell_in_coarse_cell(l, level, first, part) + l->fine->corner[c]];
     return sum / (real)(parts << dim);
 }
 
@@ -162,10 +162,10 @@ static void merged_correct(struct mesh_levels *l, int level, int64_t J, const in
         for (int c = 0; c < corners; c++) {
             int64_t at[DIM_MAX];
             for (int b = 0; b < DIM_MAX; b++) at[b] = b < dim ? q[b] + (c >> b & 1) : 0;
-            mean += velocity[levels_fine_node_of_coarse_node(l, level, at)] / corners;
+            mean += velocity[mesh_levels_fine_node_of_coarse_node(l, level, at)] / corners;
         }
         const real missing =
-            mass / corners * (cell_mean(l, level, levels_fine_node_of_coarse_node(l, level, q), velocity) - mean);
+            mass / corners * (cell_mean(l, level, mesh_levels_fine_node_of_coarse_node(l, level, q), velocity) - mean);
         for (int c = 0; c < corners; c++) mesh->grid.momentum[d][J + mesh->corner[c]] += missing;
     }
 }
@@ -182,7 +182,8 @@ static void merged_cells_correct(struct mesh_levels *l, const uint8_t *before)
         int64_t q[DIM_MAX] = {0};
         for (int64_t J = 0; J < mesh->grid.n; J++, grid_advance_to_next_node_indices(&mesh->grid, q)) {
             if (mesh->kind[J] != CELL_WHOLE) continue;
-            if (levels_coarse_cell_contains_finer_level(l, level, levels_fine_node_of_coarse_node(l, level, q), before))
+            if (mesh_levels_coarse_cell_contains_finer_level(l, level,
+                                                             mesh_levels_fine_node_of_coarse_node(l, level, q), before))
                 merged_correct(l, level, J, q);
         }
     }
@@ -194,14 +195,14 @@ static void merged_cells_correct(struct mesh_levels *l, const uint8_t *before)
 static void velocities_make(struct mesh_levels *l)
 {
     for (int level = 0; level <= l->n; level++) {
-        struct mesh *mesh = level_mesh(l, level);
+        struct mesh *mesh = mesh_levels_mesh_of_level(l, level);
         for (int d = 0; d < mesh->grid.dim; d++)
             for (int64_t I = 0; I < mesh->grid.n; I++) {
                 mesh->grid.velocity[d][I] = mesh->grid.momentum[d][I] * mesh->inverse_mass[I];
                 mesh->grid.momentum[d][I] = mesh->grid.force[d][I] = 0;
             }
     }
-    levels_compute_momenta_from_velocities(l);
+    mesh_levels_compute_momenta_from_velocities(l);
 }
 
 /* Number of iterations w <- w + v - B w that solve B w = v to round-off, with the inverse mass matrix B of
@@ -210,7 +211,7 @@ static void velocities_make(struct mesh_levels *l)
 enum { MOMENTA_ROUNDS = 52 };
 #define MOMENTA_TOLERANCE 3e-16 /* tolerance of the residual [largest velocity] */
 
-void levels_compute_momenta_from_velocities(struct mesh_levels *l)
+void mesh_levels_compute_momenta_from_velocities(struct mesh_levels *l)
 {
     for (int level = 1; level <= l->n; level++) {
         struct grid *g = &l->at[level].mesh.grid;
@@ -237,14 +238,14 @@ void levels_compute_momenta_from_velocities(struct mesh_levels *l)
     }
 }
 
-void levels_shift_velocities_half_step(struct mesh_levels *l, const struct particles *p, const struct elastic *m,
-                                       bool finite_strain, real dt)
+void mesh_levels_shift_velocities_half_step(struct mesh_levels *l, const struct particles *p, const struct elastic *m,
+                                            bool finite_strain, real dt)
 {
     mesh_clear(l->fine);
     mesh_force(l->fine, p, m, finite_strain);
-    levels_compute_forces_of_coarse_cells(l, p, m, finite_strain, l->n);
+    mesh_levels_compute_forces_of_coarse_cells(l, p, m, finite_strain, l->n);
     for (int level = 0; level <= l->n; level++) {
-        struct mesh *mesh = level_mesh(l, level);
+        struct mesh *mesh = mesh_levels_mesh_of_level(l, level);
         const real half = 0.5 * dt * (real)(1 << level);
         for (int d = 0; d < mesh->grid.dim; d++) {
             real *moved = level > 0 ? mesh->grid.momentum[d] : mesh->grid.velocity[d];
@@ -253,31 +254,31 @@ void levels_shift_velocities_half_step(struct mesh_levels *l, const struct parti
         }
         if (level > 0) mesh_velocity(mesh, mesh->grid.momentum, mesh->grid.velocity);
     }
-    for (int level = 1; level <= l->n; level++) levels_interpolate_motion_of_hanging_nodes(l, level);
-    levels_copy_motion_to_ghost_nodes(l);
+    for (int level = 1; level <= l->n; level++) mesh_levels_interpolate_motion_of_hanging_nodes(l, level);
+    mesh_levels_copy_motion_to_ghost_nodes(l);
 }
 
-void levels_change_refinement(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
-                              const uint8_t *new_cell_level)
+void mesh_levels_change_refinement(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
+                                   const uint8_t *new_cell_level)
 {
     const int64_t cells = l->fine->grid.n;
     uint8_t *before = NEW("levels.before", 2 * cells + LANES, uint8_t), *dirty = before + cells;
-    levels_copy_motion_to_ghost_nodes(l);
-    levels_interpolate_motion_to_fine_nodes(l, true);
+    mesh_levels_copy_motion_to_ghost_nodes(l);
+    mesh_levels_interpolate_motion_to_fine_nodes(l, true);
     array_copy(before, l->level, cells, 1);
     for (int64_t I = 0; I < cells; I++) dirty[I] = before[I] != new_cell_level[I];
     array_copy(l->level, new_cell_level, cells, 1);
     mesh_rebuild_cells_after_level_change(l->fine, p, source, dirty);
-    levels_compute_coarse_cells_and_masses(l, p);
-    levels_find_ghost_and_hanging_nodes(l);
+    mesh_levels_compute_coarse_cells_and_masses(l, p);
+    mesh_levels_find_ghost_and_hanging_nodes(l);
     nodes_sample(l);
     merged_cells_correct(l, before);
-    levels_add_masses_of_dependent_nodes(l, true);
-    levels_make_cell_rows_and_node_spans(l);
+    mesh_levels_add_masses_of_dependent_nodes(l, true);
+    mesh_levels_find_uniform_cell_rows_and_node_spans(l);
     velocities_make(l);
-    for (int k = 1; k <= l->n; k++) levels_interpolate_motion_of_hanging_nodes(l, k);
-    levels_copy_motion_to_ghost_nodes(l);
-    levels_classify_distances_to_coarse_cells(l);
+    for (int k = 1; k <= l->n; k++) mesh_levels_interpolate_motion_of_hanging_nodes(l, k);
+    mesh_levels_copy_motion_to_ghost_nodes(l);
+    mesh_levels_classify_cells_by_distance_to_coarse(l);
     l->changes++;
     memory_free(before);
 }

@@ -124,16 +124,17 @@ static real spacings_across(const struct scene *s, const struct particles *p,
  * if scene s may have coarse cells: it is dynamic, has a mesh and allows coarse levels, and with automatic levels has
  * at least PAYS particles. Otherwise r->room remains NULL. particle_count: number of particles of the body, including
  * those not created. */
-void mesh_levels_find_highest_allowed_by_thickness(struct reference_frame *r, const struct scene *s,
-                                                   int64_t particle_count)
+void mesh_levels_store_coarsening_limits_by_thickness(struct lagrangian_mesh *r, const struct scene *s,
+                                                      int64_t particle_count)
 {
     if (!scene_is_dynamic(s) || r->mesh.points == 0 || s->levels == 0) return;
     if (s->levels == LEVELS_AUTO && particle_count < PAYS) return;
     r->room = NEW("engine.room", r->mesh.grid.n, uint8_t);
-    r->room_most = mesh_compute_highest_cell_levels(&r->mesh, r->source.mirror, r->source.mirrors, r->room);
+    r->room_most =
+        mesh_compute_cell_coarsening_limit_by_thickness(&r->mesh, r->source.mirror, r->source.mirrors, r->room);
 }
 
-struct levels_choice mesh_levels_choose_level_count(const struct reference_frame *r, const struct particles *p,
+struct levels_choice mesh_levels_choose_level_count(const struct lagrangian_mesh *r, const struct particles *p,
                                                     const struct scene *s, real dt_critical)
 {
     struct levels_choice c = {.given = s->levels != LEVELS_AUTO,
@@ -265,7 +266,7 @@ void mesh_levels_describe_level_count(const struct levels_choice *c, const struc
 
 /* Writes to text[capacity] where the body of r is too thin for the coarse cells that the scene prescribes: fewer than
  * CELLS_ACROSS of them fit across it. Returns false, without text, if there is no such cell. */
-static bool thin_text(const struct reference_frame *r, char *text, size_t capacity)
+static bool thin_text(const struct lagrangian_mesh *r, char *text, size_t capacity)
 {
     const struct grid *g = &r->mesh.grid;
     int64_t thin = 0, coarse = 0, first = 0;
@@ -286,8 +287,8 @@ static bool thin_text(const struct reference_frame *r, char *text, size_t capaci
     return true;
 }
 
-bool mesh_levels_of_scene_exceed_limit(const struct levels_choice *c, const struct reference_frame *r,
-                                       const struct scene *s, char *reason, size_t capacity)
+bool mesh_levels_given_by_scene_are_too_many(const struct levels_choice *c, const struct lagrangian_mesh *r,
+                                             const struct scene *s, char *reason, size_t capacity)
 {
     char load[256], want[160];
     int levels = c->rise.pulse ? 0 : CARRIED_BY_ANY;

@@ -30,7 +30,7 @@ static void base_map(struct level_map *to, const struct mesh_levels *l, const st
         to->some[I] = fine->kind[I] != CELL_EMPTY;
         to->ok[I] = whole && !demand[I];
         to->limit[I] = limit ? limit[I] : (uint8_t)l->n;
-        to->material[I] = whole ? mesh_whole_cell_material(fine, p, I) : 0;
+        to->material[I] = whole ? mesh_material_of_filled_cell(fine, p, I) : 0;
     }
 }
 
@@ -39,7 +39,7 @@ static void base_map(struct level_map *to, const struct mesh_levels *l, const st
  * have this level. k[dim]: indices of the cell along the axes. */
 static void gather_parts(struct level_map *map, const struct mesh_levels *l, int level, int64_t I, const int64_t *k)
 {
-    const struct grid *below = &level_mesh_read_only(l, level - 1)->grid;
+    const struct grid *below = &mesh_levels_mesh_of_level_read_only(l, level - 1)->grid;
     const struct level_map *from = &map[level - 1];
     struct level_map *to = &map[level];
     to->ok[I] = 1, to->some[I] = 0, to->limit[I] = UINT8_MAX;
@@ -98,7 +98,7 @@ static bool ring_of_first(const struct level_map *map, const struct mesh_levels 
 static bool ring_allows(const struct level_map *map, const struct mesh_levels *l, int level, const int64_t *k)
 {
     const int on = level - 1;
-    const struct grid *g = &level_mesh_read_only(l, on)->grid;
+    const struct grid *g = &mesh_levels_mesh_of_level_read_only(l, on)->grid;
     const int around = g->dim == 1 ? 4 : g->dim == 2 ? 16 : 64;
     for (int q = 0; q < around; q++) {
         int64_t J = 0;
@@ -113,12 +113,12 @@ static bool ring_allows(const struct level_map *map, const struct mesh_levels *l
  * map[level], from map[level - 1]. */
 static void level_map_find(struct level_map *map, const struct mesh_levels *l, int level)
 {
-    const struct grid *g = &level_mesh_read_only(l, level)->grid;
+    const struct grid *g = &mesh_levels_mesh_of_level_read_only(l, level)->grid;
     int64_t k[DIM_MAX] = {0}, q[DIM_MAX] = {0};
     uint8_t *good = NEW("levels.good", g->n, uint8_t);
     bool *inside = NEW("levels.inside", g->n, bool);
     for (int64_t I = 0; I < l->fine->grid.n; I++, grid_advance_to_next_node_indices(&l->fine->grid, k))
-        if (l->fine->kind[I] != CELL_EMPTY) inside[levels_coarse_cell_of_fine_cell(l, level, k, NULL)] = true;
+        if (l->fine->kind[I] != CELL_EMPTY) inside[mesh_levels_coarse_cell_of_fine_cell(l, level, k, NULL)] = true;
     for (int64_t I = 0; I < g->n; I++, grid_advance_to_next_node_indices(g, q))
         if (inside[I]) gather_parts(map, l, level, I, q);
     for (int64_t I = 0; I < g->n; I++, grid_advance_to_next_node_indices(g, q))
@@ -128,25 +128,26 @@ static void level_map_find(struct level_map *map, const struct mesh_levels *l, i
     memory_free(inside);
 }
 
-void levels_compute_coarsest_admissible_levels(const struct mesh_levels *l, const struct particles *p,
-                                               const uint8_t *finest_required, const uint8_t *highest_level,
-                                               uint8_t *admissible)
+void mesh_levels_compute_coarsest_admissible_levels(const struct mesh_levels *l, const struct particles *p,
+                                                    const uint8_t *finest_required, const uint8_t *highest_level,
+                                                    uint8_t *admissible)
 {
     struct level_map map[LEVELS_MAX + 1];
     int64_t k[DIM_MAX] = {0};
-    for (int level = 0; level <= l->n; level++) map[level] = level_map_make(level_mesh_read_only(l, level)->grid.n);
+    for (int level = 0; level <= l->n; level++)
+        map[level] = level_map_make(mesh_levels_mesh_of_level_read_only(l, level)->grid.n);
     base_map(&map[0], l, p, finest_required, highest_level);
     for (int level = 1; level <= l->n; level++) level_map_find(map, l, level);
     for (int64_t I = 0; I < l->fine->grid.n; I++, grid_advance_to_next_node_indices(&l->fine->grid, k)) {
         admissible[I] = 0;
         while (map[0].ok[I] && admissible[I] < l->n &&
-               map[admissible[I] + 1].ok[levels_coarse_cell_of_fine_cell(l, admissible[I] + 1, k, NULL)])
+               map[admissible[I] + 1].ok[mesh_levels_coarse_cell_of_fine_cell(l, admissible[I] + 1, k, NULL)])
             admissible[I]++;
     }
     for (int level = 0; level <= l->n; level++) memory_free(map[level].ok);
 }
 
-bool levels_are_consistent(const struct mesh_levels *l)
+bool mesh_levels_coarse_cells_are_uniform_and_filled(const struct mesh_levels *l)
 {
     const struct grid *g = &l->fine->grid;
     int64_t k[DIM_MAX] = {0}, covered = 0, coarse = 0;
@@ -155,9 +156,9 @@ bool levels_are_consistent(const struct mesh_levels *l)
         const int level = l->level[I];
         coarse += level > 0;
         sound = level <= l->n && (level > 0 || !l->fine->absent || !l->fine->absent[I]);
-        if (level == 0 || !sound || !levels_fine_cell_is_at_lower_corner(l, level, k)) continue;
-        for (int part = 0; part < levels_fine_cells_per_cell(l, level) && sound; part++, covered++) {
-            const int64_t J = levels_fine_cell_in_coarse_cell(l, level, I, part);
+        if (level == 0 || !sound || !mesh_levels_fine_cell_is_at_lower_corner(l, level, k)) continue;
+        for (int part = 0; part < mesh_levels_fine_cells_per_cell(l, level) && sound; part++, covered++) {
+            const int64_t J = mesh_levels_fine_cell_in_coarse_cell(l, level, I, part);
             sound = J < g->n && l->level[J] == level &&
                     (l->fine->kind[J] == CELL_WHOLE || (l->fine->absent && l->fine->absent[J]));
         }
@@ -192,41 +193,41 @@ void grid_mark_cells_near_marked_cells(const struct grid *g, uint8_t *cell_is_ma
     }
 }
 
-void levels_mark_cells_near_marked_cells(const struct mesh_levels *l, uint8_t *cell_is_marked, int reach_in_cells)
+void mesh_levels_mark_cells_near_marked_cells(const struct mesh_levels *l, uint8_t *cell_is_marked, int reach_in_cells)
 {
     grid_mark_cells_near_marked_cells(&l->fine->grid, cell_is_marked, reach_in_cells);
 }
 
-void levels_mark_all_cells_in_marked_coarse_cells(const struct mesh_levels *l, const uint8_t *cell_level,
-                                                  uint8_t *cell_is_marked)
+void mesh_levels_extend_marks_to_whole_coarse_cells(const struct mesh_levels *l, const uint8_t *cell_level,
+                                                    uint8_t *cell_is_marked)
 {
     const struct grid *g = &l->fine->grid;
     int64_t k[DIM_MAX] = {0};
     for (int64_t I = 0; I < g->n; I++, grid_advance_to_next_node_indices(g, k)) {
-        const int parts = cell_level[I] > 0 && levels_fine_cell_is_at_lower_corner(l, cell_level[I], k)
-                              ? levels_fine_cells_per_cell(l, cell_level[I])
+        const int parts = cell_level[I] > 0 && mesh_levels_fine_cell_is_at_lower_corner(l, cell_level[I], k)
+                              ? mesh_levels_fine_cells_per_cell(l, cell_level[I])
                               : 0;
         bool any = false;
         for (int part = 0; part < parts && !any; part++)
-            any = cell_is_marked[levels_fine_cell_in_coarse_cell(l, cell_level[I], I, part)] != 0;
+            any = cell_is_marked[mesh_levels_fine_cell_in_coarse_cell(l, cell_level[I], I, part)] != 0;
         for (int part = 0; part < parts && any; part++)
-            cell_is_marked[levels_fine_cell_in_coarse_cell(l, cell_level[I], I, part)] = 1;
+            cell_is_marked[mesh_levels_fine_cell_in_coarse_cell(l, cell_level[I], I, part)] = 1;
     }
 }
 
-void levels_set_conversion_distances(struct mesh_levels *l, int postpone_distance, int refine_distance)
+void mesh_levels_set_postpone_and_refine_distances(struct mesh_levels *l, int postpone_distance, int refine_distance)
 {
     l->safe_cells = postpone_distance, l->roomy_cells = refine_distance;
-    levels_classify_distances_to_coarse_cells(l);
+    mesh_levels_classify_cells_by_distance_to_coarse(l);
 }
 
-void levels_classify_distances_to_coarse_cells(struct mesh_levels *l)
+void mesh_levels_classify_cells_by_distance_to_coarse(struct mesh_levels *l)
 {
     const int64_t n = l->fine->grid.n;
     uint8_t *near = NEW("levels.near", n, uint8_t);
     for (int64_t I = 0; I < n; I++) l->safe[I] = near[I] = l->level[I] > 0;
-    levels_mark_cells_near_marked_cells(l, l->safe, l->safe_cells);
-    levels_mark_cells_near_marked_cells(l, near, l->roomy_cells);
+    mesh_levels_mark_cells_near_marked_cells(l, l->safe, l->safe_cells);
+    mesh_levels_mark_cells_near_marked_cells(l, near, l->roomy_cells);
     for (int64_t I = 0; I < n; I++)
         l->safe[I] = l->safe[I] ? DISTANCE_UNSAFE : near[I] ? DISTANCE_SAFE : DISTANCE_ROOMY;
     memory_free(near);

@@ -57,7 +57,7 @@ static int64_t cell_of(const struct mesh *mesh, const struct particles *p, int64
 
 /* Sets demand[I] = 1, which requires level 0 (the finest), for the mesh cells I of the reference frame `frame` beside
  * those planes of symmetry in `loads` that do not pass through nodes of all levels. */
-static void demand_mirrors(const struct reference_frame *frame, const struct loads *loads, uint8_t *demand)
+static void demand_mirrors(const struct lagrangian_mesh *frame, const struct loads *loads, uint8_t *demand)
 {
     const struct mesh_levels *l = &frame->levels;
     const struct grid *g = &l->fine->grid;
@@ -65,8 +65,8 @@ static void demand_mirrors(const struct reference_frame *frame, const struct loa
         const struct boundary *mirror = loads->load[b].boundary;
         const int a = mirror->axis;
         if (mirror->kind != BOUNDARY_MIRROR) continue;
-        const real at =
-            (mirror->at - grid_node_position(g, a, l->offset[0][a])) / (g->h * (real)levels_steps_per_cycle(l));
+        const real at = (mirror->at - grid_node_position(g, a, l->offset[0][a])) /
+                        (g->h * (real)mesh_levels_time_steps_per_cycle(l));
         if (fabs(at - nearbyint(at)) < 1e-6) continue;
         for (int64_t I = 0; I < g->n; I++) {
             const real x = grid_node_position(g, a, I / g->stride[a] % g->count[a]);
@@ -86,7 +86,7 @@ static void demand_slits(const struct mesh *mesh, uint8_t *demand)
 /* Finds the cells I of level 0 (the finest) of the mesh of `frame` inside the circle `ring`, a contour of a probe of
  * stress-intensity factors, and up to AROUND_RING spacings outside it. Returns true if one of them is part of a coarse
  * cell at present. demand[I]: set to 1 for these cells, which requires level 0; NULL if it is not needed. */
-static bool ring_cells(const struct reference_frame *frame, const struct frame_ring *ring, uint8_t *demand)
+static bool ring_cells(const struct lagrangian_mesh *frame, const struct finest_cells_disc *ring, uint8_t *demand)
 {
     const struct mesh_levels *l = &frame->levels;
     const struct grid *g = &l->fine->grid;
@@ -113,7 +113,7 @@ static bool ring_cells(const struct reference_frame *frame, const struct frame_r
  * stress-intensity factors. Returns true if one of them is part of a coarse cell at present. demand[I]: set to 1 for
  * these cells, which requires level 0; NULL if it is not needed. The probes need accelerations in every step, and nodes
  * of coarse cells have them in some steps only. */
-static bool rings_cells(const struct reference_frame *frame, uint8_t *demand)
+static bool rings_cells(const struct lagrangian_mesh *frame, uint8_t *demand)
 {
     bool coarse = false;
     for (int k = 0; k < frame->rings; k++) coarse |= ring_cells(frame, &frame->ring[k], demand);
@@ -132,7 +132,7 @@ static void marks_add(const struct mesh_levels *l, const uint8_t *more, uint8_t 
  * requested in l.wanted; within R + FLANK_MORE cells of slits if there are several, within one cell of a single slit;
  * and within one cell of particles on which `loads` act, of probes of stress-intensity factors and of planes of
  * symmetry that are not on nodes. Release the flags with memory_free. */
-static uint8_t *demand_make(const struct reference_frame *r, const struct particles *p, const struct loads *loads,
+static uint8_t *demand_make(const struct lagrangian_mesh *r, const struct particles *p, const struct loads *loads,
                             int more)
 {
     const struct mesh_levels *l = &r->levels;
@@ -141,16 +141,16 @@ static uint8_t *demand_make(const struct reference_frame *r, const struct partic
     uint8_t *flank = NEW("levels.flank", n, uint8_t);
     for (int64_t I = 0; I < n; I++) demand[I] = l->wanted[I] != WANTED_NOT;
     for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) demand[cell_of(l->fine, p, p->list[KIND_PD][k])] = 1;
-    levels_mark_cells_near_marked_cells(l, demand, l->roomy_cells + more);
+    mesh_levels_mark_cells_near_marked_cells(l, demand, l->roomy_cells + more);
     demand_slits(l->fine, flank);
-    levels_mark_cells_near_marked_cells(l, flank, r->source.slits > 1 ? l->roomy_cells + more + FLANK_MORE : 1);
+    mesh_levels_mark_cells_near_marked_cells(l, flank, r->source.slits > 1 ? l->roomy_cells + more + FLANK_MORE : 1);
     marks_add(l, flank, demand);
     memory_free(flank);
     for (int b = 0; b < loads->n; b++)
         for (int64_t k = 0; k < loads->load[b].n; k++) fixed[cell_of(l->fine, p, loads->load[b].particle[k])] = 1;
     demand_mirrors(r, loads, fixed);
     rings_cells(r, fixed);
-    levels_mark_cells_near_marked_cells(l, fixed, 1);
+    mesh_levels_mark_cells_near_marked_cells(l, fixed, 1);
     marks_add(l, fixed, demand);
     memory_free(fixed);
     return demand;
@@ -161,7 +161,7 @@ static uint8_t *demand_make(const struct reference_frame *r, const struct partic
  * finest cells). */
 static void demand_add(const struct mesh_levels *l, int level, const uint8_t *mark, uint8_t *demand)
 {
-    const struct grid *fine = &l->fine->grid, *g = &level_mesh_read_only(l, level)->grid;
+    const struct grid *fine = &l->fine->grid, *g = &mesh_levels_mesh_of_level_read_only(l, level)->grid;
     uint8_t *own = NEW("levels.stressed", fine->n, uint8_t);
     for (int64_t I = 0; I < fine->n; I++) {
         int64_t J = 0;
@@ -171,7 +171,7 @@ static void demand_add(const struct mesh_levels *l, int level, const uint8_t *ma
                  g->stride[d];
         own[I] = mark[J];
     }
-    levels_mark_cells_near_marked_cells(l, own, AROUND_STRESS);
+    mesh_levels_mark_cells_near_marked_cells(l, own, AROUND_STRESS);
     for (int64_t I = 0; I < fine->n; I++) demand[I] |= own[I];
     memory_free(own);
 }
@@ -179,12 +179,12 @@ static void demand_add(const struct mesh_levels *l, int level, const uint8_t *ma
 /* Returns flags [fine->grid.n] that are 1 for the mesh cells of `frame` with a stress above `share` [1] times the
  * stress at which points convert, and for cells around them. Returns NULL if no cell has such a stress. all: true to
  * test all cells, false for coarse cells only. Release the flags with memory_free. */
-static uint8_t *stressed_cells(const struct reference_frame *frame, real share, bool all)
+static uint8_t *stressed_cells(const struct lagrangian_mesh *frame, real share, bool all)
 {
     const struct mesh_levels *l = &frame->levels;
     uint8_t *cells = NULL;
     for (int level = all ? 0 : 1; level <= l->n; level++) {
-        const struct mesh *mesh = level_mesh_read_only(l, level);
+        const struct mesh *mesh = mesh_levels_mesh_of_level_read_only(l, level);
         uint8_t *mark = NEW("levels.mark", mesh->grid.n, uint8_t);
         mesh_cells_mark(mesh, frame->elastic, share, all, mark, frame->finite);
         if (memchr(mark, 1, (size_t)mesh->grid.n)) {
@@ -207,7 +207,7 @@ static bool any_merges(const struct mesh_levels *l, const uint8_t *level)
 
 /* Reduces limit[I], the largest coarsening level (0: finest) allowed for cell I of r, to r->room[I], the largest level
  * that the thickness of the body allows there. Does nothing if the scene prescribes the number of levels. */
-static void limit_by_room(const struct reference_frame *r, uint8_t *limit)
+static void limit_by_room(const struct lagrangian_mesh *r, uint8_t *limit)
 {
     for (int64_t I = 0; I < r->mesh.grid.n && r->room && r->room_limits; I++)
         if (r->room[I] < limit[I]) limit[I] = r->room[I];
@@ -217,49 +217,49 @@ static void limit_by_room(const struct reference_frame *r, uint8_t *limit)
  * for cells that must be of level 0; limit[I]: largest level allowed, reduced here for cells that would lose more
  * energy per mass by becoming coarser than the share ROUGH (1 %) of the present energy per mass of the body; p:
  * particles; mass: mass of the body [kg]. */
-static void next_levels(struct reference_frame *r, const struct particles *p, real mass, const uint8_t *demand,
+static void next_levels(struct lagrangian_mesh *r, const struct particles *p, real mass, const uint8_t *demand,
                         uint8_t *limit, uint8_t *level)
 {
     struct mesh_levels *l = &r->levels;
-    levels_compute_coarsest_admissible_levels(l, p, demand, limit, level);
+    mesh_levels_compute_coarsest_admissible_levels(l, p, demand, limit, level);
     if (!any_merges(l, level)) return;
-    const real most = ROUGH * (reference_frame_kinetic_energy(r) + reference_frame_strain_energy(r, p)) / mass;
-    levels_prolong_motion_to_fine_nodes(l);
-    while (levels_forbid_lossy_coarsening(l, level, most, limit))
-        levels_compute_coarsest_admissible_levels(l, p, demand, limit, level);
+    const real most = ROUGH * (lagrangian_mesh_kinetic_energy(r) + lagrangian_mesh_strain_energy(r, p)) / mass;
+    mesh_levels_prolong_motion_to_fine_nodes(l);
+    while (mesh_levels_limit_coarsening_by_energy_loss(l, level, most, limit))
+        mesh_levels_compute_coarsest_admissible_levels(l, p, demand, limit, level);
 }
 
-void mesh_levels_update_node_lists(struct reference_frame *r, const struct particles *p, const struct bonds *bonds,
-                                   struct loads *loads)
+void mesh_levels_update_lists_of_loaded_nodes(struct lagrangian_mesh *r, const struct particles *p,
+                                              const struct bonds *bonds, struct loads *loads)
 {
     struct mesh_levels *l = &r->levels;
     for (int k = 1; k <= l->n; k++) loads_find_driven_coarse_nodes(loads, &l->at[k].held, &l->at[k].mesh.grid, p);
-    reference_frame_list_bonded_or_loaded_points(r, p, bonds, loads);
+    lagrangian_mesh_list_bonded_or_loaded_points(r, p, bonds, loads);
 }
 
 /* Changes the coarsening levels of the cells of run e to level[I] (0: finest; I: index of the finest cell). The kinetic
  * and strain energy that the change loses is added to e->damped, so that the energy balance includes it. */
 static void change(struct run *e, const uint8_t *level)
 {
-    struct reference_frame *r = e->frame;
+    struct lagrangian_mesh *r = e->frame;
     /* before the first step velocities and displacements are at the same time */
     const real dt = e->clock.step > 0 ? e->clock.dt : 0;
-    levels_shift_velocities_half_step(&r->levels, &e->part, r->elastic, r->finite, dt);
-    const real before = reference_frame_kinetic_energy(r) + reference_frame_strain_energy(r, &e->part);
-    levels_change_refinement(&r->levels, &e->part, &r->source, level);
-    mesh_levels_update_node_lists(r, &e->part, &e->bonds, &e->loads);
-    e->damped += before - reference_frame_kinetic_energy(r) - reference_frame_strain_energy(r, &e->part);
-    levels_shift_velocities_half_step(&r->levels, &e->part, r->elastic, r->finite, -dt);
+    mesh_levels_shift_velocities_half_step(&r->levels, &e->part, r->elastic, r->finite, dt);
+    const real before = lagrangian_mesh_kinetic_energy(r) + lagrangian_mesh_strain_energy(r, &e->part);
+    mesh_levels_change_refinement(&r->levels, &e->part, &r->source, level);
+    mesh_levels_update_lists_of_loaded_nodes(r, &e->part, &e->bonds, &e->loads);
+    e->damped += before - lagrangian_mesh_kinetic_energy(r) - lagrangian_mesh_strain_energy(r, &e->part);
+    mesh_levels_shift_velocities_half_step(&r->levels, &e->part, r->elastic, r->finite, -dt);
 }
 
 status mesh_levels_make_coarse_cells(struct run *e, bool levels_from_checkpoint)
 {
-    struct reference_frame *r = e->frame;
+    struct lagrangian_mesh *r = e->frame;
     const struct scene *s = e->scene;
     real density[UINT8_MAX], fastest = 0;
     for (int m = 0; m < s->materials; m++) density[m] = s->material[m].density;
     const struct levels_choice choice = mesh_levels_choose_level_count(r, &e->part, s, e->clock.dt_critical);
-    TRY(levels_make_over_finest_mesh(&r->levels, choice.levels, &r->mesh, &e->part, &r->source, density));
+    TRY(mesh_levels_make_over_finest_mesh(&r->levels, choice.levels, &r->mesh, &e->part, &r->source, density));
     memory_free(r->coarse);
     r->coarse = NEW("engine.coarse_elastic", s->materials, struct elastic);
     for (int m = 0; m < s->materials; m++) {
@@ -268,15 +268,15 @@ status mesh_levels_make_coarse_cells(struct run *e, bool levels_from_checkpoint)
         fastest = real_max(fastest, s->material[m].wave_speed);
     }
     if (r->levels.n == 0) {
-        initial_levels_have_all_needed_particles(r, NULL);
+        initial_finest_cells_have_all_particles(r, NULL);
         return OK;
     }
-    levels_match_wave_dispersion_of_bonds(&r->levels, dispersion_edge(s), fastest, e->clock.dt);
+    mesh_levels_match_wave_dispersion_of_bonds(&r->levels, dispersion_edge(s), fastest, e->clock.dt);
     /* a point converts with its neighbours, these get bonds, and the neighbourhoods at their other ends extend one
      * horizon more */
     const real reach = (s->model == MODEL_BOND ? 1.0 : 1.5) * s->horizon;
     const int safe = (int)ceil(reach) + 1;
-    levels_set_conversion_distances(&r->levels, safe, safe + (int)ceil(0.5 * s->horizon));
+    mesh_levels_set_postpone_and_refine_distances(&r->levels, safe, safe + (int)ceil(0.5 * s->horizon));
     for (int k = 1; k <= r->levels.n; k++)
         loads_find_driven_coarse_nodes(&e->loads, &r->levels.at[k].held, &r->levels.at[k].mesh.grid, &e->part);
     if (levels_from_checkpoint) return OK;
@@ -287,7 +287,7 @@ status mesh_levels_make_coarse_cells(struct run *e, bool levels_from_checkpoint)
     array_fill_bytes(limit, r->levels.n, r->mesh.grid.n, 1);
     limit_by_room(r, limit);
     next_levels(r, &e->part, e->mass, demand, limit, level);
-    if (initial_levels_have_all_needed_particles(r, level)) change(e, level);
+    if (initial_finest_cells_have_all_particles(r, level)) change(e, level);
     memory_free(limit);
     e->damped = 0; /* the run starts with the energy of the coarse cells */
     memory_free(demand);
@@ -311,7 +311,7 @@ static bool any_stressed(const struct mesh_levels *l)
 /* Computes limit[I], the largest coarsening level (0: finest) that each cell I of r may have after the next change.
  * Cells may always become finer. They may become coarser only in calls with `checks` true, and only after CALM_CHECKS
  * consecutive such calls in which neither cracks and stresses of p nor loads required level 0 nearby. */
-static void limits_find(struct reference_frame *r, const struct particles *p, const struct loads *loads, bool checks,
+static void limits_find(struct lagrangian_mesh *r, const struct particles *p, const struct loads *loads, bool checks,
                         uint8_t *limit)
 {
     struct mesh_levels *l = &r->levels;
@@ -344,15 +344,15 @@ static void lost_bonds_return(struct mesh_levels *l, struct particles *p)
 
 bool mesh_levels_may_change_before_step(const struct mesh_levels *l, int64_t step)
 {
-    return l->n > 0 && step > 0 && step % levels_steps_per_cycle(l) == 0;
+    return l->n > 0 && step > 0 && step % mesh_levels_time_steps_per_cycle(l) == 0;
 }
 
-uint8_t *mesh_levels_choose_for_next_steps(struct reference_frame *r, const struct particles *p,
-                                           const struct loads *loads, int64_t step, real mass)
+uint8_t *mesh_levels_choose_level_of_each_cell(struct lagrangian_mesh *r, const struct particles *p,
+                                               const struct loads *loads, int64_t step, real mass)
 {
     struct mesh_levels *l = &r->levels;
     const bool checks = step % CHECK_STEPS == 0;
-    levels_copy_motion_to_ghost_nodes(l);
+    mesh_levels_copy_motion_to_ghost_nodes(l);
     uint8_t *stressed = any_stressed(l) ? stressed_cells(r, SPLITS, false) : NULL;
     if (!checks && !stressed && !l->any_wanted && !rings_cells(r, NULL)) return NULL;
     const int64_t n = l->fine->grid.n;
@@ -390,7 +390,7 @@ static void point_guard(struct mesh_levels *l, struct particles *p, int64_t i)
     if (waits) p->flag[i] &= (uint8_t)~marks;
 }
 
-void mesh_levels_delay_conversion_at_coarse_cells(struct mesh_levels *l, struct particles *p)
+void coarse_cells_delay_conversion_of_nearby_points(struct mesh_levels *l, struct particles *p)
 {
     l->returned = false;
     if (l->n == 0 || !particles_any_is_flagged_for_conversion(p)) return;
@@ -404,13 +404,13 @@ void mesh_levels_delay_conversion_at_coarse_cells(struct mesh_levels *l, struct 
 
 /* Returns the kinetic energy of all nodes of the reference frame `reference` [J]: of the mesh of the undeformed body
  * and of the coarse cells of all levels. */
-real reference_frame_kinetic_energy(const struct reference_frame *reference)
+real lagrangian_mesh_kinetic_energy(const struct lagrangian_mesh *reference)
 {
-    return mesh_kinetic(&reference->mesh) + levels_kinetic_energy_of_coarse_levels(&reference->levels);
+    return mesh_kinetic(&reference->mesh) + mesh_levels_kinetic_energy_of_coarse_levels(&reference->levels);
 }
 
-real reference_frame_strain_energy(struct reference_frame *r, const struct particles *p)
+real lagrangian_mesh_strain_energy(struct lagrangian_mesh *r, const struct particles *p)
 {
     return mesh_strain(&r->mesh, p, r->elastic, r->finite) +
-           levels_strain_energy_of_coarse_cells(&r->levels, p, r->elastic, r->finite);
+           mesh_levels_strain_energy_of_coarse_cells(&r->levels, p, r->elastic, r->finite);
 }

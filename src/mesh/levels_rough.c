@@ -13,8 +13,8 @@ static real departure(const struct mesh_levels *l, int level, const int64_t *q)
     const struct mesh *fine = l->fine;
     const int dim = fine->grid.dim, edge = 1 << level, side = edge + 1, corners = 1 << dim;
     const int nodes = dim == 1 ? side : dim == 2 ? side * side : side * side * side;
-    const int64_t first = levels_fine_node_of_coarse_node(l, level, q);
-    const real stiff = l->wave_speed / (0.5 * level_mesh_read_only(l, level)->grid.h);
+    const int64_t first = mesh_levels_fine_node_of_coarse_node(l, level, q);
+    const real stiff = l->wave_speed / (0.5 * mesh_levels_mesh_of_level_read_only(l, level)->grid.h);
     real sum = 0, squares = 0;
     for (int node = 0; node < nodes; node++) {
         int64_t I = first;
@@ -41,21 +41,21 @@ static real departure(const struct mesh_levels *l, int level, const int64_t *q)
     return real_max(sum / nodes, 0.5 * fabs(squares));
 }
 
-bool levels_forbid_lossy_coarsening(const struct mesh_levels *l, const uint8_t *intended_cell_level, real max_energy,
-                                    uint8_t *highest_level)
+bool mesh_levels_limit_coarsening_by_energy_loss(const struct mesh_levels *l, const uint8_t *intended_cell_level,
+                                                 real max_energy, uint8_t *highest_level)
 {
     const struct grid *g = &l->fine->grid;
     int64_t k[DIM_MAX] = {0}, q[DIM_MAX];
     bool any = false;
     for (int64_t I = 0; I < g->n; I++, grid_advance_to_next_node_indices(g, k)) {
-        if (intended_cell_level[I] == 0 || !levels_fine_cell_is_at_lower_corner(l, intended_cell_level[I], k) ||
-            !levels_coarse_cell_contains_finer_level(l, intended_cell_level[I], I, l->level))
+        if (intended_cell_level[I] == 0 || !mesh_levels_fine_cell_is_at_lower_corner(l, intended_cell_level[I], k) ||
+            !mesh_levels_coarse_cell_contains_finer_level(l, intended_cell_level[I], I, l->level))
             continue;
-        levels_coarse_cell_of_fine_cell(l, intended_cell_level[I], k, q);
+        mesh_levels_coarse_cell_of_fine_cell(l, intended_cell_level[I], k, q);
         if (!(departure(l, intended_cell_level[I], q) > max_energy)) continue;
         any = true;
-        for (int part = 0; part < levels_fine_cells_per_cell(l, intended_cell_level[I]); part++)
-            highest_level[levels_fine_cell_in_coarse_cell(l, intended_cell_level[I], I, part)] =
+        for (int part = 0; part < mesh_levels_fine_cells_per_cell(l, intended_cell_level[I]); part++)
+            highest_level[mesh_levels_fine_cell_in_coarse_cell(l, intended_cell_level[I], I, part)] =
                 intended_cell_level[I] - 1;
     }
     return any;

@@ -3,7 +3,7 @@
 
 #include "levels_parts.h"
 
-int levels_highest_level_due_in_step(const struct mesh_levels *l, int64_t step)
+int mesh_levels_coarsest_level_integrated_in_step(const struct mesh_levels *l, int64_t step)
 {
     int due = 0;
     while (due < l->n && step % ((int64_t)2 << due) == 0) due++;
@@ -16,16 +16,16 @@ int levels_highest_level_due_in_step(const struct mesh_levels *l, int64_t step)
 static void ghosts_displace(struct mesh_levels *l, int level)
 {
     const struct mesh_level *m = &l->at[level];
-    const struct mesh *fine = level_mesh(l, level - 1);
+    const struct mesh *fine = mesh_levels_mesh_of_level(l, level - 1);
     for (int d = 0; d < fine->grid.dim; d++)
         for (int64_t k = 0; k < m->ghosts; k++)
             m->mesh.displacement[d][m->ghost[k].coarse] = fine->displacement[d][m->ghost[k].fine];
 }
 
-void levels_copy_motion_to_ghosts_of_one_level(struct mesh_levels *l, int level)
+void mesh_levels_copy_motion_to_ghosts_of_one_level(struct mesh_levels *l, int level)
 {
     const struct mesh_level *m = &l->at[level];
-    const struct mesh *fine = level_mesh(l, level - 1);
+    const struct mesh *fine = mesh_levels_mesh_of_level(l, level - 1);
     ghosts_displace(l, level);
     for (int d = 0; d < fine->grid.dim; d++)
         for (int64_t k = 0; k < m->ghosts; k++)
@@ -41,10 +41,10 @@ static real mean_of(const struct mesh_hanging *h, const real *field)
     return sum / h->masters;
 }
 
-void levels_interpolate_motion_of_hanging_nodes(struct mesh_levels *l, int level)
+void mesh_levels_interpolate_motion_of_hanging_nodes(struct mesh_levels *l, int level)
 {
     const struct mesh_level *m = &l->at[level];
-    struct mesh *fine = level_mesh(l, level - 1);
+    struct mesh *fine = mesh_levels_mesh_of_level(l, level - 1);
     for (int d = 0; d < fine->grid.dim; d++)
         for (int64_t k = 0; k < m->hangings; k++) {
             const struct mesh_hanging *h = &m->hanging[k];
@@ -59,7 +59,7 @@ void levels_interpolate_motion_of_hanging_nodes(struct mesh_levels *l, int level
 static void hanging_fold(struct mesh_levels *l, int level)
 {
     const struct mesh_level *m = &l->at[level];
-    struct grid *fine = &level_mesh(l, level - 1)->grid;
+    struct grid *fine = &mesh_levels_mesh_of_level(l, level - 1)->grid;
     for (int d = 0; d < fine->dim; d++)
         for (int64_t k = 0; k < m->hangings; k++) {
             const struct mesh_hanging *h = &m->hanging[k];
@@ -76,7 +76,7 @@ static void hanging_fold(struct mesh_levels *l, int level)
 static void ghosts_fold(struct mesh_levels *l, int level)
 {
     const struct mesh_level *m = &l->at[level];
-    struct grid *coarse = &l->at[level].mesh.grid, *fine = &level_mesh(l, level - 1)->grid;
+    struct grid *coarse = &l->at[level].mesh.grid, *fine = &mesh_levels_mesh_of_level(l, level - 1)->grid;
     for (int d = 0; d < fine->dim; d++)
         for (int64_t k = 0; k < m->ghosts; k++) {
             fine->force[d][m->ghost[k].fine] += 2 * coarse->force[d][m->ghost[k].coarse];
@@ -84,8 +84,8 @@ static void ghosts_fold(struct mesh_levels *l, int level)
         }
 }
 
-void levels_compute_forces_of_coarse_cells(struct mesh_levels *l, const struct particles *p, const struct elastic *m,
-                                           bool finite_strain, int highest_level)
+void mesh_levels_compute_forces_of_coarse_cells(struct mesh_levels *l, const struct particles *p,
+                                                const struct elastic *m, bool finite_strain, int highest_level)
 {
     for (int level = 1; level <= highest_level; level++) {
         struct mesh *mesh = &l->at[level].mesh;
@@ -98,16 +98,16 @@ void levels_compute_forces_of_coarse_cells(struct mesh_levels *l, const struct p
     for (int level = 1; level <= highest_level; level++) ghosts_fold(l, level);
 }
 
-real levels_move_nodes_return_largest_velocity(struct mesh_levels *l, real dt, real dt_velocity, int highest_level,
-                                               real impulse[DIM_MAX], real *work)
+real mesh_levels_move_nodes_return_largest_velocity(struct mesh_levels *l, real dt, real dt_velocity, int highest_level,
+                                                    real impulse[DIM_MAX], real *work)
 {
     real most = 0;
     for (int level = 0; level <= highest_level; level++) {
-        struct mesh *mesh = level_mesh(l, level);
+        struct mesh *mesh = mesh_levels_mesh_of_level(l, level);
         const real longer = (real)(1 << level);
         if (mesh->points == 0) continue;
         most = real_max(most, mesh_move(mesh, longer * dt, longer * dt_velocity, impulse, work));
-        if (level < l->n) levels_interpolate_motion_of_hanging_nodes(l, level + 1);
+        if (level < l->n) mesh_levels_interpolate_motion_of_hanging_nodes(l, level + 1);
     }
     return most;
 }

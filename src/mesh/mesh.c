@@ -76,7 +76,7 @@ static real node_mass(const struct mesh *mesh, const struct particles *p, int64_
     real mass = 0;
     for (int c = (1 << dim) - 1; c >= 0; c--)
         for (int64_t cell = mesh_cell_with_corner_at_node(mesh, I, c); cell >= 0;
-             cell = mesh_cell_next_slit_part(mesh, cell))
+             cell = mesh_next_subcell_of_cell_divided_by_slits(mesh, cell))
             for (int q = 0; q < 1 << dim && mesh_cell_corner_node(mesh, cell, c) == I &&
                             !mesh_cell_is_part_of_coarse_cell(mesh, cell);
                  q++) {
@@ -119,7 +119,7 @@ static enum cell_kind cell_kind(const struct mesh *mesh, const struct particles 
 {
     const int dim = p->dim;
     int there = 0;
-    bool alike = !mesh_cell_corner_nodes_at_slit(mesh, I);
+    bool alike = !mesh_cell_corner_nodes_if_at_slit(mesh, I);
     if (mesh_cell_is_part_of_coarse_cell(mesh, I)) return CELL_COARSE;
     const int32_t *point = &mesh->point[I << dim];
     for (int q = 0; q < 1 << dim; q++) {
@@ -136,13 +136,13 @@ static enum cell_kind cell_kind(const struct mesh *mesh, const struct particles 
  * that one thread processes. */
 static void run_add(struct mesh *mesh, int64_t I, uint8_t material)
 {
-    struct mesh_run *last = mesh->runs > mesh->band[mesh->bands] ? &mesh->run[mesh->runs - 1] : NULL;
+    struct mesh_cell_run *last = mesh->runs > mesh->band[mesh->bands] ? &mesh->run[mesh->runs - 1] : NULL;
     if (last && last->cell + last->cells == I && last->material == material) {
         last->cells++;
         return;
     }
     GROW("mesh.run", mesh->run, mesh->runs + 1);
-    mesh->run[mesh->runs++] = (struct mesh_run){(int32_t)I, 1, material, false};
+    mesh->run[mesh->runs++] = (struct mesh_cell_run){(int32_t)I, 1, material, false};
 }
 
 /* Returns the number of layers of cells, along the last of dim axes, in a band: a set of cells that one thread
@@ -185,7 +185,7 @@ static void cells_list(struct mesh *mesh, const struct particles *p)
         mesh->band[mesh->bands] = mesh->runs;
         for (int64_t I = from; I < to; I++) {
             if (mesh->kind[I] == CELL_WHOLE) run_add(mesh, I, material_of(mesh, p, I));
-            if (mesh->kind[I] == CELL_PARTIAL) mesh_partial_add_cell(mesh, I);
+            if (mesh->kind[I] == CELL_PARTIAL) mesh_partial_cells_add(mesh, I);
         }
         mesh->bands++;
     }
@@ -199,7 +199,7 @@ static void cells_list(struct mesh *mesh, const struct particles *p)
 static void cells_sort_out(struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
                            const uint8_t *dirty)
 {
-    struct mesh_partial old = mesh_partial_remove_and_return_cells(mesh);
+    struct mesh_partial_cells old = mesh_partial_cells_remove_and_return(mesh);
     if (!dirty) {
 #pragma omp parallel for schedule(static)
         for (int64_t I = 0; I < mesh->grid.n; I++) mesh->kind[I] = (uint8_t)cell_kind(mesh, p, s, I);
@@ -209,7 +209,7 @@ static void cells_sort_out(struct mesh *mesh, const struct particles *p, const s
             mesh->kind[I] = (uint8_t)cell_kind(mesh, p, s, I);
     mesh_find_node_spans_with_mass(mesh);
     cells_list(mesh, p);
-    mesh_partial_compute_stiffness(mesh, p, s, dirty, &old);
+    mesh_partial_cells_compute_stiffness(mesh, p, s, dirty, &old);
 }
 
 void mesh_activate_node_blocks_at_cells(struct mesh *mesh)
@@ -223,7 +223,7 @@ void mesh_activate_node_blocks_at_cells(struct mesh *mesh)
     r->empty = r->blocks - r->active;
 }
 
-void mesh_make_cell_rows_and_node_spans(struct mesh *mesh)
+void mesh_find_uniform_cell_rows_and_node_spans(struct mesh *mesh)
 {
     mesh_find_node_spans_with_mass(mesh);
     cells_list(mesh, NULL);
@@ -256,8 +256,9 @@ void mesh_rebuild_cells_after_level_change(struct mesh *mesh, const struct parti
 /* Allocates all arrays of a mesh that covers the box `lower_corner` .. `upper_corner` [m], without points or cells.
  * node_grid: dimension, edge and origin of the nodes; p: particles whose slits divide cells and nodes, NULL if there
  * are no slits; source: slits and voids. Returns FAILED, with a message, if the mesh has too many nodes. */
-status mesh_allocate_box(struct mesh *mesh, const struct grid *node_grid, const real *lower_corner,
-                         const real *upper_corner, const struct particles *p, const struct mesh_source *source)
+status mesh_allocate_arrays_for_box(struct mesh *mesh, const struct grid *node_grid, const real *lower_corner,
+                                    const real *upper_corner, const struct particles *p,
+                                    const struct mesh_source *source)
 {
     struct grid *g = &mesh->grid;
     const int dim = node_grid->dim;
@@ -269,7 +270,7 @@ status mesh_allocate_box(struct mesh *mesh, const struct grid *node_grid, const 
     TRY(grid_extend_box(g, lower_corner, high, INT32_MAX >> dim, &changed));
     for (int c = 0; c < 1 << dim; c++)
         for (int d = 0; d < dim; d++) mesh->corner[c] += (int32_t)((c >> d & 1) * g->stride[d]);
-    if (p) TRY(mesh_slits_double_nodes(mesh, p, source, lower_corner, high));
+    if (p) TRY(mesh_slits_duplicate_nodes(mesh, p, source, lower_corner, high));
     for (int d = 0; d < dim; d++) mesh->displacement[d] = NEW("mesh.displacement", g->n, real);
     mesh->inverse_mass = NEW("mesh.inverse_mass", g->n, real);
     mesh->kind = NEW("mesh.kind", g->n, uint8_t);
@@ -277,7 +278,7 @@ status mesh_allocate_box(struct mesh *mesh, const struct grid *node_grid, const 
     mesh->span = NEW("mesh.span", 2 * mesh->rows, int32_t);
     mesh->segments = (g->count[0] + LANES - 2) / LANES + 1;
     active_set_make_with_all_blocks_active(&mesh->active, mesh->rows * mesh->segments);
-    mesh_slits_link_blocks_of_doubled_nodes(mesh);
+    mesh_slits_link_node_blocks_for_activation(mesh);
     mesh->rounding = scalbn(1.5, ilogb(g->h) - DISPLACEMENT_BITS + DBL_MANT_DIG - 1);
     mesh->band = NEW("mesh.band", g->count[dim - 1] + 2, int64_t);
     return OK;
@@ -320,7 +321,7 @@ static status nodes_make(struct mesh *mesh, const struct particles *p, const str
     struct grid own = *like;
     own.dim = p->dim;
     for (int d = 0; d < p->dim; d++) particles_coordinate_range(p, p->n, d, &from[d], &to[d]);
-    TRY(mesh_allocate_box(mesh, &own, from, to, p, source));
+    TRY(mesh_allocate_arrays_for_box(mesh, &own, from, to, p, source));
     mesh->point = NEW("mesh.point", mesh->grid.n << p->dim, int32_t);
     for (int64_t k = 0; k < mesh->grid.n << p->dim; k++) mesh->point[k] = -1;
     mesh->place = NEW("mesh.place", p->n, int32_t);
@@ -373,7 +374,7 @@ void mesh_free(struct mesh *mesh)
     memory_free(mesh->absent), memory_free(mesh->filled_cell), memory_free(mesh->filled_node);
     memory_free(mesh->band);
     memory_free(mesh->run);
-    mesh_partial_free(mesh);
+    mesh_partial_cells_free(mesh);
     memory_free(mesh->exposed_list);
     memory_free(mesh->span);
     mesh_slits_free(&mesh->slits);
@@ -447,9 +448,9 @@ real mesh_remove_points_and_return_lost_energy(struct mesh *mesh, struct particl
     return energy;
 }
 
-bool mesh_update_stiffness_of_partial_cells(struct mesh *mesh, const struct particles *p,
-                                            const struct mesh_source *source, const int32_t *changed_points,
-                                            int64_t changed_count)
+bool mesh_try_update_stiffness_for_partial_stress(struct mesh *mesh, const struct particles *p,
+                                                  const struct mesh_source *source, const int32_t *changed_points,
+                                                  int64_t changed_count)
 {
     uint8_t *dirty = NEW("mesh.dirty", mesh->grid.n, uint8_t);
     bool same = true;
@@ -459,7 +460,7 @@ bool mesh_update_stiffness_of_partial_cells(struct mesh *mesh, const struct part
         dirty[cell] = 1;
         same = mesh->kind[cell] == CELL_PARTIAL && cell_kind(mesh, p, source, cell) == CELL_PARTIAL;
     }
-    if (same) mesh_partial_recompute_marked_cells(mesh, p, source, dirty);
+    if (same) mesh_partial_cells_recompute_marked_stiffness(mesh, p, source, dirty);
     memory_free(dirty);
     return same;
 }

@@ -30,14 +30,14 @@ static void images_expose(struct exposure *e, const struct mesh *mesh, const str
     int32_t most = nbr[0];
     for (int l = 1; l < LANES; l++) most = nbr[l] > most ? nbr[l] : most;
     for (int l = 0; l < LANES && most >= p->n; l++)
-        if (nbr[l] >= p->n) point_expose(e, mesh, image_source_particle(p, image, nbr[l]));
+        if (nbr[l] >= p->n) point_expose(e, mesh, mirror_image_source_particle(p, image, nbr[l]));
 }
 
 /* Returns true if a mirror image of particles p may be among the neighbours in column k (the k-th bonds) of block g of
  * eight rows of b (the bonds of eight particles). */
 static bool meets_images(const struct bonds *b, const struct particles *p, int64_t g, int64_t k)
 {
-    const int64_t first = column_first_consecutive_neighbour(b, g, k);
+    const int64_t first = bond_column_first_neighbour_if_consecutive(b, g, k);
     return first < 0 || first + LANES > p->n;
 }
 
@@ -72,11 +72,12 @@ static void row_block_expose(struct exposure *e, const struct mesh *mesh, const 
                              const struct bonds *b, const struct loads *l, int64_t g)
 {
     const unsigned points = bond_row_block_has_eight_pd_particles(b, g) ? 0 : lanes_in_mesh(mesh, b, g);
-    const unsigned intact = points ? points & bond_row_block_lanes_with_intact_bonds(b, g) : 0;
+    const unsigned intact = points ? points & bond_row_block_intact_bond_lane_mask(b, g) : 0;
     struct column_copy column;
     for (int lane = 0; lane < LANES; lane++)
         if (intact >> lane & 1) point_expose(e, mesh, b->particle[g * LANES + lane]);
-    const int64_t columns = bond_row_block_may_have_bonds_to_images(b, p, g) ? bond_row_block_column_count(b, g) : 0;
+    const int64_t columns =
+        bond_row_block_may_have_bonds_to_mirror_images(b, p, g) ? bond_row_block_bond_slots_per_particle(b, g) : 0;
     for (int64_t k = 0; k < columns; k++) {
         if (!meets_images(b, p, g, k)) continue;
         bond_column_read_eight_bonds(&column, b, g, k);
@@ -103,5 +104,5 @@ void mesh_list_bonded_or_loaded_points(struct mesh *mesh, const struct particles
         cell_expose(mesh, e.point, I);
     memory_free(e.point);
     memory_free(e.cell);
-    active_nodes_add_blocks_at_exposed_points(mesh);
+    active_nodes_activate_at_bonded_or_loaded_points(mesh);
 }

@@ -5,9 +5,9 @@
 
 static void frame_free_all(struct run *e)
 {
-    struct reference_frame *f = e->frame;
+    struct lagrangian_mesh *f = e->frame;
     memory_free(f->elastic), memory_free(f->coarse), memory_free(f->room), memory_free(f->choice);
-    levels_free(&f->levels), mesh_free(&f->mesh), cells_without_particles_free(&f->hollow), memory_free(f->ring);
+    mesh_levels_free(&f->levels), mesh_free(&f->mesh), cells_without_particles_free(&f->hollow), memory_free(f->ring);
     coarse_cell_points_free(&f->shown);
 }
 
@@ -17,22 +17,22 @@ static void put_levels(const struct run *e, struct json *j)
 {
     const struct mesh_levels *l = &e->frame->levels;
     if (l->n == 0) return;
-    json_open(j, "levels", '{');
-    json_open(j, "cells", '[');
-    for (int level = 0; level <= l->n; level++) json_write_integer(j, NULL, levels_count_cells_of_level(l, level));
-    json_close(j, ']');
+    json_begin_object_or_list(j, "levels", '{');
+    json_begin_object_or_list(j, "cells", '[');
+    for (int level = 0; level <= l->n; level++) json_write_integer(j, NULL, mesh_levels_count_cells_of_level(l, level));
+    json_end_object_or_list(j, ']');
     json_write_integer(j, "changes", l->changes);
-    json_close(j, '}');
+    json_end_object_or_list(j, '}');
 }
 
 static status frame_state(struct run *e, struct archive *a)
 {
-    struct reference_frame *f = e->frame;
+    struct lagrangian_mesh *f = e->frame;
     if (a->scope == ARCHIVE_REBUILD) return OK;
     TRY(mesh_save_or_load_node_motion(&f->mesh, a));
-    TRY(levels_save_or_load(&f->levels, &e->part, &f->source, a));
+    TRY(mesh_levels_save_or_load(&f->levels, &e->part, &f->source, a));
     return active_set_save_or_load(&f->mesh.active, "mesh", a);
 }
 
-const struct part part_frame = {PART(frame, reference_frame), .free = frame_free_all, .summary = put_levels,
-                                .state = frame_state, .warn = frame_warn_of_unfitting_mirror_planes};
+const struct part part_frame = {PART(frame, lagrangian_mesh), .free = frame_free_all, .summary = put_levels,
+                                .state = frame_state, .warn = mirror_planes_warn_if_not_fitting_grid_or_mesh};

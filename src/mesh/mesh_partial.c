@@ -30,9 +30,9 @@ struct mode_terms {
  * particles stores its components. i, j: axes, 0 to dim - 1. */
 static int component(int dim, int i, int j)
 {
-    for (int k = 0; k < symmetric_component_count(dim); k++) {
+    for (int k = 0; k < symmetric_tensor_component_count(dim); k++) {
         int a, b;
-        symmetric_component_axes(dim, k, &a, &b);
+        symmetric_tensor_component_axes(dim, k, &a, &b);
         if ((a == i && b == j) || (a == j && b == i)) return k;
     }
     return -1;
@@ -58,7 +58,7 @@ static void bends_terms(struct mode_terms *t, int dim)
  * (kernels/mesh/mesh_partial.h). */
 static void modes_terms(struct mode_terms *t, int dim)
 {
-    const int symmetric = symmetric_component_count(dim);
+    const int symmetric = symmetric_tensor_component_count(dim);
     memset(t, 0, sizeof *t * MODES_MAX);
     for (int k = 0; k < symmetric; k++) t[k] = (struct mode_terms){1, {{(uint8_t)k, 0, 1}}};
     bends_terms(t + symmetric, dim);
@@ -76,15 +76,15 @@ struct cell_maker {
     struct mode_terms in[MODES_MAX];                                   /* [modes] strain field of each mode */
 };
 
-/* Computes the matrix C[n][n] of stress by strain of a material m [Pa], n = symmetric_component_count(dim); shear
- * strains are angles. */
+/* Computes the matrix C[n][n] of stress by strain of a material m [Pa], n = symmetric_tensor_component_count(dim);
+ * shear strains are angles. */
 static void constants(const struct elastic *m, real *C, int dim)
 {
-    const int n = symmetric_component_count(dim);
+    const int n = symmetric_tensor_component_count(dim);
     for (int t = 0; t < n; t++) {
         real g[DIM_MAX * DIM_MAX] = {0}, s[SYM_MAX];
         int a, b;
-        symmetric_component_axes(dim, t, &a, &b);
+        symmetric_tensor_component_axes(dim, t, &a, &b);
         g[a * dim + b] = 1;
         point_hooke_stress(m, g, s, dim);
         for (int k = 0; k < n; k++) C[k * n + t] = s[k];
@@ -167,7 +167,7 @@ static bool averaged_strains(const struct cell_maker *c, int64_t I, point_strain
             }
         for (int q = 0; q < 1 << c->dim; q++)
             for (int d = 0; d < c->dim; d++) trace[q] += B[q][d][k];
-        cell_subtract_from_mean(m, c->p->material, point, trace, c->dim);
+        cell_replace_values_by_mean_minus_value(m, c->p->material, point, trace, c->dim);
         for (int q = 0; q < 1 << c->dim; q++)
             for (int d = 0; d < c->dim; d++) B[q][d][k] += trace[q] / c->dim;
     }
@@ -259,7 +259,7 @@ static void end_share(const struct cell_maker *c, const real *local, int place, 
  * else -1. c: has the partial stresses; i: particle number, or -1 for no point. */
 static int64_t end_entry(const struct cell_maker *c, int32_t i)
 {
-    return i >= 0 && point_has_state_bonds(c->source->partial, i, c->dim) ? c->source->partial->index[i] : -1;
+    return i >= 0 && point_has_own_state_based_bonds(c->source->partial, i, c->dim) ? c->source->partial->index[i] : -1;
 }
 
 /* Appends the points with state-based PD-MPM bonds in partial cell number k (a cell with a stiffness matrix of its own)
@@ -287,7 +287,7 @@ static void mesh_partial_ends_make(struct mesh *mesh, const struct cell_maker *c
     const struct partial_stress *partial = c->source->partial;
     int32_t n = 0;
     if (!partial || !partial->index || !partial->local) return;
-    mesh->ends = NEW("mesh.ends", mesh_partial_cell_group_count(mesh) + 1, int32_t);
+    mesh->ends = NEW("mesh.ends", mesh_count_groups_of_eight_partial_cells(mesh) + 1, int32_t);
     for (int64_t k = 0; k < mesh->partial_cells; k++)
         for (int q = 0; q < 1 << c->dim; q++)
             n += end_entry(c, mesh->point[((int64_t)mesh->partial_cell[k] << c->dim) + q]) >= 0;
@@ -303,23 +303,23 @@ static void mesh_partial_ends_make(struct mesh *mesh, const struct cell_maker *c
 /* ---- all partial cells ------------------------------------------------------------------------------------------- */
 
 /* Appends cell I to the list of partial cells of the mesh: cells with missing points, partial stresses (left to bonds),
- * several materials or doubled nodes. Their stiffness is computed later (mesh_partial_compute_stiffness). */
-void mesh_partial_add_cell(struct mesh *mesh, int64_t I)
+ * several materials or doubled nodes. Their stiffness is computed later (mesh_partial_cells_compute_stiffness). */
+void mesh_partial_cells_add(struct mesh *mesh, int64_t I)
 {
     GROW("mesh.partial_cell", mesh->partial_cell, mesh->partial_cells + 1);
     mesh->partial_cell[mesh->partial_cells++] = (int32_t)I;
 }
 
-struct mesh_partial mesh_partial_remove_and_return_cells(struct mesh *mesh)
+struct mesh_partial_cells mesh_partial_cells_remove_and_return(struct mesh *mesh)
 {
-    const struct mesh_partial old = {mesh->partial_cells, mesh->partial_cell, mesh->stiffness};
+    const struct mesh_partial_cells old = {mesh->partial_cells, mesh->partial_cell, mesh->stiffness};
     mesh->partial_cell = NULL, mesh->stiffness = NULL;
     mesh->partial_cells = 0;
-    mesh_partial_free(mesh);
+    mesh_partial_cells_free(mesh);
     return old;
 }
 
-void mesh_partial_free(struct mesh *mesh)
+void mesh_partial_cells_free(struct mesh *mesh)
 {
     memory_free(mesh->partial_cell);
     memory_free(mesh->stiffness);
@@ -352,7 +352,7 @@ static uint8_t partial_material(const struct mesh *mesh, const struct particles 
  * member `whole` with memory_free. */
 static struct cell_maker maker_of(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s)
 {
-    const int dim = p->dim, n = symmetric_component_count(dim);
+    const int dim = p->dim, n = symmetric_tensor_component_count(dim);
     struct cell_maker c = {
         .mesh = mesh, .p = p, .source = s, .dim = dim, .modes = cell_deformation_mode_count(dim), .columns = n};
     c.whole = memory_new("mesh.constants", 2 * s->materials, sizeof *c.whole);
@@ -389,8 +389,8 @@ static void group_copy(real *to, real *old, const int64_t *from, int64_t group, 
  * its first cell. The copies have no stiffness and are not counted. */
 static void groups_fill(struct mesh *mesh)
 {
-    const int64_t whole = mesh_partial_cell_group_count(mesh) * LANES, partial_cells = mesh->partial_cells;
-    while (mesh->partial_cells < whole) mesh_partial_add_cell(mesh, mesh->partial_cell[whole - LANES]);
+    const int64_t whole = mesh_count_groups_of_eight_partial_cells(mesh) * LANES, partial_cells = mesh->partial_cells;
+    while (mesh->partial_cells < whole) mesh_partial_cells_add(mesh, mesh->partial_cell[whole - LANES]);
     mesh->partial_cells = partial_cells;
 }
 
@@ -398,10 +398,10 @@ static void groups_fill(struct mesh *mesh)
  * of the same cell in `old`, the list before a change of cells, from which its stiffness is copied. The entry is -1 if
  * the stiffness must be computed, because the cell is new or marked in `dirty` (NULL: all cells are), and for the lanes
  * that fill the last group of LANES cells. Release the list with memory_free. */
-static int64_t *origins(const struct mesh *mesh, const struct mesh_partial *old, const uint8_t *dirty)
+static int64_t *origins(const struct mesh *mesh, const struct mesh_partial_cells *old, const uint8_t *dirty)
 {
-    int64_t *from = BARE("mesh.from", mesh_partial_cell_group_count(mesh) * LANES, int64_t);
-    for (int64_t k = mesh->partial_cells; k < mesh_partial_cell_group_count(mesh) * LANES; k++) from[k] = -1;
+    int64_t *from = BARE("mesh.from", mesh_count_groups_of_eight_partial_cells(mesh) * LANES, int64_t);
+    for (int64_t k = mesh->partial_cells; k < mesh_count_groups_of_eight_partial_cells(mesh) * LANES; k++) from[k] = -1;
     for (int64_t k = 0, q = 0; k < mesh->partial_cells; k++) {
         while (q < old->partial_cells && old->partial_cell[q] < mesh->partial_cell[k]) q++;
         from[k] = dirty && q < old->partial_cells && old->partial_cell[q] == mesh->partial_cell[k] &&
@@ -417,7 +417,7 @@ static int64_t *origins(const struct mesh *mesh, const struct mesh_partial *old,
  * the array. Release it with memory_free. */
 static real *numbers_make(const char *label, const struct mesh *mesh, int64_t each)
 {
-    const int64_t groups = mesh_partial_cell_group_count(mesh), size = each * LANES;
+    const int64_t groups = mesh_count_groups_of_eight_partial_cells(mesh), size = each * LANES;
     real *numbers = memory_new_uninitialised(label, groups * size, sizeof *numbers);
     if (groups > 0) array_fill_bytes(numbers + (groups - 1) * size, 0, size, sizeof *numbers);
     return numbers;
@@ -437,7 +437,7 @@ static bool numbers_alike(const real *of, int64_t g, int64_t h, int each)
  * modes: number of deformation modes of a cell. */
 static void alike_find(struct mesh *mesh, int modes)
 {
-    const int64_t groups = mesh_partial_cell_group_count(mesh);
+    const int64_t groups = mesh_count_groups_of_eight_partial_cells(mesh);
     const int half = modes * (modes + 1) / 2;
     mesh->alike = NEW("mesh.alike", groups, int32_t);
     for (int64_t g = 0; g < groups; g++) {
@@ -446,12 +446,12 @@ static void alike_find(struct mesh *mesh, int modes)
     }
 }
 
-void mesh_partial_compute_stiffness(struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
-                                    const uint8_t *cell_needs_update, struct mesh_partial *previous_cells)
+void mesh_partial_cells_compute_stiffness(struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
+                                          const uint8_t *cell_needs_update, struct mesh_partial_cells *previous_cells)
 {
     struct cell_maker c = maker_of(mesh, p, s);
     const int half = c.modes * (c.modes + 1) / 2, unknowns = (1 << c.dim) * c.dim;
-    const int64_t groups = mesh_partial_cell_group_count(mesh);
+    const int64_t groups = mesh_count_groups_of_eight_partial_cells(mesh);
     groups_fill(mesh);
     mesh->stiffness = numbers_make("mesh.stiffness", mesh, half);
     mesh->partial_force = BARE("mesh.partial_force", groups * unknowns * LANES, real);
@@ -480,16 +480,16 @@ void mesh_partial_compute_stiffness(struct mesh *mesh, const struct particles *p
  * changed: [groups]. */
 static void alike_part(struct mesh *mesh, const uint8_t *changed)
 {
-    for (int64_t g = mesh_partial_cell_group_count(mesh) - 1; g >= 0; g--)
+    for (int64_t g = mesh_count_groups_of_eight_partial_cells(mesh) - 1; g >= 0; g--)
         if (changed[g] || changed[mesh->alike[g]]) mesh->alike[g] = (int32_t)g;
 }
 
-void mesh_partial_recompute_marked_cells(struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
-                                         const uint8_t *cell_is_marked)
+void mesh_partial_cells_recompute_marked_stiffness(struct mesh *mesh, const struct particles *p,
+                                                   const struct mesh_source *s, const uint8_t *cell_is_marked)
 {
     struct cell_maker c = maker_of(mesh, p, s);
     const int half = c.modes * (c.modes + 1) / 2;
-    uint8_t *changed = NEW("mesh.changed", mesh_partial_cell_group_count(mesh), uint8_t);
+    uint8_t *changed = NEW("mesh.changed", mesh_count_groups_of_eight_partial_cells(mesh), uint8_t);
     for (int64_t k = 0; k < mesh->partial_cells; k++) changed[k / LANES] |= cell_is_marked[mesh->partial_cell[k]];
     alike_part(mesh, changed);
     memory_free(changed);

@@ -12,10 +12,10 @@
 enum cell_kind { CELL_EMPTY, CELL_WHOLE, CELL_PARTIAL, CELL_COARSE };
 
 /* Partial cells (with missing points, partial stresses, several materials or doubled nodes), moved out of a mesh by
- * mesh_partial_remove_and_return_cells before its cells are classified again. partial_cell: [partial_cells] indices of
- * the cells; stiffness: their stiffness matrices. mesh_partial_compute_stiffness copies the stiffness of unchanged
- * cells from here and frees the arrays. */
-struct mesh_partial {
+ * mesh_partial_cells_remove_and_return before its cells are classified again. partial_cell: [partial_cells] indices of
+ * the cells; stiffness: their stiffness matrices. mesh_partial_cells_compute_stiffness copies the stiffness of
+ * unchanged cells from here and frees the arrays. */
+struct mesh_partial_cells {
     int64_t partial_cells;
     int32_t *partial_cell;
     real *stiffness;
@@ -23,44 +23,45 @@ struct mesh_partial {
 
 /* Removes all partial cells (cells with missing points, points whose stress is partly carried by bonds, several
  * materials or doubled nodes) from the mesh, and returns their list with their stiffness, for
- * mesh_partial_compute_stiffness. */
-struct mesh_partial mesh_partial_remove_and_return_cells(struct mesh *mesh);
+ * mesh_partial_cells_compute_stiffness. */
+struct mesh_partial_cells mesh_partial_cells_remove_and_return(struct mesh *mesh);
 
 /* Appends cell number `cell` to the list of partial cells of the mesh: cells in which points are missing or have
  * different materials, or whose nodes were doubled by a slit (a pre-crack). Their stiffness is computed later by
- * mesh_partial_compute_stiffness. */
-void mesh_partial_add_cell(struct mesh *mesh, int64_t cell);
+ * mesh_partial_cells_compute_stiffness. */
+void mesh_partial_cells_add(struct mesh *mesh, int64_t cell);
 
 /* Computes the stiffness of all partial cells of the mesh with particles p (cells with missing points, points whose
  * stress is partly carried by bonds, several materials or doubled nodes). source: material constants, and the parts of
  * stresses that bonds carry; cell_needs_update: a byte for each cell, not 0 where the stiffness must be computed anew,
- * NULL for all cells; previous_cells: result of mesh_partial_remove_and_return_cells, from which the stiffness of all
+ * NULL for all cells; previous_cells: result of mesh_partial_cells_remove_and_return, from which the stiffness of all
  * other cells is copied, and which is freed. */
-void mesh_partial_compute_stiffness(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
-                                    const uint8_t *cell_needs_update, struct mesh_partial *previous_cells);
+void mesh_partial_cells_compute_stiffness(struct mesh *mesh, const struct particles *p,
+                                          const struct mesh_source *source, const uint8_t *cell_needs_update,
+                                          struct mesh_partial_cells *previous_cells);
 
 /* Recomputes the stiffness of the partial cells of `mesh` with particles p (cells with missing points, points whose
  * stress is partly carried by bonds, several materials or doubled nodes) marked in `cell_is_marked`, a byte for each
  * cell. The list of partial cells is unchanged. source: material constants, and the parts of stresses that bonds carry.
  */
-void mesh_partial_recompute_marked_cells(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
-                                         const uint8_t *cell_is_marked);
+void mesh_partial_cells_recompute_marked_stiffness(struct mesh *mesh, const struct particles *p,
+                                                   const struct mesh_source *source, const uint8_t *cell_is_marked);
 
 /* Frees the list of partial cells of the mesh (cells with missing points, several materials or doubled nodes) and their
  * stiffness. */
-void mesh_partial_free(struct mesh *mesh);
+void mesh_partial_cells_free(struct mesh *mesh);
 
 /* Finds the nodes of `mesh` with particles p at which slits (pre-cracks) or voids (narrow gaps of a body) of `source`
  * separate the points around them, and adds second nodes there. The box of nodes, which covers the range between the
  * corners `lower_corner` and `upper_corner` [m], is extended by rows for these. Returns FAILED, with a message, if
  * there are too many nodes. Release with mesh_slits_free. */
-status mesh_slits_double_nodes(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
-                               const real *lower_corner, const real *upper_corner);
+status mesh_slits_duplicate_nodes(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
+                                  const real *lower_corner, const real *upper_corner);
 
 /* Connects each block of nodes (eight along x) beside slits (pre-cracks as free surfaces of the mesh) with the blocks
  * of the second nodes at the same positions, so that a block becomes active, i.e. is computed, when the other one
  * moves. To be called after the blocks are made. */
-void mesh_slits_link_blocks_of_doubled_nodes(struct mesh *mesh);
+void mesh_slits_link_node_blocks_for_activation(struct mesh *mesh);
 
 /* Stores in mesh->slits the node indices of the corners of partial cells (cells with missing points, several materials
  * or doubled nodes) that touch a slit, a pre-crack as free surface. Partial cells are computed in groups of eight; the
@@ -68,7 +69,8 @@ void mesh_slits_link_blocks_of_doubled_nodes(struct mesh *mesh);
  * the corners of such cells are not at fixed index distances from the cell. To be called after the groups are made. */
 void mesh_slits_store_corner_nodes_of_cells(struct mesh *mesh);
 
-/* Frees the arrays of s, the slits (pre-cracks as free surfaces) of a mesh, which mesh_slits_double_nodes has made. */
+/* Frees the arrays of s, the slits (pre-cracks as free surfaces) of a mesh, which mesh_slits_duplicate_nodes has made.
+ */
 void mesh_slits_free(struct mesh_slits *s);
 
 /* Computes nodal values of a vector field from values at the points p of the mesh, by least squares weighted with mass;
@@ -106,7 +108,7 @@ void mesh_rebuild_cells_after_level_change(struct mesh *mesh, const struct parti
 /* Groups the cells of `mesh`, a mesh of coarse cells without points, into rows of consecutive cells of equal material,
  * the runs of the mesh. Finds the span of nodes with mass in each row of nodes, and the active blocks of nodes (eight
  * nodes each, included in computations). Input: kinds and materials of the cells and masses of the nodes. */
-void mesh_make_cell_rows_and_node_spans(struct mesh *mesh);
+void mesh_find_uniform_cell_rows_and_node_spans(struct mesh *mesh);
 
 /* Finds in each row of nodes of `mesh` along the first axis the span of nodes with mass, to which loops over nodes are
  * limited, and stores it in mesh->span (first node, and the one after the last). */
@@ -124,8 +126,9 @@ bool mesh_cell_is_inverted(const struct mesh *mesh, int64_t cell);
  * points or cells. node_grid: grid whose anchor and cell size define the nodes; p, source: particles and the slits and
  * voids that double nodes, p = NULL for none. Release with mesh_free. Returns FAILED, with a message, if there are too
  * many nodes. */
-status mesh_allocate_box(struct mesh *mesh, const struct grid *node_grid, const real *lower_corner,
-                         const real *upper_corner, const struct particles *p, const struct mesh_source *source);
+status mesh_allocate_arrays_for_box(struct mesh *mesh, const struct grid *node_grid, const real *lower_corner,
+                                    const real *upper_corner, const struct particles *p,
+                                    const struct mesh_source *source);
 
 /* Returns true if cell `cell` of `mesh`, level 0 (the finest), is part of a coarse cell, by its coarsening level or
  * because its particles are not made. */

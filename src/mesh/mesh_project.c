@@ -106,7 +106,7 @@ static ALWAYS_INLINE real outer_sum(const struct projection *m, int64_t I, const
     real sum = 0;
     for (int c = 0; c < 1 << dim && is_unknown(m, I); c++)
         for (int64_t cell = mesh_cell_with_corner_at_node(m->mesh, I, c); cell >= 0;
-             cell = mesh_cell_next_slit_part(m->mesh, cell))
+             cell = mesh_next_subcell_of_cell_divided_by_slits(m->mesh, cell))
             if (mesh_cell_corner_node(m->mesh, cell, c) == I) sum += cell_sum(m, cell, c, value, dim);
     return sum;
 }
@@ -131,7 +131,7 @@ static ALWAYS_INLINE real slit_product(const struct projection *m, int64_t I, co
     real sum = 0;
     for (int c = 0; c < 1 << dim && is_unknown(m, I); c++)
         for (int64_t cell = mesh_cell_with_corner_at_node(m->mesh, I, c); cell >= 0;
-             cell = mesh_cell_next_slit_part(m->mesh, cell))
+             cell = mesh_next_subcell_of_cell_divided_by_slits(m->mesh, cell))
             for (int q = 0; q < 1 << dim && mesh_cell_corner_node(m->mesh, cell, c) == I; q++) {
                 const int32_t i = m->mesh->point[(cell << dim) + q];
                 real value = 0;

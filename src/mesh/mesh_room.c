@@ -32,8 +32,8 @@ static void outside_mark(const struct mesh *mesh, const struct mirror_plane *mir
         for (int c = 0; c < 1 << mesh->grid.dim && mesh->slits.split[I]; c++) mark[I - mesh->corner[c]] = 1;
 }
 
-int mesh_compute_highest_cell_levels(const struct mesh *mesh, const struct mirror_plane *mirror, int mirror_count,
-                                     uint8_t *highest_level)
+int mesh_compute_cell_coarsening_limit_by_thickness(const struct mesh *mesh, const struct mirror_plane *mirror,
+                                                    int mirror_count, uint8_t *highest_level)
 {
     const int64_t n = mesh->grid.n;
     uint8_t *outside = NEW("mesh.outside", 2 * n, uint8_t), *inside = outside + n;

@@ -395,8 +395,8 @@ static status box_extend(struct grid *g, const real *from, const real *to, int64
     return grid_extend_box(g, from, far, INT32_MAX >> g->dim, &changed);
 }
 
-status mesh_slits_double_nodes(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
-                               const real *lower_corner, const real *upper_corner)
+status mesh_slits_duplicate_nodes(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
+                                  const real *lower_corner, const real *upper_corner)
 {
     const int64_t n = mesh->grid.n;
     status result = OK;
@@ -440,7 +440,7 @@ static void link_add(struct mesh *mesh, int64_t extra, int64_t base)
     s->link[s->links++] = link;
 }
 
-void mesh_slits_link_blocks_of_doubled_nodes(struct mesh *mesh)
+void mesh_slits_link_node_blocks_for_activation(struct mesh *mesh)
 {
     struct mesh_slits *s = &mesh->slits;
     int64_t extras = s->nodes;
@@ -450,7 +450,7 @@ void mesh_slits_link_blocks_of_doubled_nodes(struct mesh *mesh)
     s->link = BARE("slits.link", extras, struct mesh_link);
     s->linked = NEW("slits.linked", mesh->active.blocks, uint8_t);
     for (int64_t I = s->first; I < mesh->grid.n; I++)
-        if (s->base[I - s->first] >= 0) link_add(mesh, I, mesh_regular_node_of_doubled_node(mesh, I));
+        if (s->base[I - s->first] >= 0) link_add(mesh, I, mesh_original_node_of_doubled_node(mesh, I));
     for (int64_t I = 0; I < s->first; I++)
         for (int64_t cell = s->next[I]; cell >= 0; cell = s->next[cell]) link_add(mesh, cell, I);
 }
@@ -459,7 +459,7 @@ void mesh_slits_store_corner_nodes_of_cells(struct mesh *mesh)
 {
     struct mesh_slits *s = &mesh->slits;
     const int corners = 1 << mesh->grid.dim;
-    const int64_t groups = mesh_partial_cell_group_count(mesh);
+    const int64_t groups = mesh_count_groups_of_eight_partial_cells(mesh);
     int32_t n = 0;
     if (!s->cell) return;
     memory_free(s->group);

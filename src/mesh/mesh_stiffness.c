@@ -19,9 +19,9 @@ static void point_stiffness(real *K, const struct elastic *m, int dim, real h, r
         for (int d = 0; d < dim; d++)
             g[column % dim * dim + d] = mesh_shape_function_derivative(dim, column / dim, q, d) / h;
         point_hooke_stress(m, g, s, dim);
-        for (int k = 0; k < symmetric_component_count(dim); k++) {
+        for (int k = 0; k < symmetric_tensor_component_count(dim); k++) {
             int a, b;
-            symmetric_component_axes(dim, k, &a, &b);
+            symmetric_tensor_component_axes(dim, k, &a, &b);
             P[a * dim + b] = P[b * dim + a] = s[k];
         }
         for (int c = 0; c < corners; c++)
@@ -36,12 +36,13 @@ static void point_stiffness(real *K, const struct elastic *m, int dim, real h, r
  * `material` in the cell have one dilatation, the mean of their dilatations, against volumetric locking (mesh_law.h):
  * subtracts V k t (x) t for each of these points and adds N V k T (x) T. t[n]: derivative of the trace of the strain
  * at a point by the displacements; T[n]: mean of t over the N points; V: volume of a point; k:
- * mean_dilatation_stiffness. m: elastic constants of the material; p: particles, which include the points. */
+ * elastic_bulk_modulus_if_mean_dilatation. m: elastic constants of the material; p: particles, which include the
+ * points. */
 static void average_dilatation(const struct mesh *mesh, const struct elastic *m, const struct particles *p, int64_t I,
                                uint8_t material, real *K)
 {
     const int dim = mesh->grid.dim, n = dim << dim;
-    const real by = mean_dilatation_stiffness(m, dim) * mesh->volume;
+    const real by = elastic_bulk_modulus_if_mean_dilatation(m, dim) * mesh->volume;
     real sum[CELL_UNKNOWNS_MAX] = {0};
     int points = 0;
     for (int q = 0; q < 1 << dim; q++) {

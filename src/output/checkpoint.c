@@ -51,7 +51,7 @@ static status entry_restore(struct archive *a, const char *name, void *data, siz
     struct hdf *f = a->file;
     char path[PATH_NAME_ROOM];
     entry_path(path, sizeof path, name);
-    int64_t stored = hdf_dataset_size(f, path);
+    int64_t stored = hdf_dataset_element_count(f, path);
     if (stored != (int64_t)size)
         return status_set(FAILED,
                           "cannot resume: entry %s of the checkpoint has %lld bytes, but this program needs %zu; "
@@ -69,7 +69,7 @@ static int64_t checkpoint_entry_size(struct archive *a, const char *name)
 {
     char path[PATH_NAME_ROOM];
     entry_path(path, sizeof path, name);
-    return hdf_dataset_size(a->file, path);
+    return hdf_dataset_element_count(a->file, path);
 }
 
 static struct archive archive_of(struct hdf *f, bool saving)
@@ -86,12 +86,12 @@ static struct archive archive_of(struct hdf *f, bool saving)
  * o: output of the run; scene_text: text of the input file (scene), which is stored in the file; archive_all(context,
  * a): must pass all entries of the state to the archive a. Returns FAILED, with a message, on a fault, with the file
  * removed. */
-static status state_write(struct output *o, const char *path, const char *scene_text, archive_all_fn *archive_all,
-                          void *context)
+static status state_write(struct output *o, const char *path, const char *scene_text,
+                          run_state_save_or_load_fn *archive_all, void *context)
 {
     static const int32_t version = CHECKPOINT_VERSION;
     struct hdf f;
-    hdf_create(&f, file_begin_writing_temporary(path).text, false);
+    hdf_create(&f, file_register_and_name_temporary(path).text, false);
     hdf_create_group(&f, "/Cleave");
     hdf_write_scalar_attribute(&f, "/Cleave", "version", HDF_I32, &version);
     hdf_write_rows(&f, "/Cleave/scene", HDF_U8, (int64_t)strlen(scene_text), 1, scene_text);
@@ -114,12 +114,14 @@ static status history_sync(const struct output *o)
     return file_report_write_failure(path_join(o->folder, "history.csv").text, errno);
 }
 
-status checkpoint_write(struct output *o, const char *scene_text, archive_all_fn *save_or_load_all, void *context)
+status checkpoint_write(struct output *o, const char *scene_text, run_state_save_or_load_fn *save_or_load_all,
+                        void *context)
 {
     struct path newest = path_join(o->folder, newest_name), previous = path_join(o->folder, previous_name);
-    TRY(output_wait_for_frame(o)); /* frames before a checkpoint must be on the disk; HDF5 serves one thread */
+    TRY(output_wait_until_frame_is_written(
+        o)); /* frames before a checkpoint must be on the disk; HDF5 serves one thread */
     if (o->broken) return FAILED;
-    TRY(folder_check_lock(&o->lock, o->folder));
+    TRY(folder_check_lock_still_holds(&o->lock, o->folder));
     TRY(history_sync(o));
     TRY(state_write(o, newest.text, scene_text, save_or_load_all, context));
     /* The new file is whole and on the disk before the older one is renamed; a kill between the two renames leaves the
@@ -138,11 +140,12 @@ status checkpoint_write(struct output *o, const char *scene_text, archive_all_fn
 /* Returns true if the open checkpoint f belongs to the scene with the text scene_text. */
 static bool same_scene(struct hdf *f, const char *scene_text)
 {
-    int64_t length = hdf_dataset_size(f, "/Cleave/scene");
+    int64_t length = hdf_dataset_element_count(f, "/Cleave/scene");
     if (length < 0 || length > SCENE_LONGEST) return false;
     char *stored = NEW("checkpoint.scene", length + 1, char);
     hdf_read_rows(f, "/Cleave/scene", HDF_U8, length, stored);
-    const bool same = !f->failed && strlen(stored) == (size_t)length && scene_texts_are_equal(stored, scene_text);
+    const bool same =
+        !f->failed && strlen(stored) == (size_t)length && scene_texts_describe_same_scene(stored, scene_text);
     memory_free(stored);
     return same;
 }
@@ -150,12 +153,13 @@ static bool same_scene(struct hdf *f, const char *scene_text)
 /* Restores the state of a run from the checkpoint `path`, whose hash must have been checked. archive_all(context, a):
  * must read all entries of the state from the archive a. Returns FAILED, with a message, if the file has another
  * format, belongs to another scene than scene_text, or cannot be read. */
-static status state_read(const char *path, const char *scene_text, archive_all_fn *archive_all, void *context)
+static status state_read(const char *path, const char *scene_text, run_state_save_or_load_fn *archive_all,
+                         void *context)
 {
     struct hdf f;
     int32_t version = 0;
     crash_message_set_file_in_use(path);
-    hdf_open(&f, path);
+    hdf_open_for_reading(&f, path);
     if (!f.failed) hdf_read_attribute(&f, "/Cleave", "version", HDF_I32, &version);
     struct archive a = archive_of(&f, false);
     status s;
@@ -183,7 +187,8 @@ static status state_read(const char *path, const char *scene_text, archive_all_f
     return s;
 }
 
-status checkpoint_read(const struct output *o, const char *scene_text, archive_all_fn *save_or_load_all, void *context)
+status checkpoint_read(const struct output *o, const char *scene_text, run_state_save_or_load_fn *save_or_load_all,
+                       void *context)
 {
     struct path newest = path_join(o->folder, newest_name), previous = path_join(o->folder, previous_name);
     const char *fault = file_describe_damage(newest.text);

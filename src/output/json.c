@@ -28,7 +28,7 @@ static void json_key(struct json *j, const char *key)
     fputs(": ", j->file);
 }
 
-void json_open(struct json *j, const char *key, char bracket)
+void json_begin_object_or_list(struct json *j, const char *key, char bracket)
 {
     json_key(j, key);
     fputc(bracket, j->file);
@@ -36,7 +36,7 @@ void json_open(struct json *j, const char *key, char bracket)
     j->filled = false;
 }
 
-void json_close(struct json *j, char bracket)
+void json_end_object_or_list(struct json *j, char bracket)
 {
     j->depth--;
     if (j->filled) fprintf(j->file, "\n%*s", 2 * j->depth, "");

@@ -17,11 +17,11 @@
 #include "output/scene_text.h"
 #include "output/summary_read.h"
 
-void output_configure(void)
+void output_install_signal_handling_for_file_writes(void)
 {
     signal(SIGXFSZ, SIG_IGN);
     signal(SIGPIPE, SIG_IGN);
-    invariant_set_cleanup_callback(files_unfinished_remove);
+    invariant_set_cleanup_callback(files_remove_unfinished_temporaries);
 }
 
 /* ---- folders ----------------------------------------------------------------------------------------------------- */
@@ -89,7 +89,7 @@ static bool is_scene_of_run(const char *path, const char *scene_text)
     char *text;
     size_t length;
     snprintf(frames.text, sizeof frames.text, "%.*s/frames", (int)(strrchr(path, '/') - path), path);
-    if (scene_file_has_text(path, scene_text)) return true;
+    if (scene_file_describes_same_scene(path, scene_text)) return true;
     if (!path_is_folder(frames.text) || file_read_whole(path, &text, &length) != OK) return false;
     const bool is = scene_text_is_from_cleave(text);
     memory_free(text);
@@ -123,9 +123,9 @@ static status folder_check(const char *folder, const char *scene_text, enum outp
     TRY(folder_check_writable(&run_kind, folder, scene_text, &there));
     if (!there) return OK;
     TRY(file_read_whole(path_join(folder, "scene.yaml").text, &text, &length));
-    const bool same = length == strlen(text) && scene_texts_are_equal(text, scene_text);
+    const bool same = length == strlen(text) && scene_texts_describe_same_scene(text, scene_text);
     *other = !same && mode != OUTPUT_OVERWRITE;
-    const status checked = *other ? scene_text_refuse_other(folder, text, scene_text) : OK;
+    const status checked = *other ? scene_texts_refuse_with_first_difference(folder, text, scene_text) : OK;
     memory_free(text);
     return checked;
 }
@@ -195,7 +195,7 @@ static status region_each(const char *folder, const char *inner, const char *end
     char name[PATH_NAME_ROOM];
     const struct path path = path_join(folder, inner);
     if (path_is_link(path.text) || !path_is_folder(path.text)) return OK;
-    TRY(files_visit(path.text, is_frame, end, each));
+    TRY(folder_visit_selected_files(path.text, is_frame, end, each));
     for (size_t k = 0; k < COUNT_OF(index); k++) {
         snprintf(name, sizeof name, "%.250s%s%s", inner + 7, index[k], end);
         TRY(file_each(folder, name, each));
@@ -236,12 +236,12 @@ static status regions_each(const char *folder, const char *end, file_visit_fn *e
 static status run_each(const char *folder, file_visit_fn *each)
 {
     for (size_t k = 0; k < COUNT_OF(made); k++) TRY(file_each(folder, made[k].name, each));
-    TRY(files_visit(path_join(folder, "frames").text, is_frame, "", each));
-    TRY(files_visit(path_join(folder, "frames").text, is_rigid_file, "", each));
+    TRY(folder_visit_selected_files(path_join(folder, "frames").text, is_frame, "", each));
+    TRY(folder_visit_selected_files(path_join(folder, "frames").text, is_rigid_file, "", each));
     TRY(regions_each(folder, "", each));
-    TRY(files_visit(pictures_folder(folder).text, file_name_is_of_picture, "",
-                    each == file_remove ? picture_remove : each));
-    return files_visit(pictures_folder(folder).text, file_name_is_of_picture, ASIDE_ENDING, each);
+    TRY(folder_visit_selected_files(pictures_folder(folder).text, file_name_is_of_picture, "",
+                                    each == file_remove ? picture_remove : each));
+    return folder_visit_selected_files(pictures_folder(folder).text, file_name_is_of_picture, ASIDE_ENDING, each);
 }
 
 /* Removes the temporary files of a run from its folder. Temporary files of pictures remain: they may belong to a
@@ -251,8 +251,8 @@ static void temporary_remove(const char *folder)
     for (size_t k = 0; k < COUNT_OF(made); k++)
         unlink(path_of_temporary_file(path_join(folder, made[k].name).text).text);
     unlink(path_of_temporary_file(path_join(folder, "scene.yaml").text).text);
-    files_visit(path_join(folder, "frames").text, is_frame, ASIDE_ENDING, file_remove);
-    files_visit(path_join(folder, "frames").text, is_rigid_file, ASIDE_ENDING, file_remove);
+    folder_visit_selected_files(path_join(folder, "frames").text, is_frame, ASIDE_ENDING, file_remove);
+    folder_visit_selected_files(path_join(folder, "frames").text, is_rigid_file, ASIDE_ENDING, file_remove);
     regions_each(folder, ASIDE_ENDING, file_remove);
 }
 
@@ -299,8 +299,8 @@ static status files_guard(const char *folder)
 {
     for (size_t k = 0; k < COUNT_OF(made); k++)
         if (made[k].begin) TRY(file_check_is_from_cleave(path_join(folder, made[k].name).text, &made[k].begin, 1));
-    TRY(files_visit(path_join(folder, "frames").text, is_frame, "", frame_guard));
-    TRY(files_visit(path_join(folder, "frames").text, is_rigid_file, "", rigid_guard));
+    TRY(folder_visit_selected_files(path_join(folder, "frames").text, is_frame, "", frame_guard));
+    TRY(folder_visit_selected_files(path_join(folder, "frames").text, is_rigid_file, "", rigid_guard));
     return regions_each(folder, "", frame_guard);
 }
 
@@ -311,10 +311,10 @@ static status folder_prepare(const char *folder, const char *scene_text, enum ou
     TRY(mode_check(folder, mode));
     TRY(run_each(folder, file_check_replaceable));
     if (mode != OUTPUT_RESUME) TRY(files_guard(folder));
-    if (!file_has_contents(scene.text, scene_text, strlen(scene_text))) TRY(file_check_replaceable(scene.text));
-    TRY(folder_make(frames.text));
+    if (!file_contents_equal_bytes(scene.text, scene_text, strlen(scene_text))) TRY(file_check_replaceable(scene.text));
+    TRY(folder_create_with_parents(frames.text));
     temporary_remove(folder);
-    if (mode != OUTPUT_RESUME) page_file_remove(folder), run_each(folder, file_remove);
+    if (mode != OUTPUT_RESUME) report_page_remove_from_folder(folder), run_each(folder, file_remove);
     return file_write_whole(scene.text, scene_text, strlen(scene_text));
 }
 
@@ -329,7 +329,7 @@ status output_open(struct output *o, const char *folder, const char *scene_text,
         return status_set(REFUSED, "-o: the folder's name is too long; choose a shorter one");
     while (length > 1 && folder[length - 1] == '/') length--;
     memcpy(clean.text, folder, length);
-    TRY(folder_make(clean.text));
+    TRY(folder_create_with_parents(clean.text));
     TRY(folder_lock(&o->lock, clean.text));
     const status s = folder_prepare(clean.text, scene_text, mode, &o->has_other_scene);
     if (s != OK) {
@@ -350,7 +350,7 @@ static struct path series_folder(const char *folder, const char *name)
     return path_join(folder, inner);
 }
 
-status output_check_series_folder_is_free(const char *folder, const char *series_name)
+status output_check_series_folder_can_be_created(const char *folder, const char *series_name)
 {
     const struct path path = series_folder(folder, series_name);
     if (path_is_link(path.text))
@@ -364,8 +364,8 @@ status output_check_series_folder_is_free(const char *folder, const char *series
 status output_add_frame_series(struct output *o, const char *series_name, const struct region *region)
 {
     INVARIANT(o->n_series < SERIES_MOST);
-    TRY(output_check_series_folder_is_free(o->folder, series_name));
-    TRY(folder_make(series_folder(o->folder, series_name).text));
+    TRY(output_check_series_folder_can_be_created(o->folder, series_name));
+    TRY(folder_create_with_parents(series_folder(o->folder, series_name).text));
     struct frame_series *s = &o->series[++o->n_series];
     *s = (struct frame_series){.region = region, .particles.number = -1};
     snprintf(s->name, sizeof s->name, "%s", series_name);
@@ -374,11 +374,12 @@ status output_add_frame_series(struct output *o, const char *series_name, const 
 
 void output_close(struct output *o)
 {
-    (void)output_wait_for_frame(o); /* its status was returned by an earlier output_wait_for_frame */
+    (void)output_wait_until_frame_is_written(
+        o); /* its status was returned by an earlier output_wait_until_frame_is_written */
     if (o->history) fclose(o->history);
     if (o->folder) folder_unlock(&o->lock, o->folder);
     memory_free(o->folder);
-    output_discard_particle_order(o);
+    output_discard_stored_particle_order_by_id(o);
     for (int k = 0; k <= o->n_series; k++) memory_free(o->series[k].entry);
     memory_free(o->frame_copy);
     *o = (struct output){0};
@@ -386,7 +387,7 @@ void output_close(struct output *o)
 
 status output_write_text(const struct output *o, const char *file_name, const char *text, size_t length)
 {
-    TRY(folder_check_lock(&o->lock, o->folder));
+    TRY(folder_check_lock_still_holds(&o->lock, o->folder));
     return file_write_whole(path_join(o->folder, file_name).text, text, length);
 }
 

@@ -29,17 +29,18 @@ static void copy_vectors(float *rows, const int32_t *row, int64_t first, int64_t
             copy_column(rows, dim, d, row, first, end, of[d], NULL);
 }
 
-static void copy_point(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
+static void copy_point(const struct frame_contents *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
     copy_vectors(rows, row, first, end, s->p->x, NULL, s->p->dim);
 }
 
-static void copy_displacement(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
+static void copy_displacement(const struct frame_contents *s, const int32_t *row, int64_t first, int64_t end,
+                              void *rows)
 {
     copy_vectors(rows, row, first, end, s->p->x, s->p->X, s->p->dim);
 }
 
-static void copy_velocity(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
+static void copy_velocity(const struct frame_contents *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
     copy_vectors(rows, row, first, end, s->p->v, NULL, s->p->dim);
 }
@@ -64,15 +65,15 @@ static const int tensor_place[DIM_MAX + 1][SYM_MAX] = {{0}, {0}, {0, 1, 3}, {0, 
 static void stress_row(const struct particles *p, int64_t i, real *row)
 {
     for (int k = 0; k < SYM_MAX; k++) row[k] = 0;
-    for (int k = 0; k < symmetric_component_count(p->dim); k++) row[tensor_place[p->dim][k]] = p->stress[k][i];
+    for (int k = 0; k < symmetric_tensor_component_count(p->dim); k++) row[tensor_place[p->dim][k]] = p->stress[k][i];
     if (p->plane_strain) row[2] = particle_out_of_plane_stress(p, i);
 }
 
-static void copy_stress(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
+static void copy_stress(const struct frame_contents *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
     const struct particles *p = s->p;
     const int stored = tensor_stored(p->dim);
-    for (int k = 0; k < symmetric_component_count(p->dim); k++)
+    for (int k = 0; k < symmetric_tensor_component_count(p->dim); k++)
         copy_column(rows, stored, tensor_place[p->dim][k], row, first, end, p->stress[k], NULL);
     if (p->dim != 2) return;
     for (int64_t r = first; r < end; r++)
@@ -81,7 +82,7 @@ static void copy_stress(const struct frame_source *s, const int32_t *row, int64_
 
 /* Computes the rows first .. end - 1 of the array `rows` for a field that is derived from stress or velocity, such as
  * the von Mises stress. s: source of the output frame; row[r]: index of the particle of row r. */
-static void copy_derived(const struct derived_field *field, const struct frame_source *s, const int32_t *row,
+static void copy_derived(const struct derived_field *field, const struct frame_contents *s, const int32_t *row,
                          int64_t first, int64_t end, float *rows)
 {
     for (int64_t r = first; r < end; r++) {
@@ -100,7 +101,7 @@ static void copy_derived(const struct derived_field *field, const struct frame_s
  * spaces. An elastic material contracts by nu/(1 - nu) times the sum of the in-plane strains. In a yielding material
  * plastic flow preserves volume. There F_zz = J/J_plane, where J is the elastic volume ratio that follows from the mean
  * stress, and J_plane the area ratio in the plane. strain[6]: in-plane strains, in the order xx yy zz xy yz xz. */
-static real strain_across(const struct frame_source *s, int64_t i, const real *strain)
+static real strain_across(const struct frame_contents *s, int64_t i, const real *strain)
 {
     const struct material *m = &s->extra.material[s->p->material[i]];
     if (s->extra.space != SPACE_PLANE_STRESS) return 0;
@@ -112,7 +113,7 @@ static real strain_across(const struct frame_source *s, int64_t i, const real *s
 
 /* Computes strain[6], the Green-Lagrange strain E = 1/2 (H + H^T + H^T H) of particle i of s, from its displacement
  * gradient H, in the order xx yy zz xy yz xz. */
-static void strain_row(const struct frame_source *s, int64_t i, real *strain)
+static void strain_row(const struct frame_contents *s, int64_t i, real *strain)
 {
     static const int row[SYM_MAX] = {0, 1, 2, 0, 1, 0}, column[SYM_MAX] = {0, 1, 2, 1, 2, 2};
     real *const *H = s->extra.state.gradient;
@@ -128,7 +129,7 @@ static void strain_row(const struct frame_source *s, int64_t i, real *strain)
     if (dim == 2) strain[2] = strain_across(s, i, strain);
 }
 
-static void copy_strain(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
+static void copy_strain(const struct frame_contents *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
     const int stored = tensor_stored(s->p->dim);
     for (int64_t r = first; r < end; r++) {
@@ -141,7 +142,7 @@ static void copy_strain(const struct frame_source *s, const int32_t *row, int64_
 /* Fills the rows first .. end - 1 with the density rho_0/J [kg/m^3], where J^2 = det(1 + 2 E) and E is the
  * Green-Lagrange strain. row[r]: index of the particle of row r; s: source of the output frame; rows: array with one
  * float per row. */
-static void copy_density(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
+static void copy_density(const struct frame_contents *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
     for (int64_t r = first; r < end; r++) {
         const int64_t i = row[r];
@@ -153,7 +154,8 @@ static void copy_density(const struct frame_source *s, const int32_t *row, int64
     }
 }
 
-static void copy_plastic_work(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
+static void copy_plastic_work(const struct frame_contents *s, const int32_t *row, int64_t first, int64_t end,
+                              void *rows)
 {
     const real *work = s->extra.state.plastic_work;
     if (work)
@@ -176,12 +178,12 @@ static void copy_integers(int32_t *rows, const int32_t *row, int64_t first, int6
     for (int64_t r = first; r < end; r++) rows[r] = of[row[r]];
 }
 
-static void copy_share(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
+static void copy_share(const struct frame_contents *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
     copy_scalars(rows, row, first, end, s->extra.state.share);
 }
 
-static void copy_level(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
+static void copy_level(const struct frame_contents *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
     copy_bytes(rows, row, first, end, s->extra.state.level);
 }
@@ -191,34 +193,34 @@ static void copy_level(const struct frame_source *s, const int32_t *row, int64_t
 /* Copies the damage of particles to the rows first .. end - 1: the damage computed for the output frame if there is
  * one, else that stored in struct particles. s: source of the frame; row[r]: index of the particle of row r; rows:
  * array with one float per row. */
-static void copy_damage(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
+static void copy_damage(const struct frame_contents *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
     copy_scalars(rows, row, first, end, s->extra.state.damage ? s->extra.state.damage : s->p->damage);
 }
 
-static void copy_plastic_strain(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end,
+static void copy_plastic_strain(const struct frame_contents *s, const int32_t *row, int64_t first, int64_t end,
                                 void *rows)
 {
     copy_scalars(rows, row, first, end,
                  s->extra.state.plastic_strain ? s->extra.state.plastic_strain : s->p->plastic_strain);
 }
 
-static void copy_temperature(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
+static void copy_temperature(const struct frame_contents *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
     copy_scalars(rows, row, first, end, s->p->temperature);
 }
 
-static void copy_kind(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
+static void copy_kind(const struct frame_contents *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
     copy_bytes(rows, row, first, end, s->p->kind);
 }
 
-static void copy_push(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
+static void copy_push(const struct frame_contents *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
     copy_vectors(rows, row, first, end, s->extra.push, NULL, s->p->dim);
 }
 
-static void copy_fragment(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
+static void copy_fragment(const struct frame_contents *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
     copy_integers(rows, row, first, end, s->extra.fragment);
 }
@@ -228,25 +230,25 @@ static void copy_fragment(const struct frame_source *s, const int32_t *row, int6
 /* Copies the spacing of particles [m] to the rows first .. end - 1. Material points of coarse grid cells have larger
  * spacings. s: source of the output frame; row[r]: index of the particle of row r; rows: array with one float per row.
  */
-static void copy_spacing(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
+static void copy_spacing(const struct frame_contents *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
     for (int64_t r = first; r < end; r++)
         ((float *)rows)[r] = (float)(s->p == s->extra.more ? s->extra.more_spacing[row[r]] : s->extra.spacing);
 }
 
-static void copy_strength(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
+static void copy_strength(const struct frame_contents *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
     copy_scalars(rows, row, first, end, s->p->strength);
 }
 
-static void copy_reference(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
+static void copy_reference(const struct frame_contents *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
     const int dim = s->p->dim;
     for (int64_t r = first; r < end; r++)
         for (int d = 0; d < dim; d++) ((double *)rows)[dim * r + d] = s->p->X[d][row[r]];
 }
 
-static void copy_material(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
+static void copy_material(const struct frame_contents *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
     const int *number = s->extra.material_number;
     for (int64_t r = first; r < end; r++) {
@@ -255,12 +257,12 @@ static void copy_material(const struct frame_source *s, const int32_t *row, int6
     }
 }
 
-static void copy_body(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
+static void copy_body(const struct frame_contents *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
     copy_bytes(rows, row, first, end, s->p->body);
 }
 
-static void copy_id(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
+static void copy_id(const struct frame_contents *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
     copy_integers(rows, row, first, end, s->p->id);
 }
@@ -305,7 +307,7 @@ enum { FIELD_ON_DEMAND = 13, FIELD_ON_DEMAND_LAST = 21 };
 
 /* Returns true if an output frame of source s contains `field`, a row of frame_fields: its data exist and, if the
  * field is written on request only, the input file (scene) requests it. */
-static bool field_exists(const struct frame_field *field, const struct frame_source *s)
+static bool field_exists(const struct frame_field *field, const struct frame_contents *s)
 {
     const int64_t k = field - frame_fields;
     if (k >= FIELD_ON_DEMAND && k <= FIELD_ON_DEMAND_LAST) return s->extra.asked >> (k - 1) & 1;
@@ -319,7 +321,7 @@ static bool field_exists(const struct frame_field *field, const struct frame_sou
     return true;
 }
 
-unsigned frame_field_bits_of_source(const struct frame_source *source)
+unsigned frame_contents_field_bits_to_write(const struct frame_contents *source)
 {
     unsigned found = 0;
     for (int k = 0; k < FRAME_FIELDS; k++)
@@ -341,7 +343,7 @@ size_t frame_field_bytes_per_row(const struct frame_field *field, int dim)
 
 /* Copies the values of a field for the particles row[first] .. row[end - 1] from the source to the rows first .. end -
  * 1 of the array `rows`. */
-static void copy_rows(const struct frame_field *field, const struct frame_source *source, const int32_t *row,
+static void copy_rows(const struct frame_field *field, const struct frame_contents *source, const int32_t *row,
                       int64_t first, int64_t end, void *rows)
 {
     if (field->copy)
@@ -350,12 +352,12 @@ static void copy_rows(const struct frame_field *field, const struct frame_source
         copy_derived(derived_field_find_by_name(strrchr(field->path, '/') + 1), source, row, first, end, rows);
 }
 
-void frame_field_copy_rows(const struct frame_field *field, const struct frame_source *source,
-                           const struct frame_rows *row_order, char *rows)
+void frame_field_copy_values_of_particles(const struct frame_field *field, const struct frame_contents *source,
+                                          const struct frame_rows *row_order, char *rows)
 {
     enum { BLOCK = 4096 }; /* rows that a thread copies at a time */
     const int64_t own = row_order->own, others = row_order->n - own;
-    struct frame_source more = {source->extra.more, source->extra};
+    struct frame_contents more = {source->extra.more, source->extra};
 #pragma omp parallel for schedule(static)
     for (int64_t first = 0; first < own; first += BLOCK)
         copy_rows(field, source, row_order->index, first, first + BLOCK < own ? first + BLOCK : own, rows);
@@ -375,7 +377,7 @@ void frame_field_write(struct hdf *file, const struct frame_field *field, int64_
     hdf_write_text_attribute(file, field->path, "unit", field->unit[0] ? field->unit : "1");
 }
 
-void frame_units_write_text(unsigned field_bits, char *text, size_t capacity)
+void frame_fields_list_units_as_text(unsigned field_bits, char *text, size_t capacity)
 {
     size_t used = 0;
     text[0] = '\0';

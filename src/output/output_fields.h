@@ -6,7 +6,7 @@
 #include "output/output_hdf5.h"
 
 /* Sources of the values of a frame: the particles p, and in `extra` the quantities that particles do not store. */
-struct frame_source {
+struct frame_contents {
     const struct particles *p;
     struct frame_extra extra;
 };
@@ -26,7 +26,7 @@ struct frame_field {
     bool fixed; /* does not change while the particles stay the same: stored in the particles file (particles_file.h) */
     /* Copies the stored components of the particle with index row[k] to row k of the array `rows`, for k = first .. end
      * - 1. NULL: the field is computed from another field (data/derived_fields.h). */
-    void (*copy)(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows);
+    void (*copy)(const struct frame_contents *s, const int32_t *row, int64_t first, int64_t end, void *rows);
 };
 
 /* Indices in the table frame_fields: of the positions (FIELD_POINTS) and of the contact forces (FIELD_CONTACT);
@@ -44,23 +44,23 @@ extern const struct frame_field frame_cells[CELL_LISTS];
 /* Returns the set of fields that an output frame (state of the run at one time) from `source` contains, as bits in the
  * order of the table frame_fields: the basic ones, plastic strain if a material yields, contact force if the input file
  * has contact, fragments if bodies can break, and those that the input file requests. */
-unsigned frame_field_bits_of_source(const struct frame_source *source);
+unsigned frame_contents_field_bits_to_write(const struct frame_contents *source);
 
 /* Copies the numbers that an output frame (state of the run at one time) stores of the field `field` from the particles
  * in *source to `rows`, an array of row_order->n rows with frame_field_bytes_per_row bytes each. row_order: which
  * particle each row belongs to. Rows of points inside coarse cells (larger mesh cells without particles;
  * source->extra.more) are 0 in fields that such points lack. */
-void frame_field_copy_rows(const struct frame_field *field, const struct frame_source *source,
-                           const struct frame_rows *row_order, char *rows);
+void frame_field_copy_values_of_particles(const struct frame_field *field, const struct frame_contents *source,
+                                          const struct frame_rows *row_order, char *rows);
 
 /* Writes the field `field` of an output frame as a dataset with its unit to `file`. rows: stored numbers of the field
- * at `row_count` points, as frame_field_copy_rows makes them; dim: dimension of the space. A failure is recorded in
- * file->failed. */
+ * at `row_count` points, as frame_field_copy_values_of_particles makes them; dim: dimension of the space. A failure is
+ * recorded in file->failed. */
 void frame_field_write(struct hdf *file, const struct frame_field *field, int64_t row_count, int dim, const char *rows);
 
 /* Writes one line `field [unit]` for every field with a unit to text[capacity]; a longer text is cut. field_bits: set
  * of fields, one bit per entry of the table frame_fields. */
-void frame_units_write_text(unsigned field_bits, char *text, size_t capacity);
+void frame_fields_list_units_as_text(unsigned field_bits, char *text, size_t capacity);
 
 /* Returns how many bytes an output frame (state of the run at one time) stores of the field `field` per row (particle).
  * dim: dimension of the space. */

@@ -36,7 +36,7 @@ bool path_exists(const char *path)
     return lstat(path, &s) == 0;
 }
 
-char *path_last_name(char *name, size_t capacity, const char *path)
+char *path_copy_base_name(char *name, size_t capacity, const char *path)
 {
     size_t length = strlen(path);
     while (length > 1 && path[length - 1] == '/') length--;
@@ -92,7 +92,7 @@ static void unfinished_replace(const char *from, const char *to)
     pthread_mutex_unlock(&unfinished_lock);
 }
 
-struct path file_begin_writing_temporary(const char *path)
+struct path file_register_and_name_temporary(const char *path)
 {
     const struct path aside = path_of_temporary_file(path);
     unfinished_replace(aside.text, "");
@@ -102,7 +102,7 @@ struct path file_begin_writing_temporary(const char *path)
 
 static void file_end(const char *path) { unfinished_replace(path_of_temporary_file(path).text, ""); }
 
-void files_unfinished_remove(void)
+void files_remove_unfinished_temporaries(void)
 {
     pthread_mutex_lock(&unfinished_lock);
     for (int k = 0; k < UNFINISHED_MOST; k++)
@@ -162,7 +162,7 @@ status file_check_replaceable(const char *path)
     return status_set(REFUSED, "%s is an input of this command and is not replaced; choose another -o", path);
 }
 
-status file_check_is_from_cleave(const char *path, const char *const *beginning, size_t beginnings)
+status file_check_is_from_cleave(const char *path, const char *const *beginning, size_t beginning_count)
 {
     char first[64];
     bool ours = false;
@@ -170,14 +170,14 @@ status file_check_is_from_cleave(const char *path, const char *const *beginning,
     if (fd < 0 && !path_exists(path)) return OK;
     const ssize_t have = fd < 0 ? 0 : read(fd, first, sizeof first);
     if (fd >= 0) close(fd);
-    for (size_t k = 0; k < beginnings && have >= 0; k++) {
+    for (size_t k = 0; k < beginning_count && have >= 0; k++) {
         const size_t length = strlen(beginning[k]);
         ours |= strncmp(first, beginning[k], (size_t)have < length ? (size_t)have : length) == 0;
     }
     return ours ? OK : status_set(REFUSED, "%s exists and was not written by cleave; move or remove it", path);
 }
 
-bool file_has_contents(const char *path, const void *bytes, size_t length)
+bool file_contents_equal_bytes(const char *path, const void *bytes, size_t length)
 {
     char *text;
     size_t there;
@@ -257,7 +257,7 @@ static status file_rename(const char *path)
     return s;
 }
 
-status file_sync_folder(const char *path)
+status file_sync_parent_folder(const char *path)
 {
     const int fault = sync_folder_of(path);
     return fault && fault != EACCES ? file_report_write_failure(path, fault)
@@ -267,20 +267,20 @@ status file_sync_folder(const char *path)
 status file_replace_by_temporary(const char *path)
 {
     TRY(file_rename(path));
-    return file_sync_folder(path);
+    return file_sync_parent_folder(path);
 }
 
 status file_write_whole_unsynced(const char *path, const void *bytes, size_t length)
 {
-    if (input_file_was_read(path) && file_has_contents(path, bytes, length)) return OK;
-    TRY(outcome(path, write_synced(file_begin_writing_temporary(path).text, O_CREAT | O_EXCL, bytes, length)));
+    if (input_file_was_read(path) && file_contents_equal_bytes(path, bytes, length)) return OK;
+    TRY(outcome(path, write_synced(file_register_and_name_temporary(path).text, O_CREAT | O_EXCL, bytes, length)));
     return file_rename(path);
 }
 
 status file_write_whole(const char *path, const void *bytes, size_t length)
 {
     TRY(file_write_whole_unsynced(path, bytes, length));
-    return file_sync_folder(path);
+    return file_sync_parent_folder(path);
 }
 
 /* ---- folders ----------------------------------------------------------------------------------------------------- */
@@ -289,7 +289,7 @@ status file_write_whole(const char *path, const void *bytes, size_t length)
  * if a file, or a link to anything else, has this name; FAILED if it cannot be created, both with a message. */
 static status folder_make_one(const char *path)
 {
-    if (mkdir(path, 0777) == 0) return file_sync_folder(path);
+    if (mkdir(path, 0777) == 0) return file_sync_parent_folder(path);
     const int cause = errno;
     if (cause == EEXIST && path_is_folder(path)) return OK;
     if (cause == EEXIST && path_is_link(path))
@@ -299,7 +299,7 @@ static status folder_make_one(const char *path)
     return status_set(FAILED, "cannot make the folder %s: %s; choose another -o", path, strerror(cause));
 }
 
-status folder_make(const char *path)
+status folder_create_with_parents(const char *path)
 {
     struct path part = {{0}};
     if (strlen(path) >= PATH_ROOM)
@@ -311,18 +311,18 @@ status folder_make(const char *path)
     return folder_make_one(part.text);
 }
 
-status folder_make_for_file(const char *path)
+status folder_create_parents_of_file(const char *path)
 {
     struct path above = {{0}};
     const char *end = strrchr(path, '/');
     if (!end || end == path) return OK;
     if (end - path >= PATH_ROOM) return status_set(REFUSED, "-o: the folder's name is too long; choose a shorter one");
     snprintf(above.text, sizeof above.text, "%.*s", (int)(end - path), path);
-    return folder_make(above.text);
+    return folder_create_with_parents(above.text);
 }
 
-status files_visit(const char *folder, bool (*name_is_chosen)(const char *name, const char *ending), const char *ending,
-                   file_visit_fn *visit)
+status folder_visit_selected_files(const char *folder, bool (*name_is_chosen)(const char *name, const char *ending),
+                                   const char *ending, file_visit_fn *visit)
 {
     status s = OK;
     DIR *d = path_is_link(folder) ? NULL : opendir(folder);

@@ -36,7 +36,7 @@ struct frame_job {
     /* rows of the fields that change, in output.frame_copy; NULL: in the particles file, or not in this frame */
     char *field[FRAME_FIELDS];
     struct particles_file particles; /* particles file to which the frame links */
-    struct frame_indices index;      /* lists of all frames, including this frame */
+    struct frame_index_texts index;  /* lists of all frames, including this frame */
     pthread_t thread;
     bool apart;        /* the thread is running */
     status ended;      /* result of the thread */
@@ -50,7 +50,7 @@ static bool has_rows(const struct frame_job *job, int k) { return job->fields >>
 /* Copies from `source` the rows of those fields of a frame (output file of one time) that are stored in the frame
  * itself, not in the particles file, to job->o->frame_copy. This memory is used again for the next frame. job:
  * description of the frame to be written. */
-static void job_copy_fields(struct frame_job *job, const struct frame_source *source)
+static void job_copy_fields(struct frame_job *job, const struct frame_contents *source)
 {
     struct output *o = job->o;
     int64_t at = 0, length = 0;
@@ -65,7 +65,7 @@ static void job_copy_fields(struct frame_job *job, const struct frame_source *so
         if (!has_rows(job, k)) continue;
         job->field[k] = o->frame_copy + at;
         at += job->n * (int64_t)frame_field_bytes_per_row(&frame_fields[k], job->dim);
-        frame_field_copy_rows(&frame_fields[k], source, &job->series->rows, job->field[k]);
+        frame_field_copy_values_of_particles(&frame_fields[k], source, &job->series->rows, job->field[k]);
     }
 }
 
@@ -85,7 +85,8 @@ static void job_drop_contact(struct frame_job *job)
 /* Chooses the particles file to which the output frame of `job` links; it has the data that do not change from frame
  * to frame. It is the last particles file of the series of frames, or a new one if its contents would differ. source:
  * data of the frame; scene_text: text of the input file (scene), which the particles file contains. */
-static void job_choose_particles_file(struct frame_job *job, const struct frame_source *source, const char *scene_text)
+static void job_choose_particles_file(struct frame_job *job, const struct frame_contents *source,
+                                      const char *scene_text)
 {
     struct frame_series *s = job->series;
     char name[PATH_NAME_ROOM];
@@ -97,7 +98,7 @@ static void job_choose_particles_file(struct frame_job *job, const struct frame_
             s->particles.number = s->frames, s->particles.content = job->particles.content;
         s->particles.current = true;
     }
-    particles_file_name(s, name, sizeof name, s->particles.number);
+    particles_file_compose_name(s, name, sizeof name, s->particles.number);
     job->particles.path = path_join(job->o->folder, name);
     job->particles.content = s->particles.content;
     job->particles.compress = job->compress;
@@ -107,13 +108,13 @@ static void job_choose_particles_file(struct frame_job *job, const struct frame_
  * number `step`, and copies the fields of the particles of `source` into it, so that the run can go on while it is
  * written. series: frames of the whole run or of one region; scene_text: text of the input file (scene), for the
  * particles file. The caller owns the job. */
-static struct frame_job *job_make(struct output *o, struct frame_series *series, const struct frame_source *source,
+static struct frame_job *job_make(struct output *o, struct frame_series *series, const struct frame_contents *source,
                                   real t, int64_t step, const char *scene_text)
 {
     struct frame_job *job = NEW("output.job", 1, struct frame_job);
     job->o = o, job->series = series;
     job->n = series->rows.n, job->step = step, job->dim = source->p->dim, job->t = t;
-    job->compress = o->compress, job->fields = frame_field_bits_of_source(source);
+    job->compress = o->compress, job->fields = frame_contents_field_bits_to_write(source);
     job_copy_fields(job, source);
     job_choose_particles_file(job, source, scene_text);
     job_drop_contact(job);
@@ -176,10 +177,10 @@ static bool series_shows(const struct frame_series *s, const struct particles *p
 }
 
 /* Selects the particles of `source` that the output frames of the series s show, in the order of their ids, and stores
- * them in s->rows. The selection is kept until output_discard_particle_order, or until the number of particles
- * changes. It is made again for each frame if the series has a region and there are material points of coarse grid
- * cells, which may change at any step. Returns false if memory is exhausted. */
-static bool rows_make(struct frame_series *s, const struct frame_source *source)
+ * them in s->rows. The selection is kept until output_discard_stored_particle_order_by_id, or until the number of
+ * particles changes. It is made again for each frame if the series has a region and there are material points of coarse
+ * grid cells, which may change at any step. Returns false if memory is exhausted. */
+static bool rows_make(struct frame_series *s, const struct frame_contents *source)
 {
     const struct particles *more = source->extra.more;
     const int64_t own = source->p->n, all = own + (more ? more->n : 0);
@@ -199,7 +200,7 @@ static bool rows_make(struct frame_series *s, const struct frame_source *source)
     return made;
 }
 
-void output_discard_particle_order(struct output *o)
+void output_discard_stored_particle_order_by_id(struct output *o)
 {
     for (int k = 0; k <= o->n_series; k++) rows_free(&o->series[k]);
 }
@@ -233,12 +234,12 @@ static status frame_write(struct frame_job *job)
 {
     struct hdf f;
     if (job->particles.rows) TRY(particles_file_write(&job->particles, &job->broken));
-    hdf_create(&f, file_begin_writing_temporary(job->path.text).text, job->compress);
+    hdf_create(&f, file_register_and_name_temporary(job->path.text).text, job->compress);
     write_marks(&f, job);
-    particles_file_create_links(&f, &job->particles, job->fields);
+    particles_file_link_fields_into_frame(&f, &job->particles, job->fields);
     for (int k = 0; k < FRAME_FIELDS; k++)
         if (has_rows(job, k)) frame_field_write(&f, &frame_fields[k], job->n, job->dim, job->field[k]);
-    TRY(hdf_close_written_file(&f, job->path.text, &job->broken));
+    TRY(hdf_close_or_remove_if_write_failed(&f, job->path.text, &job->broken));
     TRY(file_append_checksum_footer(job->path.text));
     return file_replace_by_temporary(job->path.text);
 }
@@ -267,7 +268,7 @@ static void *job_run(void *context)
     return NULL;
 }
 
-status output_wait_for_frame(struct output *o)
+status output_wait_until_frame_is_written(struct output *o)
 {
     struct frame_job *job = o->writing;
     if (!job) return OK;
@@ -281,7 +282,7 @@ status output_wait_for_frame(struct output *o)
 }
 
 /* Appends the output frame of `job`, which is about to be written, to the list of its series s, the frames of the
- * whole run or of one region. If writing fails later, output_wait_for_frame removes it from the list. */
+ * whole run or of one region. If writing fails later, output_wait_until_frame_is_written removes it from the list. */
 static void frame_count(struct frame_series *s, const struct frame_job *job)
 {
     GROW("output.frames", s->entry, s->frames + 1);
@@ -303,21 +304,22 @@ static void output_frames_job_start(struct frame_job *job)
     if (!job->apart) job_run(job); /* no thread available: write synchronously */
 }
 
-status output_frame_begin(struct output *o, int number, const struct particles *p, const struct frame_extra *extra,
-                          real t, int64_t step, const char *scene_text)
+status output_begin_writing_frame_in_thread(struct output *o, int number, const struct particles *p,
+                                            const struct frame_extra *extra, real t, int64_t step,
+                                            const char *scene_text)
 {
-    const struct frame_source source = {p, extra ? *extra : (struct frame_extra){0}};
+    const struct frame_contents source = {p, extra ? *extra : (struct frame_extra){0}};
     struct frame_series *series = &o->series[number];
     char name[PATH_NAME_ROOM];
-    TRY(output_wait_for_frame(o));
+    TRY(output_wait_until_frame_is_written(o));
     if (o->broken) return FAILED;
-    TRY(folder_check_lock(&o->lock, o->folder));
-    frame_write_file_name(series, name, sizeof name, series->frames);
+    TRY(folder_check_lock_still_holds(&o->lock, o->folder));
+    frame_compose_file_name(series, name, sizeof name, series->frames);
     if (!rows_make(series, &source)) return file_report_write_failure(path_join(o->folder, name).text, ENOMEM);
     struct frame_job *job = o->writing = job_make(o, series, &source, t, step, scene_text);
     job->path = path_join(o->folder, name);
     frame_count(series, job);
-    job->ended = frame_index_files_compose(&job->index, o->folder, series);
+    job->ended = frame_index_files_compose_texts(&job->index, o->folder, series);
     if (job->ended != OK)
         snprintf(job->message, sizeof job->message, "%s", status_message());
     else
@@ -327,8 +329,8 @@ status output_frame_begin(struct output *o, int number, const struct particles *
 
 status output_write_frame(struct output *o, const struct particles *p, real t, int64_t step, const char *scene_text)
 {
-    TRY(output_frame_begin(o, 0, p, NULL, t, step, scene_text));
-    return output_wait_for_frame(o);
+    TRY(output_begin_writing_frame_in_thread(o, 0, p, NULL, t, step, scene_text));
+    return output_wait_until_frame_is_written(o);
 }
 
 /* ---- after a restart --------------------------------------------------------------------------------------------- */
@@ -350,7 +352,7 @@ static void particles_file_look(struct particles_seen *seen, const char *folder,
                                 int number)
 {
     if (seen->number == number) return;
-    particles_file_name(s, seen->name, sizeof seen->name, number);
+    particles_file_compose_name(s, seen->name, sizeof seen->name, number);
     const struct path path = path_join(folder, seen->name);
     seen->number = number;
     seen->fault = file_describe_damage_if_readable(path.text);
@@ -365,7 +367,7 @@ static void particles_file_look(struct particles_seen *seen, const char *folder,
 static bool frame_read_marks(const char *path, real *time, int64_t *content)
 {
     struct hdf f;
-    hdf_open(&f, path);
+    hdf_open_for_reading(&f, path);
     hdf_read_attribute(&f, "/Cleave", "time", HDF_F64, time);
     hdf_read_attribute(&f, "/Cleave", "content", HDF_I64, content);
     const bool read = !f.failed;
@@ -402,7 +404,7 @@ static void series_check(const struct output *o, struct frame_series *s, int *lo
     struct particles_seen seen = {.number = -1};
     for (int k = 0; k < s->frames; k++) {
         char name[PATH_NAME_ROOM], fault[PATH_NAME_ROOM + 100];
-        frame_write_file_name(s, name, sizeof name, k);
+        frame_compose_file_name(s, name, sizeof name, k);
         particles_file_look(&seen, o->folder, s, s->entry[k].particles);
         const struct path path = path_join(o->folder, name);
         s->entry[k].fields &= ~FRAME_LOST;
@@ -417,14 +419,14 @@ static void series_check(const struct output *o, struct frame_series *s, int *lo
  * frames.xdmf). Returns FAILED, with a message, if one cannot be written. */
 static status series_index(const struct output *o, struct frame_series *series)
 {
-    struct frame_indices index = {0};
-    status s = frame_index_files_compose(&index, o->folder, series);
+    struct frame_index_texts index = {0};
+    status s = frame_index_files_compose_texts(&index, o->folder, series);
     if (s == OK) s = frame_index_files_write(&index, o->folder, series);
     frame_index_files_free_texts(&index);
     return s;
 }
 
-status output_remove_lost_frames_from_index(struct output *o, int *lost_frame_count, char *message, size_t capacity)
+status output_remove_missing_frames_from_index(struct output *o, int *lost_frame_count, char *message, size_t capacity)
 {
     *lost_frame_count = 0;
     for (int k = 0; k <= o->n_series; k++) {

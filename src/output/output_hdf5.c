@@ -23,7 +23,7 @@ enum { TEXT_BUFFER = 1024 };
 /* Released memory that HDF5 may keep for reuse in each of its free lists [byte]. */
 enum { HDF5_KEPT = 4 << 20 };
 
-void hdf_prepare(void)
+void hdf_disable_exit_handler_and_messages(void)
 {
     static _Thread_local bool prepared; /* HDF5 keeps for each thread whether it prints errors */
     if (prepared) return;
@@ -80,7 +80,7 @@ static bool ready(const struct hdf *f)
 static hid_t access_list(struct hdf *f)
 {
     hid_t list = -1;
-    hdf_prepare();
+    hdf_disable_exit_handler_and_messages();
     if (good(f, list = H5Pcreate(H5P_FILE_ACCESS))) good(f, H5Pset_fclose_degree(list, H5F_CLOSE_STRONG));
 #if H5_VERSION_GE(1, 10, 7)
     if (!f->failed) good(f, H5Pset_file_locking(list, false, true));
@@ -102,7 +102,7 @@ void hdf_create(struct hdf *f, const char *path, bool compress)
            good(f, H5Pclose(access)));
 }
 
-void hdf_open(struct hdf *f, const char *path)
+void hdf_open_for_reading(struct hdf *f, const char *path)
 {
     *f = (struct hdf){.file = -1};
     errno = 0;
@@ -122,7 +122,7 @@ void hdf_close(struct hdf *f)
     f->file = -1;
 }
 
-status hdf_close_written_file(struct hdf *f, const char *path, bool *write_failed)
+status hdf_close_or_remove_if_write_failed(struct hdf *f, const char *path, bool *write_failed)
 {
     if (!f->failed) hdf_close(f);
     if (!f->failed) return OK;
@@ -370,7 +370,7 @@ void hdf_write_text_attribute(struct hdf *f, const char *group, const char *name
     if (!f->failed) good(f, H5Tclose(type));
 }
 
-int64_t hdf_dataset_size(struct hdf *f, const char *name)
+int64_t hdf_dataset_element_count(struct hdf *f, const char *name)
 {
     hid_t set = -1, space = -1;
     if (!ready(f)) return -1;
@@ -386,7 +386,7 @@ void hdf_read_rows(struct hdf *f, const char *name, enum hdf_type type, int64_t 
 {
     hid_t set = -1;
     if (!ready(f)) return;
-    if (hdf_dataset_size(f, name) != count) {
+    if (hdf_dataset_element_count(f, name) != count) {
         f->failed = true;
         return;
     }
@@ -418,7 +418,7 @@ void hdf_read_attribute(struct hdf *f, const char *group, const char *name, enum
 
 /* Returns true if the data of `dataset` are in its own file, neither in an external one nor in those of a virtual
  * dataset. */
-bool hdf_dataset_is_in_its_file(hid_t dataset)
+bool hdf_dataset_is_stored_in_own_file(hid_t dataset)
 {
     hid_t made = H5Dget_create_plist(dataset);
     const bool inside = H5Pget_layout(made) != H5D_VIRTUAL && H5Pget_external_count(made) == 0;

@@ -10,12 +10,12 @@
 #include "output/output_files.h"
 #include "particles_file.h"
 
-void frame_write_file_name(const struct frame_series *series, char *name, size_t capacity, int frame_number)
+void frame_compose_file_name(const struct frame_series *series, char *name, size_t capacity, int frame_number)
 {
     snprintf(name, capacity, "frames%s%s/%06d.hdf", series->name[0] ? "_" : "", series->name, frame_number);
 }
 
-void series_write_index_file_name(const struct frame_series *series, char *name, size_t capacity, const char *ending)
+void series_compose_index_file_name(const struct frame_series *series, char *name, size_t capacity, const char *ending)
 {
     snprintf(name, capacity, "%s%s", series->name[0] ? series->name : "frames", ending);
 }
@@ -29,7 +29,7 @@ static void series_print(FILE *out, const struct frame_series *s)
     for (int k = 0; k < s->frames; k++) {
         char name[PATH_NAME_ROOM];
         if (s->entry[k].fields & FRAME_LOST) continue;
-        frame_write_file_name(s, name, sizeof name, k);
+        frame_compose_file_name(s, name, sizeof name, k);
         fprintf(out, "%s\n{\"name\":\"%s\",\"time\":%.17g}", between, name, s->entry[k].time);
         between = ",";
     }
@@ -87,8 +87,8 @@ static void xdmf_print(FILE *out, const struct frame_series *s)
     for (int k = 0; k < s->frames; k++) {
         char name[PATH_NAME_ROOM], particles[PATH_NAME_ROOM];
         if (s->entry[k].fields & FRAME_LOST) continue;
-        frame_write_file_name(s, name, sizeof name, k);
-        particles_file_name(s, particles, sizeof particles, s->entry[k].particles);
+        frame_compose_file_name(s, name, sizeof name, k);
+        particles_file_compose_name(s, particles, sizeof particles, s->entry[k].particles);
         xdmf_grid(out, name, particles, &s->entry[k]);
     }
     fprintf(out, "</Grid>\n</Domain>\n</Xdmf>\n");
@@ -102,14 +102,14 @@ static struct path index_path(const char *folder, const struct frame_series *s, 
 {
     static const char *const end[INDICES] = {".hdf.series", ".xdmf"};
     char name[PATH_NAME_ROOM];
-    series_write_index_file_name(s, name, sizeof name, end[which]);
+    series_compose_index_file_name(s, name, sizeof name, end[which]);
     return path_join(folder, name);
 }
 
 /* Composes in memory, in index->text[which], the text of an index file of the output frame series s (the frames of the
  * run or of one region). which: 0 for frames.hdf.series, 1 for frames.xdmf. folder: folder of the run, for messages.
  * Returns FAILED, with a message, if memory is exhausted. */
-static status index_make(struct frame_indices *index, const char *folder, const struct frame_series *s, int which)
+static status index_make(struct frame_index_texts *index, const char *folder, const struct frame_series *s, int which)
 {
     static void (*const print[INDICES])(FILE *, const struct frame_series *) = {series_print, xdmf_print};
     FILE *out = memory_stream_open(&index->text[which], &index->length[which]);
@@ -118,21 +118,23 @@ static status index_make(struct frame_indices *index, const char *folder, const 
     return whole ? OK : file_report_write_failure(index_path(folder, s, which).text, ENOMEM);
 }
 
-status frame_index_files_compose(struct frame_indices *index, const char *folder, const struct frame_series *series)
+status frame_index_files_compose_texts(struct frame_index_texts *index, const char *folder,
+                                       const struct frame_series *series)
 {
     for (int k = 0; k < INDICES; k++) TRY(index_make(index, folder, series, k));
     return OK;
 }
 
-status frame_index_files_write(const struct frame_indices *index, const char *folder, const struct frame_series *series)
+status frame_index_files_write(const struct frame_index_texts *index, const char *folder,
+                               const struct frame_series *series)
 {
     for (int k = 0; k < INDICES; k++)
         TRY(file_write_whole(index_path(folder, series, k).text, index->text[k], index->length[k]));
     return OK;
 }
 
-void frame_index_files_free_texts(struct frame_indices *index)
+void frame_index_files_free_texts(struct frame_index_texts *index)
 {
     for (int k = 0; k < INDICES; k++) free(index->text[k]);
-    *index = (struct frame_indices){0};
+    *index = (struct frame_index_texts){0};
 }

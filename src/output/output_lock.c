@@ -113,7 +113,7 @@ status folder_lock(struct folder_lock *l, const char *folder)
     return OK;
 }
 
-status folder_check_lock(const struct folder_lock *l, const char *folder)
+status folder_check_lock_still_holds(const struct folder_lock *l, const char *folder)
 {
     if (l->fd < 0 || is_still_there(l->fd, path_join(folder, lock_name).text)) return OK;
     return status_set(FAILED,
@@ -126,7 +126,7 @@ void folder_unlock(struct folder_lock *l, const char *folder)
 {
     if (l->fd < 0) return;
     /* Remove the file before the lock is released: the next process that locks it then finds that it is removed. */
-    if (folder_check_lock(l, folder) == OK) unlink(path_join(folder, lock_name).text);
+    if (folder_check_lock_still_holds(l, folder) == OK) unlink(path_join(folder, lock_name).text);
     close(l->fd);
     l->fd = -1;
 }

@@ -68,9 +68,9 @@ static void read_fields(struct output_frame *f, struct hdf *h)
     f->material = read_list(h, "/VTKHDF/PointData/material", HDF_U8, f->n);
     f->body = read_list(h, "/VTKHDF/PointData/body", HDF_U8, f->n);
     f->id = read_list(h, "/VTKHDF/PointData/id", HDF_I32, f->n);
-    if (hdf_dataset_size(h, "/VTKHDF/PointData/fragment") >= 0)
+    if (hdf_dataset_element_count(h, "/VTKHDF/PointData/fragment") >= 0)
         f->fragment = read_list(h, "/VTKHDF/PointData/fragment", HDF_I32, f->n);
-    if (hdf_dataset_size(h, "/VTKHDF/PointData/spacing") >= 0)
+    if (hdf_dataset_element_count(h, "/VTKHDF/PointData/spacing") >= 0)
         f->spacing = read_list(h, "/VTKHDF/PointData/spacing", HDF_F32, f->n);
 }
 
@@ -83,7 +83,7 @@ static void read_size(struct output_frame *f, struct hdf *h, int64_t bytes)
     hdf_read_attribute(h, "/Cleave", "time", HDF_F64, &f->t);
     hdf_read_attribute(h, "/Cleave", "step", HDF_I64, &f->step);
     if (h->failed) return;
-    int64_t n = hdf_dataset_size(h, "/VTKHDF/Types");
+    int64_t n = hdf_dataset_element_count(h, "/VTKHDF/Types");
     if (dim < 1 || dim > DIM_MAX || n < 0 || n > INT32_MAX || n / PARTICLES_PER_BYTE_MOST > bytes) h->failed = true;
     f->dim = dim;
     f->n = n;
@@ -99,8 +99,8 @@ status frame_read(struct output_frame *f, const char *path)
     const char *fault = file_describe_damage(path);
     if (fault) return status_set(FAILED, "cannot read %s: it %s", path, fault);
     crash_message_set_file_in_use(path);
-    hdf_open(&h, path);
-    const status linked = h.failed ? OK : particles_file_check_file_linked_by_frame(&h, path);
+    hdf_open_for_reading(&h, path);
+    const status linked = h.failed ? OK : frame_check_linked_particles_file(&h, path);
     if (linked == OK && !h.failed) read_size(f, &h, s.st_size);
     if (linked == OK && !h.failed) read_fields(f, &h);
     bool whole = !h.failed;
@@ -176,9 +176,9 @@ status frame_field_read(const struct output_frame *f, const char *path, const ch
     }
     snprintf(place, sizeof place, "/VTKHDF/PointData/%s", name);
     crash_message_set_file_in_use(path);
-    hdf_open(&h, path);
+    hdf_open_for_reading(&h, path);
     const bool zero = strcmp(name, "contact_force") == 0 && hdf_has_attribute(&h, "/Cleave", "zero");
-    const int64_t count = strchr(name, '/') ? -1 : hdf_dataset_size(&h, place), most = f->n * COLUMNS_MOST;
+    const int64_t count = strchr(name, '/') ? -1 : hdf_dataset_element_count(&h, place), most = f->n * COLUMNS_MOST;
     if (zero) *component_count = DIM_MAX, *value = NEW("frame.field", f->n * DIM_MAX, float);
     if (count > 0 && count <= most && count % f->n == 0) {
         *component_count = (int)(count / f->n), *value = NEW("frame.field", count, float);

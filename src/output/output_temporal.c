@@ -41,9 +41,9 @@ static void frames_look(struct temporal *a, const struct frame_series *series)
     unsigned all = (1u << FRAME_FIELDS) - 1, any = 0;
     for (int k = 0; k < series->frames; k++) {
         const struct frame_entry *e = &series->entry[k];
-        frame_write_file_name(series, a->frame[a->n], sizeof a->frame[a->n], k);
+        frame_compose_file_name(series, a->frame[a->n], sizeof a->frame[a->n], k);
         if (e->fields & FRAME_LOST || !path_is_file(path_join(a->folder, a->frame[a->n]).text)) continue;
-        particles_file_name(series, a->particles[a->n], sizeof a->particles[a->n], e->particles);
+        particles_file_compose_name(series, a->particles[a->n], sizeof a->particles[a->n], e->particles);
         a->time[a->n] = e->time, a->has[a->n] = e->fields, a->source[a->n].rows = e->rows;
         a->start[a->n] = a->n > 0 ? a->start[a->n - 1] + a->source[a->n - 1].rows : 0;
         all &= e->fields, any |= e->fields;
@@ -120,7 +120,7 @@ static void write_texts(struct hdf *f, const struct temporal *a, const char *sce
 {
     static const char *const name[] = {"units", "scene"};
     char units[1000], path[PATH_NAME_ROOM];
-    frame_units_write_text(a->fields, units, sizeof units);
+    frame_fields_list_units_as_text(a->fields, units, sizeof units);
     const char *const text[] = {units, scene_text};
     hdf_create_group(f, "/VTKHDF/FieldData");
     hdf_create_group(f, "/VTKHDF/Steps/FieldDataOffsets");
@@ -145,7 +145,7 @@ static status temporal_write(const struct temporal *a, const char *path, const c
     static const int32_t version[2] = {2, 0};
     int64_t *number = NEW("temporal.number", 2 * (int64_t)a->n, int64_t);
     struct hdf f;
-    hdf_create(&f, file_begin_writing_temporary(path).text, false);
+    hdf_create(&f, file_register_and_name_temporary(path).text, false);
     hdf_create_group(&f, "/VTKHDF");
     hdf_write_attribute(&f, "/VTKHDF", "Version", HDF_I32, 2, version);
     hdf_write_text_attribute(&f, "/VTKHDF", "Type", "UnstructuredGrid");
@@ -153,7 +153,7 @@ static status temporal_write(const struct temporal *a, const char *path, const c
     write_rows(&f, a, number);
     write_texts(&f, a, scene_text, number);
     memory_free(number);
-    TRY(hdf_close_written_file(&f, path, broken));
+    TRY(hdf_close_or_remove_if_write_failed(&f, path, broken));
     TRY(file_append_and_sync(path, NULL, 0));
     return file_replace_by_temporary(path);
 }
@@ -171,7 +171,7 @@ static status series_temporal(struct output *o, const struct frame_series *serie
     a.has = NEW("temporal.has", series->frames, uint32_t);
     a.start = NEW("temporal.start", series->frames, int64_t);
     frames_look(&a, series);
-    series_write_index_file_name(series, name, sizeof name, ".vtkhdf");
+    series_compose_index_file_name(series, name, sizeof name, ".vtkhdf");
     if (a.n > 0) s = temporal_write(&a, path_join(o->folder, name).text, scene_text, &o->broken);
     memory_free(a.start), memory_free(a.has), memory_free(a.particles), memory_free(a.frame);
     memory_free(a.source), memory_free(a.time);
@@ -182,16 +182,16 @@ void output_remove_vtkhdf_of_all_frames(const struct output *o)
 {
     for (int k = 0; k <= o->n_series; k++) {
         char name[PATH_NAME_ROOM];
-        series_write_index_file_name(&o->series[k], name, sizeof name, ".vtkhdf");
+        series_compose_index_file_name(&o->series[k], name, sizeof name, ".vtkhdf");
         unlink(path_join(o->folder, name).text);
     }
 }
 
 status output_write_vtkhdf_of_all_frames(struct output *o, const char *scene_text)
 {
-    TRY(output_wait_for_frame(o));
+    TRY(output_wait_until_frame_is_written(o));
     if (o->broken) return FAILED;
-    TRY(folder_check_lock(&o->lock, o->folder));
+    TRY(folder_check_lock_still_holds(&o->lock, o->folder));
     for (int k = 0; k <= o->n_series; k++) TRY(series_temporal(o, &o->series[k], scene_text));
     return OK;
 }

@@ -8,7 +8,7 @@
 
 #include "output/output_files.h"
 
-bool page_file_is_from_cleave(const char *path)
+bool report_page_is_from_cleave(const char *path)
 {
     char begin[sizeof PAGE_BEGINNING - 1];
     struct stat s;
@@ -19,8 +19,8 @@ bool page_file_is_from_cleave(const char *path)
     return whole && memcmp(begin, PAGE_BEGINNING, sizeof begin) == 0;
 }
 
-void page_file_remove(const char *folder)
+void report_page_remove_from_folder(const char *folder)
 {
     const struct path page = path_join(folder, PAGE_NAME);
-    if (page_file_is_from_cleave(page.text)) unlink(page.text);
+    if (report_page_is_from_cleave(page.text)) unlink(page.text);
 }

@@ -14,7 +14,7 @@ static const char *const linked[] = {
     "/VTKHDF/Connectivity",    "/VTKHDF/Offsets",         "/VTKHDF/Types",
     "/VTKHDF/FieldData/units", "/VTKHDF/FieldData/scene", "/Cleave/scene"};
 
-void particles_file_name(const struct frame_series *series, char *name, size_t capacity, int file_number)
+void particles_file_compose_name(const struct frame_series *series, char *name, size_t capacity, int file_number)
 {
     snprintf(name, capacity, "frames%s%s/particles_%06d.h5", series->name[0] ? "_" : "", series->name, file_number);
 }
@@ -32,7 +32,7 @@ static size_t field_bytes(const struct particles_file *f, int k)
 }
 
 void particles_file_collect_contents(struct particles_file *f, const struct frame_series *series,
-                                     const struct frame_source *source, unsigned field_bits, const char *scene_text)
+                                     const struct frame_contents *source, unsigned field_bits, const char *scene_text)
 {
     char units[1000];
     size_t length = 0;
@@ -42,12 +42,12 @@ void particles_file_collect_contents(struct particles_file *f, const struct fram
         if (is_inside(f, k)) length += field_bytes(f, k);
     f->rows = NEW("output.fixed", (int64_t)length, char);
     f->cells = NEW("output.cells", f->n + 1, int32_t);
-    frame_units_write_text(field_bits, units, sizeof units);
+    frame_fields_list_units_as_text(field_bits, units, sizeof units);
     uint64_t hash = bytes_hash(bytes_hash((uint64_t)f->n, units, strlen(units)), scene_text, strlen(scene_text));
     char *rows = f->rows;
     for (int k = 0; k < FRAME_FIELDS; k++) {
         if (!is_inside(f, k)) continue;
-        frame_field_copy_rows(&frame_fields[k], source, &series->rows, rows);
+        frame_field_copy_values_of_particles(&frame_fields[k], source, &series->rows, rows);
         hash = bytes_hash(hash, rows, field_bytes(f, k));
         rows += field_bytes(f, k);
     }
@@ -85,7 +85,7 @@ static void particles_write_contents(struct hdf *h, const struct particles_file 
     static const int32_t version = PARTICLES_VERSION;
     const char *rows = f->rows;
     char units[1000];
-    frame_units_write_text(f->fields, units, sizeof units);
+    frame_fields_list_units_as_text(f->fields, units, sizeof units);
     hdf_create_group(h, "/VTKHDF"), hdf_create_group(h, "/VTKHDF/PointData"), hdf_create_group(h, "/VTKHDF/FieldData");
     hdf_create_group(h, "/Cleave");
     hdf_write_scalar_attribute(h, "/Cleave", "version", HDF_I32, &version);
@@ -105,15 +105,15 @@ status particles_file_write(const struct particles_file *f, bool *hdf5_failed)
 {
     struct hdf h;
     int64_t content = 0;
-    if (!particles_file_describe_damage(f->path.text, &content) && content == f->content) return OK;
-    hdf_create(&h, file_begin_writing_temporary(f->path.text).text, f->compress);
+    if (!particles_file_find_fault_and_content_hash(f->path.text, &content) && content == f->content) return OK;
+    hdf_create(&h, file_register_and_name_temporary(f->path.text).text, f->compress);
     particles_write_contents(&h, f);
-    TRY(hdf_close_written_file(&h, f->path.text, hdf5_failed));
+    TRY(hdf_close_or_remove_if_write_failed(&h, f->path.text, hdf5_failed));
     TRY(file_append_checksum_footer(f->path.text));
     return file_replace_by_temporary(f->path.text);
 }
 
-void particles_file_create_links(struct hdf *frame, const struct particles_file *f, unsigned field_bits)
+void particles_file_link_fields_into_frame(struct hdf *frame, const struct particles_file *f, unsigned field_bits)
 {
     const char *file = strrchr(f->path.text, '/') + 1;
     for (size_t k = 0; k < COUNT_OF(linked); k++) hdf_create_external_link(frame, linked[k], file);
@@ -131,7 +131,7 @@ bool particles_file_read_content_hash(const char *path, int64_t *content_hash)
     struct hdf h;
     char target[PATH_NAME_ROOM];
     *content_hash = 0;
-    hdf_open(&h, path);
+    hdf_open_for_reading(&h, path);
     if (hdf_has_attribute(&h, "/Cleave", "content") &&
         !hdf_read_external_link_target(&h, "/VTKHDF/Types", target, sizeof target))
         hdf_read_attribute(&h, "/Cleave", "content", HDF_I64, content_hash);
@@ -139,14 +139,14 @@ bool particles_file_read_content_hash(const char *path, int64_t *content_hash)
     return !h.failed;
 }
 
-const char *particles_file_describe_damage(const char *path, int64_t *content_hash)
+const char *particles_file_find_fault_and_content_hash(const char *path, int64_t *content_hash)
 {
     const char *fault = file_describe_damage(path);
     if (fault) return fault;
     return particles_file_read_content_hash(path, content_hash) ? NULL : "is not a particles file";
 }
 
-status particles_file_check_file_linked_by_frame(struct hdf *frame, const char *path)
+status frame_check_linked_particles_file(struct hdf *frame, const char *path)
 {
     struct path file = {{0}};
     char name[PATH_NAME_ROOM];
@@ -158,7 +158,7 @@ status particles_file_check_file_linked_by_frame(struct hdf *frame, const char *
     const char *slash = strrchr(path, '/');
     const int folder = slash ? (int)(slash + 1 - path) : 0;
     snprintf(file.text, sizeof file.text, "%.*s%s", folder, path, name);
-    const char *fault = particles_file_describe_damage(file.text, &found);
+    const char *fault = particles_file_find_fault_and_content_hash(file.text, &found);
     if (!fault && found != content) fault = "belongs to another run";
     if (!fault) return OK;
     return status_set(FAILED, "cannot read %s: the file %s in the same folder, to which it links, %s", path, name,

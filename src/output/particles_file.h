@@ -26,14 +26,14 @@ struct particles_file {
 /* Writes the name of particles file number `file_number` (the data that do not change between output frames) of a
  * series of output frames (states at output times), relative to the folder of the run, to name[capacity]:
  * frames/particles_NNNNNN.h5 for the whole body, frames_REGION/... for a region. A longer name is cut. */
-void particles_file_name(const struct frame_series *series, char *name, size_t capacity, int file_number);
+void particles_file_compose_name(const struct frame_series *series, char *name, size_t capacity, int file_number);
 
 /* Initialises *f with the contents of a particles file, the data that do not change from one output frame to the next:
  * copies the fields in the set `field_bits` (one bit per entry of frame_fields) from *source for the particles of which
  * `series` has rows, and computes a hash of the contents. scene_text: text of the input file, which the file contains.
  * Release f with particles_file_free. */
 void particles_file_collect_contents(struct particles_file *f, const struct frame_series *series,
-                                     const struct frame_source *source, unsigned field_bits, const char *scene_text);
+                                     const struct frame_contents *source, unsigned field_bits, const char *scene_text);
 
 /* Writes the particles file f->path (the data that do not change between output frames), unless a complete file with
  * the same contents exists. Sets *hdf5_failed to true if HDF5 failed and must not be called again. Returns FAILED if
@@ -46,7 +46,7 @@ void particles_file_free(struct particles_file *f);
 /* Creates in the file `frame`, an output frame (state at one time), a link to each of its fields that is stored in the
  * particles file f (the data that do not change between output frames). field_bits: fields of the frame, one bit per
  * entry of the table frame_fields. A failure is stored in frame->failed. */
-void particles_file_create_links(struct hdf *frame, const struct particles_file *f, unsigned field_bits);
+void particles_file_link_fields_into_frame(struct hdf *frame, const struct particles_file *f, unsigned field_bits);
 
 /* Reads the hash of the contents of the particles file `path` (the data that do not change between output frames) into
  * *content_hash. If the file is an output frame or another file of a run, *content_hash is 0, which is the hash of no
@@ -56,11 +56,11 @@ bool particles_file_read_content_hash(const char *path, int64_t *content_hash);
 /* Checks the particles file `path` (the data that do not change between output frames) and stores the hash of its
  * contents in *content_hash. Returns NULL if the file is complete and unchanged, else a static text that completes
  * "PATH ..." in a message. */
-const char *particles_file_describe_damage(const char *path, int64_t *content_hash);
+const char *particles_file_find_fault_and_content_hash(const char *path, int64_t *content_hash);
 
 /* Checks the particles file (the data that do not change between output frames) to which `frame`, the open file `path`
  * of an output frame (state at one time), links. Returns OK if it is complete and belongs to the frame, or if the frame
  * needs none, as frames of earlier versions; else FAILED. */
-status particles_file_check_file_linked_by_frame(struct hdf *frame, const char *path);
+status frame_check_linked_particles_file(struct hdf *frame, const char *path);
 
 #endif

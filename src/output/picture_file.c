@@ -94,7 +94,7 @@ static int mark_and_sync(int fd, const struct picture_end *e)
     return fsync(fd) != 0 ? errno : 0;
 }
 
-status picture_replace_by_temporary(const char *path, enum picture_format format)
+status picture_complete_and_rename_temporary(const char *path, enum picture_format format)
 {
     const int fd = open(path_of_temporary_file(path).text, O_RDWR | O_CLOEXEC | O_NOFOLLOW);
     int fault = fd < 0 ? errno : mark_and_sync(fd, &ends[format]);

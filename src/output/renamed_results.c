@@ -19,16 +19,16 @@ static const struct {
     {"conversion.return_energy", "conversion.reversion_energy"},
 };
 
-const char *result_current_name(const char *name)
+const char *renamed_result_find_current_name(const char *name)
 {
     for (size_t k = 0; k < COUNT_OF(renamed); k++)
         if (strcmp(name, renamed[k].old) == 0) return renamed[k].now;
     return NULL;
 }
 
-const char *result_name_in_other_version(const char *name)
+const char *renamed_result_find_new_or_former_name(const char *name)
 {
     for (size_t k = 0; k < COUNT_OF(renamed); k++)
         if (strcmp(name, renamed[k].now) == 0) return renamed[k].old;
-    return result_current_name(name);
+    return renamed_result_find_current_name(name);
 }

@@ -35,16 +35,16 @@ static int scene_difference(const char **a, const char **b)
     return 0;
 }
 
-bool scene_texts_are_equal(const char *a, const char *b) { return scene_difference(&a, &b) == 0; }
+bool scene_texts_describe_same_scene(const char *a, const char *b) { return scene_difference(&a, &b) == 0; }
 
 bool scene_text_is_from_cleave(const char *text) { return strncmp(text, "name: \"", 7) == 0; }
 
-bool scene_file_has_text(const char *path, const char *scene_text)
+bool scene_file_describes_same_scene(const char *path, const char *scene_text)
 {
     char *text;
     size_t length;
     if (!path_is_file(path) || file_read_whole(path, &text, &length) != OK) return false;
-    const bool same = length == strlen(text) && scene_texts_are_equal(text, scene_text);
+    const bool same = length == strlen(text) && scene_texts_describe_same_scene(text, scene_text);
     memory_free(text);
     return same;
 }
@@ -71,15 +71,15 @@ static void key_path_of_line(const char *text, const char *line, char *path, siz
                  below ? below : "");
 }
 
-status scene_text_refuse_other(const char *folder, const char *former, const char *now)
+status scene_texts_refuse_with_first_difference(const char *folder, const char *former_text, const char *present_text)
 {
     enum { SHOWN = 200 };
     static const char remedy[] = "repeat its options -s, or choose another -o or --overwrite";
-    const char *a = former, *b = now;
+    const char *a = former_text, *b = present_text;
     char key[100];
     size_t own;
     scene_difference(&a, &b);
-    key_path_of_line(*b ? now : former, *b ? b : a, key, sizeof key);
+    key_path_of_line(*b ? present_text : former_text, *b ? b : a, key, sizeof key);
     a += strspn(a, " -"), b += strspn(b, " -");
     const int la = (int)strcspn(a, "\n"), lb = (int)strcspn(b, "\n"), path = (int)(line_meaning(b, &own) - b);
     if (path > 0 && path < SHOWN && strncmp(a, b, (size_t)path) == 0)

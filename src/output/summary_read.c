@@ -19,9 +19,9 @@ enum { DEPTH_MAX = 64, SIZE_MAX_BYTES = 64 << 20, KEY_ROOM = 512 };
 
 /* State of the reading of a summary, a JSON text. */
 struct reader {
-    const char *at;       /* next byte; the text ends with a 0 byte */
-    const char *found;    /* first byte of the wanted value; NULL: not found so far */
-    summary_visit *visit; /* receives every number; NULL if there is none */
+    const char *at;                 /* next byte; the text ends with a 0 byte */
+    const char *found;              /* first byte of the wanted value; NULL: not found so far */
+    summary_number_visit_fn *visit; /* receives every number; NULL if there is none */
     void *context;
     char key[KEY_ROOM]; /* dotted key of the value that is being read */
     size_t length;      /* length of `key` [byte] */
@@ -235,7 +235,7 @@ static status summary_read_find(const char *folder, const char *key, char **text
 {
     struct reader r = {0};
     status s = summary_read_document(&r, folder, key, text);
-    const char *other = s == OK && r.found == NULL ? result_name_in_other_version(key) : NULL;
+    const char *other = s == OK && r.found == NULL ? renamed_result_find_new_or_former_name(key) : NULL;
     if (other) { /* the document is sound, as read above */
         r = (struct reader){.at = *text};
         (void)value(&r, other, 0);
@@ -246,7 +246,7 @@ static status summary_read_find(const char *folder, const char *key, char **text
     return s;
 }
 
-status summary_visit_numbers(const char *folder, summary_visit *visit, void *context)
+status summary_visit_numbers(const char *folder, summary_number_visit_fn *visit, void *context)
 {
     char *text;
     struct reader r = {.visit = visit, .context = context};

@@ -123,7 +123,7 @@ struct colour colour_on_damage_scale(double position)
 {
     return along_stops(damage_stops, COUNT_OF(damage_stops), position);
 }
-struct colour colour_of_peridynamic_particle(double position)
+struct colour colour_on_peridynamic_particle_scale(double position)
 {
     return along_stops(bond_stops, COUNT_OF(bond_stops), position);
 }

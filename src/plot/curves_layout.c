@@ -16,7 +16,7 @@ static const struct sizes {
     double sample, letter, row, tics, lower;
 } WIDE = {58, 9, 24, 30, 96}, NARROW = {48, 7.4, 20, 24, 68};
 
-static const struct sizes *sizes_now(void) { return picture_is_too_narrow_for_key() ? &NARROW : &WIDE; }
+static const struct sizes *sizes_now(void) { return picture_size_is_too_narrow_for_side_legend() ? &NARROW : &WIDE; }
 
 double curves_key_height_beside_panel(int entry_count) { return (entry_count + 0.5) * sizes_now()->row; }
 
@@ -31,7 +31,7 @@ static bool key_fits_beside_panel(const struct curves_layout *l, int entries, in
 struct curves_layout curves_layout_make(const struct gnuplot *gnuplot, int key_entry_count, size_t longest_key_entry,
                                         bool has_second_axis, int panel_count)
 {
-    const bool narrow = picture_is_too_narrow_for_key();
+    const bool narrow = picture_size_is_too_narrow_for_side_legend();
     struct curves_layout l = {.width = gnuplot->width,
                               .height = gnuplot->height,
                               .left = narrow ? LEFT_NARROW : LEFT,
@@ -65,7 +65,7 @@ void curves_write_key_position(FILE *gnuplot, const struct curves_layout *l)
 {
     if (l->key_below)
         fprintf(gnuplot, "set key at screen %.5f,%.5f left top horizontal maxcols %d maxrows %d\n",
-                (picture_is_too_narrow_for_key() ? 10 : l->left) / l->width,
+                (picture_size_is_too_narrow_for_side_legend() ? 10 : l->left) / l->width,
                 (sizes_now()->row * l->key_lines + 4.0) / l->height, l->key_columns, l->key_lines);
     else
         fprintf(gnuplot, "set key at screen %.5f,%.5f left top\n", 1 - (l->right - 12) / l->width,
@@ -78,11 +78,11 @@ void curves_write_margins_and_key(FILE *gnuplot, const struct curves_layout *l)
     curves_write_key_position(gnuplot, l);
 }
 
-struct two_panels curves_layout_edges_of_two_panels(const struct curves_layout *l)
+struct two_panel_edges curves_layout_edges_of_two_panels(const struct curves_layout *l)
 {
     const double inner = curves_layout_height_of_all_panels(l),
                  low = fmin(fmax(0.22 * inner, sizes_now()->lower), 0.33 * inner);
-    return (struct two_panels){inner - low - PANEL_GAP, inner - low, inner};
+    return (struct two_panel_edges){inner - low - PANEL_GAP, inner - low, inner};
 }
 
 void curves_write_title(struct gnuplot *gnuplot, const char *title, const char *quantity)
@@ -90,10 +90,10 @@ void curves_write_title(struct gnuplot *gnuplot, const char *title, const char *
     char text[512];
     const size_t length = strlen(title);
     snprintf(text, sizeof text, "%s%s", title, length > 0 && title[length - 1] == ' ' ? quantity : "");
-    gnuplot_write_title(gnuplot, text, picture_is_too_narrow_for_key() ? LEFT_NARROW : LEFT);
+    gnuplot_write_title(gnuplot, text, picture_size_is_too_narrow_for_side_legend() ? LEFT_NARROW : LEFT);
 }
 
-double tic_distance(double value_extent, double axis_length, double least_distance)
+double axis_choose_tic_distance(double value_extent, double axis_length, double least_distance)
 {
     const double least = value_extent * fmax(least_distance, axis_length / 10) / axis_length,
                  decade = pow(10, floor(log10(least)));
@@ -101,10 +101,11 @@ double tic_distance(double value_extent, double axis_length, double least_distan
     return decade * (lead <= 1 ? 1 : lead <= 2 ? 2 : lead <= 5 ? 5 : 10);
 }
 
-void curves_write_tics(FILE *gnuplot, const char *vertical_axis, double low, double high, double panel_height)
+void curves_write_vertical_tics(FILE *gnuplot, const char *vertical_axis, double low, double high, double panel_height)
 {
     if (high > low)
-        fprintf(gnuplot, "set %stics %.9g\n", vertical_axis, tic_distance(high - low, panel_height, sizes_now()->tics));
+        fprintf(gnuplot, "set %stics %.9g\n", vertical_axis,
+                axis_choose_tic_distance(high - low, panel_height, sizes_now()->tics));
 }
 
 void curves_write_horizontal_tics(FILE *to, const struct curves_layout *l, double low, double high)
@@ -112,10 +113,10 @@ void curves_write_horizontal_tics(FILE *to, const struct curves_layout *l, doubl
     const double most = fmax(fabs(low), fabs(high));
     const double letters = 2 + (low < 0) + fmax(floor(log10(most)), 0); /* of the longest number, with a space */
     const double pixels = l->width - l->left - l->right;
-    fprintf(to, "set xtics %.9g\n", tic_distance(high - low, pixels, 12 + 11 * letters));
+    fprintf(to, "set xtics %.9g\n", axis_choose_tic_distance(high - low, pixels, 12 + 11 * letters));
 }
 
-void title_compose_with_particles_outside(char *text, const char *title, int64_t outside)
+void title_append_count_of_particles_outside_view(char *text, const char *title, int64_t outside)
 {
     int length = snprintf(text, TITLE_LENGTH, "%.*s", TITLE_LENGTH - 64, title);
     if (outside > 0)

@@ -30,7 +30,7 @@ struct ffmpeg {
 static _Noreturn void become_ffmpeg(char *const *word, int from, int complaints)
 {
     const int nothing = open("/dev/null", O_RDWR);
-    interrupt_cleanup_prepare_child_process();
+    child_process_set_group_and_unblock_signals();
     signal(SIGPIPE, SIG_DFL);
     dup2(from < 0 ? nothing : from, STDIN_FILENO);
     dup2(complaints < 0 ? nothing : complaints, STDOUT_FILENO);
@@ -39,7 +39,7 @@ static _Noreturn void become_ffmpeg(char *const *word, int from, int complaints)
     _exit(NOT_FOUND);
 }
 
-status film_check_encoder_is_installed(void)
+status video_check_encoder_is_installed(void)
 {
     char *word[] = {"ffmpeg", "-version", NULL};
     int ended = 0;
@@ -63,7 +63,7 @@ static bool pipe_make(int *ends)
 /* Starts ffmpeg as the process *f, which writes the film with path and format `sheet` under a temporary name. The film
  * is in H.264 with even numbers of pixels, which most players require, or a GIF with a palette of its own. fps: frames
  * per second; 0: the default. Returns FAILED, with a message, if ffmpeg cannot be started. */
-static status ffmpeg_start(struct ffmpeg *f, struct sheet sheet, int fps)
+static status ffmpeg_start(struct ffmpeg *f, struct output_picture sheet, int fps)
 {
     struct path to;
     char rate[16];
@@ -115,7 +115,7 @@ static status ffmpeg_feed(struct ffmpeg *f, const char *picture)
 /* Closes the input of the process f, waits until it ends, and renames the film from its temporary name to sheet.path,
  * its path. fed: status of writing the pictures into ffmpeg. Returns `fed` if it is not OK, and FAILED with the message
  * of ffmpeg if there is no film. Removes an incomplete film. */
-static status ffmpeg_end(struct ffmpeg *f, struct sheet sheet, status fed)
+static status ffmpeg_end(struct ffmpeg *f, struct output_picture sheet, status fed)
 {
     char reason[256];
     int ended = 0;
@@ -123,9 +123,9 @@ static status ffmpeg_end(struct ffmpeg *f, struct sheet sheet, status fed)
     if (f->process > 0) waitpid((pid_t)f->process, &ended, 0);
     const bool made = f->process > 0 && WIFEXITED(ended) && WEXITSTATUS(ended) == 0;
     if (fed == OK && made)
-        fed = picture_replace_by_temporary(sheet.path, sheet.format);
+        fed = picture_complete_and_rename_temporary(sheet.path, sheet.format);
     else if (f->process > 0 && f->complaints && (fed == OK || !status_message()[0])) {
-        error_message_read_last_line(f->complaints, reason, sizeof reason);
+        program_error_output_read_last_line(f->complaints, reason, sizeof reason);
         fed = status_set(FAILED, "%s: ffmpeg made no film: %s", sheet.path, reason);
     }
     if (fed != OK) file_discard_temporary(sheet.path);
@@ -134,23 +134,24 @@ static status ffmpeg_end(struct ffmpeg *f, struct sheet sheet, status fed)
     return fed;
 }
 
-status film_draw_frames_as_video(struct sheet sheet, int fps, const char *title, enum map map, const struct view *view,
-                                 const struct plotted_particles *cloud, int frame_count)
+status video_draw_and_encode_frames(struct output_picture output, int fps, const char *title, enum map map,
+                                    const struct view *view, const struct plotted_particles *cloud, int frame_count)
 {
     struct ffmpeg f;
     struct path picture;
-    const int length = snprintf(picture.text, sizeof picture.text, "%s" ASIDE_ENDING ".png", sheet.path);
+    const int length = snprintf(picture.text, sizeof picture.text, "%s" ASIDE_ENDING ".png", output.path);
     if (length >= (int)(sizeof picture.text - sizeof ASIDE_ENDING))
-        return status_set(FAILED, "%s: the name is too long; choose a shorter one", sheet.path);
-    TRY(file_check_replaceable(sheet.path));
-    unlink(path_of_temporary_file(sheet.path).text); /* a link of this name is not followed */
-    status s = ffmpeg_start(&f, sheet, fps);
+        return status_set(FAILED, "%s: the name is too long; choose a shorter one", output.path);
+    TRY(file_check_replaceable(output.path));
+    unlink(path_of_temporary_file(output.path).text); /* a link of this name is not followed */
+    status s = ffmpeg_start(&f, output, fps);
     for (int k = 0; s == OK && k < frame_count; k++) {
         interrupt_cleanup_register(LEAVING_FRAME, picture.text, 0);
-        s = maps_draw_panels_of_frames((struct sheet){picture.text, PICTURE_PNG}, title, map, view, &cloud[k], 1);
+        s = picture_draw_panels_of_frames((struct output_picture){picture.text, PICTURE_PNG}, title, map, view,
+                                          &cloud[k], 1);
         if (s == OK) s = ffmpeg_feed(&f, picture.text);
         unlink(picture.text);
         interrupt_cleanup_register(LEAVING_FRAME, NULL, 0);
     }
-    return ffmpeg_end(&f, sheet, s);
+    return ffmpeg_end(&f, output, s);
 }

@@ -25,7 +25,7 @@ const char *const curve_colour[CURVE_COLOURS] = {
 
 const char *const picture_ending[PICTURE_FORMATS] = {"png", "svg", "pdf", "mp4", "gif"};
 
-bool picture_format_named(enum picture_format *format, const char *ending)
+bool picture_format_find_by_ending(enum picture_format *format, const char *ending)
 {
     for (int k = 0; k < PICTURE_FORMATS; k++)
         if (strcmp(ending, picture_ending[k]) == 0) return *format = (enum picture_format)k, true;
@@ -46,7 +46,7 @@ void gnuplot_write_quoted_string(FILE *file, const char *text)
  * file for its output and errors. Does not return. */
 static _Noreturn void become_gnuplot(const int *pipe_ends, int complaints)
 {
-    interrupt_cleanup_prepare_child_process();
+    child_process_set_group_and_unblock_signals();
     signal(SIGPIPE, SIG_DFL);
     dup2(pipe_ends[0], STDIN_FILENO);
     dup2(complaints, STDOUT_FILENO);
@@ -104,8 +104,8 @@ static void set_style(FILE *to)
 static struct picture_size usual = {.dpi = PICTURE_DPI};
 enum { NARROW = 760 }; /* pictures narrower than this have no room beside their panel [pixel] */
 
-void picture_size_set(struct picture_size size) { usual = size; }
-struct picture_size picture_size_get(void) { return usual; }
+void picture_size_set_process_wide(struct picture_size size) { usual = size; }
+struct picture_size picture_size_get_process_wide(void) { return usual; }
 
 /* PDF_LETTERS: factor on the size of letters in a PDF, whose sizes are in points, that gives them the size of letters
  * in a PNG. NARROW_LETTERS: factor on the size of letters in narrow pictures, which then have 7 points. */
@@ -116,7 +116,7 @@ static const double PDF_LETTERS = 0.5, NARROW_LETTERS = 0.8;
  * and points. */
 static void set_terminal(struct gnuplot *g, enum picture_format format, int width, int height, double scale)
 {
-    const double letters = picture_is_too_narrow_for_key() ? NARROW_LETTERS * scale : scale, lines = scale;
+    const double letters = picture_size_is_too_narrow_for_side_legend() ? NARROW_LETTERS * scale : scale, lines = scale;
     if (format == PICTURE_SVG)
         fprintf(g->to,
                 "set terminal svg size %d,%d font 'Liberation Sans,Helvetica,Arial,sans-serif,14' fontscale %.4g "
@@ -155,15 +155,15 @@ static void gnuplot_release(struct gnuplot *g)
 static const double CURVES_HIGHER = 1.35;
 
 /* Returns the height [pixel] of a picture that is laid out for width x height [pixel]: the height that the user has
- * chosen, if any. If the user (picture_size_set) has chosen only a width, the height of the layout is scaled with the
- * width; a picture of curves so narrow that its key is below is made CURVES_HIGHER times as high. letters: factor on
- * the size of letters, 1 for pictures of curves. */
+ * chosen, if any. If the user (picture_size_set_process_wide) has chosen only a width, the height of the layout is
+ * scaled with the width; a picture of curves so narrow that its key is below is made CURVES_HIGHER times as high.
+ * letters: factor on the size of letters, 1 for pictures of curves. */
 static int height_for(int width, int height, double letters)
 {
     const double scale = usual.width ? (double)usual.width / width : 1;
     if (usual.height) return usual.height;
     return (int)lround(scale * height *
-                       (picture_is_too_narrow_for_key() && letters == 1 && scale < 1 ? CURVES_HIGHER : 1));
+                       (picture_size_is_too_narrow_for_side_legend() && letters == 1 && scale < 1 ? CURVES_HIGHER : 1));
 }
 
 /* Opens *g, a process of gnuplot for the picture `path` of the given format. width, height: size of the picture
@@ -217,24 +217,24 @@ status gnuplot_open_scaled(struct gnuplot *g, const char *path, enum picture_for
 /* Least resolution of images in vector formats [pixel/inch]: journals want 300 to 600. */
 static const double IMAGE_DPI = 432;
 
-int gnuplot_image_pixels_along_edge(enum picture_format format, int layout_pixels)
+int gnuplot_image_pixel_count_along_edge(enum picture_format format, int layout_pixels)
 {
     const bool vector = format == PICTURE_SVG || format == PICTURE_PDF;
     return (int)fmax(lround((vector ? fmax(usual.dpi, IMAGE_DPI) : usual.dpi) / PICTURE_DPI * layout_pixels), 1);
 }
 
-bool picture_is_too_narrow_for_key(void) { return usual.width > 0 && usual.width < NARROW; }
+bool picture_size_is_too_narrow_for_side_legend(void) { return usual.width > 0 && usual.width < NARROW; }
 
 /* Sizes of letters of titles [point]: in large pictures, in narrow pictures, the smallest one for which a title is not
  * broken into two lines, and the smallest one of all. */
 enum { TITLE_LARGE = 16, TITLE_NARROW = 14, TITLE_ONE_LINE = 11, TITLE_SMALL = 7 };
 
-double text_width(const char *text, size_t n)
+double text_estimate_width_in_pixels_per_font_point(const char *text, size_t byte_count)
 {
     static const double PIXELS_PER_POINT = 4.0 / 3, NARROW_LETTER = 0.3, WIDE_LETTER = 0.86, CAPITAL = 0.7,
                         OTHER = 0.56;
     double width = 0;
-    for (size_t k = 0; k < n; k++) {
+    for (size_t k = 0; k < byte_count; k++) {
         const unsigned char c = (unsigned char)text[k];
         if ((c & 0xc0) == 0x80) continue;
         width += strchr("ijltfI.,:;'|!()[]/ ", c) ? NARROW_LETTER
@@ -243,7 +243,7 @@ double text_width(const char *text, size_t n)
                  : isupper(c)                     ? CAPITAL
                                                   : OTHER;
     }
-    return PIXELS_PER_POINT * (picture_is_too_narrow_for_key() ? NARROW_LETTERS : 1) * width;
+    return PIXELS_PER_POINT * (picture_size_is_too_narrow_for_side_legend() ? NARROW_LETTERS : 1) * width;
 }
 
 /* Returns the index of the blank nearest to the middle of `text`, at which a title is broken into two lines; the length
@@ -262,8 +262,11 @@ static size_t break_of(const char *text)
  */
 static void write_title_line(char *part, const char *text, size_t length, double most)
 {
-    const bool cut = text_width(text, length) > most;
-    while (length > 0 && text_width(text, length) + (cut ? text_width("...", 3) : 0) > most) length--;
+    const bool cut = text_estimate_width_in_pixels_per_font_point(text, length) > most;
+    while (length > 0 && text_estimate_width_in_pixels_per_font_point(text, length) +
+                                 (cut ? text_estimate_width_in_pixels_per_font_point("...", 3) : 0) >
+                             most)
+        length--;
     while (length > 0 && (text[length] & 0xc0) == 0x80) length--; /* no character is cut in two */
     snprintf(part, TITLE_ROOM, "%.*s%s", (int)length, text, cut ? "..." : "");
 }
@@ -279,7 +282,7 @@ static unsigned long character_at(const char *text, int *length)
     return code;
 }
 
-status gnuplot_check_font_has_title(const char *text)
+status fonts_check_letters_of_title_available(const char *text)
 {
     enum { IN_ALL_FONTS = 0x250 }; /* first letter after those of Latin script */
     for (int length; *text; text += length) {
@@ -304,11 +307,13 @@ void gnuplot_write_title(struct gnuplot *g, const char *text, double left_margin
     g->untitled = !*text;
     const size_t length = strlen(text);
     const double room = g->width - left_margin - 12,
-                 most = picture_is_too_narrow_for_key() ? TITLE_NARROW : TITLE_LARGE;
-    const size_t cut = TITLE_ONE_LINE * text_width(text, length) > room ? break_of(text) : length;
-    const double longer = fmax(text_width(text, cut), text_width(text + cut, length - cut));
+                 most = picture_size_is_too_narrow_for_side_legend() ? TITLE_NARROW : TITLE_LARGE;
+    const size_t cut =
+        TITLE_ONE_LINE * text_estimate_width_in_pixels_per_font_point(text, length) > room ? break_of(text) : length;
+    const double longer = fmax(text_estimate_width_in_pixels_per_font_point(text, cut),
+                               text_estimate_width_in_pixels_per_font_point(text + cut, length - cut));
     const double size = fmax(fmin(most, room / fmax(longer, 1)), TITLE_SMALL);
-    const double upper = picture_is_too_narrow_for_key() ? 20 : 28;
+    const double upper = picture_size_is_too_narrow_for_side_legend() ? 20 : 28;
     for (int line = 0; line < 1 + (cut < length); line++) {
         char part[TITLE_ROOM];
         write_title_line(part, line ? text + cut + 1 : text, line ? length - cut - 1 : cut, room / size * (1 + 1e-9));
@@ -319,7 +324,7 @@ void gnuplot_write_title(struct gnuplot *g, const char *text, double left_margin
     }
 }
 
-void error_message_read_last_line(FILE *file, char *text, size_t size)
+void program_error_output_read_last_line(FILE *file, char *text, size_t size)
 {
     char line[256];
     snprintf(text, size, "it gave no reason");
@@ -344,10 +349,10 @@ status gnuplot_close(struct gnuplot *g)
                                "(Fedora, macOS)");
     } else if (!sent || !WIFEXITED(ended) || WEXITSTATUS(ended) != 0) {
         char reason[256];
-        error_message_read_last_line(g->complaints, reason, sizeof reason);
+        program_error_output_read_last_line(g->complaints, reason, sizeof reason);
         s = status_set(FAILED, "%s: gnuplot drew nothing: %s", g->path, reason);
     } else {
-        s = picture_replace_by_temporary(g->path, g->format);
+        s = picture_complete_and_rename_temporary(g->path, g->format);
     }
     if (s != OK) remove(g->aside);
     interrupt_cleanup_register(LEAVING_PICTURE, NULL, 0);

@@ -25,36 +25,38 @@ enum { PANEL_TITLE = 11 };                /* letters of the title of a panel, as
 static const double DOES_NOT_FIT = 1e3;   /* more than any other cost of a layout */
 static const double BESIDE_BETTER = 0.03; /* a bar below must make panels larger by 6 % of their area */
 
-bool map_has_colour_bar(enum map map) { return map != MAP_FRAGMENT && map != MAP_CATEGORY; }
+bool map_quantity_has_colour_bar(enum map map) { return map != MAP_FRAGMENT && map != MAP_CATEGORY; }
 
 /* Returns a layout for the maps m in which only the margins of the panels are set: above for the title, left for the
  * axis, and right for the colour bar or the key (legend), and the gap between columns of panels. The lower margin is
  * set by strip_set. under: true if the colour bar, or the key of a map of named values, is below the panels; before:
  * layout with the size of the panels, on which the widths of numbers and of the bar depend, or NULL if it is not known
  * yet. */
-static struct layout margins_of(const struct maps_shown *m, bool under, const struct layout *before)
+static struct maps_layout margins_of(const struct maps_content *m, bool under, const struct maps_layout *before)
 {
     const int panels = before ? before->rows * before->panel_height + (before->rows - 1) * GAP_Y : 0;
-    const bool narrow = picture_is_too_narrow_for_key(), bar = map_has_colour_bar(m->map), titled = m->title[0];
+    const bool narrow = picture_size_is_too_narrow_for_side_legend(), bar = map_quantity_has_colour_bar(m->map),
+               titled = m->title[0];
     const double letter = narrow ? KEY_LETTER_NARROW : KEY_LETTER;
     size_t longest = 0;
     for (int k = 0; k < m->key.n; k++)
         longest = strlen(m->key.of[k].name) > longest ? strlen(m->key.of[k].name) : longest;
-    struct layout l = {.left = m->outside ? LEFT_OUTSIDE : LEFT,
-                       .above = titled ? ABOVE : UNTITLED,
-                       .axes = BELOW,
-                       .right = bar ? (int)fmax(RIGHT, colour_bar_width_beside_panels(m, panels)) : EDGE,
-                       .gap = GAP_X};
+    struct maps_layout l = {.left = m->outside ? LEFT_OUTSIDE : LEFT,
+                            .above = titled ? ABOVE : UNTITLED,
+                            .axes = BELOW,
+                            .right = bar ? (int)fmax(RIGHT, colour_bar_width_beside_panels(m, panels)) : EDGE,
+                            .gap = GAP_X};
     if (narrow)
-        l = (struct layout){.left = m->outside ? LEFT_OUTSIDE_NARROW : LEFT_NARROW,
-                            .above = titled ? ABOVE_NARROW : UNTITLED_NARROW,
-                            .axes = m->outside ? BELOW_OUTSIDE_NARROW : BELOW_NARROW,
-                            .right = under || !bar ? EDGE_NARROW : colour_bar_width_beside_panels(m, panels),
-                            .gap = GAP_NARROW};
+        l = (struct maps_layout){.left = m->outside ? LEFT_OUTSIDE_NARROW : LEFT_NARROW,
+                                 .above = titled ? ABOVE_NARROW : UNTITLED_NARROW,
+                                 .axes = m->outside ? BELOW_OUTSIDE_NARROW : BELOW_NARROW,
+                                 .right = under || !bar ? EDGE_NARROW : colour_bar_width_beside_panels(m, panels),
+                                 .gap = GAP_NARROW};
     if (before) l.gap = (int)fmax(l.gap, PANEL_TITLE * letter - before->panel_width);
     if (before && !m->outside) {
-        l.left = (int)fmax(l.left, panel_margin_of_numbers(m->view, before->panel_height));
-        l.gap = (int)fmax(l.gap, panel_numbers_width(m->view, before->panel_width) + BETWEEN_NUMBERS);
+        l.left = (int)fmax(l.left, panel_vertical_axis_labels_width(m->view, before->panel_height));
+        l.gap = (int)fmax(l.gap,
+                          panel_horizontal_axis_longest_number_width(m->view, before->panel_width) + BETWEEN_NUMBERS);
     }
     l.title = l.left;
     l.entry = (int)(KEY_SQUARE + letter * (double)longest);
@@ -68,7 +70,7 @@ static struct layout margins_of(const struct maps_shown *m, bool under, const st
 
 /* Computes in l the number of entries in a row of the key (legend) below the panels, for a picture of the given width
  * [pixel], and from it the margin below the panels, in which the axis labels, the colour bar and the key are. */
-static void strip_set(struct layout *l, int width)
+static void strip_set(struct maps_layout *l, int width)
 {
     l->key_columns = (int)fmax((width - KEY_LEFT) / fmax(l->entry, 1), 1);
     const int lines = (l->entries + l->key_columns - 1) / l->key_columns;
@@ -79,7 +81,7 @@ static void strip_set(struct layout *l, int width)
  * chosen, it is that of a page if `tall` is true, else at most TALL_MOST times the width. */
 static double height_most(bool tall)
 {
-    const struct picture_size given = picture_size_get();
+    const struct picture_size given = picture_size_get_process_wide();
     if (given.height || !given.width) return given.height ? given.height : HEIGHT_MAX;
     return tall ? PAGE_HEIGHT : fmin(HEIGHT_MAX, TALL_MOST * given.width);
 }
@@ -87,9 +89,9 @@ static double height_most(bool tall)
 /* Returns true if the panels of layout l fit into a picture of the size that the user has chosen, with their titles
  * beside one another and beside the colour bar, which is not too short below them. more: width of the picture beyond
  * what the layout needs [pixel]; height: largest height of the picture [pixel]. */
-static bool panels_fit(const struct layout *l, int more, double height)
+static bool panels_fit(const struct maps_layout *l, int more, double height)
 {
-    const double letter = picture_is_too_narrow_for_key() ? KEY_LETTER_NARROW : KEY_LETTER;
+    const double letter = picture_size_is_too_narrow_for_side_legend() ? KEY_LETTER_NARROW : KEY_LETTER;
     return more >= 0 && l->above + l->below + (l->rows - 1) * GAP_Y + l->rows * l->panel_height <= height + 1 &&
            (!l->bar_under || l->width - l->left - l->right >= BAR_UNDER_LEAST) &&
            l->panel_width + (l->columns == 1 ? 2 * BAR_FROM_NARROW : l->gap) >= PANEL_TITLE * letter;
@@ -97,11 +99,12 @@ static bool panels_fit(const struct layout *l, int more, double height)
 
 /* Returns the layout of a picture with the given numbers of columns and of panels. aspect: height of a panel divided by
  * its width; height: largest height of the picture [pixel]; margins: layout with the margins of the panels. */
-static struct layout layout_of(int columns, int panels, double aspect, double height, const struct layout *margins)
+static struct maps_layout layout_of(int columns, int panels, double aspect, double height,
+                                    const struct maps_layout *margins)
 {
-    struct layout l = *margins;
+    struct maps_layout l = *margins;
     l.columns = columns, l.rows = (panels + columns - 1) / columns;
-    const struct picture_size given = picture_size_get();
+    const struct picture_size given = picture_size_get_process_wide();
     const int width = given.width ? given.width : panels == 1 ? WIDTH_SINGLE : WIDTH;
     const int between_x = (columns - 1) * l.gap, between_y = (l.rows - 1) * GAP_Y;
     strip_set(&l, width);
@@ -124,10 +127,10 @@ static struct layout layout_of(int columns, int panels, double aspect, double he
  * the width of a colour bar on the right depends on the height of the panels: beside low panels its unit needs a second
  * line. under: the colour bar or key is below the panels; aspect: height of a panel divided by its width; height:
  * largest height of the picture [pixel]. */
-static struct layout layout_settled(const struct maps_shown *m, bool under, int columns, int panels, double aspect,
-                                    double height)
+static struct maps_layout layout_settled(const struct maps_content *m, bool under, int columns, int panels,
+                                         double aspect, double height)
 {
-    struct layout margins = margins_of(m, under, NULL), l = layout_of(columns, panels, aspect, height, &margins);
+    struct maps_layout margins = margins_of(m, under, NULL), l = layout_of(columns, panels, aspect, height, &margins);
     margins = margins_of(m, under, &l);
     return layout_of(columns, panels, aspect, height, &margins);
 }
@@ -136,21 +139,21 @@ static struct layout layout_settled(const struct maps_shown *m, bool under, int 
  * over all numbers of columns, with the smallest cost: large panels, a good ratio of height to width and few empty
  * panels are wanted, and a layout whose panels do not fit is chosen only if no other does. height_over_width: ratio for
  * a panel. */
-static struct layout layout_best(const struct maps_shown *shown, int panel_count, double height_over_width,
-                                 double height)
+static struct maps_layout layout_best(const struct maps_content *shown, int panel_count, double height_over_width,
+                                      double height)
 {
-    const bool choice =
-        picture_is_too_narrow_for_key() && (map_has_colour_bar(shown->map) || shown->map == MAP_CATEGORY);
-    const bool fixed =
-        picture_size_get().height || picture_is_too_narrow_for_key(); /* columns of journals may be tall */
-    struct layout best = {0};
+    const bool choice = picture_size_is_too_narrow_for_side_legend() &&
+                        (map_quantity_has_colour_bar(shown->map) || shown->map == MAP_CATEGORY);
+    const bool fixed = picture_size_get_process_wide().height ||
+                       picture_size_is_too_narrow_for_side_legend(); /* columns of journals may be tall */
+    struct maps_layout best = {0};
     double best_cost = INFINITY;
     for (int under = 0; under < 1 + choice; under++)
         for (int columns = 1; columns <= panel_count; columns++) {
-            const struct layout l = layout_settled(shown, under, columns, panel_count, height_over_width, height);
+            const struct maps_layout l = layout_settled(shown, under, columns, panel_count, height_over_width, height);
             const double area = (double)l.panel_width * l.panel_height;
             const double tall = log((double)l.height / l.width / SHAPE_WANTED);
-            const double shape = fixed ? 0 : picture_size_get().width ? fmax(tall, 0) : fabs(tall);
+            const double shape = fixed ? 0 : picture_size_get_process_wide().width ? fmax(tall, 0) : fabs(tall);
             double cost = shape - 0.5 * log(area) + under * BESIDE_BETTER + (fixed ? (double)l.spare / l.width : 0);
             cost += 0.2 * (l.rows * l.columns - panel_count); /* empty panels */
             cost += l.fits ? 0 : DOES_NOT_FIT;
@@ -161,16 +164,16 @@ static struct layout layout_best(const struct maps_shown *shown, int panel_count
     return best;
 }
 
-struct layout maps_layout_choose(const struct maps_shown *shown, int panel_count, double height_over_width)
+struct maps_layout maps_layout_choose(const struct maps_content *shown, int panel_count, double height_over_width)
 {
-    const struct layout l = layout_best(shown, panel_count, height_over_width, height_most(false));
+    const struct maps_layout l = layout_best(shown, panel_count, height_over_width, height_most(false));
     return l.fits ? l : layout_best(shown, panel_count, height_over_width, height_most(true));
 }
 
-status maps_layout_check_panels_fit(const struct maps_shown *shown, int panel_count, double height_over_width)
+status maps_layout_check_panels_fit(const struct maps_content *shown, int panel_count, double height_over_width)
 {
     int fit = panel_count;
-    if (!picture_size_get().width) return OK;
+    if (!picture_size_get_process_wide().width) return OK;
     while (fit > 1 && !maps_layout_choose(shown, fit, height_over_width).fits) fit--;
     if (fit == panel_count || panel_count == 1) return OK;
     return status_set(REFUSED,

@@ -12,8 +12,8 @@ enum { TICS_Y = 36, TICS_Y_NARROW = 22 };
 enum { NUMBERS_APART = 14, NUMBERS_APART_LEAST = 8 };     /* blank between numbers of a horizontal axis [pixel] */
 enum { BESIDE_NUMBERS = 50, BESIDE_NUMBERS_NARROW = 44 }; /* label of a vertical axis beside its numbers [pixel] */
 
-void box_write_margins(FILE *gnuplot, const struct layout *layout, double left_edge, double upper_edge, double width,
-                       double height)
+void plot_box_write_margins(FILE *gnuplot, const struct maps_layout *layout, double left_edge, double upper_edge,
+                            double width, double height)
 {
     fprintf(gnuplot, "set lmargin at screen %.9g\nset rmargin at screen %.9g\n", left_edge / layout->width,
             (left_edge + width) / layout->width);
@@ -21,9 +21,9 @@ void box_write_margins(FILE *gnuplot, const struct layout *layout, double left_e
             1 - (upper_edge + height) / layout->height);
 }
 
-void panel_write_margins(FILE *gnuplot, const struct layout *l, double left_edge, double upper_edge)
+void panel_write_margins(FILE *gnuplot, const struct maps_layout *l, double left_edge, double upper_edge)
 {
-    box_write_margins(gnuplot, l, left_edge, upper_edge, l->panel_width, l->panel_height);
+    plot_box_write_margins(gnuplot, l, left_edge, upper_edge, l->panel_width, l->panel_height);
 }
 
 void panel_write_image(FILE *gnuplot, const struct colour *pixel, int pixel_columns, int pixel_rows,
@@ -38,7 +38,7 @@ void panel_write_image(FILE *gnuplot, const struct colour *pixel, int pixel_colu
         fwrite((uint8_t[]){pixel[q].red, pixel[q].green, pixel[q].blue}, 1, 3, gnuplot);
 }
 
-double tic_numbers_width(double low, double high, double tics, const char *format)
+double axis_longest_tic_number_width(double low, double high, double tics, const char *format)
 {
     int longest = 0;
     for (double k = ceil(low / tics - 1e-6); k * tics <= high; k++) {
@@ -46,23 +46,26 @@ double tic_numbers_width(double low, double high, double tics, const char *forma
         const int length = snprintf(number, sizeof number, format, fabs(k) < 0.5 ? 0 : k * tics);
         if (length > longest) longest = length;
     }
-    return (picture_is_too_narrow_for_key() ? 7.4 : 9) * longest;
+    return (picture_size_is_too_narrow_for_side_legend() ? 7.4 : 9) * longest;
 }
 
 /* Returns the number of tics (labelled marks of an axis) from `low` to `high`, placed at all multiples of `tics`. */
 static double tics_within(double low, double high, double tics) { return floor(high / tics) - ceil(low / tics) + 1; }
 
-double tic_distance_on_horizontal_axis(double low, double high, double axis_width)
+double horizontal_axis_choose_tic_distance(double low, double high, double axis_width)
 {
-    double apart = 20, tics = tic_distance(high - low, axis_width, apart);
+    double apart = 20, tics = axis_choose_tic_distance(high - low, axis_width, apart);
     const double pixels = axis_width / (high - low);
-    while (apart < axis_width && tic_numbers_width(low, high, tics, TIC_NUMBERS) + NUMBERS_APART > tics * pixels)
-        tics = tic_distance(high - low, axis_width, apart *= 1.3);
+    while (apart < axis_width &&
+           axis_longest_tic_number_width(low, high, tics, TIC_NUMBERS) + NUMBERS_APART > tics * pixels)
+        tics = axis_choose_tic_distance(high - low, axis_width, apart *= 1.3);
     if (tics_within(low, high, tics) > 1) return tics;
     const double single = tics;
-    while (apart > 1 && tics_within(low, high, tics) < 2) tics = tic_distance(high - low, axis_width, apart /= 1.3);
+    while (apart > 1 && tics_within(low, high, tics) < 2)
+        tics = axis_choose_tic_distance(high - low, axis_width, apart /= 1.3);
     if (tics_within(low, high, 2 * tics) > 1) tics *= 2;
-    const bool touch = tic_numbers_width(low, high, tics, TIC_NUMBERS) + NUMBERS_APART_LEAST > tics * pixels;
+    const bool touch =
+        axis_longest_tic_number_width(low, high, tics, TIC_NUMBERS) + NUMBERS_APART_LEAST > tics * pixels;
     return touch && tics_within(low, high, single) > 0 ? single : tics;
 }
 
@@ -80,25 +83,27 @@ static struct panel_scale panel_scale_of(const struct view *v, int axis, double 
 {
     const double factor = panel_axis_unit(v).factor;
     struct panel_scale s = {v->from[axis] / factor, v->to[axis] / factor, 0};
-    s.tics = axis == 0 ? tic_distance_on_horizontal_axis(s.low, s.high, length)
-                       : tic_distance(s.high - s.low, length, picture_is_too_narrow_for_key() ? TICS_Y_NARROW : TICS_Y);
+    s.tics = axis == 0
+                 ? horizontal_axis_choose_tic_distance(s.low, s.high, length)
+                 : axis_choose_tic_distance(s.high - s.low, length,
+                                            picture_size_is_too_narrow_for_side_legend() ? TICS_Y_NARROW : TICS_Y);
     return s;
 }
 
-double panel_numbers_width(const struct view *view, double width)
+double panel_horizontal_axis_longest_number_width(const struct view *view, double width)
 {
     const struct panel_scale s = panel_scale_of(view, 0, width);
-    return tic_numbers_width(s.low, s.high, s.tics, TIC_NUMBERS);
+    return axis_longest_tic_number_width(s.low, s.high, s.tics, TIC_NUMBERS);
 }
 
-double panel_margin_of_numbers(const struct view *view, double height)
+double panel_vertical_axis_labels_width(const struct view *view, double height)
 {
     const struct panel_scale s = panel_scale_of(view, 1, height);
-    return tic_numbers_width(s.low, s.high, s.tics, TIC_NUMBERS) +
-           (picture_is_too_narrow_for_key() ? BESIDE_NUMBERS_NARROW : BESIDE_NUMBERS);
+    return axis_longest_tic_number_width(s.low, s.high, s.tics, TIC_NUMBERS) +
+           (picture_size_is_too_narrow_for_side_legend() ? BESIDE_NUMBERS_NARROW : BESIDE_NUMBERS);
 }
 
-void panel_write_axes(FILE *gnuplot, const struct layout *l, const struct view *view,
+void panel_write_axes(FILE *gnuplot, const struct maps_layout *l, const struct view *view,
                       const struct plotted_particles *particles, const struct unit *axis_unit, int column,
                       bool is_lowest)
 {
@@ -112,13 +117,13 @@ void panel_write_axes(FILE *gnuplot, const struct layout *l, const struct view *
     }
 }
 
-void panel_write_axis_arrows(FILE *gnuplot, const struct layout *l, const struct view *view,
+void panel_write_axis_arrows(FILE *gnuplot, const struct maps_layout *l, const struct view *view,
                              const struct plotted_particles *particles, const struct unit *axis_unit, double left_edge,
                              double upper_edge)
 {
     const double pixel = (view->to[0] - view->from[0]) / axis_unit->factor / l->panel_width, x = left_edge + 34;
     const double y = l->height - (upper_edge + l->panel_height + 46); /* above the lower edge of the picture [pixel] */
-    const double length = tic_distance(300 * pixel, 300, 60) / pixel;
+    const double length = axis_choose_tic_distance(300 * pixel, 300, 60) / pixel;
     const double end = fmax(left_edge + l->panel_width - 8, x + 60 + length); /* beside the arrows */
     for (int d = 0; d < 3; d++) {
         const double arrow[2] = {26 * particles->camera.right[d], 26 * particles->camera.up[d]};

@@ -29,7 +29,7 @@ static status draw_map(const struct plot_request *r, const char *path, enum map 
     if (map == MAP_CRACKS) snprintf(what, sizeof what, "cracks, where damage is above %.2f", CRACK_DAMAGE);
     if (map == MAP_FIELD) plot_field_write_label(what, sizeof what, view->field);
     picture_compose_title(title, r, what, &cloud[0], view);
-    return maps_draw_panels_of_frames((struct sheet){path, r->format}, title, map, view, cloud, clouds);
+    return picture_draw_panels_of_frames((struct output_picture){path, r->format}, title, map, view, cloud, clouds);
 }
 
 /* Contents of the selected frames of a run. */
@@ -60,7 +60,7 @@ static status draw_every(const struct plot_request *r, const struct run_frames *
                          const struct contents *has)
 {
     char field[NAME_MAX_LENGTH];
-    const enum map map = map_of_field(view->field);
+    const enum map map = colour_map_kind_for_field(view->field);
     for (int k = 0; k < frames->listed; k++) {
         struct plotted_particles c;
         const int number = frames->list[k].number;
@@ -92,20 +92,20 @@ static status draw_flat(const struct plot_request *r, const struct run_frames *f
     struct contents has = contents_of(cloud, frames->shown);
     TRY(view_make_for_request(&view, r, cloud, frames->shown));
     TRY(view_make_for_request(&own, r, last, 1));
-    const enum map map = map_of_field(view.field);
+    const enum map map = colour_map_kind_for_field(view.field);
     has.damage = map == MAP_DAMAGE && (has.damage || view.notches > 0); /* pre-cracks alone are not of interest */
     const struct path damage = sheet_path(r, DRAWN_DAMAGE), kind = sheet_path(r, DRAWN_KIND),
                       latest = sheet_path(r, DRAWN_LAST),
                       field = picture_path_of_field(r->pictures, view.field->name, picture_ending[r->format]);
     const bool something = has.damage || map == MAP_FIELD;
     TRY(has.damage ? draw_map(r, damage.text, MAP_DAMAGE, &view, cloud, frames->shown)
-                   : report_picture_not_drawn(damage.text,
-                                              "no bond breaks; draw another field with --field von_mises, speed, ..."));
+                   : picture_report_not_drawn_and_remove_old(
+                         damage.text, "no bond breaks; draw another field with --field von_mises, speed, ..."));
     if (map == MAP_FIELD) TRY(draw_map(r, field.text, map, &view, cloud, frames->shown));
     TRY(has.kinds ? draw_map(r, kind.text, MAP_KIND, &view, cloud, frames->shown)
-                  : report_picture_not_drawn(kind.text, "all particles have the same method"));
+                  : picture_report_not_drawn_and_remove_old(kind.text, "all particles have the same method"));
     TRY(something || has.kinds ? draw_map(r, latest.text, something ? map : MAP_KIND, &own, last, 1)
-                               : report_picture_not_drawn(latest.text, "nothing happens in this run"));
+                               : picture_report_not_drawn_and_remove_old(latest.text, "nothing happens in this run"));
     if (last->fragments > 1) TRY(draw_map(r, sheet_path(r, DRAWN_FRAGMENTS).text, MAP_FRAGMENT, &view, last, 1));
     return r->every ? draw_every(r, frames, &view, &has) : OK;
 }
@@ -120,13 +120,14 @@ static status draw_outside(const struct plot_request *r, const struct run_frames
     const struct path cracks = sheet_path(r, DRAWN_CRACKS), surface = sheet_path(r, DRAWN_SURFACE);
     const struct contents has = contents_of(cloud, frames->shown);
     TRY(view_make_for_request(&view, r, cloud, frames->shown));
-    const enum map map = map_of_field(view.field);
-    TRY(has.damage || map == MAP_FIELD ? draw_map(r, surface.text, map, &view, cloud, frames->shown)
-                                       : report_picture_not_drawn(surface.text, "nothing happens in this run"));
-    if (!has.cracks) return report_picture_not_drawn(cracks.text, "no particle is damaged enough");
+    const enum map map = colour_map_kind_for_field(view.field);
+    TRY(has.damage || map == MAP_FIELD
+            ? draw_map(r, surface.text, map, &view, cloud, frames->shown)
+            : picture_report_not_drawn_and_remove_old(surface.text, "nothing happens in this run"));
+    if (!has.cracks) return picture_report_not_drawn_and_remove_old(cracks.text, "no particle is damaged enough");
     if (has.cracked > 0.5)
-        return report_picture_not_drawn(cracks.text,
-                                        "most particles are damaged, so cracks cannot be distinguished from the rest");
+        return picture_report_not_drawn_and_remove_old(
+            cracks.text, "most particles are damaged, so cracks cannot be distinguished from the rest");
     return draw_map(r, cracks.text, MAP_CRACKS, &view, cloud, frames->shown);
 }
 
@@ -159,8 +160,9 @@ static status plot_draw_bar(const struct plot_request *r, const struct run_frame
     char title[TITLE_LENGTH];
     const int skipped = frames->shown > 1 && frames->show[0].number == 0;
     picture_compose_title(title, r, "beside the exact solution", NULL, NULL);
-    return bar_and_exact_solution_draw((struct sheet){sheet_path(r, DRAWN_PROFILES).text, r->format}, title, r->folder,
-                                       probe, frames->show + skipped, frames->shown - skipped);
+    return bar_profiles_draw_with_exact_solution((struct output_picture){sheet_path(r, DRAWN_PROFILES).text, r->format},
+                                                 title, r->folder, probe, frames->show + skipped,
+                                                 frames->shown - skipped);
 }
 
 /* Draws for request r profiles of a bar at the selected frames (output times): with the closed-form solution if the
@@ -169,11 +171,11 @@ static status plot_draw_bar(const struct plot_request *r, const struct run_frame
 static status draw_profiles(const struct plot_request *r, const struct run_frames *frames)
 {
     char title[TITLE_LENGTH], probe[NAME_MAX_LENGTH];
-    if (run_find_exact_probe(r->folder, probe)) return plot_draw_bar(r, frames, probe);
+    if (run_find_exact_solution_probe(r->folder, probe)) return plot_draw_bar(r, frames, probe);
     struct output_frame *f = NULL;
     TRY(frames_read_selected(&f, r->folder, frames));
     picture_compose_title(title, r, "profiles", NULL, NULL);
-    const status s = bar_profiles_draw((struct sheet){sheet_path(r, DRAWN_PROFILES).text, r->format}, title,
+    const status s = bar_profiles_draw((struct output_picture){sheet_path(r, DRAWN_PROFILES).text, r->format}, title,
                                        &r->projection, f, frames->shown);
     frames_free(f, frames->shown);
     return s;
@@ -189,7 +191,7 @@ static status draw_solid(struct plot_request *r, const struct run_frames *frames
 {
     r->projection.outside = false;
     TRY(plot_field_choose_default(&r->projection.field, r->folder, frames));
-    TRY(projection_complete_slice_from_particles(
+    TRY(projection_choose_slice_normal_and_position(
         &r->projection, last, run_frame_path(r->folder, frames->show[frames->shown - 1].number).text));
     TRY(draw_clouds(r, frames, draw_flat));
     if (last->dim < 3) return OK;
@@ -214,8 +216,9 @@ static status draw_frames(struct plot_request *r)
 static status draw_pictures(struct plot_request *r)
 {
     char title[TITLE_LENGTH];
-    const bool frames = run_has_file(r->folder, "frames.hdf.series"), history = run_has_file(r->folder, "history.csv");
-    TRY(pictures_folder_make(r->pictures, r->overwrite));
+    const bool frames = run_folder_has_file(r->folder, "frames.hdf.series"),
+               history = run_folder_has_file(r->folder, "history.csv");
+    TRY(pictures_folder_create(r->pictures, r->overwrite));
     if (frames) TRY(draw_frames(r));
     picture_compose_title(title, r, "", NULL, NULL);
     if (history) TRY(history_curves_draw(r, title));

@@ -55,7 +55,7 @@ static bool is_profile(const char *folder, const char *file, char name[NAME_MAX_
 
 /* Finds the first probe of kind EXACT (comparison of a bar with a closed-form solution), in alphabetical order, of
  * which a profile is in the folder of a run, and stores its name in `probe_name`. Returns false if there is none. */
-bool run_find_exact_probe(const char *folder, char probe_name[NAME_MAX_LENGTH])
+bool run_find_exact_solution_probe(const char *folder, char probe_name[NAME_MAX_LENGTH])
 {
     char here[NAME_MAX_LENGTH];
     bool found = false;
@@ -113,7 +113,7 @@ static struct scale scale_of(const struct history *h, int frames, int q)
     double largest = fmax(-s.low, s.high);
     snprintf(s.label, sizeof s.label, "%s", quantity[q].label);
     if (*quantity[q].unit) {
-        struct unit u = unit_for_largest_value(largest, quantity[q].unit);
+        struct unit u = unit_with_si_prefix_for_largest_value(largest, quantity[q].unit);
         s.factor = u.factor;
         snprintf(s.label, sizeof s.label, "%s [%s]", quantity[q].label, u.name);
     } else if (largest > 0 && strcmp(quantity[q].label, "strain") == 0) {
@@ -184,10 +184,10 @@ static bool tint_kinds(FILE *to, const struct history *h, double metre, double h
  * so that the key (legend) has an entry for them. */
 static void plot_bar_panel(FILE *to, int q, const struct listed_frame *show, int frames, bool tinted)
 {
-    struct unit second = unit_for_largest_value(show[frames - 1].time, "s");
+    struct unit second = unit_with_si_prefix_for_largest_value(show[frames - 1].time, "s");
     for (int k = 0; k < frames; k++) {
         char colour[COLOUR_ROOM];
-        curves_write_colour_of_time(colour, k, frames);
+        curve_colour_write_by_time_order(colour, k, frames);
         fprintf(to, "%s$f%d using 1:%d with lines lw 2.2 lc rgb '%s' title '%.4g %s'", k ? ", " : "plot ", k, 2 * q + 2,
                 colour, show[k].time / second.factor, second.name);
     }
@@ -201,7 +201,7 @@ static void plot_bar_panel(FILE *to, int q, const struct listed_frame *show, int
 /* Draws all panels of a bar with its closed-form solution on the picture `sheet` with the title `title`. h[frames]:
  * profiles of the output frames show[frames]. Returns FAILED, with a message, if gnuplot fails. The last panel, damage,
  * is left out if damage is 0 everywhere. */
-static status plot_bar_draw(struct sheet sheet, const char *title, const struct history *h,
+static status plot_bar_draw(struct output_picture sheet, const char *title, const struct history *h,
                             const struct listed_frame *show, int frames)
 {
     struct gnuplot g;
@@ -226,7 +226,7 @@ static status plot_bar_draw(struct sheet sheet, const char *title, const struct 
     for (int q = 0; q < panels; q++) {
         const double from = q * (each + PANEL_GAP);
         curves_write_panel_margins(g.to, &l, from, from + each);
-        curves_write_tics(g.to, "y", scale[q].low, scale[q].high, each);
+        curves_write_vertical_tics(g.to, "y", scale[q].low, scale[q].high, each);
         fprintf(g.to, "set ylabel '%s'\nset yrange [%.9g:%.9g]\n", scale[q].label, scale[q].low, scale[q].high);
         if (q == panels - 1) fprintf(g.to, "set format x '%%g'\nset xlabel 'x [%s]'\n", metre.name);
         plot_bar_panel(g.to, q, show, frames, tinted);
@@ -236,8 +236,9 @@ static status plot_bar_draw(struct sheet sheet, const char *title, const struct 
     return gnuplot_close(&g);
 }
 
-status bar_and_exact_solution_draw(struct sheet sheet, const char *title, const char *folder, const char *probe_name,
-                                   const struct listed_frame *shown_frame, int frame_count)
+status bar_profiles_draw_with_exact_solution(struct output_picture picture, const char *title, const char *folder,
+                                             const char *probe_name, const struct listed_frame *shown_frame,
+                                             int frame_count)
 {
     struct history *h = NEW("plot.profiles", frame_count, struct history);
     status s = OK;
@@ -246,7 +247,7 @@ status bar_and_exact_solution_draw(struct sheet sheet, const char *title, const 
         s = profile_read(&h[read], folder, probe_name, shown_frame[read].number);
         if (s == OK) read++;
     }
-    if (s == OK) s = plot_bar_draw(sheet, title, h, shown_frame, frame_count);
+    if (s == OK) s = plot_bar_draw(picture, title, h, shown_frame, frame_count);
     for (int k = 0; k < read; k++) history_free(&h[k]);
     memory_free(h);
     return s;

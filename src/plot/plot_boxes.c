@@ -165,8 +165,8 @@ static void canvas_clear_depth(struct scene_canvas *v)
     for (int64_t q = 0; q < (int64_t)v->size[0] * v->size[1]; q++) v->depth[q] = -INFINITY;
 }
 
-void cubes_paint_particles(struct colour *pixel, int width, int height, const struct view *view,
-                           const struct plotted_particles *c, enum map map)
+void image_paint_particles_as_cubes(struct colour *pixel, int width, int height, const struct view *view,
+                                    const struct plotted_particles *c, enum map map)
 {
     const int64_t pixels = (int64_t)width * height;
     struct scene_canvas v = {
@@ -176,12 +176,12 @@ void cubes_paint_particles(struct colour *pixel, int width, int height, const st
     canvas_clear_depth(&v);
     const struct colour ghost = colour_mixed_with_white(colour_on_damage_scale(0), GHOST);
     for (int64_t i = 0; i < c->n; i++)
-        paint_cube(&v, c, i, map == MAP_CRACKS ? ghost : particle_colour(view, c, i, map));
-    if (c->position[2]) rigids_paint_from_outside(pixel, v.depth, width, height, view, c, map);
+        paint_cube(&v, c, i, map == MAP_CRACKS ? ghost : plotted_particle_colour(view, c, i, map));
+    if (c->position[2]) image_paint_rigid_bodies_from_outside(pixel, v.depth, width, height, view, c, map);
     if (map == MAP_CRACKS) {
         canvas_clear_depth(&v);
         for (int64_t i = 0; i < c->n; i++)
-            if (c->damage[i] >= CRACK_DAMAGE) paint_cube(&v, c, i, particle_colour(view, c, i, map));
+            if (c->damage[i] >= CRACK_DAMAGE) paint_cube(&v, c, i, plotted_particle_colour(view, c, i, map));
     }
     memory_free(v.depth);
 }

@@ -11,7 +11,7 @@
 struct colour category_colour(const struct plot_field *field, float category_value)
 {
     if (strcmp(field->name, "kind") == 0)
-        return category_value == KIND_MPM ? colour_of_material_points() : colour_of_peridynamic_particle(0.25);
+        return category_value == KIND_MPM ? colour_of_material_points() : colour_on_peridynamic_particle_scale(0.25);
     return strcmp(field->name, "fragment") == 0 ? fragment_colour((int32_t)category_value)
                                                 : colour_of_material_or_body((int)category_value);
 }
@@ -25,7 +25,7 @@ static void category_name(char *name, size_t capacity, const char *field, int va
     if (strcmp(field, "fragment") == 0) known = value < 0 ? "no bond left" : value == 0 ? "the heaviest" : NULL;
     if (strcmp(field, "level") == 0 && value == 0) known = "none";
     if (strcmp(field, "body") == 0 && s && value < s->bodies) known = s->body[value].name;
-    const struct material *m = strcmp(field, "material") == 0 && s ? scene_material_of_number(s, value) : NULL;
+    const struct material *m = strcmp(field, "material") == 0 && s ? scene_find_material_by_number(s, value) : NULL;
     if (m) known = m->name;
     if (known && *known)
         snprintf(name, capacity, "%s", known);
@@ -56,8 +56,8 @@ static bool *values_seen(int *last, const struct plotted_particles *cloud, int c
     return seen;
 }
 
-void categories_list_named_values(struct categories *k, const struct plot_field *field, const char *folder,
-                                  const struct plotted_particles *cloud, int frame_count)
+void categories_list_values_present_in_frames(struct categories *k, const struct plot_field *field, const char *folder,
+                                              const struct plotted_particles *cloud, int frame_count)
 {
     struct scene scene;
     const bool known = scene_read(&scene, path_join(folder, "scene.yaml").text, NULL, 0) == OK;

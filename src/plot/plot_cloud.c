@@ -179,14 +179,14 @@ static double telling_layer(const struct output_frame *f, int normal, const floa
     return nearest_coordinate(f, normal, at);
 }
 
-status projection_complete_slice_from_particles(struct projection *projection, const struct output_frame *f,
-                                                const char *path)
+status projection_choose_slice_normal_and_position(struct projection *projection, const struct output_frame *f,
+                                                   const char *path)
 {
     float *value = NULL;
     if (f->dim < 3 || projection->outside) return OK;
     if (projection->normal < 0) projection->normal = thinnest_direction(f);
     if (!projection->placed) {
-        if (projection->field && map_of_field(projection->field) == MAP_FIELD)
+        if (projection->field && colour_map_kind_for_field(projection->field) == MAP_FIELD)
             TRY(plot_field_read(&value, projection->field, f, path));
         projection->layer = telling_layer(f, projection->normal, value);
         projection->placed = true;
@@ -289,14 +289,14 @@ static void cloud_axes(struct plotted_particles *c, const struct output_frame *f
 static void cloud_select(struct plotted_particles *c, const struct output_frame *f, const struct projection *projection)
 {
     struct projection open = {.normal = -1};
-    if (!projection) (void)projection_complete_slice_from_particles(&open, f, NULL), projection = &open;
+    if (!projection) (void)projection_choose_slice_normal_and_position(&open, f, NULL), projection = &open;
     *c = (struct plotted_particles){.axis = {0, 1},
                                     .normal = -1,
                                     .t = f->t,
                                     .spacing = frame_particle_spacing(f),
                                     .magnify = projection->magnify > 0 ? projection->magnify : 1,
                                     .in_steps = projection->in_steps,
-                                    .equilibrium = projection_is_equilibrium(projection),
+                                    .equilibrium = projection_shows_single_equilibrium_run(projection),
                                     .step = f->step,
                                     .from = {INFINITY, INFINITY},
                                     .to = {-INFINITY, -INFINITY}};
@@ -333,7 +333,7 @@ void plotted_particles_select_from_frame(struct plotted_particles *c, const stru
     struct output_frame sized = *f;
     float *size = NULL;
     if (projection && has_lists(projection->scene))
-        size = frame_find_sizes_of_list_particles(f, frame_particle_spacing(f));
+        size = frame_estimate_graded_particle_sizes(f, frame_particle_spacing(f));
     if (size && is_aligned(f->X, f->dim, f->n)) sized.spacing = size;
     cloud_select(c, &sized, projection);
     memory_free(size);

@@ -32,8 +32,8 @@ struct value_range history_value_range(const struct history *history, const int 
     return e;
 }
 
-void curves_write_data(FILE *gnuplot, const struct series *series, const int *column_index, const double *factor,
-                       int column_count)
+void curves_write_gnuplot_data_block(FILE *gnuplot, const struct series *series, const int *column_index,
+                                     const double *factor, int column_count)
 {
     int64_t stride = series->h->rows / POINTS_MAX + 1;
     fputs("$data << EOD\n", gnuplot);
@@ -52,10 +52,10 @@ void curves_write_data(FILE *gnuplot, const struct series *series, const int *co
     fputs("EOD\n", gnuplot);
 }
 
-void curves_write_colour_of_time(char text[COLOUR_ROOM], int k, int times)
+void curve_colour_write_by_time_order(char text[COLOUR_ROOM], int k, int curve_count)
 {
     const double lightest = 0.82; /* yellow is not visible on white */
-    const struct colour c = colour_on_sequential_scale(lightest * k / fmax(times - 1, 1));
+    const struct colour c = colour_on_sequential_scale(lightest * k / fmax(curve_count - 1, 1));
     snprintf(text, COLOUR_ROOM, "#%02x%02x%02x", c.red, c.green, c.blue);
 }
 
@@ -77,7 +77,7 @@ static void set_axis(FILE *to, const char *axis, const char *label, int colour, 
             "set %slabel '%s' textcolor rgb '%s'\nset %stics nomirror textcolor rgb '%s'\n"
             "set %srange [0:%.9g]\n",
             axis, label, curve_colour[colour], axis, curve_colour[colour], axis, top > 0 ? top : 1);
-    curves_write_tics(to, axis, 0, top, pixels);
+    curves_write_vertical_tics(to, axis, 0, top, pixels);
 }
 
 /* Largest upper end of the axis for the share of peridynamic particles [%]. */
@@ -94,7 +94,7 @@ static bool column_varies(const struct history *h, int column)
 /* Draws the growth of the longest crack and the share of peridynamic particles in the history s against time, each only
  * if it changes. sheet: file and size of the picture; title: its title. The crack growth of a bar is never drawn.
  * Prints a message if neither changes. Returns FAILED if gnuplot fails. */
-static status draw_crack(struct sheet sheet, const char *title, const struct series *s)
+static status draw_crack(struct output_picture sheet, const char *title, const struct series *s)
 {
     const int column[2] = {history_find_column(s->h, "crack_length"), history_find_column(s->h, "pd_share")};
     const double largest[2] = {history_largest_magnitude(s->h, column[0]), history_largest_magnitude(s->h, column[1])};
@@ -104,10 +104,11 @@ static status draw_crack(struct sheet sheet, const char *title, const struct ser
     char label[64];
     struct gnuplot g;
     if (!shown[0] && !shown[1])
-        return report_picture_not_drawn(sheet.path, s->bar ? "a crack of a bar has no length; profiles show the damage"
-                                                           : "no crack grows, and no particle becomes peridynamic");
+        return picture_report_not_drawn_and_remove_old(
+            sheet.path, s->bar ? "a crack of a bar has no length; profiles show the damage"
+                               : "no crack grows, and no particle becomes peridynamic");
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 600));
-    curves_write_data(g.to, s, column, factor, 2);
+    curves_write_gnuplot_data_block(g.to, s, column, factor, 2);
     curves_write_title(&g, title, "crack");
     curves_write_time_axis(g.to, s);
     const bool both = shown[0] && shown[1];
@@ -183,7 +184,7 @@ static double flattening_energy(const struct history *h)
 static void choose_energies(struct energies *e, const struct history *h)
 {
     const double start = flattening_energy(h);
-    const struct unit joule = unit_for_largest_value(start, "J");
+    const struct unit joule = unit_with_si_prefix_for_largest_value(start, "J");
     struct value_range range[LEDGER_ROWS];
     double shift[LEDGER_ROWS], largest = 0;
     *e = (struct energies){0};
@@ -202,7 +203,7 @@ static void choose_energies(struct energies *e, const struct history *h)
         e->column[e->n] = history_find_column(h, ledger[k].name);
         e->row[e->n++] = &ledger[k];
     }
-    e->joule = unit_for_largest_value(largest, "J");
+    e->joule = unit_with_si_prefix_for_largest_value(largest, "J");
     for (int k = 0; k < e->n; k++) e->factor[k] = e->joule.factor;
 }
 
@@ -256,7 +257,7 @@ static const double BALANCE_LEAST = 0.0012;
  * of the picture; largest: largest magnitude of the error [1]. */
 static void plot_balance(FILE *to, const struct series *s, const struct curves_layout *l, double largest)
 {
-    const struct two_panels two = curves_layout_edges_of_two_panels(l);
+    const struct two_panel_edges two = curves_layout_edges_of_two_panels(l);
     const double top = fmax(120 * largest, BALANCE_LEAST); /* percent; 20 % above the largest value */
     curves_write_time_axis(to, s);
     curves_write_panel_margins(to, l, two.lower_from, two.lower_end);
@@ -265,27 +266,27 @@ static void plot_balance(FILE *to, const struct series *s, const struct curves_l
             "set yrange [%.9g:%.9g]\nset ytics %.9g\nset format y '%%.2g'\nunset ylabel\n"
             "set label '%serror [%%]' at screen %.6g,%.6g center rotate by 90 textcolor rgb '#333333'\n"
             "plot $data using 1:2 with lines lw 1.8 lc rgb '%s'\n",
-            -top, top, coarse_tic_distance(top), picture_is_too_narrow_for_key() ? "" : "balance ",
-            (picture_is_too_narrow_for_key() ? LABEL_AT_NARROW : LABEL_AT) / l->width,
+            -top, top, coarse_tic_distance(top), picture_size_is_too_narrow_for_side_legend() ? "" : "balance ",
+            (picture_size_is_too_narrow_for_side_legend() ? LABEL_AT_NARROW : LABEL_AT) / l->width,
             1 - (l->above + 0.5 * (two.lower_from + two.lower_end)) / l->height, curve_colour[6]);
 }
 
 /* Draws the energies of the history s against time, and below them the balance error if the history has it. sheet: file
  * and size of the picture; title: its title. Prints a message if all energies are 0 or the run has one equilibrium.
  * Returns FAILED if gnuplot fails. */
-static status draw_energy(struct sheet sheet, const char *title, const struct series *s)
+static status draw_energy(struct output_picture sheet, const char *title, const struct series *s)
 {
     struct energies e;
     struct gnuplot g;
     int balance = history_find_column(s->h, "balance_error");
     const double percent = 0.01;
     if (s->equilibrium)
-        return report_picture_not_drawn(sheet.path,
-                                        "a single equilibrium has no curves over time; summary.json has its energies");
+        return picture_report_not_drawn_and_remove_old(
+            sheet.path, "a single equilibrium has no curves over time; summary.json has its energies");
     choose_energies(&e, s->h);
-    if (e.n == 0) return report_picture_not_drawn(sheet.path, "all energies are 0");
+    if (e.n == 0) return picture_report_not_drawn_and_remove_old(sheet.path, "all energies are 0");
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, balance >= 0 ? 760 : 600));
-    curves_write_data(g.to, s, e.column, e.factor, e.n);
+    curves_write_gnuplot_data_block(g.to, s, e.column, e.factor, e.n);
     curves_write_title(&g, title, "energy");
     curves_write_time_axis(g.to, s);
     size_t longest = 3; /* sum */
@@ -296,12 +297,12 @@ static status draw_energy(struct sheet sheet, const char *title, const struct se
     const double end =
         balance >= 0 ? curves_layout_edges_of_two_panels(&l).upper_end : curves_layout_height_of_all_panels(&l);
     curves_write_panel_margins(g.to, &l, 0, end);
-    curves_write_tics(g.to, "y", e.low / e.joule.factor, e.high / e.joule.factor, end);
+    curves_write_vertical_tics(g.to, "y", e.low / e.joule.factor, e.high / e.joule.factor, end);
     if (balance >= 0) fputs("set multiplot\nset format x ''\nunset xlabel\n", g.to);
     plot_energies(g.to, &e);
     if (balance >= 0) {
         fputs("undefine $data\n", g.to);
-        curves_write_data(g.to, s, &balance, &percent, 1);
+        curves_write_gnuplot_data_block(g.to, s, &balance, &percent, 1);
         plot_balance(g.to, s, &l, history_largest_magnitude(s->h, balance));
         fputs("unset multiplot\n", g.to);
     }
@@ -317,14 +318,15 @@ static status draw_curves(const struct plot_request *r, const char *title, const
                       energy = picture_path(r->pictures, DRAWN_ENERGY, ending),
                       load = picture_path(r->pictures, DRAWN_LOAD, ending),
                       r_curve = picture_path(r->pictures, DRAWN_R_CURVE, ending);
-    TRY(draw_crack((struct sheet){crack.text, r->format}, title, s));
-    TRY(draw_energy((struct sheet){energy.text, r->format}, title, s));
+    TRY(draw_crack((struct output_picture){crack.text, r->format}, title, s));
+    TRY(draw_energy((struct output_picture){energy.text, r->format}, title, s));
     TRY(sif_curves_draw(title, s));
     TRY(crack_paths_draw(r->folder, title, s));
-    TRY(s->equilibrium ? report_picture_not_drawn(
-                             load.text, "a single equilibrium has no curves over time; history.csv has its forces")
-                       : load_displacement_draw((struct sheet){load.text, r->format}, title, s->h, s->spacing));
-    return in_steps ? r_curve_draw((struct sheet){r_curve.text, r->format}, r->folder, title, s->h) : OK;
+    TRY(s->equilibrium
+            ? picture_report_not_drawn_and_remove_old(
+                  load.text, "a single equilibrium has no curves over time; history.csv has its forces")
+            : load_displacement_draw((struct output_picture){load.text, r->format}, title, s->h, s->spacing));
+    return in_steps ? r_curve_draw((struct output_picture){r_curve.text, r->format}, r->folder, title, s->h) : OK;
 }
 
 status history_curves_draw(const struct plot_request *request, const char *title)
@@ -343,7 +345,7 @@ status history_curves_draw(const struct plot_request *request, const char *title
                        .equilibrium = scene && scene_is_single_equilibrium(scene)};
     status result = OK;
     if (s.time >= 0 && h.rows > 1) {
-        if (!in_steps) s.second = unit_for_largest_value(history_value_at(&h, h.rows - 1, s.time), "s");
+        if (!in_steps) s.second = unit_with_si_prefix_for_largest_value(history_value_at(&h, h.rows - 1, s.time), "s");
         result = draw_curves(request, title, &s, in_steps);
     }
     history_free(&h);

@@ -197,7 +197,7 @@ status plot_field_choose_default(const struct plot_field **field, const char *fo
     return s;
 }
 
-enum map map_of_field(const struct plot_field *field)
+enum map colour_map_kind_for_field(const struct plot_field *field)
 {
     if (strcmp(field->name, "damage") == 0) return MAP_DAMAGE;
     return field->scale == CATEGORY ? MAP_CATEGORY : MAP_FIELD;

@@ -22,9 +22,9 @@ static status field_path(struct path *path, const struct plot_request *r, const 
                       usual = picture_path_of_field(pictures.text, field, ending);
     if (!r->out) {
         *path = usual;
-        return pictures_folder_make(pictures.text, r->overwrite);
+        return pictures_folder_create(pictures.text, r->overwrite);
     }
-    return picture_choose_path(path, r->out, strrchr(usual.text, '/') + 1, r->overwrite);
+    return picture_choose_path_by_output_option(path, r->out, strrchr(usual.text, '/') + 1, r->overwrite);
 }
 
 static bool same_everywhere(const struct plotted_particles *cloud, int clouds)
@@ -59,7 +59,7 @@ static status say_field(const char *path, const struct view *view, const struct 
                         int64_t particles)
 {
     char of_all[32] = "";
-    const bool damage = map_of_field(r->projection.field) == MAP_DAMAGE;
+    const bool damage = colour_map_kind_for_field(r->projection.field) == MAP_DAMAGE;
     if (r->every && frames < listed) snprintf(of_all, sizeof of_all, " of %d", listed);
     printf("%s: %s of %d%s frame%s, %lld particles", printable_name(path).text, r->projection.field->name, frames,
            of_all, frames > 1 ? "s" : "", (long long)particles);
@@ -82,18 +82,19 @@ static status draw_field_clouds(const struct plot_request *r, const char *path, 
         char why[96];
         snprintf(why, sizeof why, "%s is %.4g%s%s everywhere", r->projection.field->name, cloud[0].value[0],
                  *r->projection.field->unit ? " " : "", r->projection.field->unit);
-        return report_picture_not_drawn(path, why);
+        return picture_report_not_drawn_and_remove_old(path, why);
     }
     field_title(title, r, &cloud[0], &view);
-    const enum map map = map_of_field(r->projection.field);
+    const enum map map = colour_map_kind_for_field(r->projection.field);
     struct categories categories;
     if (map == MAP_CATEGORY) {
-        categories_list_named_values(&categories, r->projection.field, r->folder, cloud, clouds);
+        categories_list_values_present_in_frames(&categories, r->projection.field, r->folder, cloud, clouds);
         view.categories = &categories;
     }
-    const struct sheet sheet = {path, r->format};
-    TRY(picture_is_film(r->format) ? film_draw_frames_as_video(sheet, r->fps, title, map, &view, cloud, clouds)
-                                   : maps_draw_panels_of_frames(sheet, title, map, &view, cloud, clouds));
+    const struct output_picture sheet = {path, r->format};
+    TRY(picture_format_is_video(r->format)
+            ? video_draw_and_encode_frames(sheet, r->fps, title, map, &view, cloud, clouds)
+            : picture_draw_panels_of_frames(sheet, title, map, &view, cloud, clouds));
     return say_field(path, &view, r, clouds, listed, cloud[clouds - 1].n);
 }
 
@@ -121,7 +122,7 @@ static status draw_field_bar(const struct plot_request *r, const char *path, con
     if (of_maps)
         return status_set(
             REFUSED, "plot: %s is for maps, but a run in one dimension has curves only; remove this option", of_maps);
-    if (picture_is_film(r->format))
+    if (picture_format_is_video(r->format))
         return status_set(REFUSED, "plot: --format %s: runs in one dimension have no films; use png, svg or pdf",
                           picture_ending[r->format]);
     TRY(frames_read_selected(&f, r->folder, frames));
@@ -132,7 +133,8 @@ static status draw_field_bar(const struct plot_request *r, const char *path, con
                             run_frame_path(r->folder, frames->show[k].number).text);
     field_title(title, r, NULL, NULL);
     if (s == OK)
-        s = field_profiles_draw((struct sheet){path, r->format}, title, &r->projection, value, f, frames->shown);
+        s = field_profiles_draw((struct output_picture){path, r->format}, title, &r->projection, value, f,
+                                frames->shown);
     for (int k = 0; k < frames->shown; k++) memory_free(value[k]);
     memory_free(value);
     frames_free(f, frames->shown);
@@ -177,20 +179,20 @@ static status field_of_frames(struct plot_request *r, const struct run_frames *f
                         "principal_stress_2 and principal_stress_3\n");
     if (s == OK && dim == 3 && r->projection.normal < 0) r->projection.outside = true;
     if (s == OK)
-        s = projection_complete_slice_from_particles(&r->projection, &last, run_frame_path(r->folder, number).text);
+        s = projection_choose_slice_normal_and_position(&r->projection, &last, run_frame_path(r->folder, number).text);
     frame_free(&last);
     TRY(s);
     TRY(field_path(&path, r, r->projection.field->name));
     return dim == 1 ? draw_field_bar(r, path.text, frames) : draw_field_map(r, path.text, frames);
 }
 
-status field_draw_picture_or_film(const struct plot_request *request)
+status field_draw_picture_or_video(const struct plot_request *request)
 {
     struct plot_request r = *request;
     struct run_frames frames;
     struct scene scene;
-    if (picture_is_film(r.format)) TRY(film_check_encoder_is_installed());
-    if (r.panels == 0) r.panels = picture_is_film(r.format) ? INT_MAX : r.every ? PANELS_MAX : PANELS;
+    if (picture_format_is_video(r.format)) TRY(video_check_encoder_is_installed());
+    if (r.panels == 0) r.panels = picture_format_is_video(r.format) ? INT_MAX : r.every ? PANELS_MAX : PANELS;
     r.projection.in_steps = run_has_load_steps(r.folder);
     TRY(run_frames_list_and_select(&frames, &r));
     const bool known = scene_read(&scene, path_join(r.folder, "scene.yaml").text, NULL, 0) == OK;

@@ -19,16 +19,16 @@ enum { PATH_LENGTH = 4096 };
 /* ---- frames ------------------------------------------------------------------------------------------------------ */
 
 /* Returns true if the folder of a run contains a file or folder called `name`. */
-bool run_has_file(const char *folder, const char *name)
+bool run_folder_has_file(const char *folder, const char *name)
 {
     char path[PATH_LENGTH];
     struct stat found;
     return snprintf(path, sizeof path, "%s/%s", folder, name) < (int)sizeof path && stat(path, &found) == 0;
 }
 
-bool folder_holds_study(const char *folder)
+bool folder_contains_study_table(const char *folder)
 {
-    return run_has_file(folder, "sweep.csv") || run_has_file(folder, "converge.csv");
+    return run_folder_has_file(folder, "sweep.csv") || run_folder_has_file(folder, "converge.csv");
 }
 
 status run_read_frame(struct output_frame *f, const char *folder, int frame_number)
@@ -71,7 +71,7 @@ static status times_within(const struct run_frames *f, const double *time, int t
     if (f->listed == 0) return OK;
     const double first = f->list[0].time, last = f->list[f->listed - 1].time;
     const double beside = f->listed > 1 ? (last - first) / (f->listed - 1) : INFINITY;
-    const struct unit second = unit_for_largest_value(last, "s");
+    const struct unit second = unit_with_si_prefix_for_largest_value(last, "s");
     for (int k = 0; k < times; k++)
         if (!isinf(time[k]) && (time[k] < fmin(first - beside, 0) || time[k] > last + beside))
             return status_set(REFUSED, "plot: --times: %.4g %s is not in the run; give times from %.4g to %.4g %s",
@@ -146,22 +146,23 @@ void frames_free(struct output_frame *frames, int frame_count)
     memory_free(frames);
 }
 
-status pictures_folder_make(const char *path, bool overwrite)
+status pictures_folder_create(const char *path, bool overwrite)
 {
     if (path_is_link(path))
         return status_set(REFUSED, "%s is a symbolic link, so pictures would be written to another folder; remove it",
                           path);
-    TRY(folder_make(path));
-    return overwrite ? OK : files_visit(path, file_name_is_of_picture, "", picture_check_replaceable);
+    TRY(folder_create_with_parents(path));
+    return overwrite ? OK : folder_visit_selected_files(path, file_name_is_of_picture, "", picture_check_replaceable);
 }
 
-status picture_choose_path(struct path *path, const char *option_argument, const char *name, bool overwrite)
+status picture_choose_path_by_output_option(struct path *path, const char *option_argument, const char *name,
+                                            bool overwrite)
 {
     const char *end = strrchr(option_argument, '/');
     if (!*option_argument || strlen(option_argument) >= sizeof path->text)
         return status_set(REFUSED, "plot: -o '%s': give the name of a file or folder",
                           printable_name(option_argument).text);
-    TRY(folder_make_for_file(option_argument));
+    TRY(folder_create_parents_of_file(option_argument));
     if (end > option_argument && !end[1]) {
         struct path above;
         snprintf(above.text, sizeof above.text, "%.*s", (int)(end - option_argument), option_argument);
@@ -180,18 +181,19 @@ status picture_choose_path(struct path *path, const char *option_argument, const
                       path->text);
 }
 
-bool projection_is_equilibrium(const struct projection *projection)
+bool projection_shows_single_equilibrium_run(const struct projection *projection)
 {
     const struct scene *s = projection->scene;
     return s && (s->solver == SOLVER_RELAXATION || s->solver == SOLVER_CG);
 }
 
-bool frame_write_state(char text[NAME_MAX_LENGTH], bool in_steps, bool equilibrium, double t, int64_t step)
+bool frame_compose_label_if_static(char text[NAME_MAX_LENGTH], bool has_load_steps, bool equilibrium, double t,
+                                   int64_t step)
 {
     text[0] = '\0';
     if (equilibrium)
         snprintf(text, NAME_MAX_LENGTH, "%s", t > 0 ? "equilibrium" : "without loads");
-    else if (in_steps)
+    else if (has_load_steps)
         snprintf(text, NAME_MAX_LENGTH, "load step %lld", (long long)step);
     return text[0] != '\0';
 }
@@ -200,7 +202,7 @@ bool frame_write_state(char text[NAME_MAX_LENGTH], bool in_steps, bool equilibri
 
 /* Prints that the picture `path` is not drawn, with the reason `reason`, and removes an older picture of this name if
  * Cleave drew it. Returns FAILED if standard output cannot be written. */
-status report_picture_not_drawn(const char *path, const char *reason)
+status picture_report_not_drawn_and_remove_old(const char *path, const char *reason)
 {
     const char *slash = strrchr(path, '/');
     if (picture_file_is_from_cleave(path)) remove(path);
@@ -229,7 +231,7 @@ void picture_compose_title(char *title, const struct plot_request *r, const char
 {
     const char *folder = r->folder;
     char name[NAME_MAX_LENGTH], method[NAME_MAX_LENGTH], layer[NAME_MAX_LENGTH] = "";
-    if (summary_read_string(folder, "name", name, sizeof name) != OK) path_last_name(name, sizeof name, folder);
+    if (summary_read_string(folder, "name", name, sizeof name) != OK) path_copy_base_name(name, sizeof name, folder);
     bool known = summary_read_string(folder, "method", method, sizeof method) == OK;
     if (c != NULL && c->normal >= 0) {
         const struct unit metre = panel_axis_unit(view);

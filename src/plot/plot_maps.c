@@ -10,7 +10,7 @@
 /* Writes to gnuplot the panel number `place`, counted row by row from 0: the map of the particles c of one frame, with
  * axes and title. l: layout; shown: map and view; second: unit of the time in the title; lowest: true if no panel is
  * below this one, so that its horizontal axis has labels. */
-static void plot_maps_draw_panel(FILE *to, const struct layout *l, const struct maps_shown *shown,
+static void plot_maps_draw_panel(FILE *to, const struct maps_layout *l, const struct maps_content *shown,
                                  const struct plotted_particles *c, const struct unit *second, int place, bool lowest)
 {
     const struct view *view = shown->view;
@@ -27,7 +27,7 @@ static void plot_maps_draw_panel(FILE *to, const struct layout *l, const struct 
         fprintf(to, "set %crange [%.12g:%.12g]\n", 'x' + k, from[k], view->to[k] / metre.factor);
     }
     char state[NAME_MAX_LENGTH];
-    if (frame_write_state(state, c->in_steps, c->equilibrium, c->t, c->step))
+    if (frame_compose_label_if_static(state, c->in_steps, c->equilibrium, c->t, c->step))
         fprintf(to, "set title '%s'", state);
     else
         fprintf(to, "set title 't = %.3g %s'", c->t / second->factor, second->name);
@@ -38,39 +38,39 @@ static void plot_maps_draw_panel(FILE *to, const struct layout *l, const struct 
         panel_write_axes(to, l, view, c, &metre, column, lowest);
     if (c->position[2] && row == l->rows - 1 && column == 0)
         panel_write_axis_arrows(to, l, view, c, &metre, left, above);
-    const int fines[2] = {gnuplot_image_pixels_along_edge(shown->format, size[0]),
-                          gnuplot_image_pixels_along_edge(shown->format, size[1])};
+    const int fines[2] = {gnuplot_image_pixel_count_along_edge(shown->format, size[0]),
+                          gnuplot_image_pixel_count_along_edge(shown->format, size[1])};
     for (int k = 0; k < 2; k++) step[k] *= (double)size[k] / fines[k];
     struct colour *pixel = NEW("plot.pixel", (int64_t)fines[0] * fines[1], struct colour);
-    raster_paint_particles(pixel, fines[0], fines[1], view, c, shown->map);
+    image_paint_particles_in_plane(pixel, fines[0], fines[1], view, c, shown->map);
     panel_write_image(to, pixel, fines[0], fines[1], from, step, "");
     memory_free(pixel);
 }
 
-status maps_draw_panels_of_frames(struct sheet sheet, const char *title, enum map map, const struct view *view,
-                                  const struct plotted_particles *cloud, int frame_count)
+status picture_draw_panels_of_frames(struct output_picture output, const char *title, enum map map,
+                                     const struct view *view, const struct plotted_particles *cloud, int frame_count)
 {
     struct gnuplot g;
     char text[TITLE_LENGTH];
-    title_compose_with_particles_outside(text, title, view->outside);
-    struct maps_shown shown = {
-        .map = map, .view = view, .title = text, .format = sheet.format, .outside = cloud[0].position[2]};
+    title_append_count_of_particles_outside_view(text, title, view->outside);
+    struct maps_content shown = {
+        .map = map, .view = view, .title = text, .format = output.format, .outside = cloud[0].position[2]};
     bool rigid = false;
-    for (int k = 0; k < frame_count; k++) rigid = rigid || rigids_are_visible(view, &cloud[k]);
-    map_key_make(&shown.key, map, view, rigid);
+    for (int k = 0; k < frame_count; k++) rigid = rigid || view_shows_any_rigid_body(view, &cloud[k]);
+    map_key_collect_entries(&shown.key, map, view, rigid);
     const double aspect = (view->to[1] - view->from[1]) / (view->to[0] - view->from[0]);
     TRY(maps_layout_check_panels_fit(&shown, frame_count, aspect));
-    const struct layout l = maps_layout_choose(&shown, frame_count, aspect);
-    TRY(gnuplot_open(&g, sheet.path, sheet.format, l.width, l.height));
+    const struct maps_layout l = maps_layout_choose(&shown, frame_count, aspect);
+    TRY(gnuplot_open(&g, output.path, output.format, l.width, l.height));
     fputs("set multiplot\nunset grid\n", g.to);
     gnuplot_write_title(&g, text, l.title);
     map_key_draw(g.to, &l, &shown.key);
-    struct unit second = unit_for_largest_value(cloud[frame_count - 1].t, "s");
+    struct unit second = unit_with_si_prefix_for_largest_value(cloud[frame_count - 1].t, "s");
     for (int k = 0; k < frame_count; k++) {
         plot_maps_draw_panel(g.to, &l, &shown, &cloud[k], &second, k, k + l.columns >= frame_count);
         fputs("unset label\nunset object\n", g.to); /* drawn once for all panels */
     }
-    if (map_has_colour_bar(map)) map_colour_bar_draw(g.to, &l, &shown, cloud[frame_count - 1].n);
+    if (map_quantity_has_colour_bar(map)) map_colour_bar_draw(g.to, &l, &shown, cloud[frame_count - 1].n);
     fputs("unset multiplot\n", g.to);
     return gnuplot_close(&g);
 }

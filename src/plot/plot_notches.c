@@ -208,8 +208,8 @@ static bool crack_is_in_mirror(const struct crack *crack, const struct plotted_p
     return in;
 }
 
-void notches_paint_crack_faces(struct colour *pixel, int width, int height, const struct view *v,
-                               const struct plotted_particles *c, enum map map)
+void image_paint_precrack_faces(struct colour *pixel, int width, int height, const struct view *v,
+                                const struct plotted_particles *c, enum map map)
 {
     if ((map != MAP_DAMAGE && map != MAP_FIELD) || !c->reference[0] || !(c->spacing > 0)) return;
     for (int k = 0; k < v->notches; k++) {

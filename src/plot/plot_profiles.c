@@ -50,7 +50,8 @@ static struct bar_profile profile_make(const struct output_frame *f, const float
                                        const struct projection *projection)
 {
     struct bar_profile p = {NEW("plot.profile", f->n, struct station), f->n, f->t, ""};
-    (void)frame_write_state(p.label, projection->in_steps, projection_is_equilibrium(projection), f->t, f->step);
+    (void)frame_compose_label_if_static(p.label, projection->in_steps,
+                                        projection_shows_single_equilibrium_run(projection), f->t, f->step);
     for (int64_t i = 0; i < f->n; i++)
         p.at[i] = (struct station){.x = f->X[0][i] + f->u[0][i],
                                    .value = {value ? value[i] : f->v[0][i], f->stress[0][i], f->damage[i]},
@@ -191,11 +192,11 @@ static size_t longest_label(const struct bar_profile *profile, int profiles)
  * profile with its time in the key (legend). */
 static void plot_profiles(FILE *to, const struct bar_profile *profile, int profiles, int column)
 {
-    struct unit second = unit_for_largest_value(profile[profiles - 1].t, "s");
+    struct unit second = unit_with_si_prefix_for_largest_value(profile[profiles - 1].t, "s");
     fputs("plot ", to);
     for (int k = 0; k < profiles; k++) {
         char colour[COLOUR_ROOM], label[NAME_MAX_LENGTH];
-        curves_write_colour_of_time(colour, k, profiles);
+        curve_colour_write_by_time_order(colour, k, profiles);
         profile_write_label(label, &profile[k], &second);
         fprintf(to, "%s$f%d using 1:%d with lines lw 1.8 lc rgb '%s' title '%s'", k > 0 ? ", " : "", k, column + 2,
                 colour, label);
@@ -208,8 +209,8 @@ static void plot_profiles(FILE *to, const struct bar_profile *profile, int profi
 /* Draws velocity, stress and damage of profile[profiles] in panels one above another on the picture `sheet`; velocity
  * and damage only if they are not 0 everywhere. title: title of the picture; spacing: spacing of the particles [m].
  * Returns FAILED, with a message, if gnuplot fails. */
-static status profiles_draw(struct sheet sheet, const char *title, const struct bar_profile *profile, int profiles,
-                            double spacing)
+static status profiles_draw(struct output_picture sheet, const char *title, const struct bar_profile *profile,
+                            int profiles, double spacing)
 {
     struct gnuplot g;
     struct value_range of[3];
@@ -217,8 +218,8 @@ static status profiles_draw(struct sheet sheet, const char *title, const struct 
     for (int c = 0; c < 3; c++) of[c] = profiles_range(profile, profiles, c, false);
     const struct value_range x = profiles_axis(profile, profiles, spacing);
     const struct unit metre = unit_for_length(x.high - x.low),
-                      speed = unit_for_largest_value(range_magnitude(of[0]), "m/s"),
-                      pascal = unit_for_largest_value(range_magnitude(of[1]), "Pa");
+                      speed = unit_with_si_prefix_for_largest_value(range_magnitude(of[0]), "m/s"),
+                      pascal = unit_with_si_prefix_for_largest_value(range_magnitude(of[1]), "Pa");
     const double factor[4] = {metre.factor, speed.factor, pascal.factor, 1};
     int shown[3], panels = 0;
     for (int c = 0; c < 3; c++)
@@ -226,7 +227,7 @@ static status profiles_draw(struct sheet sheet, const char *title, const struct 
     of[2] = (struct value_range){0, 1};
     snprintf(label[0], sizeof label[0], "velocity x [%s]", speed.name);
     snprintf(label[1], sizeof label[1], "stress [%s]", pascal.name);
-    title_compose_with_particles_outside(text, title, profiles_outside(profile, profiles, x, of, 2));
+    title_append_count_of_particles_outside_view(text, title, profiles_outside(profile, profiles, x, of, 2));
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1080, 130 + 263 * panels));
     profiles_send(g.to, profile, profiles, spacing, factor);
     curves_write_title(&g, text, "");
@@ -239,7 +240,7 @@ static status profiles_draw(struct sheet sheet, const char *title, const struct 
         const int c = shown[k];
         const double from = k * (each + PANEL_GAP);
         curves_write_panel_margins(g.to, &l, from, from + each);
-        curves_write_tics(g.to, "y", of[c].low / factor[c + 1], of[c].high / factor[c + 1], each);
+        curves_write_vertical_tics(g.to, "y", of[c].low / factor[c + 1], of[c].high / factor[c + 1], each);
         fprintf(g.to, "set ylabel '%s'\n", label[c]);
         if (k == panels - 1) fprintf(g.to, "set format x '%%g'\nset xlabel 'x [%s]'\n", metre.name);
         if (c == 2)
@@ -253,13 +254,13 @@ static status profiles_draw(struct sheet sheet, const char *title, const struct 
     return gnuplot_close(&g);
 }
 
-status bar_profiles_draw(struct sheet sheet, const char *title, const struct projection *projection,
+status bar_profiles_draw(struct output_picture picture, const char *title, const struct projection *projection,
                          const struct output_frame *frame, int frame_count)
 {
     const double spacing = frame_particle_spacing(&frame[0]);
     struct bar_profile *profile = NEW("plot.profiles", frame_count, struct bar_profile);
     for (int k = 0; k < frame_count; k++) profile[k] = profile_make(&frame[k], NULL, spacing, projection);
-    const status s = profiles_draw(sheet, title, profile, frame_count, spacing);
+    const status s = profiles_draw(picture, title, profile, frame_count, spacing);
     profiles_free(profile, frame_count);
     return s;
 }
@@ -267,7 +268,7 @@ status bar_profiles_draw(struct sheet sheet, const char *title, const struct pro
 /* Draws a field along a bar, value[0] of profile[profiles], on the picture `sheet`. title: title of the picture; field:
  * name, unit and colour scale of the field; spacing: spacing of the particles [m]. Returns FAILED, with a message, if
  * gnuplot fails. */
-static status field_profile_draw(struct sheet sheet, const char *title, const struct plot_field *field,
+static status field_profile_draw(struct output_picture sheet, const char *title, const struct plot_field *field,
                                  const struct bar_profile *profile, int profiles, double spacing)
 {
     struct gnuplot g;
@@ -276,11 +277,11 @@ static status field_profile_draw(struct sheet sheet, const char *title, const st
     const struct value_range of = profiles_range(profile, profiles, 0, !moves),
                              x = profiles_axis(profile, profiles, spacing);
     const struct unit metre = unit_for_length(x.high - x.low),
-                      own = unit_for_largest_value_if_prefixable(field->unit, range_magnitude(of));
+                      own = unit_with_si_prefix_if_unit_allows_it(field->unit, range_magnitude(of));
     const double factor[4] = {metre.factor, own.factor, 1, 1};
     plot_field_write_label(name, sizeof name, field);
     snprintf(label, sizeof label, *own.name ? "%.40s [%s]" : "%.40s", name, own.name);
-    title_compose_with_particles_outside(text, title, profiles_outside(profile, profiles, x, &of, 1));
+    title_append_count_of_particles_outside_view(text, title, profiles_outside(profile, profiles, x, &of, 1));
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 560));
     profiles_send(g.to, profile, profiles, spacing, factor);
     curves_write_title(&g, text, "");
@@ -294,13 +295,13 @@ static status field_profile_draw(struct sheet sheet, const char *title, const st
     return gnuplot_close(&g);
 }
 
-status field_profiles_draw(struct sheet sheet, const char *title, const struct projection *projection,
+status field_profiles_draw(struct output_picture picture, const char *title, const struct projection *projection,
                            float *const *value_of_frame, const struct output_frame *frame, int frame_count)
 {
     const double spacing = frame_particle_spacing(&frame[0]);
     struct bar_profile *profile = NEW("plot.profiles", frame_count, struct bar_profile);
     for (int k = 0; k < frame_count; k++) profile[k] = profile_make(&frame[k], value_of_frame[k], spacing, projection);
-    const status s = field_profile_draw(sheet, title, projection->field, profile, frame_count, spacing);
+    const status s = field_profile_draw(picture, title, projection->field, profile, frame_count, spacing);
     profiles_free(profile, frame_count);
     return s;
 }

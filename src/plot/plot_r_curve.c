@@ -57,20 +57,20 @@ static void release_plot(FILE *to, const double *toughness, int n, double mean, 
     putc('\n', to);
 }
 
-status r_curve_draw(struct sheet sheet, const char *folder, const char *title, const struct history *history)
+status r_curve_draw(struct output_picture picture, const char *folder, const char *title, const struct history *history)
 {
     const int area = history_find_column(history, "crack_area"), rate = history_find_column(history, "release_rate");
     const double grown = history_largest_magnitude(history, area);
     double toughness[TOUGHNESSES_SHOWN] = {0}, top = history_largest_magnitude(history, rate);
     struct gnuplot g;
-    if (!(grown > 0)) return report_picture_not_drawn(sheet.path, "no crack has grown");
+    if (!(grown > 0)) return picture_report_not_drawn_and_remove_old(picture.path, "no crack has grown");
     const int n = toughnesses_of(folder, toughness);
     for (int k = 0; k < n; k++) top = fmax(top, toughness[k]);
     double mean; /* NAN before the run has ended */
     (void)summary_read_number(folder, "load_steps.release_rate", &mean);
     top = fmax(top, mean);
-    const struct unit square = unit_for_area(grown), joule = unit_for_largest_value(top, "J/m²");
-    TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 640));
+    const struct unit square = unit_for_area(grown), joule = unit_with_si_prefix_for_largest_value(top, "J/m²");
+    TRY(gnuplot_open(&g, picture.path, picture.format, 1000, 640));
     release_send(g.to, history, area, rate, square, joule.factor);
     curves_write_title(&g, title, "energy released by the growing crack");
     const struct curves_layout l = curves_layout_make(&g, 2 + n, strlen("mean 123.4 kJ/m²"), false, 1);
@@ -80,7 +80,7 @@ status r_curve_draw(struct sheet sheet, const char *folder, const char *title, c
             "area [%s]'\n",
             1.03 * grown / square.factor, 1.15 * top / joule.factor, joule.name, square.name);
     curves_write_horizontal_tics(g.to, &l, 0, 1.03 * grown / square.factor);
-    curves_write_tics(g.to, "y", 0, top / joule.factor, curves_layout_height_of_all_panels(&l));
+    curves_write_vertical_tics(g.to, "y", 0, top / joule.factor, curves_layout_height_of_all_panels(&l));
     release_plot(g.to, toughness, n, mean, joule);
     return gnuplot_close(&g);
 }

@@ -100,7 +100,7 @@ static void paint_particle(struct canvas *v, const struct view *view, const stru
         high = fmin((high - view->from[k]) * v->per_metre[k], at[k] + reach[k]);
         from[k] = (int)fmax(ceil(low - 0.5), 0), to[k] = (int)fmin(floor(high - 0.5), size[k] - 1);
     }
-    const struct colour colour = particle_colour(view, c, i, map);
+    const struct colour colour = plotted_particle_colour(view, c, i, map);
     for (int row = from[1]; row <= to[1]; row++) {
         off[1] = (row + 0.5 - at[1]) / v->per_metre[1];
         for (int column = from[0]; column <= to[0]; column++) {
@@ -115,12 +115,12 @@ static void paint_particle(struct canvas *v, const struct view *view, const stru
     }
 }
 
-void raster_paint_particles(struct colour *pixel, int width, int height, const struct view *view,
-                            const struct plotted_particles *c, enum map map)
+void image_paint_particles_in_plane(struct colour *pixel, int width, int height, const struct view *view,
+                                    const struct plotted_particles *c, enum map map)
 {
     int64_t pixels = (int64_t)width * height;
     if (c->position[2] || c->tall > 0) {
-        cubes_paint_particles(pixel, width, height, view, c, map);
+        image_paint_particles_as_cubes(pixel, width, height, view, c, map);
         return;
     }
     struct canvas v = {.pixel = pixel, .rank = NEW("plot.rank", pixels, float), .width = width, .height = height};
@@ -131,7 +131,7 @@ void raster_paint_particles(struct colour *pixel, int width, int height, const s
         pixel[q] = (struct colour){255, 255, 255, 0};
     }
     for (int64_t i = 0; i < c->n; i++) paint_particle(&v, view, c, i, map);
-    notches_paint_crack_faces(pixel, width, height, view, c, map);
-    rigids_paint_in_plane(pixel, width, height, view, c);
+    image_paint_precrack_faces(pixel, width, height, view, c, map);
+    image_paint_rigid_bodies_in_plane(pixel, width, height, view, c);
     memory_free(v.rank);
 }

@@ -27,8 +27,8 @@ static void position_at_start(const struct rigid_placement *at, int dim, const d
     }
 }
 
-void rigid_displacement_of_nearest_particle(const struct region *shape, const struct rigid_placement *at,
-                                            const struct output_frame *f, real *displacement)
+void rigid_body_find_nearest_particle_displacement(const struct region *shape, const struct rigid_placement *placement,
+                                                   const struct output_frame *f, real *displacement)
 {
     real least = INFINITY;
     int64_t nearest = -1;
@@ -40,7 +40,7 @@ void rigid_displacement_of_nearest_particle(const struct region *shape, const st
         for (int64_t i = 0; i < f->n; i++) {
             real x[DIM_MAX], X[DIM_MAX] = {0};
             for (int d = 0; d < f->dim; d++) x[d] = f->X[d][i] + f->u[d][i];
-            position_at_start(at, f->dim, x, X);
+            position_at_start(placement, f->dim, x, X);
             const real level = region_level_set_value(shape, X, f->dim);
             if (level < own) own = level, found = i;
         }
@@ -50,16 +50,17 @@ void rigid_displacement_of_nearest_particle(const struct region *shape, const st
     for (int d = 0; d < f->dim; d++) displacement[d] = nearest < 0 ? 0 : f->u[d][nearest];
 }
 
-void plotted_particles_add_rigid_bodies_at(struct plotted_particles *c, const struct scene *s,
-                                           const struct rigid_placement *placement, const real *low, const real *high)
+void plotted_particles_add_placed_rigid_bodies(struct plotted_particles *c, const struct scene *s,
+                                               const struct rigid_placement *placement, const real *low,
+                                               const real *high)
 {
     c->rigids = s->rigids, c->dim = s->dim;
-    c->rigid = NEW("plot.rigid", s->rigids, struct rigid_shown);
+    c->rigid = NEW("plot.rigid", s->rigids, struct plotted_rigid_body);
     for (int b = 0; b < s->rigids; b++) {
-        struct rigid_shown *r = &c->rigid[b];
-        *r = (struct rigid_shown){.shape = &s->body[s->bodies + b].shape, .at = placement[b]};
+        struct plotted_rigid_body *r = &c->rigid[b];
+        *r = (struct plotted_rigid_body){.shape = &s->body[s->bodies + b].shape, .at = placement[b]};
         for (int d = 0; d < s->dim; d++) r->low[d] = low[d], r->high[d] = high[d];
-        r->bounded = rigid_compute_shown_box(r->shape, s->dim, r->low, r->high);
+        r->bounded = rigid_compute_plotting_box(r->shape, s->dim, r->low, r->high);
     }
 }
 
@@ -76,10 +77,10 @@ void plotted_particles_add_rigid_bodies(struct plotted_particles *c, const struc
     if (rigids_read_placements_of_frame(at, s->rigids, folder, frame_number)) {
         for (int b = 0; b < s->rigids && c->magnify != 1; b++) {
             real beside[DIM_MAX];
-            rigid_displacement_of_nearest_particle(&s->body[s->bodies + b].shape, &at[b], f, beside);
+            rigid_body_find_nearest_particle_displacement(&s->body[s->bodies + b].shape, &at[b], f, beside);
             for (int d = 0; d < f->dim; d++) at[b].x[d] += (c->magnify - 1) * beside[d];
         }
-        plotted_particles_add_rigid_bodies_at(c, s, at, low, high);
+        plotted_particles_add_placed_rigid_bodies(c, s, at, low, high);
     }
     memory_free(at);
 }
@@ -87,7 +88,7 @@ void plotted_particles_add_rigid_bodies(struct plotted_particles *c, const struc
 /* Returns the distance of the position x[3] [m] from the surface of the rigid body r in its present placement [m],
  * negative inside (level set). dim: dimension of the run; cut: true to cut an unbounded body to its box
  * r->low..r->high. */
-static double level_at(const struct rigid_shown *r, int dim, const double *x, bool cut)
+static double level_at(const struct plotted_rigid_body *r, int dim, const double *x, bool cut)
 {
     real X[DIM_MAX] = {0};
     position_at_start(&r->at, dim, x, X);
@@ -98,7 +99,7 @@ static double level_at(const struct rigid_shown *r, int dim, const double *x, bo
 
 /* Returns the present coordinate of corner k of the box of rigid body r along the unit vector axis[dim] [m]. Bit d of k
  * selects the upper end of the box along axis d. */
-static double corner_along(const struct rigid_shown *r, int dim, int k, const double *axis)
+static double corner_along(const struct plotted_rigid_body *r, int dim, int k, const double *axis)
 {
     double sum = 0;
     for (int a = 0; a < dim; a++) {
@@ -110,7 +111,7 @@ static double corner_along(const struct rigid_shown *r, int dim, int k, const do
 }
 
 /* Returns true if the rigid body r is not in the plane of the section that c shows: its box is on one side of it. */
-static bool misses_section(const struct rigid_shown *r, const struct plotted_particles *c)
+static bool misses_section(const struct plotted_rigid_body *r, const struct plotted_particles *c)
 {
     int below = 0, corners = 1 << c->dim;
     if (c->normal < 0) return false;
@@ -125,7 +126,7 @@ void view_extend_to_rigid_bodies(struct view *v, const struct plotted_particles 
     const double from[2] = {v->from[0], v->from[1]}, to[2] = {v->to[0], v->to[1]};
     for (const struct plotted_particles *c = cloud; c < cloud + frame_count; c++)
         for (int q = 0; q < c->rigids << c->dim; q++) {
-            const struct rigid_shown *r = &c->rigid[q >> c->dim];
+            const struct plotted_rigid_body *r = &c->rigid[q >> c->dim];
             for (int a = 0; a < 2 && !misses_section(r, c); a++) {
                 const double x = corner_along(r, c->dim, q % (1 << c->dim), a ? c->camera.up : c->camera.right);
                 v->from[a] = fmin(v->from[a], fmax(x, from[a] - BESIDE * longest));
@@ -145,7 +146,7 @@ static void pixel_position(const struct plotted_particles *c, const struct view 
     for (int d = 0; d < 3; d++) x[d] = a * c->camera.right[d] + b * c->camera.up[d] + depth * c->camera.towards[d];
 }
 
-bool rigids_are_visible(const struct view *v, const struct plotted_particles *c)
+bool view_shows_any_rigid_body(const struct view *v, const struct plotted_particles *c)
 {
     enum { SAMPLES = 300 };
     const int size[2] = {SAMPLES, SAMPLES};
@@ -160,8 +161,8 @@ bool rigids_are_visible(const struct view *v, const struct plotted_particles *c)
     return visible;
 }
 
-void rigids_paint_in_plane(struct colour *pixel, int width, int height, const struct view *v,
-                           const struct plotted_particles *c)
+void image_paint_rigid_bodies_in_plane(struct colour *pixel, int width, int height, const struct view *v,
+                                       const struct plotted_particles *c)
 {
     const int size[2] = {width, height};
     const double depth = c->normal < 0 ? 0 : c->layer * c->camera.towards[c->normal];
@@ -177,7 +178,7 @@ void rigids_paint_in_plane(struct colour *pixel, int width, int height, const st
  * brightnesses of the axes, weighted by the squared components of the normal, and is reduced where the surface turns
  * away from the viewer. towards[3]: direction to the viewer; step: distance for finite differences of the level set
  * [m]. */
-static double brightness_at(const struct rigid_shown *r, const double *x, const double *towards, double step)
+static double brightness_at(const struct plotted_rigid_body *r, const double *x, const double *towards, double step)
 {
     double normal[3], length = 0, shade = 0, facing = 0;
     for (int d = 0; d < 3; d++) {
@@ -190,12 +191,12 @@ static double brightness_at(const struct rigid_shown *r, const double *x, const 
     return length > 0 ? (shade / length) * (0.6 + 0.4 * fmax(facing, 0) / sqrt(length)) : 1;
 }
 
-void rigids_paint_from_outside(struct colour *pixel, float *depth, int width, int height, const struct view *v,
-                               const struct plotted_particles *c, enum map map)
+void image_paint_rigid_bodies_from_outside(struct colour *pixel, float *depth, int width, int height,
+                                           const struct view *v, const struct plotted_particles *c, enum map map)
 {
     const int size[2] = {width, height};
     for (int b = 0; b < c->rigids; b++) {
-        const struct rigid_shown *r = &c->rigid[b];
+        const struct plotted_rigid_body *r = &c->rigid[b];
         double near = -INFINITY, far = INFINITY;
         for (int k = 0; k < 8; k++) {
             const double z = corner_along(r, 3, k, c->camera.towards);

@@ -65,7 +65,7 @@ static void find_factors(struct factors *f, const struct history *h)
             f->shown[m] = own > 0;
         }
     }
-    f->unit = unit_for_largest_value(largest, "Pa√m");
+    f->unit = unit_with_si_prefix_for_largest_value(largest, "Pa√m");
     for (int k = 0; k < 2 * f->n; k++) f->factor[k] = f->unit.factor;
 }
 
@@ -89,13 +89,13 @@ static void plot_factors(FILE *to, const struct factors *f)
  * contours. s: history and its column of the time; l: layout of the picture; f: columns of the probes. */
 static void plot_spread(FILE *to, const struct series *s, const struct curves_layout *l, const struct factors *f)
 {
-    const struct two_panels two = curves_layout_edges_of_two_panels(l);
+    const struct two_panel_edges two = curves_layout_edges_of_two_panels(l);
     curves_write_time_axis(to, s);
     curves_write_panel_margins(to, l, two.lower_from, two.lower_end);
     fprintf(to,
             "unset label\nunset key\nset format x '%%g'\nset logscale y\nset yrange [0.1:100]\n"
             "set ytics ('0.1' 0.1, '1' 1, '10' 10, '100' 100)\nset format y '%%g'\nset ylabel '%sspread [%%]'\nplot ",
-            picture_is_too_narrow_for_key() ? "" : "contour ");
+            picture_size_is_too_narrow_for_side_legend() ? "" : "contour ");
     for (int k = 0; k < f->n; k++)
         fprintf(to, "%s$data using 1:%d with lines lw 1.6 lc rgb '%s'", k > 0 ? ", " : "", k + 2,
                 curve_colour[f->n > 1 ? k : CURVE_COLOURS - 1]);
@@ -110,12 +110,12 @@ status sif_curves_draw(const char *title, const struct series *series)
     const struct path path = picture_path(series->pictures, DRAWN_SIF, picture_ending[series->format]);
     if (f.n == 0) return OK;
     if (series->equilibrium)
-        return report_picture_not_drawn(
+        return picture_report_not_drawn_and_remove_old(
             path.text, "a single equilibrium has no curves over time; summary.json has its K_I and K_II");
     double spread = 0;
     for (int k = 0; k < f.n; k++) spread = fmax(spread, history_largest_magnitude(series->h, f.spread[k]));
     TRY(gnuplot_open(&g, path.text, series->format, 1000, spread > 0 ? 760 : 600));
-    curves_write_data(g.to, series, f.column, f.factor, 2 * f.n);
+    curves_write_gnuplot_data_block(g.to, series, f.column, f.factor, 2 * f.n);
     curves_write_title(&g, title, "stress-intensity factors");
     curves_write_time_axis(g.to, series);
     size_t longest = 0; /* of the names of several probes, which are before those of the factors */
@@ -127,12 +127,12 @@ status sif_curves_draw(const char *title, const struct series *series)
         spread > 0 ? curves_layout_edges_of_two_panels(&l).upper_end : curves_layout_height_of_all_panels(&l);
     const struct value_range of = history_value_range(series->h, f.column, 2 * f.n);
     curves_write_panel_margins(g.to, &l, 0, end);
-    curves_write_tics(g.to, "y", fmin(of.low, 0) / f.unit.factor, fmax(of.high, 0) / f.unit.factor, end);
+    curves_write_vertical_tics(g.to, "y", fmin(of.low, 0) / f.unit.factor, fmax(of.high, 0) / f.unit.factor, end);
     if (spread > 0) fputs("set multiplot\nset format x ''\nunset xlabel\n", g.to);
     plot_factors(g.to, &f);
     if (spread > 0) {
         fputs("set offsets\nundefine $data\n", g.to);
-        curves_write_data(g.to, series, f.spread, f.percent, f.n);
+        curves_write_gnuplot_data_block(g.to, series, f.spread, f.percent, f.n);
         plot_spread(g.to, series, &l, &f);
         fputs("unset multiplot\n", g.to);
     }
@@ -259,7 +259,7 @@ static status paths_open(struct gnuplot *g, const char *path, const struct serie
         const double middle = 0.5 * (low[d] + high[d]), half = 0.5 * pixels[d] / scale;
         fprintf(g->to, "set %crange [%.9g:%.9g]\nset %clabel '%c [%s]'\nset %ctics %.9g\n", "xy"[d],
                 (middle - half) / metre->factor, (middle + half) / metre->factor, "xy"[d], "xy"[d], metre -> name,
-                "xy"[d], tic_distance(2 * half / metre->factor, pixels[d], d ? 30 : 50));
+                "xy"[d], axis_choose_tic_distance(2 * half / metre->factor, pixels[d], d ? 30 : 50));
     }
     fputs("set samples 2\n", g->to);
     return OK;

@@ -19,7 +19,7 @@ enum { REACTIONS_SHOWN = CURVE_COLOURS - 1, POINTS_SHOWN = 200, LABEL_ROOM = 256
 bool run_has_load_steps(const char *folder)
 {
     struct history h;
-    if (!run_has_file(folder, "history.csv") || history_read(&h, folder) != OK) return false;
+    if (!run_folder_has_file(folder, "history.csv") || history_read(&h, folder) != OK) return false;
     const bool in_steps = history_find_column(&h, "load_time") >= 0;
     history_free(&h);
     return in_steps;
@@ -387,14 +387,14 @@ static status say_missing_load(const char *path, const struct reactions *r, cons
                  "the %s that carries the load does not move, or only turns, so that its mean displacement is 0; add "
                  "a point probe where the body moves: probes: [{point: {at: [...]}}]",
                  r->of[0].rigid ? "rigid body" : "boundary");
-        return report_picture_not_drawn(path, text);
+        return picture_report_not_drawn_and_remove_old(path, text);
     }
     const bool rigid = probe_from(h, 0, "_force_x", name) >= 0, support = probe_from(h, 0, ".force_x", name) >= 0;
     if (rigid || support)
-        return report_picture_not_drawn(path, rigid ? support ? "boundaries and rigid bodies bear no load"
-                                                              : "the rigid bodies bear no load"
-                                                    : "the boundaries bear no load");
-    return report_picture_not_drawn(
+        return picture_report_not_drawn_and_remove_old(
+            path, rigid ? support ? "boundaries and rigid bodies bear no load" : "the rigid bodies bear no load"
+                        : "the boundaries bear no load");
+    return picture_report_not_drawn_and_remove_old(
         path, "no force to draw: give a boundary a displacement or velocity, or add a rigid body");
 }
 
@@ -429,7 +429,8 @@ static void reactions_write_axes(FILE *to, const struct curves_layout *l, const 
                  bottom = (f.low < 0 ? f.low - tall : 0) / newton.factor, top = (f.high + tall) / newton.factor;
     char label[LABEL_ROOM];
     curves_write_horizontal_tics(to, l, left, right);
-    curves_write_tics(to, "y", f.low / newton.factor, f.high / newton.factor, curves_layout_height_of_all_panels(l));
+    curves_write_vertical_tics(to, "y", f.low / newton.factor, f.high / newton.factor,
+                               curves_layout_height_of_all_panels(l));
     fprintf(to,
             "set zeroaxis lt 1 lw 0.8 lc rgb '#999999'\nset xrange [%.9g:%.9g]\nset yrange [%.9g:%.9g]\nset ylabel ",
             left, right, bottom, top > bottom ? top : 1);
@@ -443,16 +444,17 @@ static void reactions_write_axes(FILE *to, const struct curves_layout *l, const 
 
 static double largest_end(struct value_range range) { return fmax(fabs(range.low), fabs(range.high)); }
 
-status load_displacement_draw(struct sheet sheet, const char *title, const struct history *history, double spacing)
+status load_displacement_draw(struct output_picture picture, const char *title, const struct history *history,
+                              double spacing)
 {
     struct reactions r;
     struct gnuplot g;
     reactions_find(&r, history, ROUND_OFF * spacing);
-    if (!(r.n > 0 && r.displacement.high > r.displacement.low)) return say_missing_load(sheet.path, &r, history);
+    if (!(r.n > 0 && r.displacement.high > r.displacement.low)) return say_missing_load(picture.path, &r, history);
     reactions_join(&r, history);
-    const struct unit newton = unit_for_largest_value(largest_end(r.force), "N"),
+    const struct unit newton = unit_with_si_prefix_for_largest_value(largest_end(r.force), "N"),
                       metre = unit_for_length(largest_end(r.displacement));
-    TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 640));
+    TRY(gnuplot_open(&g, picture.path, picture.format, 1000, 640));
     reactions_send(g.to, history, &r, newton, metre);
     curves_write_title(&g, title, "load and displacement");
     const struct curves_layout l =

@@ -12,7 +12,7 @@ const struct unit unit_prefix[UNIT_PREFIXES] = {
     {1e-12, "p"}, {1e-15, "f"}, {1e-18, "a"}, {1e-21, "z"}, {1e-24, "y"},
 };
 
-struct unit unit_for_largest_value(double largest_value, const char *unit_name)
+struct unit unit_with_si_prefix_for_largest_value(double largest_value, const char *unit_name)
 {
     const double size = fabs(largest_value);
     const bool zero = !(size >= unit_prefix[UNIT_PREFIXES - 1].factor * 0.9995) || !isfinite(size);
@@ -27,8 +27,9 @@ struct unit unit_for_largest_value(double largest_value, const char *unit_name)
 struct unit unit_for_length(double largest_length)
 {
     if (largest_length >= 999.5 && isfinite(largest_length)) return (struct unit){1e3, "km"};
-    return largest_length > 5e-4 && largest_length < 0.9995 ? (struct unit){1e-3, "mm"}
-                                                            : unit_for_largest_value(largest_length, "m");
+    return largest_length > 5e-4 && largest_length < 0.9995
+               ? (struct unit){1e-3, "mm"}
+               : unit_with_si_prefix_for_largest_value(largest_length, "m");
 }
 
 struct unit unit_for_area(double largest_area)
@@ -40,7 +41,7 @@ struct unit unit_for_area(double largest_area)
     return largest_area < 1e5 ? (struct unit){1, "m²"} : (struct unit){1e6, "km²"};
 }
 
-struct unit unit_for_largest_value_if_prefixable(const char *unit_name, double largest_value)
+struct unit unit_with_si_prefix_if_unit_allows_it(const char *unit_name, double largest_value)
 {
     static const char *const prefixed[] = {"s", "m/s", "N", "J", "Pa", "W", "J/m²", "J/m³", "Pa√m"};
     struct unit u = {1, ""};
@@ -48,6 +49,6 @@ struct unit unit_for_largest_value_if_prefixable(const char *unit_name, double l
     if (strcmp(unit_name, "m") == 0) return unit_for_length(largest_value);
     if (strcmp(unit_name, "m^2") == 0) return unit_for_area(largest_value);
     for (size_t k = 0; k < COUNT_OF(prefixed); k++)
-        if (strcmp(unit_name, prefixed[k]) == 0) return unit_for_largest_value(largest_value, unit_name);
+        if (strcmp(unit_name, prefixed[k]) == 0) return unit_with_si_prefix_for_largest_value(largest_value, unit_name);
     return u;
 }

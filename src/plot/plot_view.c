@@ -181,8 +181,8 @@ void view_set_field_and_colour_range(struct view *v, const struct plot_field *fi
 static status range_end_read(real *value, const struct plot_request *r, int end, const struct plot_field *field)
 {
     char what[256], text[128];
-    number_text_with_unit_of(text, sizeof text, r->range[end], r->range[1 - end]);
-    if (value_read_in_unit(value, text, field->unit, what, sizeof what)) return OK;
+    number_text_append_unit_if_missing(text, sizeof text, r->range[end], r->range[1 - end]);
+    if (value_parse_with_unit_symbol(value, text, field->unit, what, sizeof what)) return OK;
     return status_set(REFUSED, "plot: --range %s:%s: %s: %s", printable_name(r->range[0]).text,
                       printable_name(r->range[1]).text, printable_name(r->range[end]).text, what);
 }
@@ -191,7 +191,7 @@ static status range_end_read(real *value, const struct plot_request *r, int end,
  * colour scale of view v, and stores the largest numbers in v->beyond. */
 static void count_beyond(struct view *v, const struct plotted_particles *cloud, int clouds)
 {
-    const bool damage = map_of_field(v->field) == MAP_DAMAGE;
+    const bool damage = colour_map_kind_for_field(v->field) == MAP_DAMAGE;
     const float low = (float)(damage ? v->bottom : v->low), high = (float)(damage ? v->top : v->high);
     const float slack = 1e-5F * (high - low); /* round-off of frames: a damage of 1 may be 1.000001 */
     v->beyond[0] = v->beyond[1] = 0;
@@ -234,7 +234,7 @@ static bool view_shows_any(const struct view *v, const struct plotted_particles 
     for (int c = 0; c < clouds && !any; c++) {
         struct view wider = *v;
         for (int a = 0; a < 2; a++) wider.from[a] -= 2 * cloud[c].spacing, wider.to[a] += 2 * cloud[c].spacing;
-        any = count_outside(&wider, &cloud[c]) < cloud[c].n || rigids_are_visible(v, &cloud[c]);
+        any = count_outside(&wider, &cloud[c]) < cloud[c].n || view_shows_any_rigid_body(v, &cloud[c]);
     }
     return any;
 }
@@ -292,9 +292,9 @@ bool matrix_invert_3x3(const double matrix[3][3], double inverse[3][3])
     return fabs(determinant) > 0;
 }
 
-struct colour map_colour_at_scale_position(const struct view *v, enum map map, double a)
+struct colour view_colour_at_scale_position(const struct view *v, enum map map, double a)
 {
-    if (map == MAP_KIND) return colour_of_peridynamic_particle(a);
+    if (map == MAP_KIND) return colour_on_peridynamic_particle_scale(a);
     const bool signs =
         map == MAP_FIELD && v->field && v->field->scale == BOTH_SIGNS && (!v->table || v->table == COLOURS_DIVERGING);
     if (signs && v->low <= 0 && v->high >= 0) /* the middle colour is that of 0 */
@@ -305,13 +305,13 @@ struct colour map_colour_at_scale_position(const struct view *v, enum map map, d
     return colour_on_damage_scale(a);
 }
 
-struct colour particle_colour(const struct view *v, const struct plotted_particles *c, int64_t i, enum map map)
+struct colour plotted_particle_colour(const struct view *v, const struct plotted_particles *c, int64_t i, enum map map)
 {
     if (c->colour) return c->colour[i];
     if (map == MAP_FRAGMENT && c->fragment) return fragment_colour(c->fragment[i]);
     if (map == MAP_CATEGORY && c->value) return category_colour(v->field, c->value[i]);
     if (map == MAP_KIND && c->kind[i] == KIND_MPM) return colour_of_material_points();
     if (map == MAP_FIELD && c->value)
-        return map_colour_at_scale_position(v, map, (c->value[i] - v->low) / (v->high - v->low));
-    return map_colour_at_scale_position(v, map, (c->damage[i] - v->bottom) / (v->top - v->bottom));
+        return view_colour_at_scale_position(v, map, (c->value[i] - v->low) / (v->high - v->low));
+    return view_colour_at_scale_position(v, map, (c->damage[i] - v->bottom) / (v->top - v->bottom));
 }

@@ -25,7 +25,7 @@ static int add_words(char *text, int length, const char *words)
 static int add_value(char *text, int length, double value, const char *unit)
 {
     char words[64];
-    const struct unit u = unit_for_largest_value(value, unit);
+    const struct unit u = unit_with_si_prefix_for_largest_value(value, unit);
     snprintf(words, sizeof words, " %.3g %s", value / u.factor, u.name);
     return add_words(text, length, words);
 }
@@ -91,7 +91,7 @@ static double vector_at(const struct run *e, const struct load *l, int64_t k, do
         load_force_on_particle(l, p, k, t, vector);
         for (int d = 0; d < p->dim; d++) vector[d] /= b->by_mass ? p->mass[i] : p->volume0[i];
     } else {
-        load_value_at_particle(l, p, k, t, vector);
+        load_prescribed_value_at_particle(l, p, k, t, vector);
     }
     if (b->kind != BOUNDARY_PRESSURE) return value_size(vector, p->dim);
     const double pressure = fabs(vector[0]);
@@ -122,7 +122,8 @@ static struct acting acting_at(const struct run *e, const struct load *l, const 
 }
 
 /* Sets the mark of particle `particle`, which has a face under pressure, to 1. context: uint8_t array with a mark for
- * each particle. Called by pressure_visit_faces for each face, whose axis, side and area do not matter here. */
+ * each particle. Called by pressure_boundary_visit_free_faces for each face, whose axis, side and area do not matter
+ * here. */
 static void face_on(void *context, int32_t particle, int axis, int side, real area)
 {
     (void)axis, (void)side;
@@ -136,10 +137,10 @@ static uint8_t *faces_of_pressure(const struct run *e, const struct load *l)
 {
     const struct particles *p = &e->part;
     uint8_t *selected = NEW("plot.selected", p->n, uint8_t), *on = NEW("plot.on", p->n, uint8_t);
-    load_mark_particles_in_region(l->boundary, p, e->scene->spacing, selected);
+    boundary_select_particles_in_region(l->boundary, p, e->scene->spacing, selected);
     const struct boundary *all = e->boundary ? e->boundary : e->scene->boundary;
-    pressure_visit_faces(all, e->scene->boundaries, (int)(l - e->loads.load), p, e->scene->spacing, selected, face_on,
-                         on);
+    pressure_boundary_visit_free_faces(all, e->scene->boundaries, (int)(l - e->loads.load), p, e->scene->spacing,
+                                       selected, face_on, on);
     memory_free(selected);
     return on;
 }
@@ -239,7 +240,7 @@ static int64_t chosen_count(const struct chosen *c, const struct particles *p, c
 
 /* Selects the particles of load l whose arrows are drawn in the picture m. Along each axis they are on every n-th layer
  * of the lattice, with the smallest n for which at most `most` particles are selected. Returns the selection. */
-static struct chosen choose_particles(const struct marks *m, const struct load *l, int64_t most)
+static struct chosen choose_particles(const struct scene_overlay *m, const struct load *l, int64_t most)
 {
     const struct particles *p = &m->engine->part;
     struct chosen c = {.spacing = m->engine->scene->spacing, .every = 1};
@@ -262,7 +263,8 @@ static struct chosen choose_particles(const struct marks *m, const struct load *
  * compression ends at it. on[i]: 1 if particle i is included, else 0; if `on` is NULL, all particles are included.
  * acting: time for which the arrows are drawn, and largest magnitude of the load at this time, which is drawn with full
  * length. */
-static void arrows_of_load(struct marks *m, const struct load *l, const uint8_t *on, const struct acting *acting)
+static void arrows_of_load(struct scene_overlay *m, const struct load *l, const uint8_t *on,
+                           const struct acting *acting)
 {
     const struct particles *p = &m->engine->part;
     const struct boundary *b = l->boundary;
@@ -277,24 +279,24 @@ static void arrows_of_load(struct marks *m, const struct load *l, const uint8_t 
         particle_reference_position(p, l->particle[k], X);
         for (int d = 0; d < p->dim; d++) vector[d] = m->arrow * acts[d] / acting->most;
         for (int d = 0; d < p->dim && inward; d++) X[d] -= vector[d];
-        marks_add_point(m, X, vector);
+        scene_overlay_add_point(m, X, vector);
     }
 }
 
-static void points_of_load(struct marks *m, const struct load *l)
+static void points_of_load(struct scene_overlay *m, const struct load *l)
 {
     const struct chosen chosen = choose_particles(m, l, 3 * ARROWS_MOST);
     for (int64_t k = 0; k < l->n; k++) {
         real X[DIM_MAX];
         if (!chosen_has(&chosen, &m->engine->part, l->particle[k])) continue;
         particle_reference_position(&m->engine->part, l->particle[k], X);
-        marks_add_point(m, X, NULL);
+        scene_overlay_add_point(m, X, NULL);
     }
 }
 
 /* Draws the plane of symmetry of boundary b in the picture m: a line across it in 2D, in 3D a rectangle a little larger
  * than the body. */
-static void mirror_plane_mark(struct marks *m, const struct boundary *b)
+static void mirror_plane_mark(struct scene_overlay *m, const struct boundary *b)
 {
     const struct particles *p = &m->engine->part;
     real low[DIM_MAX] = {0}, high[DIM_MAX] = {0}, X[DIM_MAX];
@@ -306,7 +308,7 @@ static void mirror_plane_mark(struct marks *m, const struct boundary *b)
         X[b->axis] = b->at;
         if (p->dim > 1) X[a] = up ? high[a] + m->arrow : low[a] - m->arrow;
         if (p->dim == 3) X[c] = far ? high[c] + m->arrow : low[c] - m->arrow;
-        marks_add_point(m, X, NULL);
+        scene_overlay_add_point(m, X, NULL);
     }
 }
 
@@ -321,7 +323,7 @@ static const char *colour_of_load(int number)
 
 /* Draws the boundary condition with the index `number` in the picture m in a colour of its own, as arrows, points or a
  * plane of symmetry, and adds its description to the key (legend). */
-static void boundary_mark(struct marks *m, int number)
+static void boundary_mark(struct scene_overlay *m, int number)
 {
     const struct scene *s = m->engine->scene;
     const struct load *l = &m->engine->loads.load[number];
@@ -332,7 +334,7 @@ static void boundary_mark(struct marks *m, int number)
     uint8_t *on = b->kind == BOUNDARY_PRESSURE ? faces_of_pressure(m->engine, l) : NULL;
     if (*unit_of_value(b) && !is_support(b, s->dim)) acting = acting_of(m->engine, l, on);
     describe_boundary(text, b, s->dim, &acting, m->plain);
-    marks_begin_data_block(m);
+    scene_overlay_begin_data_block(m);
     if (b->kind == BOUNDARY_MIRROR) {
         mirror_plane_mark(m, b);
         snprintf(how, sizeof how, "with lines lw 2 dt (12,4,3,4) lc rgb '%s'", colour);
@@ -345,13 +347,13 @@ static void boundary_mark(struct marks *m, int number)
         snprintf(how, sizeof how, "using 1:2:3:4 with vectors %s size screen 0.012,22 lw 1.8 lc rgb '%s'",
                  b->kind == BOUNDARY_VELOCITY ? "head empty" : "head filled", colour);
     }
-    marks_end_data_block(m, how, text);
+    scene_overlay_end_data_block(m, how, text);
     memory_free(on);
 }
 
 /* Draws all loads and supports in the picture m, first those with arrows and then supports drawn as points, since
  * arrows would hide points. */
-void marks_draw_symbols_of_loads(struct marks *m)
+void scene_overlay_draw_load_symbols(struct scene_overlay *m)
 {
     const struct run *e = m->engine;
     for (int pass = 0; pass < 2; pass++)
@@ -371,18 +373,18 @@ static double speed_at_start(const struct particles *p, int64_t i)
 
 /* Draws an arrow from the centre of each moving rigid body along its velocity: adds it to the current line of marks m.
  * Its length is m->arrow times its speed divided by `fastest` [m/s]. */
-static void rigid_arrows(struct marks *m, double fastest)
+static void rigid_arrows(struct scene_overlay *m, double fastest)
 {
     const struct scene *s = m->engine->scene;
     for (int k = 0; k < s->rigids; k++) {
         const real *v = s->body[s->bodies + k].velocity;
         double vector[DIM_MAX] = {0};
         for (int d = 0; d < s->dim; d++) vector[d] = m->arrow * v[d] / fastest;
-        if (value_size(v, s->dim) > 0) marks_add_point(m, m->engine->rigid->body[k].x, vector);
+        if (value_size(v, s->dim) > 0) scene_overlay_add_point(m, m->engine->rigid->body[k].x, vector);
     }
 }
 
-void marks_draw_arrows_of_velocities(struct marks *m)
+void scene_overlay_draw_velocity_arrows(struct scene_overlay *m)
 {
     const struct particles *p = &m->engine->part;
     const struct scene *s = m->engine->scene;
@@ -396,17 +398,17 @@ void marks_draw_arrows_of_velocities(struct marks *m)
         moving += v > 0;
     }
     if (fastest == 0) return;
-    marks_begin_data_block(m);
+    scene_overlay_begin_data_block(m);
     const int64_t stride = stride_for(moving, p->dim == 1 ? ARROWS_BAR : ARROWS_FIELD);
     for (int64_t i = 0, k = 0; i < p->n; i++) {
         double vector[DIM_MAX];
         real X[DIM_MAX];
         if (speed_at_start(p, i) == 0 || k++ % stride != 0) continue;
         for (int d = 0; d < p->dim; d++) X[d] = p->x[d][i], vector[d] = m->arrow * p->v[d][i] / fastest;
-        marks_add_point(m, X, vector);
+        scene_overlay_add_point(m, X, vector);
     }
     rigid_arrows(m, fastest);
     add_value(text, snprintf(text, sizeof text, "velocity, at most"), fastest, "m/s");
-    marks_end_data_block(m, "using 1:2:3:4 with vectors head filled size screen 0.009,20 lw 1.3 lc rgb '#222222'",
-                         text);
+    scene_overlay_end_data_block(
+        m, "using 1:2:3:4 with vectors head filled size screen 0.009,20 lw 1.3 lc rgb '#222222'", text);
 }

@@ -21,9 +21,9 @@ static double marks_across(const double *axis, const double *x, int dim)
     return sum;
 }
 
-void marks_begin_data_block(struct marks *m) { fprintf(m->to, "$m%d << EOD\n", m->blocks); }
+void scene_overlay_begin_data_block(struct scene_overlay *m) { fprintf(m->to, "$m%d << EOD\n", m->blocks); }
 
-void marks_add_point(struct marks *m, const real *position, const double *arrow)
+void scene_overlay_add_point(struct scene_overlay *m, const real *position, const double *arrow)
 {
     const int dim = m->engine->part.dim;
     fprintf(m->to, "%.9g %.9g", marks_across(m->camera.right, position, dim) / m->metre,
@@ -35,20 +35,20 @@ void marks_add_point(struct marks *m, const real *position, const double *arrow)
 }
 
 /* Interrupts the line in the current data block of m: positions that follow are not connected with those before. */
-static void mark_break(struct marks *m) { putc('\n', m->to); }
+static void mark_break(struct scene_overlay *m) { putc('\n', m->to); }
 
 /* Adds an entry `text` to the key (legend) of the picture of m. The entry belongs to the element (line, points or
  * arrows) that was added last to the plot command. */
-static void key_line_add(struct marks *m, const char *text)
+static void key_line_add(struct scene_overlay *m, const char *text)
 {
     fputs("title ", m->plot);
     gnuplot_write_quoted_string(m->plot, text);
     m->keys++;
     if ((int)strlen(text) > m->letters) m->letters = (int)strlen(text);
-    m->widest = fmax(m->widest, text_width(text, strlen(text)));
+    m->widest = fmax(m->widest, text_estimate_width_in_pixels_per_font_point(text, strlen(text)));
 }
 
-void marks_end_data_block(struct marks *m, const char *plot_style, const char *key_entry)
+void scene_overlay_end_data_block(struct scene_overlay *m, const char *plot_style, const char *key_entry)
 {
     fputs("NaN NaN NaN NaN\nEOD\n", m->to); /* a data block must not be empty */
     fprintf(m->plot, ", $m%d %s ", m->blocks++, plot_style);
@@ -59,7 +59,7 @@ void marks_end_data_block(struct marks *m, const char *plot_style, const char *k
     key_line_add(m, key_entry);
 }
 
-void marks_add_colour_to_key(struct marks *m, struct colour colour, const char *text)
+void scene_overlay_add_colour_to_key(struct scene_overlay *m, struct colour colour, const char *text)
 {
     fprintf(m->plot, ", NaN with points pt 5 ps 2 lc rgb '#%02x%02x%02x' ", colour.red, colour.green, colour.blue);
     key_line_add(m, text);
@@ -86,7 +86,7 @@ static void crack_cut(const struct particles *p, double spacing, real end[2][DIM
 }
 
 /* Sends the outline of the crack c to the current data block of m as a line, which is closed for a polygon in 3D. */
-static void crack_line(struct marks *m, const struct crack *c)
+static void crack_line(struct scene_overlay *m, const struct crack *c)
 {
     real end[2][DIM_MAX];
     const bool straight = m->engine->part.dim == 2 && c->n == 2;
@@ -94,20 +94,20 @@ static void crack_line(struct marks *m, const struct crack *c)
         memcpy(end, c->corner, sizeof end);
         crack_cut(&m->engine->part, m->engine->scene->spacing, end);
     }
-    for (int k = 0; k < c->n; k++) marks_add_point(m, straight ? end[k] : c->corner[k], NULL);
-    if (c->n > 2) marks_add_point(m, c->corner[0], NULL);
+    for (int k = 0; k < c->n; k++) scene_overlay_add_point(m, straight ? end[k] : c->corner[k], NULL);
+    if (c->n > 2) scene_overlay_add_point(m, c->corner[0], NULL);
     mark_break(m);
 }
 
-void marks_draw_lines_of_precracks(struct marks *m)
+void scene_overlay_draw_precracks(struct scene_overlay *m)
 {
     const struct scene *s = m->engine->scene;
     char text[96];
     if (s->cracks > 0) {
-        marks_begin_data_block(m);
+        scene_overlay_begin_data_block(m);
         for (int k = 0; k < s->cracks; k++) crack_line(m, &s->crack[k]);
         snprintf(text, sizeof text, "%d pre-crack%s", s->cracks, s->cracks > 1 ? "s" : "");
-        marks_end_data_block(
+        scene_overlay_end_data_block(
             m, s->dim == 1 ? "with points pt 2 ps 2 lw 3 lc rgb '#7a1020'" : "with lines lw 3.2 lc rgb '#7a1020'",
             text);
     }
@@ -115,10 +115,10 @@ void marks_draw_lines_of_precracks(struct marks *m)
         double arrow[DIM_MAX];
         for (int d = 0; d < s->dim; d++) arrow[d] = m->arrow * s->growth[k].direction[d];
         snprintf(text, sizeof text, "%.40s: a crack grows from here", s->growth[k].name);
-        marks_begin_data_block(m);
-        marks_add_point(m, s->growth[k].at, arrow);
-        marks_end_data_block(m, "using 1:2:3:4 with vectors head filled size screen 0.014,20 lw 2 lc rgb '#7a1020'",
-                             text);
+        scene_overlay_begin_data_block(m);
+        scene_overlay_add_point(m, s->growth[k].at, arrow);
+        scene_overlay_end_data_block(
+            m, "using 1:2:3:4 with vectors head filled size screen 0.014,20 lw 2 lc rgb '#7a1020'", text);
     }
 }
 
@@ -130,7 +130,7 @@ enum { PROBES_NAMED = 10, CIRCLE = 48 };
 
 /* Sends the edges of the box with the corners from[dim] and to[dim] [m] to the current data block of m as lines: four
  * in 2D, twelve in 3D. */
-static void box_lines(struct marks *m, const real *from, const real *to, int dim)
+static void box_lines(struct scene_overlay *m, const real *from, const real *to, int dim)
 {
     for (int a = 0; a < dim; a++)
         for (int k = 0; k < 1 << dim; k++) {
@@ -138,66 +138,66 @@ static void box_lines(struct marks *m, const real *from, const real *to, int dim
             if (k >> a & 1) continue;
             for (int d = 0; d < dim; d++) X[0][d] = X[1][d] = k >> d & 1 ? to[d] : from[d];
             X[1][a] = to[a];
-            marks_add_point(m, X[0], NULL);
-            marks_add_point(m, X[1], NULL);
+            scene_overlay_add_point(m, X[0], NULL);
+            scene_overlay_add_point(m, X[1], NULL);
             mark_break(m);
         }
 }
 
-static void circle_line(struct marks *m, const real *centre, double radius)
+static void circle_line(struct scene_overlay *m, const real *centre, double radius)
 {
     for (int k = 0; k <= CIRCLE; k++) {
         const double angle = 2 * M_PI * k / CIRCLE;
         const real X[DIM_MAX] = {centre[0] + radius * cos(angle), centre[1] + radius * sin(angle), 0};
-        marks_add_point(m, X, NULL);
+        scene_overlay_add_point(m, X, NULL);
     }
 }
 
 /* Adds a point at the initial position of every crack tip of the run to the current data block of m. */
-static void tip_marks(struct marks *m)
+static void tip_marks(struct scene_overlay *m)
 {
     const struct crack_tips *t = &m->engine->fracture->tips;
-    for (int k = 0; k < t->n; k++) marks_add_point(m, t->tip[k].origin, NULL);
+    for (int k = 0; k < t->n; k++) scene_overlay_add_point(m, t->tip[k].origin, NULL);
 }
 
 /* Draws the position, line or region of probe number k of the scene of m. text: entry of the probe in the key, "" for
  * none. Of a probe without a position only the symbol in the key (legend) is drawn. */
-static void probe_mark(struct marks *m, int k, const char *text)
+static void probe_mark(struct scene_overlay *m, int k, const char *text)
 {
     const struct scene *s = m->engine->scene;
     const struct probe_request *p = &s->probe[k];
-    const struct observed_run seen = observed_run_view_of(m->engine);
+    const struct observed_run seen = observed_run_make_read_only_view(m->engine);
     real from[DIM_MAX] = {0}, to[DIM_MAX] = {0}, radius;
     static const char point[] = "with points pt 1 ps 1.8 lw 2.4 lc rgb '#5b2a86'";
     static const char line[] = "with lines lw 1.6 dt (7,4) lc rgb '#5b2a86'";
-    marks_begin_data_block(m);
+    scene_overlay_begin_data_block(m);
     if (probes_locate_sif_contour(&m->engine->probing->probes, k, &seen, from, &radius)) {
         circle_line(m, from, radius);
-        marks_end_data_block(m, line, text);
+        scene_overlay_end_data_block(m, line, text);
     } else if (p->kind == PROBE_LINE) {
-        marks_add_point(m, p->from, NULL);
-        marks_add_point(m, p->to, NULL);
-        marks_end_data_block(m, line, text);
+        scene_overlay_add_point(m, p->from, NULL);
+        scene_overlay_add_point(m, p->to, NULL);
+        scene_overlay_end_data_block(m, line, text);
     } else if (p->has_at) {
-        marks_add_point(m, p->at, NULL);
-        marks_end_data_block(m, point, text);
+        scene_overlay_add_point(m, p->at, NULL);
+        scene_overlay_end_data_block(m, point, text);
     } else if (p->kind == PROBE_TIP && m->engine->fracture->tips.n > 0) {
         tip_marks(m);
-        marks_end_data_block(m, point, text);
+        scene_overlay_end_data_block(m, point, text);
     } else if (p->region.n > 0 && region_compute_bounding_box_if_finite(&p->region, s->dim, from, to)) {
         box_lines(m, from, to, s->dim);
-        marks_end_data_block(m, line, text);
+        scene_overlay_end_data_block(m, line, text);
     } else {
         char words[256] = "";
         if (*text && p->kind == PROBE_REACTION)
             snprintf(words, sizeof words, "%.80s: at %.60s", text, p->boundary);
         else if (*text)
             snprintf(words, sizeof words, "%.80s: everywhere", text);
-        marks_end_data_block(m, point, words);
+        scene_overlay_end_data_block(m, point, words);
     }
 }
 
-void marks_draw_symbols_of_probes(struct marks *m)
+void scene_overlay_draw_probe_symbols(struct scene_overlay *m)
 {
     const struct scene *s = m->engine->scene;
     char text[NAME_MAX_LENGTH + 16];
@@ -209,15 +209,15 @@ void marks_draw_symbols_of_probes(struct marks *m)
     }
     if (more == 0) return;
     snprintf(text, sizeof text, "and %d more probes", more);
-    marks_begin_data_block(m);
-    marks_end_data_block(m, "with points pt 1 ps 1.8 lw 2.4 lc rgb '#5b2a86'", text);
+    scene_overlay_begin_data_block(m);
+    scene_overlay_end_data_block(m, "with points pt 1 ps 1.8 lw 2.4 lc rgb '#5b2a86'", text);
 }
 
 /* ---- regions ----------------------------------------------------------------------------------------------------- */
 
 /* Draws the bounding boxes of the named regions of the scene in the picture m, and adds their names to the key
  * (legend). */
-void marks_draw_boxes_of_named_regions(struct marks *m)
+void scene_overlay_draw_region_boxes(struct scene_overlay *m)
 {
     const struct scene *s = m->engine->scene;
     for (int k = 0; k < s->regions; k++) {
@@ -225,13 +225,13 @@ void marks_draw_boxes_of_named_regions(struct marks *m)
         char text[NAME_MAX_LENGTH + 16], how[96];
         if (!region_compute_bounding_box_if_finite(&s->named[k].region, s->dim, from, to)) continue;
         snprintf(text, sizeof text, "region %.60s", s->named[k].name);
-        marks_begin_data_block(m);
+        scene_overlay_begin_data_block(m);
         box_lines(m, from, to, s->dim);
         /* The darker fragment colours; when they repeat, each repetition has another dash pattern. */
         const struct colour c = fragment_colour(1 + k);
         snprintf(how, sizeof how, "with lines lw 2.4 dt (%d,3) lc rgb '#%02x%02x%02x'", 3 + 4 * (k / 9), c.red, c.green,
                  c.blue);
-        marks_end_data_block(m, how, text);
+        scene_overlay_end_data_block(m, how, text);
     }
 }
 
@@ -252,7 +252,7 @@ static bool is_corner_cell(const struct mesh_levels *l, int64_t cell, int64_t *k
 
 /* Draws the outlines of all coarse mesh cells of the level `level` >= 1 in the picture of m. Their edge is 2^level
  * times that of the finest cells. Returns the number of these cells. */
-static int64_t level_cells_draw(struct marks *m, int level)
+static int64_t level_cells_draw(struct scene_overlay *m, int level)
 {
     const struct mesh_levels *l = &m->engine->frame->levels;
     const struct grid *g = &l->fine->grid;
@@ -269,16 +269,16 @@ static int64_t level_cells_draw(struct marks *m, int level)
     return n;
 }
 
-void marks_draw_outlines_of_coarse_cells(struct marks *m)
+void scene_overlay_draw_coarse_cell_outlines(struct scene_overlay *m)
 {
     static const char *const colour[LEVELS_MAX + 1] = {"", "#9a9a9a", "#7a7a7a", "#5a5a5a", "#3a3a3a"};
     const struct mesh_levels *l = &m->engine->frame->levels;
     for (int level = 1; level <= l->n && m->engine->part.dim == 2; level++) {
         char text[96], how[96];
-        marks_begin_data_block(m);
+        scene_overlay_begin_data_block(m);
         const int64_t n = level_cells_draw(m, level);
         snprintf(text, sizeof text, "level %d: %lld cells of %d spacings", level, (long long)n, 2 << level);
         snprintf(how, sizeof how, "with lines lw 0.7 lc rgb '%s'", colour[level]);
-        marks_end_data_block(m, how, n > 0 ? text : "");
+        scene_overlay_end_data_block(m, how, n > 0 ? text : "");
     }
 }

@@ -1,5 +1,5 @@
 /* `cleave plot --scene SCENE`: draws the scene in its initial state. Particles, loads, levels and everything else are
- * created by engine_set_up_run, as in a run, so that the picture shows what will be computed. */
+ * created by run_set_up_from_scene, as in a run, so that the picture shows what will be computed. */
 #include "plot/scene_picture.h"
 
 #include <math.h>
@@ -63,7 +63,7 @@ static void cloud_add(struct plotted_particles *c, const real *x, int dim, doubl
 static real particle_size(const struct scene *s, const struct particles *p, int64_t i)
 {
     if (!s->body[p->body[i]].file || s->dim < 2) return s->spacing;
-    const real whole = lattice_particle_volume(scene_section_or_thickness(s), s->spacing, s->dim);
+    const real whole = lattice_particle_volume(scene_cross_section_or_thickness(s), s->spacing, s->dim);
     return s->spacing * pow(p->volume0[i] / whole, 1.0 / s->dim);
 }
 
@@ -93,9 +93,9 @@ static void cloud_add_rigids(struct plotted_particles *c, const struct scene *s,
     for (int d = 0; d < s->dim; d++) particles_coordinate_range(part, part->n, d, &low[d], &high[d]);
     for (int b = 0; b < s->rigids; b++)
         for (int d = 0; d < DIM_MAX; d++) at[b].turn[d][d] = 1;
-    plotted_particles_add_rigid_bodies_at(c, s, at, low, high);
+    plotted_particles_add_placed_rigid_bodies(c, s, at, low, high);
     for (int b = 0; b < c->rigids && s->dim == 1; b++) {
-        const struct rigid_shown *r = &c->rigid[b];
+        const struct plotted_rigid_body *r = &c->rigid[b];
         const real middle[DIM_MAX] = {0.5 * (r->low[0] + r->high[0])};
         cloud_add(c, middle, 1, r->high[0] - r->low[0], rigid_body_colour(MAP_CATEGORY));
     }
@@ -108,7 +108,7 @@ static void cloud_add_rigids(struct plotted_particles *c, const struct scene *s,
 static void scene_cloud(struct plotted_particles *c, struct run *e, const struct camera *camera)
 {
     const struct scene *s = e->scene;
-    const bool hollow = coarse_cell_points_make_for_output(e->frame, &e->part, s->material, false);
+    const bool hollow = coarse_cell_points_interpolate_for_output(e->frame, &e->part, s->material, false);
     const int64_t room = e->part.n + (hollow ? e->frame->shown.part.n : 0) + s->rigids;
     *c = (struct plotted_particles){.axis = {0, 1},
                                     .normal = -1,
@@ -145,8 +145,8 @@ static void rigid_words(char *text, const struct scene_body *b, int dim)
     double speed = 0;
     int length = snprintf(text, TEXT_ROOM, "%.48s: rigid", b->name);
     for (int d = 0; d < dim; d++) speed += square(b->velocity[d]);
-    const struct unit mass = unit_for_largest_value(1e3 * b->mass, "g"),
-                      fast = unit_for_largest_value(sqrt(speed), "m/s");
+    const struct unit mass = unit_with_si_prefix_for_largest_value(1e3 * b->mass, "g"),
+                      fast = unit_with_si_prefix_for_largest_value(sqrt(speed), "m/s");
     if (b->mass > 0)
         length +=
             snprintf(text + length, (size_t)(TEXT_ROOM - length), ", %.3g %s", 1e3 * b->mass / mass.factor, mass.name);
@@ -154,7 +154,7 @@ static void rigid_words(char *text, const struct scene_body *b, int dim)
         snprintf(text + length, (size_t)(TEXT_ROOM - length), ", %.3g %s", sqrt(speed) / fast.factor, fast.name);
 }
 
-static void key_of_parts(struct marks *m)
+static void key_of_parts(struct scene_overlay *m)
 {
     const struct run *e = m->engine;
     const struct scene *s = e->scene;
@@ -162,7 +162,7 @@ static void key_of_parts(struct marks *m)
     char text[TEXT_ROOM];
     for (int k = 0; k < parts; k++) {
         const int64_t n = count_part(&e->part, e->scene, k);
-        const char *name = s->materials > 1 ? scene_material_of_number(s, k)->name
+        const char *name = s->materials > 1 ? scene_find_material_by_number(s, k)->name
                            : s->bodies > 1  ? s->body[k].name
                                             : s->material->name;
         if (n == 0) continue;
@@ -171,18 +171,18 @@ static void key_of_parts(struct marks *m)
         else
             snprintf(text, sizeof text, "%.48s: %lld particles%s", name, (long long)n,
                      e->part.n < e->part.n_body ? " are made" : "");
-        marks_add_colour_to_key(m, colour_of_material_or_body(k), text);
+        scene_overlay_add_colour_to_key(m, colour_of_material_or_body(k), text);
     }
     if (e->part.n_of[KIND_PD] > 0 && e->part.n_of[KIND_MPM] > 0) {
         if (m->plain)
             snprintf(text, sizeof text, "darker: peridynamic");
         else
             snprintf(text, sizeof text, "darker: %lld peridynamic", (long long)e->part.n_of[KIND_PD]);
-        marks_add_colour_to_key(m, colour_mixed_with_black(colour_of_material_or_body(0), PERIDYNAMIC), text);
+        scene_overlay_add_colour_to_key(m, colour_mixed_with_black(colour_of_material_or_body(0), PERIDYNAMIC), text);
     }
     for (int b = s->bodies; b < s->bodies + s->rigids; b++) {
         rigid_words(text, &s->body[b], s->dim);
-        marks_add_colour_to_key(m, rigid_body_colour(MAP_CATEGORY), text);
+        scene_overlay_add_colour_to_key(m, rigid_body_colour(MAP_CATEGORY), text);
     }
 }
 
@@ -206,25 +206,27 @@ static double arrow_length(const struct plotted_particles *c)
 /* Returns how many entries of the key (legend) of m fit into one row below a panel of the width `wide` [pixel], at
  * least 1, from the length of the longest entry. (In several columns, gnuplot makes the key no wider than the panel.)
  */
-static int key_columns(const struct marks *m, double wide)
+static int key_columns(const struct scene_overlay *m, double wide)
 {
     return (int)fmax(floor(wide / (SAMPLE_NARROW + KEY_LETTERS * m->widest)), 1);
 }
 
 /* Returns the layout of a picture that shows the view v in one panel, and the key (legend) of m. untitled: the picture
  * has no title; outside: the view is of a body in 3D from outside, so that no axis needs space on the left. If panel
- * and key do not fit into the size that the user chose (picture_size_set), the layout is of a larger picture with the
- * same ratio of width and height. */
-static struct layout scene_layout(const struct view *v, const struct marks *m, bool untitled, bool outside)
+ * and key do not fit into the size that the user chose (picture_size_set_process_wide), the layout is of a larger
+ * picture with the same ratio of width and height. */
+static struct maps_layout scene_layout(const struct view *v, const struct scene_overlay *m, bool untitled, bool outside)
 {
-    const bool narrow = picture_is_too_narrow_for_key();
-    const struct picture_size given = picture_size_get();
-    struct layout l = {.columns = 1, .rows = 1, .left = PICTURE_LEFT, .above = PICTURE_ABOVE, .right = PICTURE_KEY};
+    const bool narrow = picture_size_is_too_narrow_for_side_legend();
+    const struct picture_size given = picture_size_get_process_wide();
+    struct maps_layout l = {
+        .columns = 1, .rows = 1, .left = PICTURE_LEFT, .above = PICTURE_ABOVE, .right = PICTURE_KEY};
     l.below = PICTURE_BELOW;
     const double aspect = (v->to[1] - v->from[1]) / (v->to[0] - v->from[0]);
     if (narrow) l.left = outside ? RIGHT_NARROW : LEFT_NARROW, l.above = ABOVE_NARROW, l.right = RIGHT_NARROW;
     if (!outside)
-        l.left = (int)fmax(l.left, panel_margin_of_numbers(v, aspect * (narrow ? given.width - l.left : PANEL_WIDEST)));
+        l.left = (int)fmax(
+            l.left, panel_vertical_axis_labels_width(v, aspect * (narrow ? given.width - l.left : PANEL_WIDEST)));
     l.key_columns = narrow ? key_columns(m, given.width - l.left - l.right) : 1;
     const int lines = (m->keys + l.key_columns - 1) / l.key_columns;
     if (narrow) l.below = BELOW_NARROW + KEY_LINE_NARROW * lines;
@@ -248,9 +250,9 @@ static struct layout scene_layout(const struct view *v, const struct marks *m, b
 
 /* Writes to gnuplot the command that places the key (legend) of a scene: beside the panel, or below it in a narrow
  * picture. Letters are made smaller if the longest line of the key in m requires it. l: layout of the picture. */
-static void set_scene_key(FILE *to, const struct layout *l, const struct marks *m)
+static void set_scene_key(FILE *to, const struct maps_layout *l, const struct scene_overlay *m)
 {
-    const bool narrow = picture_is_too_narrow_for_key();
+    const bool narrow = picture_size_is_too_narrow_for_side_legend();
     const double x = narrow ? KEY_BESIDE : l->left + l->panel_width + 14,
                  room = (l->width - x) / l->key_columns - SAMPLE;
     const double size = l->key_columns > 1 ? KEY_LETTERS : fmin(KEY_LETTERS, room / m->widest);
@@ -271,10 +273,11 @@ static void draw_scene_title(struct gnuplot *g, const struct scene *s, const str
     char text[TEXT_ROOM];
     snprintf(text, sizeof text, "%.60s before it runs: %lld particles, spacing %.4g %s", s->name,
              (long long)part->n_body, s->spacing / metre.factor, metre.name);
-    gnuplot_write_title(g, title ? title : text, picture_is_too_narrow_for_key() ? LEFT_NARROW : PICTURE_LEFT);
+    gnuplot_write_title(g, title ? title : text,
+                        picture_size_is_too_narrow_for_side_legend() ? LEFT_NARROW : PICTURE_LEFT);
 }
 
-static void set_panel(FILE *to, const struct layout *l, const struct view *v, const struct plotted_particles *c,
+static void set_panel(FILE *to, const struct maps_layout *l, const struct view *v, const struct plotted_particles *c,
                       const struct unit *metre)
 {
     panel_write_margins(to, l, l->left, l->above);
@@ -290,43 +293,43 @@ static void set_panel(FILE *to, const struct layout *l, const struct view *v, co
 
 /* Writes to gnuplot one plot command that draws the image of the particles c in the view v, and the marks over it. l:
  * layout; metre: unit of the axes; marks: elements of the plot command for the marks; format: format of the picture. */
-static void plot_scene(FILE *to, const struct layout *l, const struct view *v, const struct plotted_particles *c,
+static void plot_scene(FILE *to, const struct maps_layout *l, const struct view *v, const struct plotted_particles *c,
                        const struct unit *metre, const char *marks, enum picture_format format)
 {
     double step[2], from[2];
-    const int size[2] = {gnuplot_image_pixels_along_edge(format, l->panel_width),
-                         gnuplot_image_pixels_along_edge(format, l->panel_height)};
+    const int size[2] = {gnuplot_image_pixel_count_along_edge(format, l->panel_width),
+                         gnuplot_image_pixel_count_along_edge(format, l->panel_height)};
     struct colour *pixel = NEW("plot.pixel", (int64_t)size[0] * size[1], struct colour);
     for (int a = 0; a < 2; a++)
         from[a] = v->from[a] / metre->factor, step[a] = (v->to[a] - v->from[a]) / metre->factor / size[a];
-    cubes_paint_particles(pixel, size[0], size[1], v, c, MAP_DAMAGE);
-    if (!c->position[2] && c->dim > 1) rigids_paint_in_plane(pixel, size[0], size[1], v, c);
+    image_paint_particles_as_cubes(pixel, size[0], size[1], v, c, MAP_DAMAGE);
+    if (!c->position[2] && c->dim > 1) image_paint_rigid_bodies_in_plane(pixel, size[0], size[1], v, c);
     panel_write_image(to, pixel, size[0], size[1], from, step, marks);
     memory_free(pixel);
 }
 
 /* Collects all marks of a scene (loads, supports, velocities, pre-cracks, probes, cells, regions) and their entries in
  * the key (legend) in *m. */
-static void draw_marks(struct marks *m)
+static void draw_marks(struct scene_overlay *m)
 {
     key_of_parts(m);
-    marks_draw_outlines_of_coarse_cells(m);
-    marks_draw_boxes_of_named_regions(m);
-    marks_draw_lines_of_precracks(m);
-    marks_draw_symbols_of_loads(m);
-    marks_draw_arrows_of_velocities(m);
-    marks_draw_symbols_of_probes(m);
+    scene_overlay_draw_coarse_cell_outlines(m);
+    scene_overlay_draw_region_boxes(m);
+    scene_overlay_draw_precracks(m);
+    scene_overlay_draw_load_symbols(m);
+    scene_overlay_draw_velocity_arrows(m);
+    scene_overlay_draw_probe_symbols(m);
 }
 
 /* Draws the particles c and the marks m of a scene in the view v to the picture `sheet` (file and size). metre: unit of
  * the axes; data: gnuplot commands with the data of the marks; elements: arguments of the plot command for the marks.
  * Returns FAILED, with a message, if gnuplot fails. */
-static status draw_collected(struct sheet sheet, const struct marks *m, const struct view *v,
+static status draw_collected(struct output_picture sheet, const struct scene_overlay *m, const struct view *v,
                              const struct plotted_particles *c, const struct unit *metre, const char *data,
                              const char *elements)
 {
     struct gnuplot g;
-    const struct layout l = scene_layout(v, m, m->title && !m->title[0], c->position[2]);
+    const struct maps_layout l = scene_layout(v, m, m->title && !m->title[0], c->position[2]);
     TRY(gnuplot_open_scaled(&g, sheet.path, sheet.format, l.width, l.height));
     fputs("unset grid\n", g.to);
     draw_scene_title(&g, m->engine->scene, &m->engine->part, m->title);
@@ -340,21 +343,21 @@ static status draw_collected(struct sheet sheet, const struct marks *m, const st
 /* Draws the run e, whose particles are in c, the particles of the picture, to the picture `sheet` (file and size).
  * title: title of the picture, or NULL for the name of the scene with the number of particles. Returns FAILED, with a
  * message, if gnuplot fails. */
-static status draw_scene(struct sheet sheet, struct run *e, struct plotted_particles *c, const char *title)
+static status draw_scene(struct output_picture sheet, struct run *e, struct plotted_particles *c, const char *title)
 {
     char *elements = NULL, *data = NULL;
     size_t length = 0, bytes = 0;
     const double arrow = arrow_length(c);
     const struct view v = scene_view(c, arrow);
     const struct unit metre = panel_axis_unit(&v);
-    struct marks m = {.to = memory_stream_open(&data, &bytes),
-                      .plot = memory_stream_open(&elements, &length),
-                      .engine = e,
-                      .camera = c->camera,
-                      .metre = metre.factor,
-                      .arrow = arrow,
-                      .title = title,
-                      .plain = picture_is_too_narrow_for_key()};
+    struct scene_overlay m = {.to = memory_stream_open(&data, &bytes),
+                              .plot = memory_stream_open(&elements, &length),
+                              .engine = e,
+                              .camera = c->camera,
+                              .metre = metre.factor,
+                              .arrow = arrow,
+                              .title = title,
+                              .plain = picture_size_is_too_narrow_for_side_legend()};
     if (m.to && m.plot) draw_marks(&m);
     bool whole = m.to && fclose(m.to) == 0;
     whole = m.plot && fclose(m.plot) == 0 && whole;
@@ -373,7 +376,7 @@ static status scene_sheet(struct path *path, const struct scene *s, const struct
 {
     char name[sizeof s->name + 16];
     snprintf(name, sizeof name, "%s_scene.%s", s->name, picture_ending[r->format]);
-    return picture_choose_path(path, r->out ? r->out : "results/", name, r->overwrite);
+    return picture_choose_path_by_output_option(path, r->out ? r->out : "results/", name, r->overwrite);
 }
 
 /* Creates the run e of scene s, draws it as the request r says and prints what was drawn. Returns REFUSED for an
@@ -387,11 +390,11 @@ static status draw_made(struct run *e, const struct scene *s, const struct plot_
         return status_set(
             REFUSED, "plot: --view needs a scene with space: solid, but this one has %d dimension%s; remove --view",
             s->dim, s->dim > 1 ? "s" : "");
-    TRY(engine_set_up_run(e, s, NULL));
+    TRY(run_set_up_from_scene(e, s, NULL));
     TRY(scene_sheet(&path, s, r));
     scene_cloud(&c, e, &r->projection.camera);
     const int64_t drawn = e->part.n;
-    const status drew = draw_scene((struct sheet){path.text, r->format}, e, &c, r->title);
+    const status drew = draw_scene((struct output_picture){path.text, r->format}, e, &c, r->title);
     plotted_particles_free(&c);
     TRY(drew);
     if (r->quiet) return OK;
@@ -409,9 +412,10 @@ status scene_draw_picture(const char *path, const struct scene_override *overrid
 {
     struct scene s = {0};
     struct run e = {0};
-    struct pilot_wish wish;
-    if (picture_is_film(r->format)) return status_set(REFUSED, "plot: --scene draws one picture: use png, svg or pdf");
-    TRY(scene_read_or_list_pilot_requirements(&s, &wish, path, override, overrides));
+    struct pilot_requirements wish;
+    if (picture_format_is_video(r->format))
+        return status_set(REFUSED, "plot: --scene draws one picture: use png, svg or pdf");
+    TRY(scene_read_unless_pilot_runs_are_needed(&s, &wish, path, override, overrides));
     if (wish.wanted) {
         s = wish.provisional;
         printf("%s: with method: auto the scene has no spacing yet, so it is drawn at %.4g m; `cleave run` chooses "
@@ -419,7 +423,7 @@ status scene_draw_picture(const char *path, const struct scene_override *overrid
                printable_name(path).text, s.spacing);
     }
     const status result = draw_made(&e, &s, r);
-    engine_free_run(&e);
+    run_free_memory(&e);
     scene_free(&s);
     return result;
 }

@@ -10,7 +10,7 @@
 #include "kernels/mpm/stress.h"
 #include "base/team.h"
 
-void diagnostics_make(struct diagnostics *w)
+void diagnostics_initialise(struct diagnostics *w)
 {
     *w = (struct diagnostics){
         .break_time = NAN, .break_position = {NAN, NAN, NAN}, .driven_time = NAN, .now.spin_error = NAN};
@@ -35,7 +35,7 @@ void diagnostics_update_momentum(struct diagnostics *w, const struct particles *
         w->now.momentum_error = real_max(w->now.momentum_error, sqrt(missing2) / w->momentum_scale);
 }
 
-real diagnostics_relative_energy_change(const struct diagnostics *w)
+real diagnostics_relative_energy_balance_error(const struct diagnostics *w)
 {
     if (!(w->energy_start > 0)) return NAN;
     return (energy_sum(&w->now.energy) - w->now.energy.damped - w->now.external_work) / w->energy_start - 1;
@@ -71,8 +71,8 @@ void diagnostics_update_energy_balance(struct diagnostics *w, real t, const stru
  * distances up to `horizon` [m]. searched_particles[particle_count]: particles to examine; NULL: particles 0 ..
  * particle_count - 1. Stores the middle of one group in cluster_centre[dim] [m]. Returns the number of groups, 0 if no
  * bond breaks. p: all particles. */
-int64_t diagnostics_count_clusters_of_new_breaks(const struct particles *p, const int32_t *searched_particles,
-                                                 int64_t particle_count, real horizon, real *cluster_centre)
+int64_t diagnostics_count_clusters_of_new_bond_breaks(const struct particles *p, const int32_t *searched_particles,
+                                                      int64_t particle_count, real horizon, real *cluster_centre)
 {
     const real along[DIM_MAX] = {0};
     int64_t cut = 0;
@@ -85,8 +85,8 @@ int64_t diagnostics_count_clusters_of_new_breaks(const struct particles *p, cons
         const int64_t i = searched_particles ? searched_particles[k] : k;
         if (p->flag[i] & FLAG_CRACKED) particle_reference_position(p, i, place[cut++].X);
     }
-    const int64_t ends =
-        positions_count_clusters_and_find_centre(place, cut, p->dim, horizon * (1 + 1e-6), along, cluster_centre);
+    const int64_t ends = position_clusters_count_and_find_foremost_centre(place, cut, p->dim, horizon * (1 + 1e-6),
+                                                                          along, cluster_centre);
     memory_free(place);
     return ends;
 }
@@ -107,7 +107,7 @@ bool diagnostics_record_broken_bonds(struct diagnostics *w, const struct particl
     w->bonds_broken += broken_bond_count;
     if (broken_bond_count == 0) return false;
     if (isnan(w->break_time)) {
-        w->break_ends = diagnostics_count_clusters_of_new_breaks(p, NULL, p->n, horizon, w->break_position);
+        w->break_ends = diagnostics_count_clusters_of_new_bond_breaks(p, NULL, p->n, horizon, w->break_position);
         if (w->break_ends > 0) w->break_time = t;
     }
     const bool tears = isnan(w->driven_time) && driven_breaks(p);
@@ -150,8 +150,8 @@ static int64_t first_diverged(const struct particles *p, const int32_t *list, in
     return list[k];
 }
 
-status diagnostics_check_divergence(const struct particles *p, bool check_peridynamic, bool check_mesh_points,
-                                    real max_speed, int64_t step, real t)
+status diagnostics_check_particles_for_divergence(const struct particles *p, bool check_peridynamic,
+                                                  bool check_mesh_points, real max_speed, int64_t step, real t)
 {
     INVARIANT(max_speed > 0);
     int64_t first = check_peridynamic ? first_diverged(p, p->list[KIND_PD], p->n_of[KIND_PD], max_speed) : p->n_all;
@@ -189,7 +189,7 @@ bool diagnostics_energy_is_round_off(const struct diagnostics *w, real mass, rea
     return w->energy_scale < ENERGY_OF_ROUND_OFF * 0.5 * mass * square(wave_speed);
 }
 
-real diagnostics_energy_released_beyond_stored(const struct diagnostics *w)
+real diagnostics_excess_energy_released_by_bonds(const struct diagnostics *w)
 {
     return real_max(0, -w->now.energy.fracture);
 }

@@ -10,11 +10,11 @@
  * to the JSON object j. */
 static void put_energy_balance(struct json *j, const struct energy_balance *l)
 {
-    json_open(j, "energy", '{');
+    json_begin_object_or_list(j, "energy", '{');
     for (int k = 0; k < ENERGIES; k++) json_write_real(j, ledger[k].name, l->energy.of[k]);
     json_write_real(j, ledger[LEDGER_WORK].name, l->external_work);
     json_write_real(j, "balance_error", l->balance_error);
-    json_close(j, '}');
+    json_end_object_or_list(j, '}');
     json_write_real(j, "momentum_error", l->momentum_error);
     json_write_real(j, "angular_momentum_error", l->spin_error);
 }
@@ -37,7 +37,7 @@ static void put_when(struct json *j, const struct scene *scene, const struct run
 static void put_tip(struct json *j, const struct scene *s, const struct run_clock *clock, const struct crack_tip *tip)
 {
     const int dim = s->dim;
-    json_open(j, NULL, '{');
+    json_begin_object_or_list(j, NULL, '{');
     json_write_integer(j, "body", tip->body);
     json_write_point(j, "origin_", tip->origin, dim);
     json_write_point(j, "", tip->place, dim);
@@ -47,7 +47,7 @@ static void put_tip(struct json *j, const struct scene *s, const struct run_cloc
     put_when(j, s, clock, "arrest", tip->arrest_time);
     if (!scene_has_load_steps(s)) json_write_real(j, "speed_max", tip->speed_max);
     if (!scene_has_load_steps(s)) json_write_real(j, "speed_mean", tip->speed_mean);
-    json_close(j, '}');
+    json_end_object_or_list(j, '}');
 }
 
 /* Returns the number of broken bonds in b of particles of p with prescribed motion; a bond between two of them counts
@@ -66,7 +66,7 @@ static void put_crack(struct json *j, const struct run *e)
 {
     const struct crack_tip *longest = tips_find_tip_with_largest_growth(&e->fracture->tips);
     int dim = e->part.dim;
-    json_open(j, "crack", '{');
+    json_begin_object_or_list(j, "crack", '{');
     put_when(j, e->scene, &e->clock, "start", e->diagnostics->break_time);
     put_when(j, e->scene, &e->clock, "driven_start", e->diagnostics->driven_time);
     if (!isnan(e->diagnostics->driven_time)) json_write_integer(j, "driven_bonds", driven_bonds(&e->bonds, &e->part));
@@ -75,16 +75,16 @@ static void put_crack(struct json *j, const struct run *e)
         put_when(j, e->scene, &e->clock, "arrest", longest->arrest_time);
         json_write_real(j, "length_end", longest->growth);
         json_write_real(j, "angle_deg", dim > 1 ? tip_deflection_angle(longest, dim) : NAN);
-        json_write_integer(j, "tied", tips_count_ends_with_largest_growth(&e->fracture->tips));
+        json_write_integer(j, "tied", tips_count_crack_ends_with_largest_growth(&e->fracture->tips));
     }
     if (longest && !scene_has_load_steps(e->scene)) {
         json_write_real(j, "tip_speed_max", longest->speed_max);
         json_write_real(j, "tip_speed_mean", longest->speed_mean);
     }
-    json_open(j, "tips", '[');
+    json_begin_object_or_list(j, "tips", '[');
     for (int k = 0; k < e->fracture->tips.n; k++) put_tip(j, e->scene, &e->clock, &e->fracture->tips.tip[k]);
-    json_close(j, ']');
-    json_close(j, '}');
+    json_end_object_or_list(j, ']');
+    json_end_object_or_list(j, '}');
 }
 
 static void put_balance_and_crack(const struct run *e, struct json *j)

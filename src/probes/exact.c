@@ -121,7 +121,7 @@ static struct exact_values manufactured(const struct exact *e, real X, real t)
                                  .strain = strain};
 }
 
-struct exact_values exact_solution_at(const struct exact *e, real X, real t)
+struct exact_values bar_exact_solution_at_position(const struct exact *e, real X, real t)
 {
     switch (e->form) {
     case EXACT_STEP_BAR:
@@ -153,7 +153,7 @@ static struct exact_front step_front(const struct exact *e, real t)
                                 .behind = before + jump};
 }
 
-int exact_compute_stress_fronts(const struct exact *e, real t, struct exact_front front[EXACT_FRONTS])
+int bar_exact_solution_compute_stress_fronts(const struct exact *e, real t, struct exact_front front[EXACT_FRONTS])
 {
     if (e->form == EXACT_STEP_BAR) {
         front[0] = step_front(e, t);
@@ -167,15 +167,15 @@ int exact_compute_stress_fronts(const struct exact *e, real t, struct exact_fron
     return 2;
 }
 
-bool exact_find_constant_stress_range(const struct exact *e, real t, enum exact_window part, real *lower_end,
-                                      real *upper_end)
+bool bar_exact_solution_find_constant_stress_range(const struct exact *e, real t, enum exact_window window,
+                                                   real *lower_end, real *upper_end)
 {
     struct exact_front front[EXACT_FRONTS];
-    int fronts = exact_compute_stress_fronts(e, t, front);
+    int fronts = bar_exact_solution_compute_stress_fronts(e, t, front);
     real L = length(e), near, far; /* distances from the loaded end */
-    if (fronts == 0 || (part == EXACT_PRECURSOR && fronts < 2)) return false;
+    if (fronts == 0 || (window == EXACT_PRECURSOR && fronts < 2)) return false;
     bool outward = front[0].ahead == -e->loaded;
-    if (part == EXACT_PRECURSOR)
+    if (window == EXACT_PRECURSOR)
         near = depth(e, front[1].position) + 0.05 * L, far = depth(e, front[0].position) - 0.07 * L;
     else if (fronts == 2)
         near = 0.1 * L, far = depth(e, front[1].position) - 0.08 * L;

@@ -14,7 +14,8 @@
  * be called after the first break. Bonds of particles with prescribed motion do not count. */
 static void step_break(struct probe *q, const struct observed_run *o)
 {
-    q->memory.ends = diagnostics_count_clusters_of_new_breaks(o->part, q->list, q->n, o->horizon, q->memory.position);
+    q->memory.ends =
+        diagnostics_count_clusters_of_new_bond_breaks(o->part, q->list, q->n, o->horizon, q->memory.position);
     if (q->memory.ends == 0) return; /* bonds of driven particles do not count */
     q->memory.first_time = o->t;
     q->memory.first_step = o->load_step;
@@ -43,7 +44,7 @@ static bool any_cut(const struct particles *p)
     return any & FLAG_LOST_BOND;
 }
 
-void probes_update_broken_bonds(struct probes *s, const struct observed_run *o)
+void probes_update_break_and_spall_probes(struct probes *s, const struct observed_run *o)
 {
     bool waits_for_break = false;
     for (int k = 0; k < s->n; k++) {
@@ -60,11 +61,11 @@ void probes_update_broken_bonds(struct probes *s, const struct observed_run *o)
     }
 }
 
-void probes_update_every_step(struct probes *s, const struct observed_run *o)
+void probes_update_break_spall_and_reaction_probes(struct probes *s, const struct observed_run *o)
 {
     for (int k = 0; k < s->n; k++)
         if (s->probe[k].request.kind == PROBE_REACTION && !s->probe[k].of_history) step_reaction(&s->probe[k], o);
-    probes_update_broken_bonds(s, o);
+    probes_update_break_and_spall_probes(s, o);
 }
 
 /* ---- every sample ------------------------------------------------------------------------------------------------ */
@@ -85,12 +86,12 @@ void probes_sample_energies(struct probes *s, const struct observed_run *o)
         const struct probe *q = &s->probe[k];
         real *value = s->value + q->first;
         if (q->request.kind != PROBE_ENERGY) continue;
-        const struct energies e = probe_energies(q, o);
+        const struct energies e = probe_compute_energies_of_particles(q, o);
         value[0] = e.kinetic, value[1] = e.strain, value[2] = e.fracture;
     }
 }
 
-void probes_begin_sample_before_step(struct probes *s, const struct observed_run *o)
+void probes_sample_position_dependent_values(struct probes *s, const struct observed_run *o)
 {
     const int dim = o->part->dim;
     real no_displacement[DIM_MAX];
@@ -148,7 +149,7 @@ void probes_store_motion_before_step(struct probes *s, const struct observed_run
 static void sample_sif(struct probe *q, const struct observed_run *o, real t_velocity, real *value)
 {
     sif_probe_compute_intensity_factors(q, o, t_velocity);
-    for (int f = 0; f < SIF_FIGURES; f++) value[f] = sif_probe_result(q, f);
+    for (int f = 0; f < SIF_FIGURES; f++) value[f] = sif_probe_last_sample_value_or_nan(q, f);
 }
 
 /* Stores in value[dim] the reaction force [N] of the boundary of probe q of kind REACTION (force on a support), as
@@ -166,7 +167,8 @@ static void sample_velocity(const struct probe *q, const struct particles *p, re
     for (int d = 0; d < p->dim; d++) value[p->dim + d] = probe_particle_velocity_component(q, p, d, 0);
 }
 
-void probes_complete_sample_after_step(struct probes *s, const struct observed_run *o, const struct velocity_time *now)
+void probes_sample_velocity_dependent_values(struct probes *s, const struct observed_run *o,
+                                             const struct velocity_time *now)
 {
     for (int k = 0; k < s->n; k++) {
         struct probe *q = &s->probe[k];

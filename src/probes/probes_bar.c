@@ -30,10 +30,10 @@ static void add_bonds(const struct bar *b, const struct observed_run *o, real *b
     const struct bonds *bonds = o->bonds;
     for (int64_t row = 0; row < bonds->rows; row++) {
         int32_t i = bonds->particle[row];
-        for (struct bond_iterator it = bond_iterator_of_row(bonds, row); bond_next(&it);) {
+        for (struct bond_iterator it = bond_iterator_of_row(bonds, row); bond_iterator_advance(&it);) {
             const int32_t j = it.bond.nbr;
             if (it.bond.w == 0 || j < i) continue;
-            real force = bond_force_of(bonds, o->part, &it.bond, i);
+            real force = bond_based_signed_force(bonds, o->part, &it.bond, i);
             int64_t from = b->rank[i], to = probes_bar_rank(b, o->part, j);
             if (to < from) to = b->rank[i], from = probes_bar_rank(b, o->part, j);
             between[from + 1] += force;
@@ -98,8 +98,8 @@ void bar_probe_compute_profile_line(const struct bar *bar, const struct observed
                                     real *value)
 {
     int32_t i = bar->order[rank_from_left];
-    struct exact_values e = exact_solution_at(&bar->exact, o->part->X[0][i], o->t);
-    real velocity = exact_solution_at(&bar->exact, o->part->X[0][i], o->t_velocity).velocity;
+    struct exact_values e = bar_exact_solution_at_position(&bar->exact, o->part->X[0][i], o->t);
+    real velocity = bar_exact_solution_at_position(&bar->exact, o->part->X[0][i], o->t_velocity).velocity;
     const real all[BAR_READINGS] = {o->part->X[0][i],
                                     bar->displacement[rank_from_left],
                                     bar->velocity[rank_from_left],
@@ -191,9 +191,9 @@ static void errors(const struct bar *b, const struct observed_run *o, real *valu
     real sum[7] = {0};
     for (int64_t k = 0; k < b->n; k++) {
         real X = o->part->X[0][b->order[k]];
-        struct exact_values e = exact_solution_at(&b->exact, X, o->t);
+        struct exact_values e = bar_exact_solution_at_position(&b->exact, X, o->t);
         real stress = b->flux[k] - e.stress, strain = b->exact.young * (b->strain[k] - e.strain);
-        real velocity = b->velocity[k] - exact_solution_at(&b->exact, X, o->t_velocity).velocity;
+        real velocity = b->velocity[k] - bar_exact_solution_at_position(&b->exact, X, o->t_velocity).velocity;
         sum[0] += fabs(stress), sum[1] += square(stress);
         sum[2] += fabs(strain), sum[3] += square(strain);
         sum[4] += fabs(velocity), sum[5] += square(velocity);
@@ -244,17 +244,17 @@ static void fronts(const struct bar *b, const struct observed_run *o, real *valu
 {
     struct exact_front front[EXACT_FRONTS];
     const struct exact *e = &b->exact;
-    int n = exact_compute_stress_fronts(e, o->t, front);
+    int n = bar_exact_solution_compute_stress_fronts(e, o->t, front);
     real from, to;
     if (n > 0) value[FRONT] = front_of(b, o->part, &front[0], b->flux, 1);
     if (n > 0) value[FRONT_STRAIN] = front_of(b, o->part, &front[0], b->strain, e->young);
     if (n > 1) value[FRONT_PLASTIC] = front_of(b, o->part, &front[1], b->flux, 1);
-    if (exact_find_constant_stress_range(e, o->t, EXACT_PLATEAU, &from, &to)) {
+    if (bar_exact_solution_find_constant_stress_range(e, o->t, EXACT_PLATEAU, &from, &to)) {
         value[PLATEAU] = mean_between(b, o->part, b->flux, from, to);
         value[STRAIN_PLASTIC] = mean_between(b, o->part, b->strain, from, to);
         value[PLATEAU_STRAIN] = e->young * value[STRAIN_PLASTIC];
     }
-    if (exact_find_constant_stress_range(e, o->t, EXACT_PRECURSOR, &from, &to))
+    if (bar_exact_solution_find_constant_stress_range(e, o->t, EXACT_PRECURSOR, &from, &to))
         value[STRAIN_ELASTIC] = mean_between(b, o->part, b->strain, from, to);
 }
 

@@ -126,7 +126,8 @@ static bool starts_with_pulses(const struct exact *e, const struct particles *p)
     real scale = 0;
     for (int k = 0; k < e->pulses; k++) scale += fabs(e->pulse[k].velocity);
     for (int64_t i = 0; i < p->n; i++)
-        if (!(fabs(p->v[0][i] - exact_solution_at(e, p->X[0][i], 0).velocity) <= 1e-6 * scale)) return false;
+        if (!(fabs(p->v[0][i] - bar_exact_solution_at_position(e, p->X[0][i], 0).velocity) <= 1e-6 * scale))
+            return false;
     return true;
 }
 

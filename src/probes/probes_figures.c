@@ -22,7 +22,7 @@ static const char *const symmetric_name[DIM_MAX + 1][SYM_MAX] = {
  * strain this includes zz, as the last one. */
 static int stresses_count(const struct particles *p)
 {
-    return symmetric_component_count(p->dim) + (p->plane_strain != NULL);
+    return symmetric_tensor_component_count(p->dim) + (p->plane_strain != NULL);
 }
 
 /* Returns how many values a probe (a requested measurement) reports of a particle of p because materials yield:
@@ -74,7 +74,7 @@ void particle_compute_probe_values(const struct observed_run *o, int64_t particl
     const struct particles *p = o->part;
     for (int d = 0; d < p->dim; d++) *value++ = p->x[d][particle] - p->X[d][particle];
     for (int d = 0; d < p->dim; d++) *value++ = p->v[d][particle];
-    for (int a = 0; a < symmetric_component_count(p->dim); a++) *value++ = p->stress[a][particle];
+    for (int a = 0; a < symmetric_tensor_component_count(p->dim); a++) *value++ = p->stress[a][particle];
     if (p->plane_strain) *value++ = particle_out_of_plane_stress(p, particle);
     *value++ = probe_damage_of_particle(o, particle);
     if (p->plastic_work) *value++ = plastic_strain_reading(o, particle);
@@ -197,7 +197,7 @@ real probe_kinetic_energy(const struct probe *q, const struct particles *p)
     return reproducible_sum(q->n, kinetic_term, &(struct region_sum){.q = q, .o = &(struct observed_run){.part = p}});
 }
 
-struct energies probe_energies(const struct probe *q, const struct observed_run *o)
+struct energies probe_compute_energies_of_particles(const struct probe *q, const struct observed_run *o)
 {
     const struct bonds *b = o->bonds;
     const bool bonded = b && b->rows > 0;
@@ -262,8 +262,8 @@ static void figures_tip(const struct emitter *e)
     if (moves) probes_figures_put(e, "speed_max", tip->speed_max);
     if (moves) probes_figures_put(e, "speed_mean", tip->speed_mean);
     put_position(e, tip->place);
-    probes_figures_put(e, "tied",
-                       (real)(e->q->request.has_at ? tip->ends : tips_count_ends_with_largest_growth(e->o->tips)));
+    probes_figures_put(
+        e, "tied", (real)(e->q->request.has_at ? tip->ends : tips_count_crack_ends_with_largest_growth(e->o->tips)));
 }
 
 /* Reports time (or load step) and position of the first break in the region of a probe of kind BREAK (first bond
@@ -358,7 +358,7 @@ static void figures_line(const struct emitter *e)
 
 static void figures_energy(const struct emitter *e)
 {
-    const struct energies sum = probe_energies(e->q, e->o);
+    const struct energies sum = probe_compute_energies_of_particles(e->q, e->o);
     probes_figures_put(e, "kinetic", e->sampled ? e->sampled[0] : sum.kinetic);
     probes_figures_put(e, "strain", e->sampled ? e->sampled[1] : sum.strain);
     probes_figures_put(e, "fracture", e->sampled ? e->sampled[2] : sum.fracture);
@@ -373,7 +373,7 @@ static void figures_momentum(const struct emitter *e)
 
 static void figures_pulse(const struct emitter *e)
 {
-    struct pulse_shares s = pulse_compute_amplitudes(e->q, e->o);
+    struct pulse_amplitudes s = pulse_probe_compute_amplitudes(e->q, e->o);
     probes_figures_put(e, "reflected", s.reflected);
     probes_figures_put(e, "transmitted", s.transmitted);
     probes_figures_put(e, "energy_change", s.energy_change);
@@ -390,7 +390,8 @@ static void figures_exact(const struct emitter *e)
 
 static void figures_sif(const struct emitter *e)
 {
-    for (int k = 0; k < SIF_FIGURES; k++) probes_figures_put(e, sif_figure[k].name, sif_probe_result(e->q, k));
+    for (int k = 0; k < SIF_FIGURES; k++)
+        probes_figures_put(e, sif_figure[k].name, sif_probe_last_sample_value_or_nan(e->q, k));
 }
 
 static void figures_growth(const struct emitter *e)

@@ -96,7 +96,7 @@ static status bind_point(struct probe *q, const struct observed_run *o)
                       "probe \"%s\": the point (%s) m is outside the bodies (%s); check its coordinates and their unit "
                       "(m if none is written)",
                       q->request.name, position_text(q->request.at, o->part->dim, 6).text,
-                      particles_extent_text(o->part).text);
+                      particles_describe_bounding_box(o->part).text);
 }
 
 /* Makes the particles of run o nearest to the stations of probe q of kind LINE (points along a line) its particles, in
@@ -119,7 +119,7 @@ static status bind_line(struct probe *q, const struct observed_run *o)
     return status_set(
         REFUSED,
         "probe \"%s\": the whole line is outside the bodies (%s); check its ends and their unit (m if none is written)",
-        q->request.name, particles_extent_text(o->part).text);
+        q->request.name, particles_describe_bounding_box(o->part).text);
 }
 
 /* Makes the particles of run o in the region of probe q (a requested measurement) its particles, in q->list
@@ -234,7 +234,7 @@ static void supports_observe(struct probes *s, const struct observed_run *o)
         if (b->kind != BOUNDARY_VELOCITY || reaction_is_measured(s, b->name)) continue;
         GROW("probes.probe", s->probe, s->n + 1);
         struct probe *q = &s->probe[s->n];
-        *q = (struct probe){.of_history = true, .rests = boundary_holds_at_rest(b, o->part->dim)};
+        *q = (struct probe){.of_history = true, .rests = boundary_is_support_at_rest(b, o->part->dim)};
         q->request.kind = PROBE_REACTION;
         snprintf(q->request.boundary, NAME_MAX_LENGTH, "%s", b->name);
         support_name(s, b->name, q->request.name);
@@ -253,7 +253,7 @@ status probes_make(struct probes *s, const struct probe_request *requests, int r
         q->request = requests[k];
         q->memory = (struct probe_memory){
             .first_time = NAN, .position = {NAN, NAN, NAN}, .body = -1, .factors = {NAN, NAN, NAN, NAN}};
-        status fault = status_prepend_location(q->request.place, probe_bind(q, o));
+        status fault = status_message_prepend_location(q->request.place, probe_bind(q, o));
         if (fault != OK) {
             probes_free(s);
             return fault;

@@ -17,7 +17,7 @@ int64_t cracks_grow_one_step_and_count_cut_bonds(struct run *e)
     int64_t released = 0;
     for (int k = 0; k < e->scene->growths; k++) {
         struct growth_control r;
-        const bool known = probes_copy_sif_of_probe(&e->probing->probes, e->scene->growth[k].probe, &r);
+        const bool known = probes_copy_sif_to_growth_control(&e->probing->probes, e->scene->growth[k].probe, &r);
         released += growing_crack_advance_and_count_cut_bonds(&e->fracture->growth[k], &e->bonds, &e->part, &e->source,
                                                               known ? &r : NULL, e->clock.t, e->clock.dt);
     }
@@ -27,12 +27,12 @@ int64_t cracks_grow_one_step_and_count_cut_bonds(struct run *e)
 real particles_largest_stress_component(const struct particles *p)
 {
     real most = 0;
-    for (int c = 0; c < symmetric_component_count(p->dim); c++)
+    for (int c = 0; c < symmetric_tensor_component_count(p->dim); c++)
         for (int64_t i = 0; i < p->n; i++) most = real_max(most, fabs(p->stress[c][i]));
     return most;
 }
 
-void scene_list_wave_pulses(const struct scene *s, struct probing *probing)
+void scene_list_initial_wave_pulses(const struct scene *s, struct probing *probing)
 {
     probing->pulse = NEW("engine.pulse", s->initials, struct wave_pulse);
     for (int k = 0; k < s->initials; k++)

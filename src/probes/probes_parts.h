@@ -161,7 +161,7 @@ struct energies {
 
 /* Returns the kinetic, strain and fracture energy [J] of the particles of probe q (a measurement during the run). o:
  * the current state of the run. */
-struct energies probe_energies(const struct probe *q, const struct observed_run *o);
+struct energies probe_compute_energies_of_particles(const struct probe *q, const struct observed_run *o);
 
 /* Returns the kinetic energy [J] of those particles of p that probe q (a measurement during the run) observes, with the
  * velocities of probe_particle_velocity_component. */
@@ -174,7 +174,7 @@ void probe_compute_momentum_of_particles(const struct probe *q, const struct par
 /* Results of a PULSE probe [1]: amplitudes of the reflected packet (difference from the baseline, a run on material
  * points alone) and of the transmitted packet, both divided by the incident amplitude; relative energy change in excess
  * of that of the baseline. */
-struct pulse_shares {
+struct pulse_amplitudes {
     real reflected, transmitted, energy_change;
 };
 
@@ -185,7 +185,7 @@ status pulse_probe_store_incident_amplitude(struct probe *q, const struct observ
 /* Returns the results of the PULSE probe q (amplitudes of a wave packet): the amplitudes of the reflected and the
  * transmitted wave divided by the incident amplitude, and the relative energy change of run o minus that of the
  * baseline, the same run with material points alone (subtracted only if o->baseline is not NULL). */
-struct pulse_shares pulse_compute_amplitudes(const struct probe *q, const struct observed_run *o);
+struct pulse_amplitudes pulse_probe_compute_amplitudes(const struct probe *q, const struct observed_run *o);
 
 /* Tests whether broken bonds separate the bar of the SPALL probe q (place and time at which a bar spalls) into two
  * parts along x. If so, stores the position of the plane of separation and the time in q->memory; else changes nothing.
@@ -243,13 +243,13 @@ void sif_probe_compute_intensity_factors(struct probe *q, const struct observed_
  */
 bool sif_probe_factors_are_meaningful(const struct probe *q);
 
-/* Returns quantity number `figure` (0 to 3: K_I, K_II, J, contour_spread) of SIF probe q (stress-intensity factors) at
- * its last sample (line of history.csv). Returns NAN for K_I, K_II and J if they are not reliable
+/* Returns quantity number `quantity_number` (0 to 3: K_I, K_II, J, contour_spread) of SIF probe q (stress-intensity
+ * factors) at its last sample (line of history.csv). Returns NAN for K_I, K_II and J if they are not reliable
  * (sif_probe_factors_are_meaningful). */
-static inline real sif_probe_result(const struct probe *q, int figure)
+static inline real sif_probe_last_sample_value_or_nan(const struct probe *q, int quantity_number)
 {
-    const bool valid = figure == SIF_FIGURES - 1 || sif_probe_factors_are_meaningful(q);
-    return valid ? q->memory.factors[figure] : NAN;
+    const bool valid = quantity_number == SIF_FIGURES - 1 || sif_probe_factors_are_meaningful(q);
+    return valid ? q->memory.factors[quantity_number] : NAN;
 }
 
 /* ---- rotating body: RIGID ---------------------------------------------------------------------------------------- */

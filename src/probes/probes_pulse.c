@@ -43,9 +43,9 @@ status pulse_probe_store_incident_amplitude(struct probe *q, const struct observ
     return status_set(REFUSED, "probe \"%s\": nothing moves at the start; add a pulse to initial", q->request.name);
 }
 
-struct pulse_shares pulse_compute_amplitudes(const struct probe *q, const struct observed_run *o)
+struct pulse_amplitudes pulse_probe_compute_amplitudes(const struct probe *q, const struct observed_run *o)
 {
-    return (struct pulse_shares){
+    return (struct pulse_amplitudes){
         .reflected = probes_pulse_fastest(q, o->part, o->baseline, -1) / q->memory.incident,
         .transmitted = probes_pulse_fastest(q, o->part, NULL, 1) / q->memory.incident,
         .energy_change = o->energy_change - (o->baseline ? o->baseline->energy_change : 0),

@@ -475,7 +475,7 @@ bool probes_locate_sif_contour(const struct probes *s, int k, const struct obser
     return true;
 }
 
-bool probes_copy_sif_of_probe(const struct probes *s, const char *probe_name, struct growth_control *control)
+bool probes_copy_sif_to_growth_control(const struct probes *s, const char *probe_name, struct growth_control *control)
 {
     for (int k = 0; k < s->n; k++) {
         const struct probe *q = &s->probe[k];

@@ -69,7 +69,7 @@ static void columns_bonds(struct columns *c, const struct observed_run *o, int b
         int32_t i = b->particle[row];
         if (p->body[i] != body) continue;
         const int64_t from = probes_spall_column_of(c, p->X[0][i]);
-        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
+        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_iterator_advance(&it);) {
             const int64_t to = probes_spall_column_of(c, p->X[0][it.bond.nbr]);
             c->longest = real_max(c->longest, fabs(1 / it.bond.inverse_length));
             if (it.bond.w != 0)

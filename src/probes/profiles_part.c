@@ -22,7 +22,7 @@ status profiles_write_csv_files(const struct probes *s, const struct output *out
 {
     if (probes_count_profiles(s) == 0) return OK;
     TRY(probes_write_profiles(s, o, profiles_put, out->folder, out->series[0].frames - 1));
-    return file_sync_folder(path_join(out->folder, "history.csv").text);
+    return file_sync_parent_folder(path_join(out->folder, "history.csv").text);
 }
 
 void profiles_warn_of_missing_files(const struct probes *s, const struct output *out, struct warnings *warning_list)

@@ -26,7 +26,7 @@ static void node_keep(const struct scene *s, const struct grid *g, int64_t I, in
 void patch_test_include_mesh_residual_force(struct probing *q, const struct scene *s, const struct mesh *mesh)
 {
     for (int64_t I = 0; I < mesh->grid.n; I++)
-        node_keep(s, &mesh->grid, I, mesh_regular_node_of_doubled_node(mesh, I), &q->residual_step0);
+        node_keep(s, &mesh->grid, I, mesh_original_node_of_doubled_node(mesh, I), &q->residual_step0);
 }
 
 void patch_test_store_largest_residual_force(struct probing *q, const struct scene *s, const struct particles *p,
@@ -39,7 +39,7 @@ void patch_test_store_largest_residual_force(struct probing *q, const struct sce
     }
     for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
         int32_t i = p->list[KIND_PD][k];
-        if (particle_moves_with_nodes(p, i)) continue;
+        if (particle_is_moved_by_grid_or_mesh_nodes(p, i)) continue;
         for (int d = 0; d < p->dim; d++) x[d] = p->X[d][i];
         for (int d = 0; d < p->dim; d++)
             if (in_patch(s, x)) *most = real_max(*most, fabs(p->f[d][i]));

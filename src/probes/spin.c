@@ -59,7 +59,7 @@ static real diagnostics_spin_of(const struct particles *p, const struct mesh *me
         real x[DIM_MAX] = {0}, v[DIM_MAX] = {0};
         if (!(g->mass[I] > 0)) continue;
         for (int d = 0; d < g->dim; d++) {
-            x[d] = grid_node_position(g, d, mesh_regular_node_of_doubled_node(mesh, I) / g->stride[d] % g->count[d]) +
+            x[d] = grid_node_position(g, d, mesh_original_node_of_doubled_node(mesh, I) / g->stride[d] % g->count[d]) +
                    mesh->displacement[d][I];
             v[d] = g->velocity[d][I];
         }

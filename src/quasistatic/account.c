@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 
-void applied_forces_copy(real **applied, const struct statics *s, const struct particles *particles)
+void applied_forces_allocate_and_copy(real **applied, const struct statics *s, const struct particles *particles)
 {
     for (int d = 0; d < particles->dim; d++) {
         applied[d] = NEW("statics.account", particles->n, real);
@@ -13,10 +13,11 @@ void applied_forces_copy(real **applied, const struct statics *s, const struct p
     }
 }
 
-void work_account_start(struct account *account, const struct statics *s, const struct particles *particles)
+void work_account_store_initial_equilibrium(struct work_account *account, const struct statics *s,
+                                            const struct particles *particles)
 {
-    *account = (struct account){0};
-    applied_forces_copy(account->applied, s, particles);
+    *account = (struct work_account){0};
+    applied_forces_allocate_and_copy(account->applied, s, particles);
     for (int d = 0; d < particles->dim; d++) {
         account->u.of[d] = BARE("statics.account", s->balance.n, real);
         account->f.of[d] = BARE("statics.account", s->balance.n, real);
@@ -27,7 +28,7 @@ void work_account_start(struct account *account, const struct statics *s, const 
     }
 }
 
-void work_account_free(struct account *account)
+void work_account_free(struct work_account *account)
 {
     for (int d = 0; d < DIM_MAX; d++) {
         memory_free(account->u.of[d]);
@@ -35,11 +36,11 @@ void work_account_free(struct account *account)
         memory_free(account->applied[d]);
         memory_free(account->x[d]);
     }
-    *account = (struct account){0};
+    *account = (struct work_account){0};
 }
 
-real work_account_end_and_estimate_error(struct account *account, const struct statics *s, const struct particles *p,
-                                         struct loads *loads, real curved_path_work)
+real work_account_add_work_and_estimate_error(struct work_account *account, const struct statics *s,
+                                              const struct particles *p, struct loads *loads, real curved_path_work)
 {
     real range[2] = {0}, moved = 0;
     loads->work += curved_path_work;

@@ -76,7 +76,7 @@ static real round_off_force(const struct bonds *bonds, const struct particles *p
     real sum = 0;
     for (int64_t r = 0; r < bonds->rows; r++) {
         const int32_t i = bonds->particle[r];
-        const real spring = 0.25 * bonds_row_stiffness_eigenvalue_bound(bonds, part, r);
+        const real spring = 0.25 * bonds_row_stiffness_eigenvalue_upper_bound(bonds, part, r);
         for (int d = 0; d < part->dim; d++) sum += square(spring * part->X[d][i] * DBL_EPSILON);
     }
     return 10 * sqrt(sum);
@@ -149,28 +149,28 @@ status equilibrium_solve_without_work_account(struct run *e, real pseudo_time, r
 static status solve_at(struct run *e, real t, bool *crossed)
 {
     struct statics *s = e->statics;
-    struct account account;
+    struct work_account account;
     const int64_t asked = s->balance.directions;
     const real lost = s->balance.lost;
     TRY(loads_check_formulas_are_finite(&e->loads, &e->part, t));
-    statics_contact_begin_solution(e, t);
-    work_account_start(&account, s, &e->part);
+    statics_move_rigid_bodies_and_search_contacts(e, t);
+    work_account_store_initial_equilibrium(&account, s, &e->part);
     const status found = equilibrium_solve_without_work_account(e, t, account.applied);
-    plastic_state_update_at_last_solution(e);
-    reference_frame_update_motion_and_stress(e->frame, &e->part, &e->loads);
+    run_move_to_solution_and_update_plastic_state(e);
+    lagrangian_mesh_update_point_motion_and_stress(e->frame, &e->part, &e->loads);
     loads_update_mirror_images(&e->loads, &e->part);
-    const bool touched = statics_is_or_was_in_contact(s, e->contact);
+    const bool touched = statics_contact_existed_before_or_exists_now(s, e->contact);
     const real worked = e->loads.work + e->loads.constraint_work,
-               range =
-                   work_account_end_and_estimate_error(&account, s, &e->part, &e->loads, touched ? 0 : s->balance.bent);
+               range = work_account_add_work_and_estimate_error(&account, s, &e->part, &e->loads,
+                                                                touched ? 0 : s->balance.bent);
     const real rigids =
-        statics_contact_end_and_estimate_work_error(e, e->loads.work + e->loads.constraint_work - worked, lost);
+        rigid_body_work_add_and_estimate_error(e, e->loads.work + e->loads.constraint_work - worked, lost);
     *crossed = losses_store(&s->balance, &e->loads, lost, range + rigids, s->balance.noise * e->scene->spacing,
                             touched || s->in_contact, e->part.plastic_correction[0] != NULL);
     e->damped += s->balance.lost - lost;
     reactions_compute_and_store(s, &e->part, &e->loads);
     s->solutions++;
-    statics_preconditioner_free_if_costly(s, s->balance.directions - asked);
+    statics_preconditioner_free_if_inefficient(s, s->balance.directions - asked);
     return found;
 }
 
@@ -193,7 +193,7 @@ static status solve_substeps(struct run *e, real t, int substeps, bool *crossed)
 static status solve_whole(struct run *e, real t)
 {
     const real from = e->statics->t;
-    int substeps = statics_substep_count(e->scene, e->rigid, t);
+    int substeps = statics_rigid_motion_substep_count(e->scene, e->rigid, t);
     bool crossed = false;
     if (!e->statics->has_contact || e->part.plastic_correction[0] || e->bonds.plastic_stretch)
         return solve_substeps(e, t, substeps, &crossed);
@@ -225,13 +225,13 @@ status equilibrium_find_at_time(struct run *e, real pseudo_time)
     return OK;
 }
 
-status equilibrium_convert_points_and_solve_again(struct run *e, int64_t broken_bonds)
+status equilibrium_convert_points_to_pd_and_solve_again(struct run *e, int64_t broken_bonds)
 {
-    while (step_convert_points_at_broken_bonds(e, broken_bonds)) {
+    while (load_step_convert_points_near_breaks_to_pd(e, broken_bonds)) {
         broken_bonds = 0;
         statics_preconditioner_free(e->statics);
-        statics_unknowns_free(e->statics);
-        statics_unknowns_make(e);
+        statics_equation_system_free(e->statics);
+        statics_equation_system_make(e);
         e->statics->next.n = 0;
         TRY(equilibrium_find_at_time(e, e->statics->t));
     }

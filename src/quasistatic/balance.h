@@ -22,6 +22,6 @@ status equilibrium_solve_without_work_account(struct run *e, real pseudo_time, r
  * equilibrium again, until no further point has to be converted. broken_bonds: number of directed bonds that have
  * broken since the last call (a bond between two particles counts twice). Returns FAILED if no equilibrium is found,
  * INTERRUPTED if the run is to stop. */
-status equilibrium_convert_points_and_solve_again(struct run *e, int64_t broken_bonds);
+status equilibrium_convert_points_to_pd_and_solve_again(struct run *e, int64_t broken_bonds);
 
 #endif

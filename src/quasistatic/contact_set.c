@@ -47,8 +47,8 @@ static void unconstrained_update(struct run *e)
  * which a pair becomes active [spacings]. Returns the number of changes of the set of active contacts. */
 static int64_t statics_contact_search(struct run *e, real close)
 {
-    return contact_search_select_and_count_changes(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family,
-                                                   close);
+    return contact_search_and_select_linear_springs(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family,
+                                                    close);
 }
 
 void statics_contact_search_before_first_solution(struct run *e)
@@ -59,7 +59,7 @@ void statics_contact_search_before_first_solution(struct run *e)
     if (!e->contact->made || !e->contact->touch) statics_contact_search(e, CARRIED);
 }
 
-int statics_substep_count(const struct scene *s, const struct rigid_set *rigid, real pseudo_time)
+int statics_rigid_motion_substep_count(const struct scene *s, const struct rigid_set *rigid, real pseudo_time)
 {
     real most = 0;
     for (int k = 0; k < s->rigids; k++) {
@@ -75,11 +75,10 @@ int statics_substep_count(const struct scene *s, const struct rigid_set *rigid, 
  * were last computed [J]. */
 static real energy_present(struct run *e)
 {
-    return sample_current_elastic_energy(e) + contact_elastic_energy(e->contact, &e->part) +
-           bond_plastic_work(&e->bonds);
+    return run_compute_elastic_energy(e) + contact_elastic_energy(e->contact, &e->part) + bond_plastic_work(&e->bonds);
 }
 
-bool statics_is_or_was_in_contact(const struct statics *s, const struct contact *c)
+bool statics_contact_existed_before_or_exists_now(const struct statics *s, const struct contact *c)
 {
     return s->in_contact || c->touching > 0;
 }
@@ -88,7 +87,7 @@ bool statics_is_or_was_in_contact(const struct statics *s, const struct contact 
  * bodies and searches for contacts. The stored energy includes contact energy only if anything was in contact before.
  * If anything is in contact now, finds the unconstrained fragments (pieces of the body that can move rigidly without
  * resistance) again, since contact may constrain them. */
-void statics_contact_begin_solution(struct run *e, real pseudo_time)
+void statics_move_rigid_bodies_and_search_contacts(struct run *e, real pseudo_time)
 {
     struct statics *s = e->statics;
     struct newton_solver *q = &s->balance;
@@ -111,7 +110,7 @@ void statics_contact_begin_solution(struct run *e, real pseudo_time)
  * (contact_search_is_needed), else by the overlap of the known pairs. Returns true if the set has not changed, so that
  * the equilibrium is valid. Also recomputes the norm of the loads, by which residuals are measured, with the present
  * contact forces. run: the run (struct run). */
-bool statics_contact_update_and_is_set_unchanged(void *run)
+bool statics_update_contacts_and_test_unchanged(void *run)
 {
     struct run *e = run;
     struct statics *s = e->statics;
@@ -121,20 +120,20 @@ bool statics_contact_update_and_is_set_unchanged(void *run)
     loads_update_mirror_images(&e->loads, &e->part);
     const int64_t changed = contact_search_is_needed(c, &e->part)
                                 ? 1 + statics_contact_search(e, 0)
-                                : contact_select_active_and_count_changes(c, &e->part, 0);
+                                : contact_select_linear_springs_count_changes(c, &e->part, 0);
     s->balance.applied = applied_forces_norm(s, &e->part, &e->loads, c);
     s->balance.largest = s->largest;
     if (changed > 0) unconstrained_update(e);
     return changed == 0;
 }
 
-void statics_contact_select_acting_contacts(void *run, bool set_is_fixed)
+void statics_contact_fix_active_set_or_use_overlaps(void *run, bool set_is_fixed)
 {
     struct run *e = run;
-    if (e->statics->has_contact) contact_restrict_forces_to_selection(e->contact, set_is_fixed);
+    if (e->statics->has_contact) contact_restrict_forces_to_linear_springs(e->contact, set_is_fixed);
 }
 
-real statics_contact_end_and_estimate_work_error(struct run *e, real load_work, real solver_loss)
+real rigid_body_work_add_and_estimate_error(struct run *e, real load_work, real solver_loss)
 {
     struct statics *s = e->statics;
     struct newton_solver *q = &s->balance;
@@ -149,15 +148,15 @@ real statics_contact_end_and_estimate_work_error(struct run *e, real load_work, 
         rigid_add_work_of_prescribed_motion(&e->rigid->body[k]);
         load_work += e->rigid->body[k].work - before;
     }
-    if (statics_is_or_was_in_contact(s, e->contact))
+    if (statics_contact_existed_before_or_exists_now(s, e->contact))
         q->lost = solver_loss + load_work - (energy_present(e) - s->energy);
     s->in_contact = e->contact->touching > 0;
     return range;
 }
 
-void rigid_forces_update_largest(struct rigid_set *rigid, int rigid_body_count)
+void rigid_bodies_update_largest_contact_forces(struct rigid_set *rigid, int rigid_body_count)
 {
-    for (int k = 0; k < rigid_body_count; k++) rigid_update_largest_force(&rigid->body[k]);
+    for (int k = 0; k < rigid_body_count; k++) rigid_update_largest_contact_force(&rigid->body[k]);
 }
 
 void rigid_bodies_warn_of_no_contact(struct warnings *warnings, const struct rigid_set *rigid, int rigid_body_count,

@@ -43,8 +43,8 @@ enum { INCREMENT_SPACINGS = 2, SECANTS_MOST = 6 };
 
 /* Returns the fraction of a crack area whose energy belongs to the modelled body: 1/2 if all cracks `tips` lie on
  * planes of symmetry of bond_source, else 1. plane_axis: only planes perpendicular to this axis count; -1: all. */
-real crack_energy_share_by_symmetry(const struct crack_tips *tips, const struct bond_source *bond_source,
-                                    int plane_axis)
+real crack_area_fraction_inside_modelled_body(const struct crack_tips *tips, const struct bond_source *bond_source,
+                                              int plane_axis)
 {
     bool on = tips->n > 0;
     for (int k = 0; k < tips->n && on; k++) {
@@ -67,7 +67,7 @@ static real front_length(const struct crack_tips *t, const struct bond_source *s
     if (p->dim < 3) return 1;
     for (int d = 0; d < 3; d++) {
         particles_coordinate_range(p, p->n, d, &low, &high);
-        length = real_min(length, (high - low + h) / crack_energy_share_by_symmetry(t, source, d));
+        length = real_min(length, (high - low + h) / crack_area_fraction_inside_modelled_body(t, source, d));
     }
     for (int k = 0; k < t->n; k++)
         if (t->tip[k].from_crack) edges += 2 * sqrt(dot(t->tip[k].edge, t->tip[k].edge, 3));
@@ -81,13 +81,14 @@ static real increment_area(const struct scene *s, const struct crack_tips *t, co
                            real front)
 {
     const real ahead = INCREMENT_SPACINGS * (s->dim > 1 ? s->spacing : 1);
-    return crack_energy_share_by_symmetry(t, source, -1) * ahead * scene_section_or_thickness(s) * front;
+    return crack_area_fraction_inside_modelled_body(t, source, -1) * ahead * scene_cross_section_or_thickness(s) *
+           front;
 }
 
 real crack_area_of_growth_by_one_spacing(const struct run *e)
 {
     const struct crack_tips *t = &e->fracture->tips;
-    if (e->part.dim == 1) return scene_section_or_thickness(e->scene) / SPACINGS_OF_BAR;
+    if (e->part.dim == 1) return scene_cross_section_or_thickness(e->scene) / SPACINGS_OF_BAR;
     return increment_area(e->scene, t, &e->source, front_length(t, &e->source, &e->part)) / INCREMENT_SPACINGS;
 }
 
@@ -111,7 +112,7 @@ static status increment_break_try(struct run *e, struct crack_increment *a)
 {
     struct statics *s = e->statics;
     const struct crack_tips *t = &e->fracture->tips;
-    const real before = statics_energy_released(s, &e->bonds), given = e->scene->steps.energy;
+    const real before = statics_energy_released_since_start(s, &e->bonds), given = e->scene->steps.energy;
     const real cost = given > 0 ? given * (1 - 1e-3) : INFINITY, front = front_length(t, &e->source, &e->part);
     const real wide = increment_area(e->scene, t, &e->source, front) * (1 - 1e-3);
     const int64_t most = breaks_most(e->scene, front);
@@ -123,12 +124,13 @@ static status increment_break_try(struct run *e, struct crack_increment *a)
         if (bonds_break_overstretched(e, within, most, &a->cost, &area) == 0) break;
         if (e->scene->steps.control == CONTROL_ENERGY) {
             unconstrained_fragments_find(e);
-            s->severs = unconstrained_fragments_check(s, &e->part, false, e->clock.step + 1) != OK;
+            s->severs = unconstrained_fragments_check_force_balance(s, &e->part, false, e->clock.step + 1) != OK;
             if (s->severs) break;
         }
         TRY(equilibrium_find_at_time(e, s->t));
     }
-    a->release = (statics_energy_released(s, &e->bonds) - before) / square(statics_norm_of_prescribed_loads(e, s->t));
+    a->release = (statics_energy_released_since_start(s, &e->bonds) - before) /
+                 square(statics_norm_of_prescribed_loads(e, s->t));
     return OK;
 }
 
@@ -151,8 +153,8 @@ static status increment_find_now(struct run *e, real stressed)
     struct statics *s = e->statics;
     struct memory_archive saved;
     struct crack_increment second;
-    if (sif_cracks_initialise_and_can_grow(e)) {
-        TRY(sif_increment_find(e));
+    if (sif_cracks_find_tips_and_test_can_grow(e)) {
+        TRY(sif_cracks_find_increment_by_trial_equilibria(e));
         if (s->next.n > 0 || s->stretch_ratio <= 1) return OK; /* else bonds break away from the tips */
     }
     if (s->next.n > 0 || s->stretch_ratio < stressed) return OK;
@@ -162,11 +164,11 @@ static status increment_find_now(struct run *e, real stressed)
     const int64_t bonds = s->next.n;
     if (tried == OK && bonds > 0 && pre_crack_unbroken(&e->fracture->tips, s)) {
         tried = increment_break_try(e, &second);
-        if (second.cost > 0) s->behind = increment_extrapolate_before_first(&s->ahead, &second);
+        if (second.cost > 0) s->behind = crack_increment_extrapolate_before_first(&s->ahead, &second);
     }
     trial_equilibrium_end(e, &saved, false, &s->next);
     s->next.n = bonds;
-    s->due = increments_joint_energy_balance_load_size(&s->ahead, &s->behind);
+    s->due = crack_increments_load_size_at_joint_balance(&s->ahead, &s->behind);
     return tried;
 }
 
@@ -195,7 +197,7 @@ static status increment_find_at_due(struct run *e)
         const real size = statics_norm_of_prescribed_loads(e, s->t), share = size / s->due;
         if (fabs(share - 1) <= DUE_ERROR || !isfinite(s->due)) break;
         const real secant = size + (1 - share) * (size - previous) / (share - previous_share);
-        found = equilibrium_find_at_time(e, statics_time_of_load_size(e, secant > 0 ? secant : s->due));
+        found = equilibrium_find_at_time(e, statics_find_pseudo_time_at_load_size(e, secant > 0 ? secant : s->due));
         previous = size, previous_share = share;
         s->next.n = 0;
         if (found == OK) found = increment_find_now(e, 0);
@@ -210,7 +212,7 @@ static status increment_find_at_due(struct run *e)
  * displacements or forces) at which it is made. If anything is in contact, evaluates the increment again at that load
  * size, because the energy release is then not proportional to the square of the load size. Returns FAILED, with a
  * message, if a trial equilibrium is not found. */
-status crack_increment_find(struct run *e)
+status crack_increment_find_by_trial_equilibria(struct run *e)
 {
     TRY(increment_find_now(e, stretch_ratio_of_trial(e->statics)));
     return e->statics->in_contact && e->statics->next.n > 0 ? increment_find_at_due(e) : OK;
@@ -218,9 +220,9 @@ status crack_increment_find(struct run *e)
 
 status crack_increment_apply_at_energy_balance(struct run *e)
 {
-    const real size = increment_energy_balance_load_size(&e->statics->ahead);
-    if (isfinite(size)) TRY(equilibrium_find_at_time(e, statics_time_of_load_size(e, size)));
-    return crack_increment_equilibrate(e, crack_increment_break_bonds_and_move_tips(e));
+    const real size = crack_increment_load_size_at_energy_balance(&e->statics->ahead);
+    if (isfinite(size)) TRY(equilibrium_find_at_time(e, statics_find_pseudo_time_at_load_size(e, size)));
+    return crack_increment_find_new_equilibrium(e, crack_increment_break_bonds_and_move_tips(e));
 }
 
 int64_t crack_increment_break_bonds_and_move_tips(struct run *e)
@@ -228,15 +230,15 @@ int64_t crack_increment_break_bonds_and_move_tips(struct run *e)
     struct statics *s = e->statics;
     const int64_t broken = s->next.n;
     bonds_break_listed(e, &s->next);
-    sif_tips_move_selected(&s->sif, &e->part);
+    sif_tips_move_those_in_crack_increment(&s->sif, &e->part);
     s->behind = s->ahead, s->ahead = (struct crack_increment){0};
     s->next.n = 0;
     return broken;
 }
 
-status crack_increment_equilibrate(struct run *e, int64_t broken_bonds)
+status crack_increment_find_new_equilibrium(struct run *e, int64_t broken_bonds)
 {
     TRY(equilibrium_find_at_time(e, e->statics->t));
     plastic_state_save(&e->statics->plastic, &e->bonds, &e->part, e->optional);
-    return equilibrium_convert_points_and_solve_again(e, broken_bonds);
+    return equilibrium_convert_points_to_pd_and_solve_again(e, broken_bonds);
 }

@@ -8,8 +8,8 @@
 /* Returns the fraction of a crack area whose energy belongs to the modelled body: 1/2 if all cracks lie on planes of
  * symmetry, so that the mirror image has the other half, else 1. tips: tips of the cracks; bond_source: planes of
  * symmetry; plane_axis: only planes of symmetry perpendicular to this axis are considered, -1 for all planes. */
-real crack_energy_share_by_symmetry(const struct crack_tips *tips, const struct bond_source *bond_source,
-                                    int plane_axis);
+real crack_area_fraction_inside_modelled_body(const struct crack_tips *tips, const struct bond_source *bond_source,
+                                              int plane_axis);
 
 /* Returns the crack area [m^2] that is created if all cracks of run e grow by one spacing along their whole fronts,
  * halved on planes of symmetry. Without a pre-crack the front in three dimensions is the shortest side of the body. A
@@ -20,18 +20,18 @@ real crack_area_of_growth_by_one_spacing(const struct run *e);
  * may be discarded), unless it is already known. Stores in e->statics its bonds (`next`), its energies (`ahead`), and
  * the load size (`due`, a measure proportional to the loads) at which it releases as much energy as it costs. Returns
  * FAILED if a trial equilibrium is not found. */
-status crack_increment_find(struct run *e);
+status crack_increment_find_by_trial_equilibria(struct run *e);
 
 /* Breaks the bonds of the next crack increment of run e and moves the tips of SIF-driven cracks (growth direction from
- * stress-intensity factors), without finding the new equilibrium (crack_increment_equilibrate does). Returns the number
- * of directed bonds broken (a bond between two particles counts twice). */
+ * stress-intensity factors), without finding the new equilibrium (crack_increment_find_new_equilibrium does). Returns
+ * the number of directed bonds broken (a bond between two particles counts twice). */
 int64_t crack_increment_break_bonds_and_move_tips(struct run *e);
 
 /* Finds the equilibrium of run e after crack_increment_break_bonds_and_move_tips has broken bonds, and converts
  * material points near the crack to peridynamic particles. broken_bonds: number of directed bonds that were broken (a
  * bond between two particles counts twice). Returns FAILED if no equilibrium is found, INTERRUPTED if the run is to
  * stop. */
-status crack_increment_equilibrate(struct run *e, int64_t broken_bonds);
+status crack_increment_find_new_equilibrium(struct run *e, int64_t broken_bonds);
 
 /* Scales the loads of run e to the size at which the next crack increment releases as much energy as it costs, finds
  * the equilibrium there, and makes the increment: breaks its bonds and finds the new equilibrium. Returns FAILED if no

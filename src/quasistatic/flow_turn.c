@@ -55,7 +55,7 @@ static struct flow_start point_state(const struct particles *p, const struct ela
     const real T = p->temperature ? p->temperature[i] : m->law->johnson_cook.T_room;
     real back[SYM_MAX] = {0};
     lanes slope;
-    for (int k = 0; k < symmetric_component_count(p->dim); k++) {
+    for (int k = 0; k < symmetric_tensor_component_count(p->dim); k++) {
         const int c = law_place[p->dim][k];
         state.relative[c] = p->mesh_stress[k][i];
         state.elastic[c] = p->mesh_stress[k][i] + p->plastic_correction[k][i];
@@ -99,17 +99,17 @@ static void record_point(struct statics *s, const struct particles *p, int64_t i
     const real angle = p->dim > 1 ? turn_between(start, end) : 0;
     const real share = 1 - end->bound / real_max(start->bound, 1e-300);
     if (angle > s->turn.angle) {
-        s->turn = (struct flow_turn){.angle = angle, .step = load_step};
+        s->turn = (struct plastic_flow_direction_change){.angle = angle, .step = load_step};
         particle_reference_position(p, i, s->turn.position);
     }
     if (share > s->softening.share) {
-        s->softening = (struct flow_softening){.share = share, .step = load_step};
+        s->softening = (struct plastic_flow_thermal_softening){.share = share, .step = load_step};
         particle_reference_position(p, i, s->softening.position);
     }
 }
 
-void flow_turn_measure_over_load_step(struct statics *s, const struct particles *p,
-                                      const struct elastic *elastic_constants, int64_t load_step)
+void plastic_flow_measure_direction_change(struct statics *s, const struct particles *p,
+                                           const struct elastic *elastic_constants, int64_t load_step)
 {
     if (!p->mesh_stress[0]) return;
     const bool known = s->flow_start != NULL;
@@ -123,7 +123,8 @@ void flow_turn_measure_over_load_step(struct statics *s, const struct particles 
     }
 }
 
-void flow_turn_warn_of_inexact_stress(const struct flow_turn *turn, int dim, struct warnings *warnings)
+void plastic_flow_warn_of_inexact_stress(const struct plastic_flow_direction_change *turn, int dim,
+                                         struct warnings *warnings)
 {
     const real angle = turn->angle / DEGREE;
     char text[320];
@@ -136,7 +137,8 @@ void flow_turn_warn_of_inexact_stress(const struct flow_turn *turn, int dim, str
     if (angle > TURN_MOST) warnings_add_and_print(warnings, text);
 }
 
-void flow_turn_warn_of_softening(const struct flow_softening *softening, int dim, struct warnings *warnings)
+void plastic_flow_warn_of_thermal_softening(const struct plastic_flow_thermal_softening *softening, int dim,
+                                            struct warnings *warnings)
 {
     char text[400];
     snprintf(text, sizeof text,

@@ -14,17 +14,19 @@
  * s->softening, and stores the present state as the start of the next load step. The first call stores the state only.
  * elastic_constants: elastic constants of all materials; load_step: number of the load step (static equilibrium). Does
  * nothing if no point of p yields. */
-void flow_turn_measure_over_load_step(struct statics *s, const struct particles *p,
-                                      const struct elastic *elastic_constants, int64_t load_step);
+void plastic_flow_measure_direction_change(struct statics *s, const struct particles *p,
+                                           const struct elastic *elastic_constants, int64_t load_step);
 
 /* Adds a warning to *warnings if the largest angle *turn by which the direction of plastic flow has turned within a
  * load step (static equilibrium) is so large that stresses may be wrong by more than 5 %. dim: dimension of the space.
  */
-void flow_turn_warn_of_inexact_stress(const struct flow_turn *turn, int dim, struct warnings *warnings);
+void plastic_flow_warn_of_inexact_stress(const struct plastic_flow_direction_change *turn, int dim,
+                                         struct warnings *warnings);
 
 /* Adds a warning to *warnings if heat has lowered the yield stress of a point that flows by more than a thousandth
  * within a load step, so that plastic flow may localise in one row of cells. softening: largest decrease in a load step
  * so far; dim: dimension of the space. */
-void flow_turn_warn_of_softening(const struct flow_softening *softening, int dim, struct warnings *warnings);
+void plastic_flow_warn_of_thermal_softening(const struct plastic_flow_thermal_softening *softening, int dim,
+                                            struct warnings *warnings);
 
 #endif

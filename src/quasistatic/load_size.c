@@ -40,7 +40,7 @@ real statics_norm_of_prescribed_loads(const struct run *e, real t)
 
 enum { SECANTS_MOST = 30 }; /* largest number of secant steps */
 
-real statics_time_of_load_size(const struct run *e, real load_size)
+real statics_find_pseudo_time_at_load_size(const struct run *e, real load_size)
 {
     real from = e->statics->t, at_from = statics_norm_of_prescribed_loads(e, from);
     real t = at_from > 0 ? from * load_size / at_from : from;
@@ -57,25 +57,25 @@ real statics_time_of_load_size(const struct run *e, real load_size)
 
 /* Returns the energy released since the start [J]: the fracture energy of the broken bonds of b plus s->balance.lost,
  * the energy lost in solutions. */
-real statics_energy_released(const struct statics *s, const struct bonds *b)
+real statics_energy_released_since_start(const struct statics *s, const struct bonds *b)
 {
     return bonds_fracture_energy(b) + s->balance.lost;
 }
 
-real increments_joint_energy_balance_load_size(const struct crack_increment *increment,
-                                               const struct crack_increment *other_increment)
+real crack_increments_load_size_at_joint_balance(const struct crack_increment *increment,
+                                                 const struct crack_increment *other_increment)
 {
     const real release = increment->release + other_increment->release;
     return increment->cost > 0 && release > 0 ? sqrt((increment->cost + other_increment->cost) / release) : INFINITY;
 }
 
-real increment_energy_balance_load_size(const struct crack_increment *increment)
+real crack_increment_load_size_at_energy_balance(const struct crack_increment *increment)
 {
-    return increments_joint_energy_balance_load_size(increment, &(struct crack_increment){0});
+    return crack_increments_load_size_at_joint_balance(increment, &(struct crack_increment){0});
 }
 
-struct crack_increment increment_extrapolate_before_first(const struct crack_increment *first,
-                                                          const struct crack_increment *second)
+struct crack_increment crack_increment_extrapolate_before_first(const struct crack_increment *first,
+                                                                const struct crack_increment *second)
 {
     const real rate = first->release / first->cost, growth = second->release / second->cost - rate;
     const real release = first->release - 2 * growth * square(first->cost) / (first->cost + second->cost);

@@ -10,28 +10,28 @@
 /* Returns the pseudo-time [s] at which the load size of run e, a measure proportional to the loads
  * (statics_norm_of_prescribed_loads), equals `load_size` [m or N]. It is found by the secant method from the present
  * pseudo-time. */
-real statics_time_of_load_size(const struct run *e, real load_size);
+real statics_find_pseudo_time_at_load_size(const struct run *e, real load_size);
 
 /* Returns the load size (a measure proportional to the loads) [m or N] at which the crack increments `increment` and
  * `other_increment` together release as much energy as they cost: the square root of the sum of both costs divided by
  * the sum of both releases. The release of an increment is its released energy divided by the square of the load size.
  * Returns INFINITY if `increment` has no cost or the two release no energy. */
-real increments_joint_energy_balance_load_size(const struct crack_increment *increment,
-                                               const struct crack_increment *other_increment);
+real crack_increments_load_size_at_joint_balance(const struct crack_increment *increment,
+                                                 const struct crack_increment *other_increment);
 
 /* Returns the load size (a measure proportional to the loads) [m or N] at which the crack increment `increment`
  * releases as much energy as it costs; INFINITY if it has no cost or releases no energy. */
-real increment_energy_balance_load_size(const struct crack_increment *increment);
+real crack_increment_load_size_at_energy_balance(const struct crack_increment *increment);
 
-/* Returns a fictitious crack increment before the first one, for increments_joint_energy_balance_load_size, as if the
+/* Returns a fictitious crack increment before the first one, for crack_increments_load_size_at_joint_balance, as if the
  * pre-crack had reached its length by increments. Its cost is that of *first; its release is extrapolated linearly from
  * those of the first two increments, *first and *second, and is at least 0. */
-struct crack_increment increment_extrapolate_before_first(const struct crack_increment *first,
-                                                          const struct crack_increment *second);
+struct crack_increment crack_increment_extrapolate_before_first(const struct crack_increment *first,
+                                                                const struct crack_increment *second);
 
 /* Returns the energy [J] that the body has released since the start: the fracture energy of the broken bonds of b plus
  * s->balance.lost, the energy that the jumps between equilibria would have turned into motion and that is lost, since
  * load steps have no inertia. */
-real statics_energy_released(const struct statics *s, const struct bonds *b);
+real statics_energy_released_since_start(const struct statics *s, const struct bonds *b);
 
 #endif

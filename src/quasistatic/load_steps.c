@@ -44,15 +44,16 @@ enum { APPROACHES_MOST = 12 }; /* largest number of loads that are tried before 
  * about those of a crack that grows continuously. */
 static real increment_load(const struct statics *s, const struct diagnostics *diagnostics)
 {
-    return diagnostics->bonds_broken > 0 ? real_max(s->due, increment_energy_balance_load_size(&s->ahead)) : s->due;
+    return diagnostics->bonds_broken > 0 ? real_max(s->due, crack_increment_load_size_at_energy_balance(&s->ahead))
+                                         : s->due;
 }
 
 /* Updates the probes and the largest forces on rigid bodies of run e for the present equilibrium. Call for states that
  * the loads have reached, not for trials. */
 static void state_sample(struct run *e)
 {
-    sample_update_probes_of_every_step(e);
-    rigid_forces_update_largest(e->rigid, e->scene->rigids);
+    run_update_break_and_reaction_probes(e);
+    rigid_bodies_update_largest_contact_forces(e->rigid, e->scene->rigids);
 }
 
 /* Finds the equilibrium of run e at the load size `size` (norm of prescribed displacements [m] or of applied forces
@@ -60,7 +61,7 @@ static void state_sample(struct run *e)
  * there is no equilibrium. */
 static status go_to_size(struct run *e, real size, real least, real most)
 {
-    return equilibrium_find_at_time(e, real_min(real_max(statics_time_of_load_size(e, size), least), most));
+    return equilibrium_find_at_time(e, real_min(real_max(statics_find_pseudo_time_at_load_size(e, size), least), most));
 }
 
 /* Finds the equilibrium of run e at pseudo-time t [s], then determines the next crack increment. If the largest stretch
@@ -80,15 +81,15 @@ static status approach_loads(struct run *e, real t)
         far = gone == OK && s->stretch_ratio > FAR_BEYOND && at_low < NEAR_LEAST;
         if (far) {
             const real share = (NEAR_LIMIT - at_low) / (s->stretch_ratio - at_low);
-            t = real_max(from,
-                         statics_time_of_load_size(e, low + share * (statics_norm_of_prescribed_loads(e, t) - low)));
+            t = real_max(from, statics_find_pseudo_time_at_load_size(
+                                   e, low + share * (statics_norm_of_prescribed_loads(e, t) - low)));
         }
         trial_equilibrium_end(e, &saved, !far, NULL);
         TRY(gone);
     }
     if (far) TRY(equilibrium_find_at_time(e, t));
-    TRY(equilibrium_convert_points_and_solve_again(e, 0));
-    return crack_increment_find(e);
+    TRY(equilibrium_convert_points_to_pd_and_solve_again(e, 0));
+    return crack_increment_find_by_trial_equilibria(e);
 }
 
 /* Makes the next crack increment of run e while loads can only grow, and determines the increment after it. The load
@@ -102,7 +103,7 @@ static status increment_under_loads(struct run *e, real *size, real from, real t
     const bool follows = increment_load(e->statics, e->diagnostics) <= *size;
     *size = real_max(*size, increment_load(e->statics, e->diagnostics));
     const real loads = statics_norm_of_prescribed_loads(e, t);
-    const bool pays = increment_energy_balance_load_size(&s->ahead) <= *size, within = *size < loads;
+    const bool pays = crack_increment_load_size_at_energy_balance(&s->ahead) <= *size, within = *size < loads;
     if (within)
         TRY(go_to_size(e, *size, from, t));
     else if (s->t < t && loads >= *size * (1 - ROUND_OFF))
@@ -111,10 +112,10 @@ static status increment_under_loads(struct run *e, real *size, real from, real t
     if (follows && e->scene->steps.then == THEN_EXPLICIT)
         TRY(crack_increment_apply_by_dynamic_release(e));
     else
-        TRY(pays ? crack_increment_equilibrate(e, crack_increment_break_bonds_and_move_tips(e))
+        TRY(pays ? crack_increment_find_new_equilibrium(e, crack_increment_break_bonds_and_move_tips(e))
                  : crack_increment_apply_at_energy_balance(e));
     if (!pays) TRY(within ? go_to_size(e, *size, from, t) : equilibrium_find_at_time(e, t));
-    return crack_increment_find(e);
+    return crack_increment_find_by_trial_equilibria(e);
 }
 
 /* Makes a load step of run e under load control: increases the loads to those of pseudo-time t [s], and makes all
@@ -146,12 +147,13 @@ static status step_by_energy(struct run *e, real most)
     struct statics *s = e->statics;
     const real t = real_min(s->t + most, e->scene->duration);
     if (s->increment_due) TRY(crack_increment_apply_at_energy_balance(e));
-    TRY(crack_increment_find(e));
+    TRY(crack_increment_find_by_trial_equilibria(e));
     if (s->severs) return OK;
     if (s->next.n == 0) TRY(approach_loads(e, t));
     if (s->severs) return OK;
     s->increment_due = s->next.n > 0 && statics_norm_of_prescribed_loads(e, t) >= s->due;
-    if (s->next.n > 0) TRY(equilibrium_find_at_time(e, s->increment_due ? statics_time_of_load_size(e, s->due) : t));
+    if (s->next.n > 0)
+        TRY(equilibrium_find_at_time(e, s->increment_due ? statics_find_pseudo_time_at_load_size(e, s->due) : t));
     s->record.load_most = real_max(s->record.load_most, statics_norm_of_prescribed_loads(e, s->t));
     s->severs = s->increment_due && s->due < THROUGH * s->record.load_most;
     return OK;
@@ -164,7 +166,7 @@ static status step_by_energy(struct run *e, real most)
 static bool increment_before_opening(const struct particles *p, const struct statics *s, real size, real due,
                                      real wanted)
 {
-    const real now = gauge_opening(p, s);
+    const real now = crack_gauge_opening(p, s);
     return s->next.n > 0 && now > 0 && now / size * due < wanted;
 }
 
@@ -172,7 +174,7 @@ static bool increment_before_opening(const struct particles *p, const struct sta
  * proportion to the pseudo-time from the present state s. Returns `otherwise` [s] while the gauge has not opened. */
 static real time_of_opening(const struct particles *p, const struct statics *s, real wanted, real otherwise)
 {
-    const real now = gauge_opening(p, s);
+    const real now = crack_gauge_opening(p, s);
     return now > 0 ? s->t * wanted / now : otherwise;
 }
 
@@ -188,7 +190,7 @@ static status step_by_opening(struct run *e)
     if (e->statics->next.n == 0 && body_may_yield(&e->part, &e->bonds)) {
         struct memory_archive saved;
         trial_equilibrium_begin(e, &saved);
-        const status found = opening_go_to(e, wanted, t);
+        const status found = equilibrium_find_at_crack_opening(e, wanted, t);
         t = e->statics->t;
         trial_equilibrium_end(e, &saved, found != OK, NULL);
         TRY(found);
@@ -201,14 +203,14 @@ static status step_by_opening(struct run *e)
         if (open && !before) return OK;
         open = !before;
         if (open) {
-            TRY(opening_go_to(e, wanted, time_of_opening(&e->part, e->statics, wanted, first)));
-            TRY(equilibrium_convert_points_and_solve_again(e, 0));
+            TRY(equilibrium_find_at_crack_opening(e, wanted, time_of_opening(&e->part, e->statics, wanted, first)));
+            TRY(equilibrium_convert_points_to_pd_and_solve_again(e, 0));
         } else {
             TRY(go_to_size(e, increment_load(e->statics, e->diagnostics), 0, INFINITY));
             state_sample(e);
             TRY(crack_increment_apply_at_energy_balance(e));
         }
-        TRY(crack_increment_find(e));
+        TRY(crack_increment_find_by_trial_equilibria(e));
     }
 }
 
@@ -235,19 +237,19 @@ static status load_step_begin(struct run *e, real t)
         statics_preconditioner_make(e);
     s->kept = false;
     s->directions = 0;
-    if (!step_flag_points_before_rigid_bodies_move(e, s->t, t)) return OK;
-    TRY(equilibrium_convert_points_and_solve_again(e, 0));
-    return increment && s->solutions > solutions ? crack_increment_find(e) : OK;
+    if (!load_step_flag_points_near_rigid_bodies(e, s->t, t)) return OK;
+    TRY(equilibrium_convert_points_to_pd_and_solve_again(e, 0));
+    return increment && s->solutions > solutions ? crack_increment_find_by_trial_equilibria(e) : OK;
 }
 
-/* Makes the next load step of run e: if bonds soften, by softening_make_load_step, else under the control (load, energy
- * or opening) of the scene. Returns FAILED, with a message, if an equilibrium is not found. */
+/* Makes the next load step of run e: if bonds soften, by load_step_solve_with_softening_bonds, else under the control
+ * (load, energy or opening) of the scene. Returns FAILED, with a message, if an equilibrium is not found. */
 static status load_step(struct run *e)
 {
     const struct scene *s = e->scene;
     const real most = s->duration / (real)s->steps.number;
     TRY(load_step_begin(e, e->statics->t + most));
-    if (e->bonds.soft.curve) return softening_make_load_step(e, most * (real)(e->clock.step + 1));
+    if (e->bonds.soft.curve) return load_step_solve_with_softening_bonds(e, most * (real)(e->clock.step + 1));
     switch (s->steps.control) {
     case CONTROL_LOAD:
         return step_by_load(e, most * (real)(e->clock.step + 1));
@@ -288,11 +290,11 @@ static const char *remedy_without_reference_frame(const struct scene *s)
     return s->bodies > 1 ? "join the bodies to one with parts, or set solver: explicit" : "set solver: explicit";
 }
 
-status statics_check_scene_is_solvable(const struct run *e)
+status load_steps_check_scene_is_supported(const struct run *e)
 {
     const struct scene *s = e->scene;
     if (!scene_has_load_steps(s)) return OK;
-    if (s->steps.control == CONTROL_OPENING) TRY(gauge_check_positions(e->scene, &e->part));
+    if (s->steps.control == CONTROL_OPENING) TRY(crack_gauge_check_positions(e->scene, &e->part));
     TRY(check_loads_grow(s, statics_norm_of_prescribed_loads(e, 0.25 * s->duration),
                          statics_norm_of_prescribed_loads(e, 0.5 * s->duration),
                          statics_norm_of_prescribed_loads(e, s->duration)));
@@ -372,8 +374,8 @@ static void warn_at_end(struct run *e)
     warn_large_flow(&e->warnings, &e->part);
     warn_of_flow_in_one_cell(&e->warnings, &e->part, e->scene->material);
     warn_of_sliding(&e->warnings, e->statics->slid, e->scene->spacing);
-    flow_turn_warn_of_inexact_stress(&e->statics->turn, e->part.dim, &e->warnings);
-    flow_turn_warn_of_softening(&e->statics->softening, e->part.dim, &e->warnings);
+    plastic_flow_warn_of_inexact_stress(&e->statics->turn, e->part.dim, &e->warnings);
+    plastic_flow_warn_of_thermal_softening(&e->statics->softening, e->part.dim, &e->warnings);
     rigid_bodies_warn_of_no_contact(&e->warnings, e->rigid, e->scene->rigids, ROUND_OFF * e->statics->balance.largest);
 }
 
@@ -383,7 +385,7 @@ static void warn_at_end(struct run *e)
 static status check_constrained(struct run *e, bool *apart)
 {
     const bool parts = e->scene->steps.control == CONTROL_ENERGY && e->diagnostics->bonds_broken > 0;
-    const status held = unconstrained_fragments_check(e->statics, &e->part, true, e->clock.step + 1);
+    const status held = unconstrained_fragments_check_force_balance(e->statics, &e->part, true, e->clock.step + 1);
     *apart = parts && (held != OK || e->statics->severs);
     if (*apart)
         warnings_add_and_print(
@@ -393,17 +395,17 @@ static status check_constrained(struct run *e, bool *apart)
     return parts ? OK : held;
 }
 
-status engine_run_load_steps(struct run *e)
+status run_solve_load_steps(struct run *e)
 {
-    TRY(report_start_before_first_step(e));
+    TRY(report_open_history_and_write_first_frame(e));
     timers_start(&e->timers);
-    if (!e->statics->node) statics_unknowns_make(e); /* a resumed run has them */
+    if (!e->statics->node) statics_equation_system_make(e); /* a resumed run has them */
     statics_contact_search_before_first_solution(e);
     e->statics->gauge[0] = particles_index_nearest_to_position(&e->part, e->scene->steps.from);
     e->statics->gauge[1] = particles_index_nearest_to_position(&e->part, e->scene->steps.to);
-    sif_cracks_initialise_and_can_grow(e); /* for the plane of the tips, which a resumed run lacks */
-    if (e->clock.step == 0) sample_take_in_equilibrium(e);
-    flow_turn_measure_over_load_step(e->statics, &e->part, e->tables.elastic, 0);
+    sif_cracks_find_tips_and_test_can_grow(e); /* for the plane of the tips, which a resumed run lacks */
+    if (e->clock.step == 0) history_sample_write_in_equilibrium(e);
+    plastic_flow_measure_direction_change(e->statics, &e->part, e->tables.elastic, 0);
     while (e->clock.step < e->clock.steps) {
         e->clock.load_step = e->statics->record.step = e->clock.step + 1;
         bool apart;
@@ -411,21 +413,21 @@ status engine_run_load_steps(struct run *e)
         timer_add_elapsed_to_section(&e->timers, TIMER_BONDS);
         TRY(solved);
         TRY(check_constrained(e, &apart));
-        flow_turn_measure_over_load_step(e->statics, &e->part, e->tables.elastic, e->clock.load_step);
+        plastic_flow_measure_direction_change(e->statics, &e->part, e->tables.elastic, e->clock.load_step);
         plastic_state_save(&e->statics->plastic, &e->bonds, &e->part, e->optional);
         e->clock.step++;
         if (apart) e->clock.steps = e->clock.step;
         e->clock.t = e->clock.dt * (real)e->clock.step;
         state_sample(e);
-        sample_take_in_equilibrium(e);
-        statics_reset_history_counts(e->statics);
+        history_sample_write_in_equilibrium(e);
+        statics_reset_solver_counts_for_history(e->statics);
         if (e->statics->t >= e->scene->duration * (1 - 1e-12)) e->clock.steps = e->clock.step;
         timer_add_elapsed_to_section(&e->timers, TIMER_BONDS);
         if (e->clock.step == e->clock.steps) warn_at_end(e);
         snprintf(e->report->note, sizeof e->report->note, "load time %.4g s  %lld equilibria", e->statics->t,
                  (long long)e->statics->solutions);
-        TRY(report_finished_step(e));
+        TRY(report_write_outputs_due_after_step(e));
     }
     statics_free(e->statics);
-    return report_finish_after_last_step(e);
+    return report_write_last_checkpoint_and_finish(e);
 }

@@ -16,7 +16,7 @@
 /* Largest numbers of secant steps, and of steps within a bracket. */
 enum { SECANTS_MOST = 12, BRACKETS_MOST = 60 };
 
-status gauge_check_positions(const struct scene *scene, const struct particles *part)
+status crack_gauge_check_positions(const struct scene *scene, const struct particles *part)
 {
     const struct scene_steps *s = &scene->steps;
     const real *const at[] = {s->from, s->to};
@@ -38,7 +38,7 @@ status gauge_check_positions(const struct scene *scene, const struct particles *
         "steps.from and steps.to are nearest to the same particle; give two positions, one on each side of the crack");
 }
 
-real gauge_opening(const struct particles *part, const struct statics *statics)
+real crack_gauge_opening(const struct particles *part, const struct statics *statics)
 {
     real now = 0, initial = 0;
     for (int d = 0; d < part->dim; d++) {
@@ -96,14 +96,14 @@ static bool opening_is_near(real at, real wanted, real error) { return fabs(at -
 static status find_opening_of_yielding_body(struct run *e, real wanted, real t, real *at)
 {
     const struct statics *s = e->statics;
-    *at = gauge_opening(&e->part, s);
+    *at = crack_gauge_opening(&e->part, s);
     struct opening_search search = {.t = {s->t}, .differ = {*at - wanted}};
     bool ends = opening_is_near(*at, wanted, OPENING_ERROR);
     for (int k = 0; k < BRACKETS_MOST && !ends; k++) {
         struct memory_archive saved;
         trial_equilibrium_begin(e, &saved);
         const status found = equilibrium_find_at_time(e, real_max(t, 0));
-        *at = gauge_opening(&e->part, s);
+        *at = crack_gauge_opening(&e->part, s);
         const real tried = s->t;
         t = found == OK ? opening_search_next(&search, tried, *at - wanted) : tried;
         ends = k + 1 == BRACKETS_MOST || t == tried;
@@ -115,23 +115,23 @@ static status find_opening_of_yielding_body(struct run *e, real wanted, real t, 
     return OK;
 }
 
-status opening_go_to(struct run *e, real wanted, real t)
+status equilibrium_find_at_crack_opening(struct run *e, real wanted_opening, real t)
 {
     const bool yields = body_may_yield(&e->part, &e->bonds);
-    real at = gauge_opening(&e->part, e->statics);
-    if (yields) TRY(find_opening_of_yielding_body(e, wanted, t, &at));
+    real at = crack_gauge_opening(&e->part, e->statics);
+    if (yields) TRY(find_opening_of_yielding_body(e, wanted_opening, t, &at));
     for (int k = 0; k < SECANTS_MOST && !yields; k++) { /* secant method */
         const real from = e->statics->t, before = at;
         TRY(equilibrium_find_at_time(e, real_max(t, 0)));
-        at = gauge_opening(&e->part, e->statics);
+        at = crack_gauge_opening(&e->part, e->statics);
         const real change = e->statics->t - from, slope = (at - before) / change;
-        if (opening_is_near(at, wanted, OPENING_ERROR) || change == 0 || !(slope != 0)) break;
-        t = e->statics->t + (wanted - at) / slope;
+        if (opening_is_near(at, wanted_opening, OPENING_ERROR) || change == 0 || !(slope != 0)) break;
+        t = e->statics->t + (wanted_opening - at) / slope;
     }
-    if (opening_is_near(at, wanted, OPENING_FAR)) return OK;
+    if (opening_is_near(at, wanted_opening, OPENING_FAR)) return OK;
     return status_set(
         FAILED,
         "load step %lld: no load opens the gauge (steps.from to steps.to) by %.6g m, and the last one tried opens it "
         "by %.6g m; use larger loads or more steps, or a displacement with steps.control: load",
-        (long long)e->clock.step + 1, wanted, at);
+        (long long)e->clock.step + 1, wanted_opening, at);
 }

@@ -49,7 +49,7 @@ static void particle_block(const void *context, int64_t first, int64_t end, real
 {
     const struct particles *p = context;
     for (int64_t i = first; i < end; i++)
-        for (int d = 0; d < p->dim && !particle_moves_with_nodes(p, i); d++) sum[0] += square(p->f[d][i]);
+        for (int d = 0; d < p->dim && !particle_is_moved_by_grid_or_mesh_nodes(p, i); d++) sum[0] += square(p->f[d][i]);
 }
 
 /* Returns the norm of the reactions of all supports in `loads`, each reaction divided evenly among the particles of its
@@ -79,7 +79,7 @@ static void estimate(struct run *e, bool *done)
     if (e->part.n_of[KIND_MPM] + e->part.n_grid_coupled > 0)
         reproducible_sums(e->grid->field[0].grid.n, 1, node_block, e->grid, &nodes);
     reproducible_sums(e->part.n, 1, particle_block, &e->part, &particles);
-    static_solver_set_residual(s, reactions_norm(&e->loads, e->part.dim), sqrt(nodes + particles));
+    static_solver_compute_relative_residual(s, reactions_norm(&e->loads, e->part.dim), sqrt(nodes + particles));
     *done = e->clock.t > s->ramp_time * (1 + 1e-9) && s->residual <= e->scene->solver_tolerance &&
             0.5 * motion[1] <= MOTION_SMALL * strain;
 }
@@ -104,7 +104,7 @@ static void damp_velocities(struct particles *p, const struct loads *loads, int 
 status grid_relaxation_step(struct run *e, bool *is_in_equilibrium)
 {
     TRY(step(e));
-    TRY(stability_check_after_step(e));
+    TRY(run_check_stability_after_step(e));
     if (e->clock.step % ESTIMATE_STEPS == 0) estimate(e, is_in_equilibrium);
     damp_velocities(&e->part, &e->loads, e->optional & WITH_GRADIENT ? e->part.dim * e->part.dim : 0,
                     e->solver->damping);

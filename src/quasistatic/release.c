@@ -81,9 +81,9 @@ static void velocities_scale(struct particles *p, struct mesh *mesh, const struc
 }
 
 /* Returns the kinetic energy [J] of the particles `part` and of the mesh of the reference frame `frame`. */
-static real kinetic_present(const struct particles *part, const struct reference_frame *frame)
+static real kinetic_present(const struct particles *part, const struct lagrangian_mesh *frame)
 {
-    return particles_kinetic_energy(part) + reference_frame_kinetic_energy(frame);
+    return particles_kinetic_energy(part) + lagrangian_mesh_kinetic_energy(frame);
 }
 
 /* Computes the motion of run e after bonds have broken (dynamic release) in explicit time steps: undamped until no bond
@@ -102,14 +102,14 @@ static status steps_in_time(struct run *e, int64_t *broken)
     *broken = 0;
     for (int64_t k = 0; k < most && damped < damped_most; k++) {
         TRY(step(e));
-        TRY(divergence_check_particles(e, true, true));
+        TRY(run_check_particles_for_divergence(e, true, true));
         if (e->diagnostics->bonds_broken > had) *broken += e->diagnostics->bonds_broken - had, last = k, damped = 0;
         had = e->diagnostics->bonds_broken;
         if ((real)(k - last) * e->clock.dt < quiet) continue;
         velocities_scale(&e->part, &e->frame->mesh, &e->loads, 1 - damping * e->clock.dt);
         damped++;
         if (k % ENERGY_STEPS == 0 &&
-            kinetic_present(&e->part, e->frame) <= MOTION_SMALL * sample_current_elastic_energy(e))
+            kinetic_present(&e->part, e->frame) <= MOTION_SMALL * run_compute_elastic_energy(e))
             break;
     }
     return OK;
@@ -118,8 +118,8 @@ static status steps_in_time(struct run *e, int64_t *broken)
 /* Returns the strain, contact and fracture energy of run e minus the work of loads and supports [J]. */
 static real energy_budget(struct run *e)
 {
-    const real held = sample_current_elastic_energy(e) + contact_elastic_energy(e->contact, &e->part) +
-                      bonds_fracture_energy(&e->bonds);
+    const real held =
+        run_compute_elastic_energy(e) + contact_elastic_energy(e->contact, &e->part) + bonds_fracture_energy(&e->bonds);
     return held - e->loads.work - e->loads.constraint_work;
 }
 
@@ -133,7 +133,7 @@ status crack_increment_apply_by_dynamic_release(struct run *e)
     velocities_scale(&e->part, &e->frame->mesh, &e->loads, 0);
     boundaries_freeze(e->scene, e->boundary, s->t);
     rigids_freeze(e->scene, e->rigid, true);
-    contact_discard_equilibrium_selection(e->contact);
+    contact_discard_linear_springs(e->contact);
     const real dt = clock.dt_bears;
     e->clock.dt = e->grid->transfer.dt = dt;
     e->clock.step = 1, e->clock.steps = RELEASE_STEPS_MOST, e->clock.stride = 1;
@@ -148,7 +148,7 @@ status crack_increment_apply_by_dynamic_release(struct run *e)
     const real lost = before - energy_budget(e);
     s->balance.lost += lost, e->damped = damped + lost;
     statics_preconditioner_free(s);
-    statics_unknowns_free(s);
-    statics_unknowns_make(e);
-    return crack_increment_equilibrate(e, broken + more);
+    statics_equation_system_free(s);
+    statics_equation_system_make(e);
+    return crack_increment_find_new_equilibrium(e, broken + more);
 }

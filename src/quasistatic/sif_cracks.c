@@ -27,11 +27,11 @@
 
 enum { INCREMENT_SPACINGS = 2 }; /* length of a crack increment [spacings] */
 
-bool sif_tip_segment_is_on_mirror(const struct sif_plane *plane, const struct sif_crack_tip *tip)
+bool sif_tip_path_end_is_on_symmetry_plane(const struct crack_tip_plane *plane, const struct sif_crack_tip *tip)
 {
     real ahead[2];
-    sif_plane_compute_point_ahead(tip->position, plane->spacing, tip->last, ahead);
-    return sif_plane_segment_is_on_mirror(plane, tip->position, ahead);
+    crack_tip_plane_compute_point_ahead(tip->position, plane->spacing, tip->last, ahead);
+    return crack_tip_plane_segment_is_on_symmetry_plane(plane, tip->position, ahead);
 }
 
 /* ---- factors ----------------------------------------------------------------------------------------------------- */
@@ -45,9 +45,9 @@ static const struct material *material_at(const struct sif_cracks *l, const stru
     real least = INFINITY, X[2];
     for (int64_t i = 0; i < p->n; i++) {
         if (p->body[i] != tip->body) continue;
-        sif_plane_project_particle(&l->plane, p, i, X);
-        if (sif_plane_point_distance(X, tip->position) < least)
-            least = sif_plane_point_distance(X, tip->position), nearest = i;
+        crack_tip_plane_project_particle(&l->plane, p, i, X);
+        if (crack_tip_plane_point_distance(X, tip->position) < least)
+            least = crack_tip_plane_point_distance(X, tip->position), nearest = i;
     }
     return &l->scene->material[p->material[nearest]];
 }
@@ -61,7 +61,7 @@ static struct crack *crack_segments(const struct sif_cracks *l, int *n)
     struct crack *crack = NEW("led.cracks", given + l->segments + 1, struct crack);
     real(*corner)[DIM_MAX] = memory_new("led.corners", 2 * (given + 1), sizeof *corner);
     for (int k = 0; k < given; k++) {
-        sif_plane_intersect_crack(&l->plane, &l->source->crack[k], corner + 2 * k);
+        crack_tip_plane_intersect_crack(&l->plane, &l->source->crack[k], corner + 2 * k);
         crack[k] = (struct crack){.n = 2, .corner = corner + 2 * k};
     }
     for (int64_t k = 0; k < l->segments; k++) crack[given + k] = (struct crack){.n = 2, .corner = l->path[k].at};
@@ -87,8 +87,8 @@ static struct crack_medium medium_at(const struct sif_cracks *l, const struct pa
     enum space space = l->scene->space;
     if (p->dim == 3) {
         real ahead[2];
-        sif_plane_compute_point_ahead(tip->position, l->plane.spacing, tip->last, ahead);
-        const bool thin = sif_plane_body_width_along_front(&l->plane, p, tip->position, ahead) < 2 * radius;
+        crack_tip_plane_compute_point_ahead(tip->position, l->plane.spacing, tip->last, ahead);
+        const bool thin = crack_tip_plane_body_width_along_front(&l->plane, p, tip->position, ahead) < 2 * radius;
         space = thin ? SPACE_PLANE_STRESS : SPACE_PLANE_STRAIN;
     }
     return crack_medium_of_material(material_at(l, p, tip), space);
@@ -108,7 +108,7 @@ bool sif_tip_compute_intensity_factors(const struct sif_cracks *cracks, const st
     view.crack = crack;
     const bool seen = crack_tip_fit_sif_to_displacements(&view, p, K);
     crack_segments_free(crack, view.cracks);
-    if (sif_tip_segment_is_on_mirror(&cracks->plane, tip)) K[MODE_II] = 0;
+    if (sif_tip_path_end_is_on_symmetry_plane(&cracks->plane, tip)) K[MODE_II] = 0;
     if (faces_in_contact) K[MODE_I] = real_max(K[MODE_I], 0); /* the fit takes contact forces for stress */
     return seen;
 }
@@ -147,7 +147,7 @@ void sif_leading_tip_compute_intensity_factors(const struct sif_cracks *cracks, 
 
 void sif_leading_tip_compute_position(const struct sif_cracks *cracks, real position[DIM_MAX])
 {
-    const struct sif_plane *plane = &cracks->plane;
+    const struct crack_tip_plane *plane = &cracks->plane;
     const struct sif_crack_tip *first = tip_longest(cracks, false);
     for (int d = 0; d < DIM_MAX; d++)
         position[d] = first ? first->position[0] * plane->axis[0][d] + first->position[1] * plane->axis[1][d] +
@@ -174,8 +174,8 @@ static real intersection_share(const struct crack *c, const real *a, const real 
  * the last part of the path behind the tip, which growth must not be tested against. */
 static bool crack_ends_at_tip(const struct crack *c, const struct sif_crack_tip *tip, real within)
 {
-    return sif_plane_point_distance(c->corner[0], tip->position) <= within ||
-           sif_plane_point_distance(c->corner[1], tip->position) <= within;
+    return crack_tip_plane_point_distance(c->corner[0], tip->position) <= within ||
+           crack_tip_plane_point_distance(c->corner[1], tip->position) <= within;
 }
 
 void sif_tip_compute_end_of_next_increment(const struct sif_cracks *l, const struct particles *p,
@@ -184,13 +184,13 @@ void sif_tip_compute_end_of_next_increment(const struct sif_cracks *l, const str
     const real h = l->plane.spacing, energy = l->scene->steps.energy;
     real from[2], to[2], growth = INCREMENT_SPACINGS * h, share = 1;
     int cracks;
-    sif_plane_compute_point_ahead(tip->position, AHEAD * h, tip->heading, from);
-    sif_plane_compute_point_ahead(tip->position, h, tip->heading, to);
+    crack_tip_plane_compute_point_ahead(tip->position, AHEAD * h, tip->heading, from);
+    crack_tip_plane_compute_point_ahead(tip->position, h, tip->heading, to);
     if (energy > 0)
         growth = energy / (sif_tip_toughness(l, p, tip) *
-                           real_max(h, sif_plane_body_width_along_front(&l->plane, p, tip->position, to)));
+                           real_max(h, crack_tip_plane_body_width_along_front(&l->plane, p, tip->position, to)));
     struct crack *crack = crack_segments(l, &cracks);
-    sif_plane_compute_point_ahead(tip->position, growth, tip->heading, to);
+    crack_tip_plane_compute_point_ahead(tip->position, growth, tip->heading, to);
     for (int k = 0; k < cracks; k++)
         if (!crack_ends_at_tip(&crack[k], tip, AHEAD * h))
             share = real_min(share, intersection_share(&crack[k], from, to));
@@ -210,14 +210,14 @@ static bool body_continues(const struct sif_cracks *l, const struct particles *p
 {
     const real h = l->plane.spacing;
     real ahead[2];
-    sif_plane_compute_point_ahead(tip->position, h, tip->heading, ahead);
-    const real wide = p->dim == 2 ? 1 : sif_plane_body_width_along_front(&l->plane, p, tip->position, ahead) / h;
+    crack_tip_plane_compute_point_ahead(tip->position, h, tip->heading, ahead);
+    const real wide = p->dim == 2 ? 1 : crack_tip_plane_body_width_along_front(&l->plane, p, tip->position, ahead) / h;
     int free_ones = 0;
     for (int64_t i = 0; i < p->n_all; i++) {
         real X[2];
-        sif_plane_project_particle(&l->plane, p, i, X);
-        free_ones +=
-            p->body[i] == tip->body && !(p->flag[i] & FLAG_DRIVEN) && sif_plane_point_distance(X, ahead) <= REACH * h;
+        crack_tip_plane_project_particle(&l->plane, p, i, X);
+        free_ones += p->body[i] == tip->body && !(p->flag[i] & FLAG_DRIVEN) &&
+                     crack_tip_plane_point_distance(X, ahead) <= REACH * h;
     }
     return wide > 0 && free_ones >= 2 * floor(wide);
 }
@@ -255,13 +255,13 @@ void sif_tip_move_to_end_of_increment(struct sif_cracks *cracks, const struct pa
     const real h = cracks->plane.spacing;
     real to[2];
     sif_tip_compute_end_of_next_increment(cracks, p, tip, to);
-    const real growth = sif_plane_point_distance(to, tip->position);
+    const real growth = crack_tip_plane_point_distance(to, tip->position);
     sif_path_add(cracks, k, to);
     tip_frame_turn(tip, growth, h);
     for (int d = 0; d < 2; d++) tip->last[d] = tip->heading[d], tip->position[d] = to[d];
     tip->grown += growth, tip->length_behind += growth;
     sif_tip_compute_end_of_next_increment(cracks, p, tip, to);
-    tip->ended = !body_continues(cracks, p, tip) || sif_plane_point_distance(to, tip->position) < REST * h;
+    tip->ended = !body_continues(cracks, p, tip) || crack_tip_plane_point_distance(to, tip->position) < REST * h;
 }
 
 void sif_tips_stop_all(struct sif_cracks *cracks)

@@ -1,5 +1,5 @@
 /* SIF-driven cracks: the direction of growth of their tips follows from the stress-intensity factors (struct
- * sif_cracks). Positions are reference positions in the plane of the tips (struct sif_plane). */
+ * sif_cracks). Positions are reference positions in the plane of the tips (struct crack_tip_plane). */
 #ifndef CLEAVE_SIF_CRACKS
 #define CLEAVE_SIF_CRACKS
 
@@ -15,51 +15,53 @@
  * fronts and its planes of symmetry in *plane. The caller has set the members dim, spacing, section, body_mirrors and
  * body_mirror of *plane. tips: tips of the pre-cracks; precracks: the pre-cracks; p: particles. Returns NULL, or the
  * reason why there is no such plane (a static text). */
-const char *sif_plane_find_or_return_reason(struct sif_plane *plane, const struct crack_tips *tips,
-                                            const struct crack_list *precracks, const struct particles *p);
+const char *crack_tip_plane_find_or_return_reason(struct crack_tip_plane *plane, const struct crack_tips *tips,
+                                                  const struct crack_list *precracks, const struct particles *p);
 
 /* Projects the point `point`, dim components [m], onto `plane`, the plane in which crack tips move, and stores the two
  * coordinates in this plane in projection[2] [m]. */
-void sif_plane_project(const struct sif_plane *plane, const real *point, real projection[2]);
+void crack_tip_plane_project_point(const struct crack_tip_plane *plane, const real *point, real projection[2]);
 
 /* Projects the reference position of particle number `particle` of p onto `plane`, the plane in which crack tips move,
  * and stores the two coordinates in this plane in projection[2] [m]. */
-void sif_plane_project_particle(const struct sif_plane *plane, const struct particles *p, int64_t particle,
-                                real projection[2]);
+void crack_tip_plane_project_particle(const struct crack_tip_plane *plane, const struct particles *p, int64_t particle,
+                                      real projection[2]);
 
 /* Computes the straight segment in which the pre-crack `precrack` intersects `plane`, the plane in which crack tips
  * move, and stores the ends of the segment in segment_end[0] and segment_end[1], as coordinates in the plane [m].
  * Returns true, or false if the pre-crack is not parallel to the crack fronts, i.e. not perpendicular to the plane. */
-bool sif_plane_intersect_crack(const struct sif_plane *plane, const struct crack *precrack,
-                               real segment_end[2][DIM_MAX]);
+bool crack_tip_plane_intersect_crack(const struct crack_tip_plane *plane, const struct crack *precrack,
+                                     real segment_end[2][DIM_MAX]);
 
 /* Returns the width [m] of the body p along the crack front, averaged over the segment between the points
  * `segment_start` and `segment_end` of `plane`, the plane in which crack tips move, two coordinates each [m]. For a
  * plane body the width is its thickness. */
-real sif_plane_body_width_along_front(const struct sif_plane *plane, const struct particles *p,
-                                      const real *segment_start, const real *segment_end);
+real crack_tip_plane_body_width_along_front(const struct crack_tip_plane *plane, const struct particles *p,
+                                            const real *segment_start, const real *segment_end);
 
 /* Returns the area of the crack face that intersects `plane`, the plane in which crack tips move, in the segment
  * between the points `segment_start` and `segment_end`, two coordinates each [m]: length times width of the body p
  * along the front [m^2]. The area is halved if the segment lies on a plane of symmetry. */
-real sif_plane_crack_area(const struct sif_plane *plane, const struct particles *p, const real *segment_start,
-                          const real *segment_end);
+real crack_tip_plane_crack_area(const struct crack_tip_plane *plane, const struct particles *p,
+                                const real *segment_start, const real *segment_end);
 
 /* Returns true if the segment between the points `segment_start` and `segment_end` of `plane` (the plane in which crack
  * tips move), two coordinates each [m], lies on a plane of symmetry: if both points are within 1e-3 particle spacings
  * of one of the planes plane->mirror. */
-bool sif_plane_segment_is_on_mirror(const struct sif_plane *plane, const real *segment_start, const real *segment_end);
+bool crack_tip_plane_segment_is_on_symmetry_plane(const struct crack_tip_plane *plane, const real *segment_start,
+                                                  const real *segment_end);
 
 /* Computes the point ahead = start + distance * direction. start: point of the plane in which crack tips move [m];
  * direction: unit vector in the plane; distance and result in [m]. */
-static inline void sif_plane_compute_point_ahead(const real *start, real distance, const real *direction, real ahead[2])
+static inline void crack_tip_plane_compute_point_ahead(const real *start, real distance, const real *direction,
+                                                       real ahead[2])
 {
     for (int d = 0; d < 2; d++) ahead[d] = start[d] + distance * direction[d];
 }
 
 /* Returns the distance [m] between the points `point` and `other_point` of the plane in which crack tips move, two
  * coordinates each [m]. */
-static inline real sif_plane_point_distance(const real *point, const real *other_point)
+static inline real crack_tip_plane_point_distance(const real *point, const real *other_point)
 {
     return hypot(point[0] - other_point[0], point[1] - other_point[1]);
 }
@@ -70,7 +72,7 @@ static inline real sif_plane_point_distance(const real *point, const real *other
  * that only half of its crack area belongs to the modelled body. This is tested for the tip and the point one particle
  * spacing ahead of it on the line of the segment: both must be within 1e-3 spacings of one plane in plane->mirror.
  * plane: the plane in which crack tips move, with its particle spacing and the planes of symmetry. */
-bool sif_tip_segment_is_on_mirror(const struct sif_plane *plane, const struct sif_crack_tip *tip);
+bool sif_tip_path_end_is_on_symmetry_plane(const struct crack_tip_plane *plane, const struct sif_crack_tip *tip);
 
 /* Computes the stress-intensity factors K_I and K_II of a tip and stores them in K[] [Pa m^(1/2)]. They follow from a
  * fit of crack-tip fields to the displacements around the tip (fracture/tip_fit.h), in a frame whose x axis is
@@ -103,7 +105,7 @@ void sif_tip_move_to_end_of_increment(struct sif_cracks *cracks, const struct pa
 
 /* Computes the stress-intensity factors of the tip of `cracks` that has grown most among those that can still grow,
  * from the particles p, and stores them in K[] [Pa m^(1/2)]; NAN if no tip can grow. faces_in_contact: crack faces are
- * in contact. Call sif_cracks_initialise_and_can_grow before. */
+ * in contact. Call sif_cracks_find_tips_and_test_can_grow before. */
 void sif_leading_tip_compute_intensity_factors(const struct sif_cracks *cracks, const struct particles *p,
                                                bool faces_in_contact, real K[2]);
 
@@ -123,24 +125,24 @@ void sif_cracks_free(struct sif_cracks *cracks);
 /* Breaks the intact bonds of run e that cross the last part of the pre-crack behind the tip `tip`; they add no fracture
  * energy. Needed after the tip has been moved off a row of particles, where round-off would decide which bonds it cuts
  * (sif_start.c). */
-void sif_tip_break_bonds_behind(struct run *e, const struct sif_crack_tip *tip);
+void sif_tip_break_bonds_across_precrack_behind(struct run *e, const struct sif_crack_tip *tip);
 
 /* Determines the next crack increment of the SIF-driven cracks (growth direction from stress-intensity factors) of run
  * e under the present loads. For each tip that can grow, a trial equilibrium (discarded afterwards) with the bonds of
  * its increment broken gives the energy that is released. Stores in e->statics the bonds to break (`next`), the
  * energies (`ahead`), and the load size (`due`, a measure proportional to the loads) at which the increment releases as
  * much energy as it costs. Returns FAILED if an equilibrium is not found. */
-status sif_increment_find(struct run *e);
+status sif_cracks_find_increment_by_trial_equilibria(struct run *e);
 
 /* Moves all tips of `cracks` that take part in the present crack increment (member `selected` of struct sif_crack_tip)
  * to the ends of their increments, and clears `selected`. p: particles, by which ends at surfaces are recognised. */
-void sif_tips_move_selected(struct sif_cracks *cracks, const struct particles *p);
+void sif_tips_move_those_in_crack_increment(struct sif_cracks *cracks, const struct particles *p);
 
 /* ---- start (sif_start.c) ----------------------------------------------------------------------------------------- */
 
 /* Finds, on the first call only, the tips of the pre-cracks of run e and the plane in which they move. Returns true if
  * at least one tip can grow. Returns false if no tip can grow, or if the cracks of the input file are not SIF-driven
  * (growth direction from stress-intensity factors); in the latter case e->statics->sif.fault is the reason. */
-bool sif_cracks_initialise_and_can_grow(struct run *e);
+bool sif_cracks_find_tips_and_test_can_grow(struct run *e);
 
 #endif

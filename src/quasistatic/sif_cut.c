@@ -29,13 +29,13 @@ static void row_bonds_cut(const struct sif_cracks *l, const struct bonds *b, con
 {
     real X[DIM_MAX] = {0}, Y[DIM_MAX] = {0};
     bool close = false;
-    sif_plane_project_particle(&l->plane, p, b->particle[r], X);
+    crack_tip_plane_project_particle(&l->plane, p, b->particle[r], X);
     for (int w = 0; w < segments->n; w++)
         close |= crack_may_cut_bonds_near(&segments->crack[w], X, l->source->family.cutoff, 2);
-    for (struct bond_iterator it = bond_iterator_of_row(b, r); close && bond_next(&it);) {
+    for (struct bond_iterator it = bond_iterator_of_row(b, r); close && bond_iterator_advance(&it);) {
         bool cut = false;
         if (it.bond.w == 0) continue;
-        sif_plane_project_particle(&l->plane, p, it.bond.nbr, Y);
+        crack_tip_plane_project_particle(&l->plane, p, it.bond.nbr, Y);
         for (int w = 0; w < segments->n; w++) cut |= crack_cuts_bond(&segments->crack[w], X, Y, 2);
         if (!cut) continue;
         const struct broken_bond record = broken_bond_make_record(b, p, &l->source->limit, &it.bond, r);
@@ -69,7 +69,7 @@ static void segment_cost_set(const struct sif_cracks *l, const struct particles 
     const bool state_based = l->scene->model != MODEL_BOND;
     real to[2], sum = 0;
     sif_tip_compute_end_of_next_increment(l, p, tip, to);
-    const real whole = sif_plane_crack_area(&l->plane, p, tip->position, to) * sif_tip_toughness(l, p, tip);
+    const real whole = crack_tip_plane_crack_area(&l->plane, p, tip->position, to) * sif_tip_toughness(l, p, tip);
     for (int64_t k = 0; k < list->n; k++) sum += list->bond[k].held;
     for (int64_t k = 0; k < list->n; k++)
         list->bond[k].held = state_based ? whole / (real)list->n : list->bond[k].held * whole / sum;
@@ -91,7 +91,7 @@ static real segment_bonds(const struct sif_cracks *l, const struct bonds *b, con
     return cost;
 }
 
-void sif_tip_break_bonds_behind(struct run *e, const struct sif_crack_tip *tip)
+void sif_tip_break_bonds_across_precrack_behind(struct run *e, const struct sif_crack_tip *tip)
 {
     const struct sif_cracks *l = &e->statics->sif;
     const real length = real_min(tip->length_behind, e->source.family.cutoff + 2 * e->scene->spacing);
@@ -119,7 +119,7 @@ static int64_t segment_convert(const struct sif_cracks *l, struct particles *p, 
     for (int64_t i = 0; i < p->n; i++) {
         real X[DIM_MAX] = {0};
         if (p->kind[i] != KIND_MPM || p->body[i] != tip->body) continue;
-        sif_plane_project_particle(&l->plane, p, i, X);
+        crack_tip_plane_project_particle(&l->plane, p, i, X);
         if (segment_distance_from_point(from, to, X, 2) > l->source->family.cutoff) continue;
         p->flag[i] |= FLAG_LOST_BOND;
         marked++;
@@ -142,7 +142,7 @@ static status tips_turn_all(struct run *e)
             if (!l->tip[k].ended)
                 sif_tip_choose_direction(l, &e->part, closed, &l->tip[k]),
                     marked += segment_convert(l, &e->part, &l->tip[k]);
-        if (marked > 0) TRY(equilibrium_convert_points_and_solve_again(e, 0));
+        if (marked > 0) TRY(equilibrium_convert_points_to_pd_and_solve_again(e, 0));
     }
     return OK;
 }
@@ -152,10 +152,10 @@ static status tips_turn_all(struct run *e)
  * applied forces [N]). Returns FAILED, with a message, if there is no equilibrium. */
 static status list_break_try(struct run *e, const struct break_list *l, struct crack_increment *a)
 {
-    const real before = statics_energy_released(e->statics, &e->bonds);
+    const real before = statics_energy_released_since_start(e->statics, &e->bonds);
     bonds_break_listed(e, l);
     const status tried = equilibrium_find_at_time(e, e->statics->t);
-    a->release = (statics_energy_released(e->statics, &e->bonds) - before) /
+    a->release = (statics_energy_released_since_start(e->statics, &e->bonds) - before) /
                  square(statics_norm_of_prescribed_loads(e, e->statics->t));
     return tried;
 }
@@ -175,7 +175,7 @@ static status behind_first_set(struct run *e, struct sif_crack_tip *tip)
     if (list.n > 0) {
         tried = list_break_try(e, &list, &second);
         bonds_restore_broken(e->statics, &e->bonds, &e->part, &list);
-        tip->behind = increment_extrapolate_before_first(&tip->ahead, &second);
+        tip->behind = crack_increment_extrapolate_before_first(&tip->ahead, &second);
     }
     memory_free(list.bond);
     return tried;
@@ -223,7 +223,7 @@ static void increment_choose(struct statics *s, struct break_list *list)
         s->ahead.cost += tip->ahead.cost, s->ahead.release += tip->ahead.release;
         s->behind.cost += tip->behind.cost, s->behind.release += tip->behind.release;
     }
-    s->due = increments_joint_energy_balance_load_size(&s->ahead, &s->behind);
+    s->due = crack_increments_load_size_at_joint_balance(&s->ahead, &s->behind);
 }
 
 /* If several tips of run e are selected for the next crack increment, recomputes its energy release s->ahead.release by
@@ -246,7 +246,7 @@ static status increment_try_together(struct run *e)
     trial_equilibrium_end(e, &saved, false, &s->next);
     for (int k = 0; k < s->sif.n && separate > 0; k++)
         if (s->sif.tip[k].selected) s->sif.tip[k].ahead.release *= s->ahead.release / separate;
-    if (grown) s->due = increments_joint_energy_balance_load_size(&s->ahead, &s->behind);
+    if (grown) s->due = crack_increments_load_size_at_joint_balance(&s->ahead, &s->behind);
     return tried;
 }
 
@@ -262,11 +262,11 @@ static status tip_try(struct run *e, struct sif_crack_tip *tip, struct break_lis
     tip->ended = list->n == 0;
     if (tip->ended) return OK;
     TRY(segment_try(e, tip, list));
-    tip->due = increments_joint_energy_balance_load_size(&tip->ahead, &tip->behind);
+    tip->due = crack_increments_load_size_at_joint_balance(&tip->ahead, &tip->behind);
     return OK;
 }
 
-status sif_increment_find(struct run *e)
+status sif_cracks_find_increment_by_trial_equilibria(struct run *e)
 {
     struct statics *s = e->statics;
     struct break_list list[SIF_TIPS_MAX] = {{0}};
@@ -283,7 +283,7 @@ status sif_increment_find(struct run *e)
     return tried;
 }
 
-void sif_tips_move_selected(struct sif_cracks *cracks, const struct particles *p)
+void sif_tips_move_those_in_crack_increment(struct sif_cracks *cracks, const struct particles *p)
 {
     for (int k = 0; k < cracks->n; k++) {
         struct sif_crack_tip *tip = &cracks->tip[k];

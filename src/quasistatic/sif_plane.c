@@ -31,7 +31,7 @@ static void make_unit(real *a)
  * crack fronts. Coordinate axes that are perpendicular to the fronts are preferred, so that planes of symmetry are
  * perpendicular to an axis of the plane. If the front is parallel to a coordinate axis or plane up to STRAIGHT
  * (components of the unit vector), it is set exactly to that axis or plane. */
-static void axes_make(struct sif_plane *plane)
+static void axes_make(struct crack_tip_plane *plane)
 {
     real *f = plane->front;
     int most = 0, least = 0;
@@ -48,24 +48,24 @@ static void axes_make(struct sif_plane *plane)
     vector_product(f, plane->axis[0], plane->axis[1]);
 }
 
-void sif_plane_project(const struct sif_plane *plane, const real *point, real projection[2])
+void crack_tip_plane_project_point(const struct crack_tip_plane *plane, const real *point, real projection[2])
 {
     for (int a = 0; a < 2; a++) projection[a] = dot(plane->axis[a], point, plane->dim);
 }
 
-void sif_plane_project_particle(const struct sif_plane *plane, const struct particles *p, int64_t particle,
-                                real projection[2])
+void crack_tip_plane_project_particle(const struct crack_tip_plane *plane, const struct particles *p, int64_t particle,
+                                      real projection[2])
 {
     real X[DIM_MAX] = {0};
     particle_reference_position(p, particle, X);
-    sif_plane_project(plane, X, projection);
+    crack_tip_plane_project_point(plane, X, projection);
 }
 
 /* ---- requirements in space --------------------------------------------------------------------------------------- */
 
 /* Stores the common direction of the fronts of all pre-cracks in t in plane->front, as a unit vector. Returns NULL, or
  * a text (not to be freed) with the reason why there is no common direction. */
-static const char *front_find(const struct crack_tips *t, struct sif_plane *plane)
+static const char *front_find(const struct crack_tips *t, struct crack_tip_plane *plane)
 {
     bool found = false;
     for (int k = 0; k < t->n; k++) {
@@ -83,7 +83,7 @@ static const char *front_find(const struct crack_tips *t, struct sif_plane *plan
 
 /* Stores in plane->middle the coordinate, along the direction of the fronts, of the middle of the first front in t
  * [m]. */
-static void front_middle(const struct crack_tips *t, struct sif_plane *plane)
+static void front_middle(const struct crack_tips *t, struct crack_tip_plane *plane)
 {
     for (int k = t->n - 1; k >= 0; k--)
         if (t->tip[k].from_crack) plane->middle = dot(plane->front, t->tip[k].origin, 3);
@@ -92,7 +92,7 @@ static void front_middle(const struct crack_tips *t, struct sif_plane *plane)
 /* Lists in plane->mirror the planes of symmetry parallel to the crack fronts, each with the axis of the plane of the
  * tips to which it is perpendicular. Returns NULL, or a text (not to be freed) with the reason, if a plane of symmetry
  * is neither parallel nor perpendicular to the fronts. */
-static const char *mirrors_find(struct sif_plane *plane)
+static const char *mirrors_find(struct crack_tip_plane *plane)
 {
     for (int k = 0; k < plane->body_mirrors; k++) {
         struct mirror_plane m = plane->body_mirror[k];
@@ -110,17 +110,17 @@ static const char *mirrors_find(struct sif_plane *plane)
 /* Intersects the pre-crack `precrack`, a polygon, with the plane in which crack tips move, and stores the ends of the
  * common segment in segment_end[0] and segment_end[1] [m]. Their order is such that the normal of the segment points to
  * the same side as the normal of the polygon. Returns false if the pre-crack is not parallel to the crack fronts. */
-bool sif_plane_intersect_crack(const struct sif_plane *plane, const struct crack *precrack,
-                               real segment_end[2][DIM_MAX])
+bool crack_tip_plane_intersect_crack(const struct crack_tip_plane *plane, const struct crack *precrack,
+                                     real segment_end[2][DIM_MAX])
 {
     real area[DIM_MAX], across[2], least = INFINITY, most = -INFINITY;
     if (plane->dim == 2) return memcpy(segment_end, precrack->corner, 2 * sizeof *segment_end), true;
     crack_area_vector(precrack, area);
-    sif_plane_project(plane, area, across);
+    crack_tip_plane_project_point(plane, area, across);
     const real size = hypot(across[0], across[1]), along[2] = {across[1] / size, -across[0] / size};
     for (int k = 0; k < precrack->n; k++) {
         real P[2];
-        sif_plane_project(plane, precrack->corner[k], P);
+        crack_tip_plane_project_point(plane, precrack->corner[k], P);
         const real s = dot(along, P, 2);
         for (int d = 0; d < 2 && s < least; d++) segment_end[0][d] = P[d];
         for (int d = 0; d < 2 && s > most; d++) segment_end[1][d] = P[d];
@@ -132,15 +132,15 @@ bool sif_plane_intersect_crack(const struct sif_plane *plane, const struct crack
 
 /* Returns NULL if all pre-cracks of l are rectangles with edges along the crack fronts of `plane`, else a text (not to
  * be freed) with the reason why they are not. */
-static const char *cracks_check(const struct crack_list *l, const struct sif_plane *plane)
+static const char *cracks_check(const struct crack_list *l, const struct crack_tip_plane *plane)
 {
     for (int k = 0; k < l->n; k++) {
         real at[2][DIM_MAX] = {{0}};
-        if (!sif_plane_intersect_crack(plane, &l->crack[k], at))
+        if (!crack_tip_plane_intersect_crack(plane, &l->crack[k], at))
             return "a pre-crack is not parallel to the crack fronts";
         for (int c = 0; c < l->crack[k].n; c++) {
             real P[2];
-            sif_plane_project(plane, l->crack[k].corner[c], P);
+            crack_tip_plane_project_point(plane, l->crack[k].corner[c], P);
             const real off = real_min(hypot(P[0] - at[0][0], P[1] - at[0][1]), hypot(P[0] - at[1][0], P[1] - at[1][1]));
             if (off > RAGGED * plane->spacing)
                 return "a pre-crack is not a rectangle with edges along the crack fronts";
@@ -151,23 +151,24 @@ static const char *cracks_check(const struct crack_list *l, const struct sif_pla
 
 /* Returns NULL if all crack fronts of t run through the whole width of the body of p along plane->front, else a text
  * (not to be freed) with the reason why they do not. */
-static const char *fronts_check(const struct crack_tips *t, const struct particles *p, const struct sif_plane *plane)
+static const char *fronts_check(const struct crack_tips *t, const struct particles *p,
+                                const struct crack_tip_plane *plane)
 {
     const real h = plane->spacing;
     for (int k = 0; k < t->n; k++) {
         real at[2][2], along[2];
         if (!t->tip[k].from_crack) continue;
-        sif_plane_project(plane, t->tip[k].origin, at[0]);
-        sif_plane_project(plane, t->tip[k].along, along);
-        sif_plane_compute_point_ahead(at[0], h, along, at[1]);
-        const real width = sif_plane_body_width_along_front(plane, p, at[0], at[1]);
+        crack_tip_plane_project_point(plane, t->tip[k].origin, at[0]);
+        crack_tip_plane_project_point(plane, t->tip[k].along, along);
+        crack_tip_plane_compute_point_ahead(at[0], h, along, at[1]);
+        const real width = crack_tip_plane_body_width_along_front(plane, p, at[0], at[1]);
         if (width > 2 * sqrt(dot(t->tip[k].edge, t->tip[k].edge, 3)) + h) return "a crack front ends inside the body";
     }
     return NULL;
 }
 
-const char *sif_plane_find_or_return_reason(struct sif_plane *plane, const struct crack_tips *tips,
-                                            const struct crack_list *precracks, const struct particles *p)
+const char *crack_tip_plane_find_or_return_reason(struct crack_tip_plane *plane, const struct crack_tips *tips,
+                                                  const struct crack_list *precracks, const struct particles *p)
 {
     const char *fault = NULL;
     if (plane->dim == 2) {
@@ -185,7 +186,7 @@ const char *sif_plane_find_or_return_reason(struct sif_plane *plane, const struc
 
 /* Returns the share (0 to 1) of particle i of p that belongs to the body: 1, halved for each plane of symmetry that is
  * perpendicular to the crack front of `plane` and passes through the particle. */
-static real share_beside_mirrors(const struct sif_plane *plane, const struct particles *p, int64_t i)
+static real share_beside_mirrors(const struct crack_tip_plane *plane, const struct particles *p, int64_t i)
 {
     real share = 1;
     for (int k = 0; k < plane->body_mirrors; k++) {
@@ -198,7 +199,7 @@ static real share_beside_mirrors(const struct sif_plane *plane, const struct par
 
 /* Returns the length that the cube of particle i of p has in common with a line parallel to the crack front of `plane`
  * [m]. P[2]: point in which the line intersects the plane of the tips [m]. */
-static real chord(const struct sif_plane *plane, const struct particles *p, int64_t i, const real *P)
+static real chord(const struct crack_tip_plane *plane, const struct particles *p, int64_t i, const real *P)
 {
     const real half = 0.5 * cbrt(p->volume0[i]);
     real low = -INFINITY, high = INFINITY;
@@ -214,8 +215,8 @@ static real chord(const struct sif_plane *plane, const struct particles *p, int6
     return real_max(0, high - low);
 }
 
-real sif_plane_body_width_along_front(const struct sif_plane *plane, const struct particles *p,
-                                      const real *segment_start, const real *segment_end)
+real crack_tip_plane_body_width_along_front(const struct crack_tip_plane *plane, const struct particles *p,
+                                            const real *segment_start, const real *segment_end)
 {
     const real a[DIM_MAX] = {segment_start[0], segment_start[1]}, b[DIM_MAX] = {segment_end[0], segment_end[1]};
     real sum = 0;
@@ -223,7 +224,7 @@ real sif_plane_body_width_along_front(const struct sif_plane *plane, const struc
     for (int64_t i = 0; i < p->n; i++) {
         const real position[DIM_MAX] = {p->X[0][i], p->X[1][i], p->X[2][i]};
         real X[2];
-        sif_plane_project(plane, position, X);
+        crack_tip_plane_project_point(plane, position, X);
         if (segment_distance_from_point(a, b, X, 2) > cbrt(p->volume0[i])) continue;
         const real share = share_beside_mirrors(plane, p, i);
         for (int k = 0; k < SAMPLES; k++) {
@@ -234,7 +235,8 @@ real sif_plane_body_width_along_front(const struct sif_plane *plane, const struc
     return sum / SAMPLES;
 }
 
-bool sif_plane_segment_is_on_mirror(const struct sif_plane *plane, const real *segment_start, const real *segment_end)
+bool crack_tip_plane_segment_is_on_symmetry_plane(const struct crack_tip_plane *plane, const real *segment_start,
+                                                  const real *segment_end)
 {
     bool on = false;
     for (int k = 0; k < plane->mirrors; k++) {
@@ -245,10 +247,10 @@ bool sif_plane_segment_is_on_mirror(const struct sif_plane *plane, const real *s
     return on;
 }
 
-real sif_plane_crack_area(const struct sif_plane *plane, const struct particles *p, const real *segment_start,
-                          const real *segment_end)
+real crack_tip_plane_crack_area(const struct crack_tip_plane *plane, const struct particles *p,
+                                const real *segment_start, const real *segment_end)
 {
     const real length = hypot(segment_end[0] - segment_start[0], segment_end[1] - segment_start[1]);
-    return length * sif_plane_body_width_along_front(plane, p, segment_start, segment_end) *
-           (sif_plane_segment_is_on_mirror(plane, segment_start, segment_end) ? 0.5 : 1);
+    return length * crack_tip_plane_body_width_along_front(plane, p, segment_start, segment_end) *
+           (crack_tip_plane_segment_is_on_symmetry_plane(plane, segment_start, segment_end) ? 0.5 : 1);
 }

@@ -21,10 +21,10 @@ static void crack_behind_tip(const struct sif_cracks *l, struct sif_crack_tip *t
     const struct scene *s = l->scene;
     for (int k = 0; k < s->cracks; k++) {
         real at[2][DIM_MAX] = {{0}};
-        sif_plane_intersect_crack(&l->plane, &s->crack[k], at);
+        crack_tip_plane_intersect_crack(&l->plane, &s->crack[k], at);
         for (int end = 0; end < 2; end++) {
-            if (sif_plane_point_distance(at[end], tip->position) > HERE * s->spacing) continue;
-            tip->length_behind = real_max(tip->length_behind, sif_plane_point_distance(at[0], at[1]));
+            if (crack_tip_plane_point_distance(at[end], tip->position) > HERE * s->spacing) continue;
+            tip->length_behind = real_max(tip->length_behind, crack_tip_plane_point_distance(at[0], at[1]));
             tip->reversed |= end == 0;
         }
     }
@@ -34,14 +34,14 @@ static void crack_behind_tip(const struct sif_cracks *l, struct sif_crack_tip *t
  * row, so that round-off does not decide further growth. A crack along a row assigns the particles of the row to one of
  * its faces (crack_cuts_bond); the tip is moved to the side on which bonds are then cut. plane: plane in which tips
  * move. Returns true if the tip has been moved. Does nothing, and returns false, for a tip on a plane of symmetry. */
-static bool tip_off_row(const struct sif_plane *plane, const struct particles *p, struct sif_crack_tip *tip)
+static bool tip_off_row(const struct crack_tip_plane *plane, const struct particles *p, struct sif_crack_tip *tip)
 {
     const real h = plane->spacing, *along = tip->along;
     real next = h;
     int64_t on = 0;
     for (int64_t i = 0; i < p->n; i++) {
         real X[2];
-        sif_plane_project_particle(plane, p, i, X);
+        crack_tip_plane_project_particle(plane, p, i, X);
         for (int d = 0; d < 2; d++) X[d] -= tip->position[d];
         const real ahead = dot(along, X, 2), aside = fabs(along[0] * X[1] - along[1] * X[0]);
         if (p->body[i] != tip->body || !(ahead > 0 && ahead < ROW_SEEN * h)) continue;
@@ -49,7 +49,7 @@ static bool tip_off_row(const struct sif_plane *plane, const struct particles *p
         next = aside < ON_ROW * h ? next : real_min(next, aside);
     }
     const real below = (tip->reversed ? 0.5 : -0.5) * next;
-    if (on < ROW_LEAST || next < ROWS_APART * h || sif_tip_segment_is_on_mirror(plane, tip)) return false;
+    if (on < ROW_LEAST || next < ROWS_APART * h || sif_tip_path_end_is_on_symmetry_plane(plane, tip)) return false;
     tip->position[0] -= below * along[1], tip->position[1] += below * along[0];
     memcpy(tip->start, tip->position, sizeof tip->start);
     return true;
@@ -68,39 +68,39 @@ static void sif_tips_start(struct run *e)
         if (!from->from_crack) continue;
         struct sif_crack_tip *tip = &l->tip[l->n++];
         *tip = (struct sif_crack_tip){.body = from->body};
-        sif_plane_project(&l->plane, from->origin, position);
-        sif_plane_project(&l->plane, from->along, along);
+        crack_tip_plane_project_point(&l->plane, from->origin, position);
+        crack_tip_plane_project_point(&l->plane, from->along, along);
         for (int d = 0; d < 2; d++) {
             tip->start[d] = tip->position[d] = position[d];
             tip->along[d] = tip->heading[d] = tip->last[d] = along[d];
         }
         crack_behind_tip(l, tip);
-        if (tip_off_row(&l->plane, &e->part, tip)) sif_tip_break_bonds_behind(e, tip);
+        if (tip_off_row(&l->plane, &e->part, tip)) sif_tip_break_bonds_across_precrack_behind(e, tip);
     }
 }
 
-const char *sif_growth_why_impossible(const struct run *e, struct sif_plane *plane)
+const char *sif_growth_reason_direction_undetermined(const struct run *e, struct crack_tip_plane *plane)
 {
     const struct scene *s = e->scene;
-    struct sif_plane unused;
+    struct crack_tip_plane unused;
     const bool one =
         s->bodies == 1 && s->materials == 1; /* the hoop-stress criterion ignores differences in toughness */
     if (!plane) plane = &unused;
-    *plane = (struct sif_plane){.made = true,
-                                .dim = e->part.dim,
-                                .spacing = s->spacing,
-                                .section = scene_section_or_thickness(s),
-                                .body_mirrors = e->source.mirrors,
-                                .body_mirror = e->source.mirror};
+    *plane = (struct crack_tip_plane){.made = true,
+                                      .dim = e->part.dim,
+                                      .spacing = s->spacing,
+                                      .section = scene_cross_section_or_thickness(s),
+                                      .body_mirrors = e->source.mirrors,
+                                      .body_mirror = e->source.mirror};
     if (s->steps.path == PATH_BONDS) return "steps.path is bonds";
     if (s->steps.path == PATH_AUTO && !one) return "the scene has several bodies or materials";
-    return sif_plane_find_or_return_reason(plane, &e->fracture->tips, &e->tables.cracks, &e->part);
+    return crack_tip_plane_find_or_return_reason(plane, &e->fracture->tips, &e->tables.cracks, &e->part);
 }
 
-status sif_growth_check_scene_allows_it(const struct run *e)
+status sif_growth_check_direction_is_determinable(const struct run *e)
 {
     if (!scene_has_load_steps(e->scene) || e->scene->steps.path != PATH_HOOP || e->scene->dim != 3) return OK;
-    const char *fault = sif_growth_why_impossible(e, NULL);
+    const char *fault = sif_growth_reason_direction_undetermined(e, NULL);
     return fault ? status_set(REFUSED,
                               "steps.path: hoop (crack growth by the hoop stress) needs straight, parallel crack "
                               "fronts through the whole body, but %s; set steps.path: bonds or auto",
@@ -108,11 +108,11 @@ status sif_growth_check_scene_allows_it(const struct run *e)
                  : OK;
 }
 
-bool sif_cracks_initialise_and_can_grow(struct run *e)
+bool sif_cracks_find_tips_and_test_can_grow(struct run *e)
 {
     struct sif_cracks *l = &e->statics->sif;
     l->scene = e->scene, l->source = &e->source;
-    if (!l->plane.made) l->fault = sif_growth_why_impossible(e, &l->plane);
+    if (!l->plane.made) l->fault = sif_growth_reason_direction_undetermined(e, &l->plane);
     if (l->fault) return false;
     if (!l->known) sif_tips_start(e);
     for (int k = 0; k < l->n; k++)

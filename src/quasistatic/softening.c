@@ -18,7 +18,7 @@ enum { BISECTIONS_MOST = 100 }; /* largest number of bisections for a factor */
 #define FOR_SOFTENING_BONDS(b, row, it)                                                                                \
     for (int64_t row = 0; row < (b)->rows; row++)                                                                      \
         for (struct bond_iterator it = bond_iterator_of_row(b, row);                                                   \
-             bond_row_block_has_begun_softening(b, row / LANES) && bond_next(&it);)                                    \
+             bond_row_block_has_begun_softening(b, row / LANES) && bond_iterator_advance(&it);)                        \
             if (it.bond.w != 0 && bond_is_softening(b, row / LANES, it.bond.entry))
 
 /* ---- a list of bonds --------------------------------------------------------------------------------------------- */
@@ -33,7 +33,7 @@ static void bond_weigh(struct bonds *b, int64_t row, int64_t q, real k)
     b->w[q] =
         soft->whole[q] *
         real_max(LEAST_WEIGHT, softening_remaining_stiffness_fraction(soft->curve, soft->onset[q], soft->end[q], k));
-    bond_column_update_after_bond_change(b, row, q);
+    bond_update_cached_data_after_modification(b, row, q);
 }
 
 /* Appends the softening bond `bond` of row `row` of b (bonds of one particle of p) to the list l. Stores its present
@@ -41,14 +41,14 @@ static void bond_weigh(struct bonds *b, int64_t row, int64_t q, real k)
  * begins and ends, and the energy by which its normalised dissipation is multiplied. In state-based models this energy
  * follows from the energy that damage of the bond releases; if that is not positive the bond does not soften further,
  * and its stretch is stored as 0. */
-static void softening_list_add(struct softening_list *l, const struct bonds *b, const struct particles *p, int64_t row,
-                               const struct bond *bond, real factor)
+static void softening_list_add(struct softening_bond_list *l, const struct bonds *b, const struct particles *p,
+                               int64_t row, const struct bond *bond, real factor)
 {
-    const struct bond_softness soft = bond_softness_load(&b->soft, bond->entry);
+    const struct bond_softening_state soft = bond_softening_state_read(&b->soft, bond->entry);
     real stretch = bond_stretch_at_earlier_time(p, bond->inverse_length, b->particle[row], bond->nbr, 0),
          energy = 0.5 * b->stiffness * bond->w / bond->inverse_length;
     if (b->soft.whole) {
-        energy = real_max(0, soft.whole * bond_driving_energy(b, p, bond, b->particle[row]) / square(stretch));
+        energy = real_max(0, soft.whole * bond_damage_driving_energy(b, p, bond, b->particle[row]) / square(stretch));
         if (energy == 0) stretch = 0;
     }
     GROW("softening.bonds", l->bond, l->n + 1);
@@ -57,20 +57,20 @@ static void softening_list_add(struct softening_list *l, const struct bonds *b, 
         soft.end,    energy};
 }
 
-void softening_list_make(struct softening_list *l, const struct bonds *b, const struct particles *p,
-                         real stretch_divisor)
+void softening_bond_list_collect(struct softening_bond_list *l, const struct bonds *b, const struct particles *p,
+                                 real stretch_divisor)
 {
     l->n = 0, l->curve = b->soft.curve;
     FOR_SOFTENING_BONDS(b, row, it) softening_list_add(l, b, p, row, &it.bond, stretch_divisor);
 }
 
 /* Returns the energy that `bond` of list l has dissipated once its largest stretch is k (dimensionless) [J]. */
-static real spent_at(const struct softening_list *l, const struct softening_bond *bond, real k)
+static real spent_at(const struct softening_bond_list *l, const struct softening_bond *bond, real k)
 {
     return bond->energy * softening_normalised_dissipated_energy(l->curve, bond->onset, bond->end, k);
 }
 
-real softening_list_dissipated_energy(const struct softening_list *l, real stretch_factor)
+real softening_bond_list_dissipated_energy(const struct softening_bond_list *l, real stretch_factor)
 {
     real sum = 0;
     for (int64_t k = 0; k < l->n; k++) {
@@ -84,14 +84,14 @@ real softening_list_dissipated_energy(const struct softening_list *l, real stret
 /* Returns the smallest factor between 0 and `max_factor` by which the stretches of the bonds in list l must be
  * multiplied so that the bonds have dissipated `energy` [J]; `max_factor` if they dissipate less. Uses the false
  * position method with the Illinois rule (Dowell & Jarratt 1971). */
-real softening_list_factor_for_energy(const struct softening_list *l, real energy, real max_factor)
+real softening_bond_list_stretch_factor_at_energy(const struct softening_bond_list *l, real energy, real max_factor)
 {
-    real low = 0, at_low = -energy, at_high = softening_list_dissipated_energy(l, max_factor) - energy;
+    real low = 0, at_low = -energy, at_high = softening_bond_list_dissipated_energy(l, max_factor) - energy;
     int side = 0;
     for (int k = 0; k < BISECTIONS_MOST && max_factor - low > FACTOR_ERROR * max_factor && at_high > 0; k++) {
         const real middle =
             k % 4 == 3 ? 0.5 * (low + max_factor) : (low * at_high - max_factor * at_low) / (at_high - at_low);
-        const real at = softening_list_dissipated_energy(l, middle) - energy;
+        const real at = softening_bond_list_dissipated_energy(l, middle) - energy;
         if (at > 0) {
             max_factor = middle, at_high = at;
             if (side > 0) at_low *= 0.5;
@@ -105,7 +105,8 @@ real softening_list_factor_for_energy(const struct softening_list *l, real energ
     return max_factor;
 }
 
-void softening_list_store_largest_stretches(const struct softening_list *l, struct bonds *b, real stretch_factor)
+void softening_bond_list_store_largest_stretches(const struct softening_bond_list *l, struct bonds *b,
+                                                 real stretch_factor)
 {
     for (int64_t k = 0; k < l->n; k++) {
         const struct softening_bond *bond = &l->bond[k];
@@ -128,16 +129,18 @@ static void settle_bond(struct bonds *b, const struct particles *p, const struct
         return;
     }
     b->soft.settled[q] = 0;
-    bond_softness_store(b, q, bond_softness_before_onset(bond_softening_range(p, limit, b->particle[row], bond->nbr)));
+    bond_softening_state_write(
+        b, q, bond_softening_state_before_onset(bond_softening_range(p, limit, b->particle[row], bond->nbr)));
 }
 
-void softening_store_equilibrium_stretches(struct bonds *b, const struct particles *p, const struct bond_limit *limit)
+void bonds_store_softening_stretches_of_equilibrium(struct bonds *b, const struct particles *p,
+                                                    const struct bond_limit *limit)
 {
     if (!b->soft.settled) b->soft.settled = memory_new_lazy_zeroed("bonds.settled", b->room * LANES, sizeof(float));
     FOR_SOFTENING_BONDS(b, row, it) settle_bond(b, p, limit, row, &it.bond);
 }
 
-void softening_restore_equilibrium_stretches(struct bonds *b)
+void bonds_restore_softening_stretches_of_equilibrium(struct bonds *b)
 {
     FOR_SOFTENING_BONDS(b, row, it)
     {
@@ -151,14 +154,14 @@ void softening_restore_equilibrium_stretches(struct bonds *b)
  * of the last equilibrium if `settled`, else the present ones. */
 static void row_weigh_softened(struct bonds *b, int64_t row, bool settled)
 {
-    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
+    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_iterator_advance(&it);) {
         const int64_t q = it.bond.entry;
         if (it.bond.w == 0 || !bond_is_softening(b, row / LANES, q)) continue;
         bond_weigh(b, row, q, settled ? fmaxf(b->soft.settled[q], b->soft.onset[q]) : b->soft.most[q]);
     }
 }
 
-void softening_add_family_losses(struct bonds *b, const struct particles *p)
+void bonds_add_softening_losses_to_fracture_energy(struct bonds *b, const struct particles *p)
 {
 #pragma omp parallel for schedule(dynamic, 8)
     for (int64_t g = 0; g < b->row_blocks; g++)

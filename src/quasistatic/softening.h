@@ -16,7 +16,7 @@ struct softening_bond {
 };
 
 /* The bonds of a run that soften or may begin to. curve: shape of softening, kept by reference. */
-struct softening_list {
+struct softening_bond_list {
     int64_t n;
     struct softening_bond *bond; /* [n] owned */
     const struct softening_curve *curve;
@@ -25,37 +25,39 @@ struct softening_list {
 /* Lists in *l the intact bonds of b that soften or may begin to, in the order of rows, with their stretches at the
  * present displacements of p divided by `stretch_divisor` [1], the load factor of these displacements; the stretches at
  * another load factor follow by multiplication. Replaces the former contents of *l; free l->bond with memory_free. */
-void softening_list_make(struct softening_list *l, const struct bonds *b, const struct particles *p,
-                         real stretch_divisor);
+void softening_bond_list_collect(struct softening_bond_list *l, const struct bonds *b, const struct particles *p,
+                                 real stretch_divisor);
 
 /* Returns the energy [J] that the bonds of the list l would have dissipated by softening since the last equilibrium if
  * their stretches were `stretch_factor` times the stretches stored in the list. */
-real softening_list_dissipated_energy(const struct softening_list *l, real stretch_factor);
+real softening_bond_list_dissipated_energy(const struct softening_bond_list *l, real stretch_factor);
 
 /* Returns the smallest factor on the stretches of the list l, between 0 and `max_factor`, at which the bonds have
- * dissipated the energy `energy` since the last equilibrium [J] (softening_list_dissipated_energy). At the factor
+ * dissipated the energy `energy` since the last equilibrium [J] (softening_bond_list_dissipated_energy). At the factor
  * `max_factor` they must have dissipated at least `energy`. */
-real softening_list_factor_for_energy(const struct softening_list *l, real energy, real max_factor);
+real softening_bond_list_stretch_factor_at_energy(const struct softening_bond_list *l, real energy, real max_factor);
 
 /* Sets the largest stretch in b of each bond of the list l to that of the last equilibrium or, if larger, to
  * `stretch_factor` times the stretch stored in the list. */
-void softening_list_store_largest_stretches(const struct softening_list *l, struct bonds *b, real stretch_factor);
+void softening_bond_list_store_largest_stretches(const struct softening_bond_list *l, struct bonds *b,
+                                                 real stretch_factor);
 
 /* Stores the present largest stretches of the bonds b of the particles p as those of the last equilibrium, from which
  * later equilibrium solutions start. Bonds whose stretch has not exceeded their onset of softening are stored as not
  * yet softening, so that the stress across them is compared with the strength again. limit: critical stretches and
  * softening of bonds. The first call allocates storage in b->soft; from then on forces are computed from the stored
  * largest stretches. */
-void softening_store_equilibrium_stretches(struct bonds *b, const struct particles *p, const struct bond_limit *limit);
+void bonds_store_softening_stretches_of_equilibrium(struct bonds *b, const struct particles *p,
+                                                    const struct bond_limit *limit);
 
 /* For state-based models, computes the energy that the neighbourhood of each particle (all its neighbours) has lost
  * since the last equilibrium because bonds of b softened, and adds it to the fracture energy of the row of the particle
  * (its bonds). p: particles midway between the positions of both equilibria, so that the error of the energy balance
  * over the load step is of second order in the size of the step. */
-void softening_add_family_losses(struct bonds *b, const struct particles *p);
+void bonds_add_softening_losses_to_fracture_energy(struct bonds *b, const struct particles *p);
 
 /* Resets the largest stretches of all softening bonds of b to those of the last equilibrium, which
- * softening_store_equilibrium_stretches has stored, so that another solution can start from there. */
-void softening_restore_equilibrium_stretches(struct bonds *b);
+ * bonds_store_softening_stretches_of_equilibrium has stored, so that another solution can start from there. */
+void bonds_restore_softening_stretches_of_equilibrium(struct bonds *b);
 
 #endif

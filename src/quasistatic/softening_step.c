@@ -48,7 +48,7 @@ struct search {
     struct bonds *bonds;
     struct particles *part;
     const struct bond_source *source;
-    struct softening_list list;
+    struct softening_bond_list list;
     real spent;    /* energy to be dissipated, INFINITY: loads are given [J] */
     real end;      /* largest pseudo-time [s] */
     bool at_end;   /* the loads of the pseudo-time `end` are reached */
@@ -87,18 +87,19 @@ static real secants_choose(struct search *f, real most, real least)
     for (int k = 0;; k++) {
         body_scale(f, high);
         bonds_open_beyond_onset(f->bonds, f->part, &f->source->limit);
-        softening_list_make(&f->list, f->bonds, f->part, high);
+        softening_bond_list_collect(&f->list, f->bonds, f->part, high);
         most = real_min(most, real_max(high * factor_at_surface(f), given ? least : 0));
         high = real_min(high, most);
-        if (given || high >= most || k == GROWTHS_MOST || softening_list_dissipated_energy(&f->list, high) >= f->spent)
+        if (given || high >= most || k == GROWTHS_MOST ||
+            softening_bond_list_dissipated_energy(&f->list, high) >= f->spent)
             break;
         high = real_min(most, growth * high);
         growth = real_min(2, square(growth));
     }
-    const bool enough = !given && softening_list_dissipated_energy(&f->list, high) >= f->spent;
-    const real factor = enough ? softening_list_factor_for_energy(&f->list, f->spent, high) : high;
+    const bool enough = !given && softening_bond_list_dissipated_energy(&f->list, high) >= f->spent;
+    const real factor = enough ? softening_bond_list_stretch_factor_at_energy(&f->list, f->spent, high) : high;
     f->at_end = !enough && high >= end;
-    softening_list_store_largest_stretches(&f->list, f->bonds, factor);
+    softening_bond_list_store_largest_stretches(&f->list, f->bonds, factor);
     return factor;
 }
 
@@ -134,9 +135,9 @@ static status search_run(struct run *e, struct search *f)
             const real factor = secants_choose(f, size > 0 ? last / size : 1, size > 0 ? before / size : 1);
             f->residual = k > 0 ? residual_now(f->q) : 1;
             if (f->residual <= enough && fabs(factor - 1) <= FACTOR_ERROR) return OK;
-            t = f->at_end ? f->end : statics_time_of_load_size(e, factor * size);
+            t = f->at_end ? f->end : statics_find_pseudo_time_at_load_size(e, factor * size);
         }
-        applied_forces_copy(applied, s, &e->part);
+        applied_forces_allocate_and_copy(applied, s, &e->part);
         s->balance.tolerance = real_max(tolerance, real_min(SOLVED_LEAST, SOLVED_TO * f->residual));
         found = equilibrium_solve_without_work_account(e, t, applied);
         s->balance.tolerance = tolerance, s->balance.lost = lost;
@@ -164,7 +165,7 @@ static void family_losses_add(struct bonds *b, const struct particles *p, const 
         for (int64_t i = 0; i < p->n; i++) midway.x[d][i] = 0.5 * (p->x[d][i] + before[d][i]);
     }
     loads_update_mirror_images(loads, &midway);
-    softening_add_family_losses(b, &midway);
+    bonds_add_softening_losses_to_fracture_energy(b, &midway);
     for (int d = 0; d < p->dim; d++) memory_free(midway.x[d]);
 }
 
@@ -176,31 +177,31 @@ static status step_try(struct run *e, real t, real spent)
 {
     struct statics *s = e->statics;
     struct memory_archive saved;
-    struct account account;
+    struct work_account account;
     struct search f = {&s->balance, &e->bonds, &e->part, &e->source, .spent = spent, .end = t};
     trial_equilibrium_begin(e, &saved);
-    work_account_start(&account, s, &e->part);
+    work_account_store_initial_equilibrium(&account, s, &e->part);
     const real worked = e->loads.work + e->loads.constraint_work,
                stored = e->kernels.bond_energy(&e->bonds, &e->part, NULL) + bonds_fracture_energy(&e->bonds);
     const status found = search_run(e, &f);
     memory_free(f.list.bond);
     if (found != OK) {
         work_account_free(&account);
-        softening_restore_equilibrium_stretches(&e->bonds);
+        bonds_restore_softening_stretches_of_equilibrium(&e->bonds);
         trial_equilibrium_end(e, &saved, false, NULL);
         return found;
     }
     trial_equilibrium_end(e, &saved, true, NULL);
     family_losses_add(&e->bonds, &e->part, &e->loads, account.x);
-    work_account_end_and_estimate_error(&account, s, &e->part, &e->loads, 0);
+    work_account_add_work_and_estimate_error(&account, s, &e->part, &e->loads, 0);
     const real lost = e->loads.work + e->loads.constraint_work - worked + stored -
                       e->kernels.bond_energy(&e->bonds, &e->part, NULL) - bonds_fracture_energy(&e->bonds);
     if (!isfinite(spent)) s->balance.lost += real_max(0, lost), e->damped += real_max(0, lost);
-    softening_store_equilibrium_stretches(&e->bonds, &e->part, &e->source.limit);
+    bonds_store_softening_stretches_of_equilibrium(&e->bonds, &e->part, &e->source.limit);
     return OK;
 }
 
-real softening_least_toughness(const struct scene *s, const struct bond_source *bond_source)
+real softening_materials_least_toughness(const struct scene *s, const struct bond_source *bond_source)
 {
     real least = INFINITY;
     for (int m = 0; m < s->materials; m++)
@@ -214,10 +215,10 @@ real softening_least_toughness(const struct scene *s, const struct bond_source *
  * energy control dissipates only the share FIRST_SHARE of the energy: on a coarse lattice loads may be largest where
  * bonds begin to soften, and the work over a step is computed from both its ends. pseudo_time: pseudo-time at the end
  * of the step under other controls [s]. Returns FAILED, with a message, if no equilibrium is found. */
-status softening_make_load_step(struct run *e, real pseudo_time)
+status load_step_solve_with_softening_bonds(struct run *e, real pseudo_time)
 {
     struct statics *s = e->statics;
-    const real toughness = softening_least_toughness(e->scene, &e->source), given = e->scene->steps.energy;
+    const real toughness = softening_materials_least_toughness(e->scene, &e->source), given = e->scene->steps.energy;
     const real before = bonds_fracture_energy(&e->bonds);
     const bool by_energy = e->scene->steps.control == CONTROL_ENERGY;
     int64_t ended = 0;
@@ -228,7 +229,7 @@ status softening_make_load_step(struct run *e, real pseudo_time)
     if (before == 0) spent *= FIRST_SHARE;
     do {
         bonds_start_softening_at_strength_surface(&e->bonds, &e->part, &e->source);
-        softening_store_equilibrium_stretches(&e->bonds, &e->part, &e->source.limit);
+        bonds_store_softening_stretches_of_equilibrium(&e->bonds, &e->part, &e->source.limit);
         status tried = step_try(e, pseudo_time, spent);
         for (int k = 1; k < TRIES_MOST && tried == FAILED && by_energy; k++, spent *= 0.5)
             tried = step_try(e, pseudo_time, 0.5 * spent);
@@ -243,5 +244,5 @@ status softening_make_load_step(struct run *e, real pseudo_time)
     const real size = statics_norm_of_prescribed_loads(e, s->t);
     s->record.load_most = real_max(s->record.load_most, size);
     s->severs = by_energy && size < THROUGH * s->record.load_most;
-    return equilibrium_convert_points_and_solve_again(e, ended);
+    return equilibrium_convert_points_to_pd_and_solve_again(e, ended);
 }

@@ -8,10 +8,10 @@
  * `energy`, bonds dissipate the energy `steps.energy` in the step, and the size of the loads follows from it; with the
  * control `load`, the pseudo-time becomes `pseudo_time` [s]. Breaks the bonds that have no stiffness left. Returns
  * FAILED if no equilibrium is found, INTERRUPTED if the run is to stop. */
-status softening_make_load_step(struct run *e, real pseudo_time);
+status load_step_solve_with_softening_bonds(struct run *e, real pseudo_time);
 
 /* Returns the smallest crack energy per area [J/m^2] of the materials of scene s (the input file) whose bonds soften;
  * INFINITY if none do. bond_source: inputs of the bonds (horizon, materials, cracks, mirrors). */
-real softening_least_toughness(const struct scene *s, const struct bond_source *bond_source);
+real softening_materials_least_toughness(const struct scene *s, const struct bond_source *bond_source);
 
 #endif

@@ -28,7 +28,7 @@ static struct static_body static_body_of(struct run *e)
                                 e->scene->bodies};
 }
 
-status engine_static_solver_make(struct run *e)
+status run_make_single_equilibrium_solver(struct run *e)
 {
     const struct scene *s = e->scene;
     const struct static_body body = static_body_of(e);
@@ -52,11 +52,11 @@ static int64_t bonds_past_limit(const struct bonds *b, const struct particles *p
 {
     int64_t past = 0;
     for (int64_t r = 0; r < b->rows; r++)
-        for (struct bond_iterator it = bond_iterator_of_row(b, r); bond_next(&it);) {
+        for (struct bond_iterator it = bond_iterator_of_row(b, r); bond_iterator_advance(&it);) {
             const int32_t i = b->particle[r], j = it.bond.nbr;
             const real most = limit->critical_stretch[p->material[i] * limit->materials + p->material[j]] *
                               bond_strength_factor(p, i, j);
-            past += it.bond.w != 0 && j > i && bond_elastic_stretch_of(b, p, &it.bond, i) > most;
+            past += it.bond.w != 0 && j > i && bond_present_elastic_stretch(b, p, &it.bond, i) > most;
         }
     return past;
 }
@@ -83,7 +83,7 @@ static void warn_large_rotation(struct warnings *to, const struct bonds *b, cons
     real falsified = 0, largest = 0;
     char text[320];
     for (int64_t r = 0; r < b->rows; r++)
-        for (struct bond_iterator it = bond_iterator_of_row(b, r); bond_next(&it);) {
+        for (struct bond_iterator it = bond_iterator_of_row(b, r); bond_iterator_advance(&it);) {
             const int32_t i = b->particle[r], j = it.bond.nbr;
             real length2 = 0, along = 0, moved2 = 0;
             for (int d = 0; d < p->dim && it.bond.w != 0; d++) {
@@ -114,7 +114,7 @@ static void warn_large_strain(struct warnings *to, const struct particles *p, co
     real most = 0;
     char text[200];
     for (int64_t i = 0; i < p->n; i++)
-        for (int k = 0; k < symmetric_component_count(p->dim); k++)
+        for (int k = 0; k < symmetric_tensor_component_count(p->dim); k++)
             most = real_max(most, fabs(p->stress[k][i]) / material[p->material[i]].young);
     snprintf(text, sizeof text,
              "stresses of the solution reach %.3g times Young's modulus, more than any solid can carry and too much "
@@ -208,7 +208,7 @@ static void solver_finish(struct run *e)
     e->clock.steps = e->clock.step;
     e->report->sampling.due = false;
     e->report->sampling.kinetic = 0, e->report->sampling.constraint_work = e->loads.constraint_work;
-    sample_update_probes_of_every_step(e);
+    run_update_break_and_reaction_probes(e);
     e->solver->past_limit = bonds_past_limit(&e->bonds, p, &limit);
     warn_past_limit(&e->warnings, e->solver->past_limit);
     bonds_compute_particle_stress(&e->bonds, &e->part, &e->source, &e->kernels);
@@ -257,11 +257,11 @@ static void solve_start(struct static_solver *s, const struct particles *p)
     for (int d = 0; d < p->dim; d++) array_copy(s->before.of[d], p->f[d], p->n, sizeof(real));
 }
 
-status engine_solve_single_equilibrium(struct run *e)
+status run_solve_single_equilibrium(struct run *e)
 {
-    TRY(report_start_before_first_step(e));
+    TRY(report_open_history_and_write_first_frame(e));
     timers_start(&e->timers);
-    if (e->scene->method == METHOD_PD && e->clock.step == 0) sample_take_in_equilibrium(e);
+    if (e->scene->method == METHOD_PD && e->clock.step == 0) history_sample_write_in_equilibrium(e);
     if (e->scene->method == METHOD_PD) solve_start(e->solver, &e->part);
     while (e->clock.step < e->clock.steps) {
         bool done = false;
@@ -270,7 +270,7 @@ status engine_solve_single_equilibrium(struct run *e)
             solver_finish(e);
         else if (e->clock.step >= e->clock.steps || isnan(e->solver->residual))
             return not_converged(e->solver, e->scene->solver_tolerance, e->clock.step);
-        TRY(report_finished_step(e));
+        TRY(report_write_outputs_due_after_step(e));
     }
-    return report_finish_after_last_step(e);
+    return report_write_last_checkpoint_and_finish(e);
 }

@@ -72,8 +72,8 @@ static struct movers movers_list(const struct springs *s, int64_t i)
  * the stiffness matrix. */
 static struct movers movers_of_end(const struct springs *s, int64_t i, real sign[DIM_MAX])
 {
-    image_compute_displacement_signs(&s->e->part, &s->e->loads, i, sign);
-    return movers_list(s, image_source_particle(&s->e->part, s->e->loads.image, i));
+    mirror_image_compute_displacement_signs(&s->e->part, &s->e->loads, i, sign);
+    return movers_list(s, mirror_image_source_particle(&s->e->part, s->e->loads.image, i));
 }
 
 /* Adds the stiffness of `bond`, a bond of particle i, to the matrix s->a, in the rows of the unknowns that determine
@@ -102,7 +102,7 @@ static void spring_add(struct springs *s, int64_t i, const struct bond *bond)
 /* Adds the stiffness of the intact bonds in row r of bonds (all bonds of one particle) to the matrix s->a. */
 static void springs_row_add(struct springs *s, int64_t r)
 {
-    for (struct bond_iterator it = bond_iterator_of_row(&s->e->bonds, r); bond_next(&it);)
+    for (struct bond_iterator it = bond_iterator_of_row(&s->e->bonds, r); bond_iterator_advance(&it);)
         if (it.bond.w != 0) spring_add(s, s->e->bonds.particle[r], &it.bond);
 }
 
@@ -170,7 +170,7 @@ static void springs_visit(struct springs *s)
         if (s->particle_at[b->particle[r]] < 0) springs_row_add(s, r);
     for (int64_t I = 0; mesh->points > 0 && I < mesh->grid.n; I++)
         if (mesh_cell_contains_material(mesh, I)) cell_add(s, I);
-    contact_visit_selected_as_springs(s->e->contact, &s->e->part, contact_add_spring, s);
+    contact_visit_linear_springs(s->e->contact, &s->e->part, contact_add_spring, s);
 }
 
 /* Sorts the entries first .. end - 1 of a row of the matrix a by column and adds up entries of one column. Returns the
@@ -319,7 +319,7 @@ void statics_preconditioner_apply(void *run, const struct field *residual, struc
 /* Frees the preconditioner of s, so that it is rebuilt, if the last solution needed far more search directions than the
  * first one with this preconditioner: more than 1.5 times as many plus 8. search_directions: number of directions of
  * the last solution. */
-void statics_preconditioner_free_if_costly(struct statics *s, int64_t search_directions)
+void statics_preconditioner_free_if_inefficient(struct statics *s, int64_t search_directions)
 {
     if (!s->precondition) return;
     if (s->directions == 0)

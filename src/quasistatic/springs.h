@@ -18,7 +18,7 @@ void statics_preconditioner_make(struct run *e);
 /* Frees the preconditioner of s, so that the next use makes a new one, if bonds that have broken since it was made have
  * made it inefficient. search_directions: number of search directions of the last solution; the limit is 1.5 times the
  * number in the first solution with the preconditioner, plus 8 (empirical). */
-void statics_preconditioner_free_if_costly(struct statics *s, int64_t search_directions);
+void statics_preconditioner_free_if_inefficient(struct statics *s, int64_t search_directions);
 
 /* Frees the multigrid preconditioner in *s, so that its next use makes a new one. Does nothing if there is none. */
 void statics_preconditioner_free(struct statics *s);

@@ -14,7 +14,7 @@ static void list_find(const struct bonds *bonds, struct break_list *l)
     for (int64_t k = 0; k < l->n; k++) {
         struct broken_bond *record = &l->bond[k];
         record->row = bonds->row_of[record->i];
-        for (struct bond_iterator it = bond_iterator_of_row(bonds, record->row); bond_next(&it);)
+        for (struct bond_iterator it = bond_iterator_of_row(bonds, record->row); bond_iterator_advance(&it);)
             if (it.bond.nbr == record->j && it.bond.w != 0) record->entry = it.bond.entry, record->w = it.bond.w;
     }
 }
@@ -83,13 +83,13 @@ static status search_archive(struct statics *s, struct run_clock *clock, struct 
     return OK;
 }
 
-status statics_save_or_load(struct run *e, struct archive *a)
+status load_steps_save_or_load_state(struct run *e, struct archive *a)
 {
     struct statics *s = e->statics;
     struct newton_solver *q = &s->balance;
     const bool whole = a->scope == ARCHIVE_ALL;
     if (!scene_has_load_steps(e->scene)) return OK;
-    if (whole && (!a->saving || !s->node)) statics_unknowns_free(s), statics_unknowns_make(e);
+    if (whole && (!a->saving || !s->node)) statics_equation_system_free(s), statics_equation_system_make(e);
     for (int d = 0; d < e->part.dim; d++) {
         char name[48];
         snprintf(name, sizeof name, "statics/u%d", d);
@@ -105,7 +105,7 @@ status statics_save_or_load(struct run *e, struct archive *a)
     if (whole) TRY(search_archive(s, &e->clock, a));
     if (!a->saving) applied_forces_compute(s, &e->part, &e->loads, s->t);
     if (!a->saving && whole && e->bonds.soft.curve)
-        softening_store_equilibrium_stretches(&e->bonds, &e->part, &e->source.limit);
+        bonds_store_softening_stretches_of_equilibrium(&e->bonds, &e->part, &e->source.limit);
     if (!a->saving && whole) plastic_state_save(&e->statics->plastic, &e->bonds, &e->part, e->optional);
     return OK;
 }

@@ -27,7 +27,7 @@ static void warn_of_yielding_bonds(const struct scene *s, const struct family *f
         const struct material *own = &s->material[m];
         if (!material_yields(own) || !isfinite(own->critical_stretch)) continue;
         const real dissipated = toughness_of_material(family, s->model, own),
-                   elastic = family_crack_energy_per_area(family, own);
+                   elastic = family_energy_release_rate_at_critical_stretch(family, own);
         if (dissipated < (1 - ROUNDING) * elastic)
             warnings_add_if_new(to,
                                 "bonds of material %s yield before they break, so a crack dissipates %.3g J/m^2, less "
@@ -65,7 +65,8 @@ static void warn_of_solver(const struct run *e, struct warnings *to)
     const struct scene *s = e->scene;
     if (scene_has_load_steps(s)) warn_of_yielding_bonds(s, &e->source.family, to);
     if (scene_has_load_steps(s) && e->bonds.soft.curve)
-        warn_of_large_steps(s, softening_least_toughness(s, &e->source) * crack_area_of_growth_by_one_spacing(e), to);
+        warn_of_large_steps(
+            s, softening_materials_least_toughness(s, &e->source) * crack_area_of_growth_by_one_spacing(e), to);
     if (!scene_is_single_equilibrium(s)) return;
     for (int k = 0; k < s->initials; k++)
         if (s->initial[k].sets_velocity || s->initial[k].sets_pulse)
@@ -81,7 +82,7 @@ static void warn_of_solver(const struct run *e, struct warnings *to)
         warnings_add_if_new(
             to, "bodies have no contact in a static equilibrium: they pass through each other where gaps close; for "
                 "contact use load steps (solver: static); if no gap closes, add accept: [contact]");
-    if (e->solver->applied == 0 && field_largest_component(&e->solver->driven, s->dim, e->part.n) == 0)
+    if (e->solver->applied == 0 && field_largest_absolute_component(&e->solver->driven, s->dim, e->part.n) == 0)
         warnings_add_if_new(
             to,
             "nothing loads the body at t = %.4g s, the end of the duration, and this solver applies the loads of that "
@@ -97,7 +98,7 @@ static void put_load_steps(const struct run *e, struct json *j)
         [CONTROL_LOAD] = "load", [CONTROL_ENERGY] = "energy", [CONTROL_OPENING] = "opening"};
     const struct statics *s = e->statics;
     if (!scene_has_load_steps(e->scene)) return;
-    json_open(j, "load_steps", '{');
+    json_begin_object_or_list(j, "load_steps", '{');
     json_write_text(j, "control", control[e->scene->steps.control]);
     json_write_integer(j, "steps", e->clock.step);
     json_write_real(j, "load_time", s->t);
@@ -109,7 +110,7 @@ static void put_load_steps(const struct run *e, struct json *j)
     json_write_real(j, "released", s->record.released);
     json_write_real(j, "crack_area", s->record.face);
     json_write_real(j, "release_rate", s->record.area > 0 ? s->record.released / s->record.area : NAN);
-    json_close(j, '}');
+    json_end_object_or_list(j, '}');
 }
 
 const struct part part_statics = {PART(statics, statics),
@@ -117,5 +118,5 @@ const struct part part_statics = {PART(statics, statics),
                                   .columns = statics_list_history_columns,
                                   .record = statics_compute_history_values,
                                   .summary = put_load_steps,
-                                  .state = statics_save_or_load,
+                                  .state = load_steps_save_or_load_state,
                                   .warn = warn_of_solver};

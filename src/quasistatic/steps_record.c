@@ -73,8 +73,8 @@ static struct crack_area sif_paths_area(const struct sif_cracks *l, const struct
     struct crack_area area = {0};
     for (int64_t k = 0; k < l->segments; k++) {
         const real *from = l->path[k].at[0], *to = l->path[k].at[1];
-        const real own = sif_plane_crack_area(&l->plane, p, from, to);
-        area.own += own, area.face += own * (sif_plane_segment_is_on_mirror(&l->plane, from, to) ? 2 : 1);
+        const real own = crack_tip_plane_crack_area(&l->plane, p, from, to);
+        area.own += own, area.face += own * (crack_tip_plane_segment_is_on_symmetry_plane(&l->plane, from, to) ? 2 : 1);
     }
     return area;
 }
@@ -88,20 +88,21 @@ static void measure(struct run *e)
 {
     const struct statics *s = e->statics;
     struct steps_record *r = &e->statics->record;
-    const real section = scene_section_or_thickness(e->scene);
+    const real section = scene_cross_section_or_thickness(e->scene);
     const struct tip_surroundings around = {e->source.mirror, e->source.mirrors, section,
                                             0.5 * damage_beside_cut(e->scene)};
     const struct crack_area path = sif_paths_area(&s->sif, &e->part);
     const real spacing = growth_by_spacing(&e->fracture->tips, section);
     const bool solid = e->part.dim == 3 && path.own == 0;
-    const struct crack_area bonds = {r->broken / crack_energy_share_by_symmetry(&e->fracture->tips, &e->source, -1),
+    const struct crack_area bonds = {r->broken /
+                                         crack_area_fraction_inside_modelled_body(&e->fracture->tips, &e->source, -1),
                                      r->broken},
                             damaged = solid              ? bonds
                                       : e->part.dim == 1 ? bar_total_crack_area(&e->bonds, &e->part, section)
                                                          : tips_total_crack_area(&e->fracture->tips, &e->part, &around);
     const bool by_path = path.own > 0 && damaged.own <= path.own + 1.5 * spacing;
     const real area = by_path ? path.own : damaged.own, growth = by_path || solid ? 0 : GROWTH * spacing;
-    r->released = statics_energy_released(s, &e->bonds);
+    r->released = statics_energy_released_since_start(s, &e->bonds);
     if (!(area > r->area)) return;
     r->area = area, r->face = by_path ? path.face : damaged.face;
     r->rate = (r->released - r->mark[0].released) / (area - r->mark[0].area);
@@ -132,7 +133,7 @@ void statics_compute_history_values(struct run *e, real *record)
     array_copy(record + COUNT_OF(own) + MODES, place, e->part.dim < 3 ? 2 : 3, sizeof *place);
 }
 
-void statics_reset_history_counts(struct statics *s)
+void statics_reset_solver_counts_for_history(struct statics *s)
 {
     s->record.directions = s->balance.directions, s->record.solutions = s->solutions;
 }

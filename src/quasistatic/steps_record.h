@@ -17,6 +17,6 @@ void statics_compute_history_values(struct run *e, real *record);
 
 /* Stores the present numbers of search directions and equilibria of the solver s. The next call of
  * statics_compute_history_values reports the numbers since then. */
-void statics_reset_history_counts(struct statics *s);
+void statics_reset_solver_counts_for_history(struct statics *s);
 
 #endif

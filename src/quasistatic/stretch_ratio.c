@@ -38,7 +38,7 @@ static real row_block_stretch_ratio(const struct bonds *b, const struct particle
 {
     if (bond_row_block_stretch(b, p, g) <= most * weakest) return most;
     for (int64_t r = g * LANES; r < (g + 1) * LANES && r < b->rows; r++)
-        for (struct bond_iterator it = bond_iterator_of_row(b, r); bond_next(&it);)
+        for (struct bond_iterator it = bond_iterator_of_row(b, r); bond_iterator_advance(&it);)
             if (it.bond.w != 0) most = real_max(most, stretch_ratio_of(p, limit, &it.bond, b->particle[r]));
     return most;
 }
@@ -117,7 +117,7 @@ static void row_block_overstretched(struct overstretched *o, const struct bonds 
                                     const struct bond_limit *limit, int64_t g, real least)
 {
     for (int64_t r = g * LANES; r < (g + 1) * LANES && r < b->rows; r++)
-        for (struct bond_iterator it = bond_iterator_of_row(b, r); bond_next(&it);) {
+        for (struct bond_iterator it = bond_iterator_of_row(b, r); bond_iterator_advance(&it);) {
             const real over = it.bond.w == 0 ? 0 : stretch_ratio_of(p, limit, &it.bond, b->particle[r]);
             if (!(over > least)) continue;
             const struct broken_bond record = broken_bond_make_record(b, p, limit, &it.bond, r);

@@ -26,7 +26,7 @@ status plastic_state_save_or_load(struct bonds *b, struct particles *p, int opti
 void plastic_state_save(struct memory_archive *m, struct bonds *b, struct particles *p, int optional_arrays)
 {
     memory_archive_free(m);
-    memory_archive_make(m, ARCHIVE_TRIAL);
+    memory_archive_open_for_saving(m, ARCHIVE_TRIAL);
     const status kept = plastic_state_save_or_load(b, p, optional_arrays, &m->archive);
     INVARIANT(kept == OK);
 }
@@ -65,7 +65,7 @@ static void applied_add(const struct statics *s, const struct loads *loads, stru
 static void forces_present(struct run *e)
 {
     const bool has_mesh = e->frame->mesh.points > 0;
-    if (has_mesh) reference_frame_move_bonded_or_loaded_points(e->frame, &e->part);
+    if (has_mesh) lagrangian_mesh_move_bonded_or_loaded_points(e->frame, &e->part);
     loads_update_mirror_images(&e->loads, &e->part);
     loads_clear_forces_of_loaded_particles(&e->loads, &e->part);
     plastic_state_restore(&e->statics->plastic, &e->bonds, &e->part,
@@ -73,7 +73,8 @@ static void forces_present(struct run *e)
     bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &bond_limit_never, NULL);
     contact_compute_forces(e->contact, &e->part, 0);
     applied_add(e->statics, &e->loads, &e->part);
-    if (has_mesh) reference_frame_compute_forces(e->frame, &e->part, e->clock.step), mirror_forces_add(&e->frame->mesh);
+    if (has_mesh)
+        lagrangian_mesh_compute_nodal_forces(e->frame, &e->part, e->clock.step), mirror_forces_add(&e->frame->mesh);
 }
 
 /* Computes the forces f [N] on all unknowns at the displacements u [m], without the components along free rigid
@@ -94,7 +95,7 @@ static void statics_forces(void *context, const struct field *u, struct field *f
     field_remove_free_rigid_motion(s, f);
 }
 
-void plastic_state_update_at_last_solution(struct run *e)
+void run_move_to_solution_and_update_plastic_state(struct run *e)
 {
     unknowns_apply_displacements(e->statics, &e->part, &e->frame->mesh, &e->statics->balance.u);
     if (e->statics->plastic.n > 0) forces_present(e);
@@ -111,14 +112,14 @@ static real energy_at_unit_strain(const struct particles *p, const struct materi
     return sum;
 }
 
-void statics_unknowns_make(struct run *e)
+void statics_equation_system_make(struct run *e)
 {
     struct statics *s = e->statics;
     const struct newton_solver kept = s->balance; /* its counters and losses are kept */
     s->balance = (struct newton_solver){.force = statics_forces,
                                         .precondition = statics_preconditioner_apply,
-                                        .settle = statics_contact_update_and_is_set_unchanged,
-                                        .laws = statics_contact_select_acting_contacts,
+                                        .settle = statics_update_contacts_and_test_unchanged,
+                                        .laws = statics_contact_fix_active_set_or_use_overlaps,
                                         .context = e,
                                         .tolerance = e->scene->solver_tolerance,
                                         .length = e->scene->spacing,
@@ -134,7 +135,7 @@ void statics_unknowns_make(struct run *e)
     plastic_state_save(&e->statics->plastic, &e->bonds, &e->part, e->optional);
 }
 
-void statics_unknowns_free(struct statics *s)
+void statics_equation_system_free(struct statics *s)
 {
     const struct newton_solver kept = s->balance;
     unconstrained_fragments_free(s);
@@ -146,7 +147,7 @@ void statics_unknowns_free(struct statics *s)
 void statics_free(struct statics *s)
 {
     statics_preconditioner_free(s);
-    statics_unknowns_free(s);
+    statics_equation_system_free(s);
     for (int d = 0; d < DIM_MAX; d++) memory_free(s->applied[d]), s->applied[d] = NULL;
     memory_archive_free(&s->plastic);
     memory_free(s->next.bond), memory_free(s->flow_start);

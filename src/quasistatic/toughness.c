@@ -13,7 +13,7 @@ real toughness_of_material(const struct family *family, enum model model, const 
 {
     const bool given = model != MODEL_BOND && !isnan(m->energy_release_rate);
     if (given) return m->energy_release_rate;
-    const real elastic = family_crack_energy_per_area(family, m), limit = m->critical_stretch;
+    const real elastic = family_energy_release_rate_at_critical_stretch(family, m), limit = m->critical_stretch;
     if (!material_yields(m) || !isfinite(limit)) return elastic;
     const real taken =
         bond_normalised_work_to_stretch(limit, m->yield_stress / m->young, m->yield_hardening / m->young);
@@ -42,7 +42,8 @@ static real toughness_of_pair(const struct scene *s, const struct bond_source *s
     if (!isfinite(one->critical_stretch))
         return isfinite(other->critical_stretch) ? toughness_of_pair(s, source, b, a) : least;
     const real c = family_micro_modulus(family, one), d = family_micro_modulus(family, other);
-    return family_crack_energy_per_area(family, one) * 2 * d / (c + d) * square(limit / one->critical_stretch);
+    return family_energy_release_rate_at_critical_stretch(family, one) * 2 * d / (c + d) *
+           square(limit / one->critical_stretch);
 }
 
 real toughness_between_particles(const struct scene *s, const struct bond_source *bond_source,

@@ -21,20 +21,21 @@ static status trial_archive(struct run *e, struct archive *a)
     ARCHIVE_VALUE(a, "engine/damped", e->damped);
     ARCHIVE_VALUE(a, "statics/broken", e->statics->record.broken);
     TRY(plastic_state_save_or_load(&e->bonds, &e->part, e->optional, a));
-    return statics_save_or_load(e, a);
+    return load_steps_save_or_load_state(e, a);
 }
 
 void trial_equilibrium_begin(struct run *e, struct memory_archive *m)
 {
     plastic_state_save(&e->statics->plastic, &e->bonds, &e->part, e->optional);
-    memory_archive_make(m, ARCHIVE_TRIAL);
+    memory_archive_open_for_saving(m, ARCHIVE_TRIAL);
     const status saved = trial_archive(e, &m->archive);
     INVARIANT(saved == OK);
 }
 
-void trial_equilibrium_end(struct run *e, struct memory_archive *m, bool kept, const struct break_list *broken_bonds)
+void trial_equilibrium_end(struct run *e, struct memory_archive *m, bool keep_result,
+                           const struct break_list *broken_bonds)
 {
-    if (kept) {
+    if (keep_result) {
         memory_archive_free(m);
         return;
     }
@@ -46,7 +47,7 @@ void trial_equilibrium_end(struct run *e, struct memory_archive *m, bool kept, c
     plastic_state_save(&e->statics->plastic, &e->bonds, &e->part,
                        e->optional); /* a nested trial may have saved a different one */
     unknowns_apply_displacements(e->statics, &e->part, &e->frame->mesh, &e->statics->balance.u);
-    reference_frame_update_motion_and_stress(e->frame, &e->part, &e->loads);
+    lagrangian_mesh_update_point_motion_and_stress(e->frame, &e->part, &e->loads);
     loads_update_mirror_images(&e->loads, &e->part); /* stretches of bonds to mirror images need their positions */
     reactions_compute_and_store(e->statics, &e->part, &e->loads);
 }

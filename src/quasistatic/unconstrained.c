@@ -87,7 +87,7 @@ static void bonded_join(const struct search *s, const struct bonds *bonds)
 {
     for (int64_t r = 0; r < bonds->rows; r++) {
         const int32_t a = unknown_of(s, bonds->particle[r]);
-        for (struct bond_iterator it = bond_iterator_of_row(bonds, r); bond_next(&it);) {
+        for (struct bond_iterator it = bond_iterator_of_row(bonds, r); bond_iterator_advance(&it);) {
             if (it.bond.w == 0 || it.bond.nbr >= s->part->n || it.bond.nbr < bonds->particle[r]) continue;
             const int32_t b = unknown_of(s, it.bond.nbr);
             if (a >= 0 && b >= 0) nodes_join(s->parent, a, b);
@@ -207,10 +207,10 @@ static void image_resists(const struct search *s, struct candidate *c, int64_t i
 {
     const struct particles *p = s->part;
     const int dim = p->dim, m = motions(dim);
-    const int64_t j = image_source_particle(p, s->loads->image, image);
+    const int64_t j = mirror_image_source_particle(p, s->loads->image, image);
     real sign[DIM_MAX], x[DIM_MAX], y[DIM_MAX], u[DIM_MAX], v[DIM_MAX], along[MODES_MOST] = {0}, length2 = 0;
     for (int d = 0; d < dim; d++) x[d] = p->x[d][i], y[d] = p->x[d][j], length2 += square(p->x[d][image] - p->x[d][i]);
-    image_compute_displacement_signs(p, s->loads, image, sign);
+    mirror_image_compute_displacement_signs(p, s->loads, image, sign);
     for (int a = 0; a < m; a++) {
         motion_at(c, dim, a, x, u);
         motion_at(c, dim, a, y, v);
@@ -225,7 +225,7 @@ static void images_resist(const struct search *s, const struct bonds *bonds)
 {
     for (int64_t r = 0; r < bonds->rows && s->loads->images > 0; r++) {
         const int32_t i = bonds->particle[r], k = unknown_of(s, i);
-        for (struct bond_iterator it = bond_iterator_of_row(bonds, r); bond_next(&it) && k >= 0;)
+        for (struct bond_iterator it = bond_iterator_of_row(bonds, r); bond_iterator_advance(&it) && k >= 0;)
             if (it.bond.w != 0 && it.bond.nbr >= s->part->n)
                 image_resists(s, &s->candidate[s->fragment[k]], i, it.bond.nbr);
     }
@@ -261,7 +261,7 @@ static void mirror_nodes_resist(const struct search *s)
  * unknown. */
 static int32_t fragment_of(const struct search *s, int32_t particle)
 {
-    const int32_t k = unknown_of(s, image_source_particle(s->part, s->loads->image, particle));
+    const int32_t k = unknown_of(s, mirror_image_source_particle(s->part, s->loads->image, particle));
     return k < 0 ? -1 : s->fragment[k];
 }
 
@@ -272,11 +272,11 @@ static real gap_rate(const struct search *s, const struct contact_term *t, int32
     const struct particles *p = s->part;
     real rate = 0;
     for (int q = 0; q < t->n; q++) {
-        const int64_t i = image_source_particle(p, s->loads->image, t->particle[q]);
+        const int64_t i = mirror_image_source_particle(p, s->loads->image, t->particle[q]);
         real sign[DIM_MAX], x[DIM_MAX], u[DIM_MAX];
         if (fragment_of(s, t->particle[q]) != which) continue;
         for (int d = 0; d < p->dim; d++) x[d] = p->x[d][i];
-        image_compute_displacement_signs(p, s->loads, t->particle[q], sign);
+        mirror_image_compute_displacement_signs(p, s->loads, t->particle[q], sign);
         motion_at(&s->candidate[which], p->dim, a, x, u);
         for (int d = 0; d < p->dim; d++) rate += sign[d] * t->along[q][d] * u[d];
     }
@@ -449,7 +449,7 @@ void unconstrained_fragments_find(struct run *e)
     supports_resist(&search);
     images_resist(&search, &e->bonds);
     mirror_nodes_resist(&search);
-    contact_visit_selected_as_springs(e->contact, &e->part, contact_resists, &search);
+    contact_visit_linear_springs(e->contact, &e->part, contact_resists, &search);
     for (int64_t q = 0; q < search.n; q++) {
         s->fragments += motions_free(&search.candidate[q], m, free) > 0;
         sliding_update(&search.candidate[q], e->part.dim, s->slid);

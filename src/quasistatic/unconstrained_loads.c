@@ -62,7 +62,8 @@ static real unbalanced_share_of_nodes(const struct statics *s, const struct part
     return nodes > 0 && applied > 0 ? most / applied : 0;
 }
 
-status unconstrained_fragments_check(const struct statics *s, const struct particles *p, bool balanced, int64_t step)
+status unconstrained_fragments_check_force_balance(const struct statics *s, const struct particles *p, bool balanced,
+                                                   int64_t step)
 {
     for (int64_t q = 0; q < s->fragments && s->applied[0]; q++) {
         const struct unconstrained_fragment *f = &s->fragment[q];

@@ -146,7 +146,7 @@ void unknown_compute_reference_position(const struct statics *s, const struct pa
         particle_reference_position(p, i, position);
         return;
     }
-    const int64_t at = mesh_regular_node_of_doubled_node(mesh, i);
+    const int64_t at = mesh_original_node_of_doubled_node(mesh, i);
     for (int d = 0; d < p->dim; d++)
         position[d] = grid_node_position(&mesh->grid, d, at / mesh->grid.stride[d] % mesh->grid.count[d]);
 }
@@ -168,8 +168,8 @@ void unknowns_apply_displacements(const struct statics *s, struct particles *p, 
     }
 }
 
-void image_compute_displacement_signs(const struct particles *p, const struct loads *loads, int64_t image,
-                                      real sign[DIM_MAX])
+void mirror_image_compute_displacement_signs(const struct particles *p, const struct loads *loads, int64_t image,
+                                             real sign[DIM_MAX])
 {
     for (int d = 0; d < DIM_MAX; d++) sign[d] = 1;
     for (; image >= p->n; image = loads->image[image - p->n].source) {
@@ -224,14 +224,14 @@ real applied_forces_norm(const struct statics *s, const struct particles *p, con
             if (p->kind[i] != KIND_PD && !(prescribed[i] >> d & 1)) sum += square(s->applied[d][i]);
     }
     memory_free(prescribed);
-    return hypot(sqrt(sum), contact_rigid_force_norm(c, p));
+    return hypot(sqrt(sum), contact_rigid_body_force_norm(c, p));
 }
 
 void reactions_compute_and_store(const struct statics *s, const struct particles *p, struct loads *loads)
 {
     for (int b = 0; b < loads->n; b++) {
         struct load *l = &loads->load[b];
-        if (boundary_applies_force(l->boundary)) load_sum_force_and_mean_displacement(l, p, s->t);
+        if (boundary_applies_force(l->boundary)) load_compute_total_force_and_mean_displacement(l, p, s->t);
         if (l->boundary->kind != BOUNDARY_VELOCITY) continue;
         const struct prescribed_displacement by = prescribed_displacement_make(l->boundary, p->dim, s->t);
         memset(l->reaction, 0, sizeof l->reaction);

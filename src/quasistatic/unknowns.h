@@ -32,8 +32,8 @@ void unknowns_apply_displacements(const struct statics *s, struct particles *p, 
 /* Stores in sign[d] the factor, +1 or -1, between component d of the displacement of the mirror image `image` (an index
  * of the arrays of p) and that of the particle that it mirrors. All factors are +1 if `image` is a particle of the
  * body. loads: planes of symmetry. */
-void image_compute_displacement_signs(const struct particles *p, const struct loads *loads, int64_t image,
-                                      real sign[DIM_MAX]);
+void mirror_image_compute_displacement_signs(const struct particles *p, const struct loads *loads, int64_t image,
+                                             real sign[DIM_MAX]);
 
 /* Computes the applied forces of `loads` at the pseudo-time `pseudo_time` [s] and stores them in s->applied, dim
  * components for each particle of p [N]. Allocates these arrays on the first call. */

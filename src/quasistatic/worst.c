@@ -120,11 +120,11 @@ static void worst_times_find(const struct run *e, struct worst *worst, struct fo
     memory_free(t);
 }
 
-status engine_find_equilibrium_for_cost_estimate(struct run *e, real t)
+status run_find_equilibrium_for_cost_estimate(struct run *e, real t)
 {
-    statics_unknowns_make(e);
+    statics_equation_system_make(e);
     TRY(equilibrium_find_at_time(e, t));
-    return unconstrained_fragments_check(e->statics, &e->part, true, e->clock.step + 1);
+    return unconstrained_fragments_check_force_balance(e->statics, &e->part, true, e->clock.step + 1);
 }
 
 /* Finds the equilibrium of run e at time t [s]; does nothing if t is NAN. If the largest ratio of stretch to critical
@@ -138,7 +138,7 @@ static status worst_try(struct run *e, real t, real *at, real *ratio)
     return OK;
 }
 
-status engine_predict_largest_stretch_ratio(struct run *e, real first_load_time, real *load_time, real *ratio)
+status run_predict_largest_stretch_to_critical_ratio(struct run *e, real first_load_time, real *load_time, real *ratio)
 {
     struct worst worst[SORTS] = {{NAN, NAN, NAN}, {NAN, NAN, NAN}};
     struct found found[SORTS] = {{0}};

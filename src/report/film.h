@@ -1,5 +1,5 @@
 /* The frames of a run as a page shows them: selected frames, particle sets that frames share, fields and their ranges.
- * A page has a budget of bytes; film_select_within_byte_budget keeps it. */
+ * A page has a budget of bytes; animation_select_content_within_byte_budget keeps it. */
 #ifndef CLEAVE_REPORT_FILM
 #define CLEAVE_REPORT_FILM
 
@@ -15,7 +15,7 @@ enum { FILM_FIELDS_MOST = 24, FILM_LEVELS = 3, FILM_LEVELS_DAMAGED = 2, FILM_LEV
 enum film_state { FILM_INTACT, FILM_DAMAGED, FILM_CRACKED };
 
 /* A field of the frames as the page stores it, with 8 bits per particle (fragments: 16). */
-struct film_field {
+struct animation_field {
     const struct plot_field *of;
     bool extra;         /* left out first where the budget is short */
     bool fixed;         /* the same in all frames: stored with the particle set */
@@ -28,7 +28,7 @@ struct film_field {
 
 /* Particles that consecutive frames have in common. A group is a particle, or a square or cubic cell of particles that
  * the page shows as one particle. Arrays are owned. */
-struct film_set {
+struct animation_particle_set {
     int64_t n;                /* number of particles */
     real *X[DIM_MAX];         /* [n] reference positions [m] */
     float *size;              /* [n] spacing of each particle [m]; NULL: that of the film */
@@ -42,7 +42,7 @@ struct film_set {
 };
 
 /* A frame (state of the run at one time) that was read for a page. used: the page shows the frame. */
-struct film_frame {
+struct animation_frame {
     struct listed_frame listed; /* file and time of the frame */
     int64_t step;               /* number of the time step or load step */
     int set;                    /* index of its particle set */
@@ -50,17 +50,17 @@ struct film_frame {
 };
 
 /* The frames of a run as a page shows them: selected frames, particle sets that frames share, and fields. */
-struct film {
+struct run_animation {
     const char *folder;        /* folder of the run; borrowed */
     const struct scene *scene; /* scene of the run, for its rigid bodies; borrowed; NULL: not known */
     int dim;
-    double spacing;           /* smallest distance of particles [m] */
-    int listed;               /* number of frames of the run */
-    struct film_frame *frame; /* [frames] */
-    int frames, used;         /* number of frames that were read; number of these that are shown */
-    struct film_set *set;     /* [sets] */
+    double spacing;                     /* smallest distance of particles [m] */
+    int listed;                         /* number of frames of the run */
+    struct animation_frame *frame;      /* [frames] */
+    int frames, used;                   /* number of frames that were read; number of these that are shown */
+    struct animation_particle_set *set; /* [sets] */
     int sets;
-    struct film_field field[FILM_FIELDS_MOST]; /* [fields] fields that the page can show */
+    struct animation_field field[FILM_FIELDS_MOST]; /* [fields] fields that the page can show */
     int fields;
     double reach[DIM_MAX]; /* largest displacement along each axis [m] */
     /* largest level of cells of intact particles; of cells with damaged ones; level of the cells into which all
@@ -72,19 +72,19 @@ struct film {
 /* Reads at most about sixty output frames (states) of the run in `folder` into f. Finds the sets of particles that
  * consecutive frames have in common, the largest displacements and the ranges of the fields. scene: contents of the
  * input file of the run, kept by reference; NULL if it is not known. Returns FAILED if a frame cannot be read. Release
- * f with film_free. */
-status film_read_frames_of_run(struct film *f, const char *folder, const struct scene *scene);
+ * f with animation_free. */
+status animation_read_frames_of_run(struct run_animation *f, const char *folder, const struct scene *scene);
 
 /* Selects in f the output frames, the fields and the groups of particles (each shown as one particle) that the page
  * (the HTML report of a run) shows, such that they take at most `byte_budget` bytes on the page. */
-void film_select_within_byte_budget(struct film *f, int64_t byte_budget);
+void animation_select_content_within_byte_budget(struct run_animation *f, int64_t byte_budget);
 
 /* Writes the selected output frames of a run and their fields, f, to `page` as the entry `film` of the JSON text of the
  * page (the HTML report of the run). Returns FAILED if a frame cannot be read again. */
-status film_write(struct page *page, const struct film *f);
+status animation_write_to_page(struct html_page *page, const struct run_animation *f);
 
-/* Releases the lists and values of *f, which film_read_frames_of_run has allocated. */
-void film_free(struct film *f);
+/* Releases the lists and values of *f, which animation_read_frames_of_run has allocated. */
+void animation_free(struct run_animation *f);
 
 /* Divides the particles of the set `particle_set` (particles that several output frames have in common) into groups,
  * each of which the page (the HTML report) shows as one particle. Particles of one material and body that fill a cubic
@@ -92,53 +92,57 @@ void film_free(struct film *f);
  * yielded in any frame and all have the same kind and fragment in every frame, and up to 2^f->levels_damaged if none is
  * part of a crack. If f->levels_all is above 0, all particles in a cell of this level become one group, whether they
  * fill the cell or not. Each other particle is a group. */
-void film_particle_set_form_groups(struct film_set *particle_set, const struct film *f);
+void animation_particle_set_merge_into_groups(struct animation_particle_set *particle_set,
+                                              const struct run_animation *f);
 
 /* Returns the edge [m] with which the page draws group number `group` of the set `particle_set`: the spacing of a
  * single particle or, for a group of merged particles, the edge of their cubic cell. */
-double film_edge_length_of_group(const struct film_set *particle_set, const struct film *f, int64_t group);
+double animation_group_drawn_edge_length(const struct animation_particle_set *particle_set,
+                                         const struct run_animation *f, int64_t group);
 
 /* Returns the coordinate along `axis` [m] of the centre of group number `group` of the set `particle_set` in the
  * reference state: the mean of its particles, or the centre of a cell that they fill partly. */
-double film_centre_of_group(const struct film_set *particle_set, const struct film *f, int64_t group, int axis);
+double animation_group_centre_coordinate(const struct animation_particle_set *particle_set,
+                                         const struct run_animation *f, int64_t group, int axis);
 
 /* Fills the table f->field with the fields (quantities stored for each particle) that a run in f->dim dimensions may
  * have, and sets f->fields, their number. */
-void film_fill_table_of_fields(struct film *f);
+void animation_list_possible_fields(struct run_animation *f);
 
 /* Updates the ranges and the sampled values of all fields of f, the output frames of a run that a report shows, from
  * one of these frames, `frame`, which was read from the file `path`. */
-void film_update_field_ranges_from_frame(struct film *f, const struct output_frame *frame, const char *path);
+void animation_update_field_ranges_from_frame(struct run_animation *f, const struct output_frame *frame,
+                                              const char *path);
 
 /* Chooses for each field of f, the output frames of a run that a report shows, the range of values that its stored
  * numbers of 8 or 16 bits represent. Sets `used` to false for fields with the same value in all frames at all
  * particles. */
-void film_choose_stored_ranges_of_fields(struct film *f);
+void animation_choose_stored_field_ranges(struct run_animation *f);
 
 /* Returns the number of bytes that the page (HTML report) stores in each output frame of the run, f, for one group
  * (particles that are shown as one): the sum over all fields that are shown and change with time. */
-int film_bytes_per_group_and_frame(const struct film *f);
+int animation_bytes_per_group_and_frame(const struct run_animation *f);
 
 /* Returns true if the field `field` (a quantity of the particles) of the run f is written to the page (HTML report):
  * its values differ between particles or frames, and it is not left out to save space. */
-bool film_field_is_shown(const struct film *f, const struct film_field *field);
+bool animation_field_is_shown(const struct run_animation *f, const struct animation_field *field);
 
 /* Writes the values of one field in the output frame `frame` to the page p (HTML report) as an array with one value for
  * each group of `particle_set` (particles that are shown as one): the mean over the particles of the group. path:
  * file from which the frame was read. */
-void film_write_field_values_of_frame(struct page *p, const struct film_field *field,
-                                      const struct film_set *particle_set, const struct output_frame *frame,
-                                      const char *path);
+void animation_write_field_values_of_frame(struct html_page *p, const struct animation_field *field,
+                                           const struct animation_particle_set *particle_set,
+                                           const struct output_frame *frame, const char *path);
 
 /* Writes the surfaces of the rigid bodies of the run f to the page p (HTML report) as the entry `rigid`: line segments
  * in 2D, quadrilaterals in 3D. */
-void film_write_rigid_body_surfaces(struct page *p, const struct film *f);
+void animation_write_rigid_body_surfaces(struct html_page *p, const struct run_animation *f);
 
 /* Writes the positions and rotations of the rigid bodies in frame number `frame_number` of the run to the page p (HTML
  * report) as the entry `rigid` of that frame: for each body f->dim coordinates [m], the displacement of the nearest
  * particle of `frame`, with which the page moves the rigid body if displacements are magnified, and the rotation matrix
  * [dim][dim] by rows. Writes nothing if the run has no file of rigid bodies for this frame. */
-void film_write_rigid_body_motion_of_frame(struct page *p, const struct film *f, const struct output_frame *frame,
-                                           int frame_number);
+void animation_write_rigid_body_motion_of_frame(struct html_page *p, const struct run_animation *f,
+                                                const struct output_frame *frame, int frame_number);
 
 #endif

@@ -27,18 +27,18 @@ static const struct {
     {"velocity_y", true, false}, {"velocity_z", true, false},
 };
 
-void film_fill_table_of_fields(struct film *f)
+void animation_list_possible_fields(struct run_animation *f)
 {
     f->fields = 0;
     for (size_t k = 0; k < COUNT_OF(wanted); k++) {
-        struct film_field *field = &f->field[f->fields];
-        *field = (struct film_field){
+        struct animation_field *field = &f->field[f->fields];
+        *field = (struct animation_field){
             .extra = wanted[k].extra, .fixed = wanted[k].fixed, .least = INFINITY, .most = -INFINITY};
         if (plot_field_find_by_name(&field->of, wanted[k].name, f->dim) == OK) f->fields++;
     }
 }
 
-static void field_scan(struct film_field *field, const float *value, int64_t n)
+static void field_scan(struct animation_field *field, const float *value, int64_t n)
 {
     const int64_t stride = n / SAMPLES_OF_FRAME + 1;
     for (int64_t i = 0; i < n; i++)
@@ -50,7 +50,8 @@ static void field_scan(struct film_field *field, const float *value, int64_t n)
     }
 }
 
-void film_update_field_ranges_from_frame(struct film *f, const struct output_frame *frame, const char *path)
+void animation_update_field_ranges_from_frame(struct run_animation *f, const struct output_frame *frame,
+                                              const char *path)
 {
     for (int k = 0; k < f->fields; k++) {
         float *value;
@@ -70,7 +71,7 @@ static int float_compare(const void *a, const void *b)
  * values at each end, and is extended to zero, or made symmetric about zero, as the colour scale of the field requires.
  * Damage has the range 0..1. Sets field->used to false, and chooses no range, if all values are equal or none is known.
  */
-static void field_settle(struct film_field *field)
+static void field_settle(struct animation_field *field)
 {
     const bool damage = strcmp(field->of->name, "damage") == 0;
     const int64_t last = field->samples - 1, beyond = (int64_t)(BEYOND * (double)field->samples);
@@ -87,30 +88,31 @@ static void field_settle(struct film_field *field)
     if (damage) field->low = 0, field->high = 1;
 }
 
-void film_choose_stored_ranges_of_fields(struct film *f)
+void animation_choose_stored_field_ranges(struct run_animation *f)
 {
     for (int k = 0; k < f->fields; k++) field_settle(&f->field[k]);
 }
 
-bool film_field_is_shown(const struct film *f, const struct film_field *field)
+bool animation_field_is_shown(const struct run_animation *f, const struct animation_field *field)
 {
     return field->used && !(field->extra && f->lacks_extra);
 }
 
-static bool is_fragment(const struct film_field *field) { return strcmp(field->of->name, "fragment") == 0; }
+static bool is_fragment(const struct animation_field *field) { return strcmp(field->of->name, "fragment") == 0; }
 
-int film_bytes_per_group_and_frame(const struct film *f)
+int animation_bytes_per_group_and_frame(const struct run_animation *f)
 {
     int bytes = 0;
     for (int k = 0; k < f->fields; k++)
-        if (film_field_is_shown(f, &f->field[k]) && !f->field[k].fixed) bytes += is_fragment(&f->field[k]) ? 2 : 1;
+        if (animation_field_is_shown(f, &f->field[k]) && !f->field[k].fixed) bytes += is_fragment(&f->field[k]) ? 2 : 1;
     return bytes;
 }
 
 /* Returns the number that the page stores for a field and group g (particles shown as one) of the particle set s: the
  * mean of value[s->n] over the group, as 0..254 over the stored range of the field, or 255 for no value. Categories
  * such as materials are stored unchanged, fragments in 16 bits; both are those of one particle of the group. */
-static unsigned value_stored(const struct film_field *field, const struct film_set *s, const float *value, int64_t g)
+static unsigned value_stored(const struct animation_field *field, const struct animation_particle_set *s,
+                             const float *value, int64_t g)
 {
     double sum = 0;
     const double one = value[s->member[s->first[g]]];
@@ -122,9 +124,9 @@ static unsigned value_stored(const struct film_field *field, const struct film_s
     return (unsigned)lround(VALUE_MOST * fmin(fmax((mean - field->low) / (field->high - field->low), 0), 1));
 }
 
-void film_write_field_values_of_frame(struct page *p, const struct film_field *field,
-                                      const struct film_set *particle_set, const struct output_frame *frame,
-                                      const char *path)
+void animation_write_field_values_of_frame(struct html_page *p, const struct animation_field *field,
+                                           const struct animation_particle_set *particle_set,
+                                           const struct output_frame *frame, const char *path)
 {
     float *value = NULL;
     if (plot_field_read(&value, field->of, frame, path) != OK) value = NEW("report.field", frame->n, float);
@@ -137,8 +139,8 @@ void film_write_field_values_of_frame(struct page *p, const struct film_field *f
         narrow[g] = (uint8_t)stored;
     }
     if (is_fragment(field))
-        page_add_array(p, field->of->name, PAGE_U16, wide, n);
+        html_page_add_array(p, field->of->name, PAGE_U16, wide, n);
     else
-        page_add_array(p, field->of->name, PAGE_U8, narrow, n);
+        html_page_add_array(p, field->of->name, PAGE_U8, narrow, n);
     memory_free(narrow), memory_free(wide), memory_free(value);
 }

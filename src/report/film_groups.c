@@ -33,23 +33,25 @@ static bool are_in_one_cell(const struct member *x, const struct member *y)
     return x->key == y->key && x->part == y->part;
 }
 
-static double size_of_particle(const struct film_set *s, const struct film *f, int64_t i)
+static double size_of_particle(const struct animation_particle_set *s, const struct run_animation *f, int64_t i)
 {
     return s->size ? s->size[i] : f->spacing;
 }
 
-static double cell_edge_length(const struct film *f, int level) { return ldexp(f->spacing, level); }
+static double cell_edge_length(const struct run_animation *f, int level) { return ldexp(f->spacing, level); }
 
 /* Returns the index along axis d of the cubic cell of the lattice, with an edge of 2^level spacings of film f, that
  * contains particle i of the particle set s (the particles that consecutive output frames have in common). */
-static uint64_t cell_index(const struct film_set *s, const struct film *f, int level, int64_t i, int d)
+static uint64_t cell_index(const struct animation_particle_set *s, const struct run_animation *f, int level, int64_t i,
+                           int d)
 {
     const double along = floor((s->X[d][i] - s->corner[d]) / f->spacing);
     return (uint64_t)fmin(fmax(along, 0), KEY_MOST) >> level;
 }
 
 /* Returns particle i of the particle set s of film f as a member of its cell of level `level`. */
-static struct member member_of_cell(const struct film_set *s, const struct film *f, int level, int64_t i)
+static struct member member_of_cell(const struct animation_particle_set *s, const struct run_animation *f, int level,
+                                    int64_t i)
 {
     uint64_t key = (uint64_t)level;
     for (int d = 0; d < DIM_MAX; d++) key = key << KEY_BITS | (d < f->dim ? cell_index(s, f, level, i, d) : 0);
@@ -58,7 +60,7 @@ static struct member member_of_cell(const struct film_set *s, const struct film 
 
 /* Returns true if particle i of the particle set s of film f may be merged with others into a cell of level `level` as
  * far as its size and what it suffers in the frames allow. */
-static bool may_merge(const struct film_set *s, const struct film *f, int level, int64_t i)
+static bool may_merge(const struct animation_particle_set *s, const struct run_animation *f, int level, int64_t i)
 {
     if (s->state[i] == FILM_CRACKED || (s->state[i] == FILM_DAMAGED && level > f->levels_damaged)) return false;
     return fabs(size_of_particle(s, f, i) / f->spacing - 1) < EQUAL;
@@ -68,7 +70,7 @@ static bool may_merge(const struct film_set *s, const struct film *f, int level,
  * cells with an edge of 2^level spacings of film f: sets s->level to `level` for the particles of each cell that they
  * fill completely, if all of them have the same material and body. Above f->levels_damaged they must also have the same
  * kinds and fragments in all frames. */
-static void merge_cells(struct film_set *s, const struct film *f, int level)
+static void merge_cells(struct animation_particle_set *s, const struct run_animation *f, int level)
 {
     struct member *m = BARE("report.members", s->n, struct member);
     int64_t n = 0;
@@ -87,7 +89,7 @@ static void merge_cells(struct film_set *s, const struct film *f, int level)
 }
 
 /* Sets s->level, the levels of the cells into which the particles of the particle set s of film f are merged. */
-static void levels_set(struct film_set *s, const struct film *f)
+static void mesh_levels_set(struct animation_particle_set *s, const struct run_animation *f)
 {
     const double largest = (1 + EQUAL) * cell_edge_length(f, f->levels_all);
     for (int64_t i = 0; i < s->n; i++)
@@ -97,7 +99,7 @@ static void levels_set(struct film_set *s, const struct film *f)
 
 /* Sets the lists of particles of each group (particles shown as one) of the set s of film f: s->groups, s->first and
  * s->member. Particles with s->level > 0 in the same cell of this level, of one material and body, form a group. */
-static void film_groups_fill(struct film_set *s, const struct film *f)
+static void film_groups_fill(struct animation_particle_set *s, const struct run_animation *f)
 {
     struct member *m = BARE("report.members", s->n, struct member);
     for (int64_t i = 0; i < s->n; i++)
@@ -112,25 +114,28 @@ static void film_groups_fill(struct film_set *s, const struct film *f)
     memory_free(m);
 }
 
-void film_particle_set_form_groups(struct film_set *particle_set, const struct film *f)
+void animation_particle_set_merge_into_groups(struct animation_particle_set *particle_set,
+                                              const struct run_animation *f)
 {
-    struct film_set *s = particle_set;
+    struct animation_particle_set *s = particle_set;
     for (int d = 0; d < f->dim; d++) {
         s->corner[d] = INFINITY;
         for (int64_t i = 0; i < s->n; i++)
             s->corner[d] = fmin(s->corner[d], s->X[d][i] - size_of_particle(s, f, i) / 2);
     }
-    levels_set(s, f);
+    mesh_levels_set(s, f);
     film_groups_fill(s, f);
 }
 
-double film_edge_length_of_group(const struct film_set *particle_set, const struct film *f, int64_t group)
+double animation_group_drawn_edge_length(const struct animation_particle_set *particle_set,
+                                         const struct run_animation *f, int64_t group)
 {
     const int32_t i = particle_set->member[particle_set->first[group]];
     return particle_set->level[i] ? cell_edge_length(f, particle_set->level[i]) : size_of_particle(particle_set, f, i);
 }
 
-double film_centre_of_group(const struct film_set *particle_set, const struct film *f, int64_t group, int axis)
+double animation_group_centre_coordinate(const struct animation_particle_set *particle_set,
+                                         const struct run_animation *f, int64_t group, int axis)
 {
     const int32_t first = particle_set->first[group], n = particle_set->first[group + 1] - first;
     const int32_t i = particle_set->member[first];

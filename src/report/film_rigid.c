@@ -6,13 +6,13 @@
 #include "rigid/rigid_surface.h"
 
 /* Returns the number of rigid bodies that the page of film f shows: none in one dimension or without the scene. */
-static int rigids_of(const struct film *f) { return f->scene && f->dim > 1 ? f->scene->rigids : 0; }
+static int rigids_of(const struct run_animation *f) { return f->scene && f->dim > 1 ? f->scene->rigids : 0; }
 
 /* Computes the bounding box of the particles in the first output frame of film f. low[dim], high[dim]: receive its
  * lower and upper corner [m]. */
-static void particles_box(const struct film *f, real *low, real *high)
+static void particles_box(const struct run_animation *f, real *low, real *high)
 {
-    const struct film_set *s = &f->set[0];
+    const struct animation_particle_set *s = &f->set[0];
     for (int d = 0; d < f->dim; d++) {
         low[d] = INFINITY, high[d] = -INFINITY;
         for (int64_t i = 0; i < s->n; i++) low[d] = fmin(low[d], s->X[d][i]), high[d] = fmax(high[d], s->X[d][i]);
@@ -21,71 +21,72 @@ static void particles_box(const struct film *f, real *low, real *high)
 
 /* Writes the numbers value[n] as an array to the JSON of the page p. key: name of the array; NULL if the array is an
  * element of a list and has no name. */
-static void write_vector(struct page *p, const char *key, const real *value, int n)
+static void write_vector(struct html_page *p, const char *key, const real *value, int n)
 {
-    json_open(&p->json, key, '[');
+    json_begin_object_or_list(&p->json, key, '[');
     for (int k = 0; k < n; k++) json_write_rounded(&p->json, NULL, value[k], JSON_EXACT);
-    json_close(&p->json, ']');
+    json_end_object_or_list(&p->json, ']');
 }
 
 /* Writes a surface s in `dim` dimensions to the page p: its points [points][dim], relative to centre[dim] [m], and its
  * faces [faces][corners], indices of points, as arrays in single precision, in which the indices are exact. */
-static void write_surface(struct page *p, const struct rigid_surface *s, const real *centre, int dim)
+static void write_surface(struct html_page *p, const struct rigid_surface *s, const real *centre, int dim)
 {
     const int64_t corners = s->faces * s->corners;
     float *X = NEW("report.X", s->points * dim, float), *corner = NEW("report.corner", corners, float);
     for (int64_t k = 0; k < s->points * dim; k++) X[k] = (float)(s->X[k / dim * DIM_MAX + k % dim] - centre[k % dim]);
     for (int64_t k = 0; k < corners; k++) corner[k] = (float)s->corner[k];
     json_write_integer(&p->json, "corners", s->corners);
-    page_add_array(p, "X", PAGE_F32, X, s->points * dim);
-    page_add_array(p, "corner", PAGE_F32, corner, corners);
+    html_page_add_array(p, "X", PAGE_F32, X, s->points * dim);
+    html_page_add_array(p, "corner", PAGE_F32, corner, corners);
     memory_free(X), memory_free(corner);
 }
 
-void film_write_rigid_body_surfaces(struct page *p, const struct film *f)
+void animation_write_rigid_body_surfaces(struct html_page *p, const struct run_animation *f)
 {
     const int rigids = rigids_of(f);
     struct rigid_placement *at = NEW("report.rigid", rigids, struct rigid_placement);
     if (rigids > 0 && rigids_read_placements_of_frame(at, rigids, f->folder, f->frame[0].listed.number)) {
-        json_open(&p->json, "rigid", '[');
+        json_begin_object_or_list(&p->json, "rigid", '[');
         for (int b = 0; b < rigids; b++) {
             const struct scene_body *body = &f->scene->body[f->scene->bodies + b];
             real low[DIM_MAX], high[DIM_MAX];
             struct rigid_surface surface;
             particles_box(f, low, high);
-            (void)rigid_compute_shown_box(&body->shape, f->dim, low, high);
+            (void)rigid_compute_plotting_box(&body->shape, f->dim, low, high);
             rigid_surface_approximate_by_polygons(&surface, &body->shape, f->dim, low, high);
-            json_open(&p->json, NULL, '{');
+            json_begin_object_or_list(&p->json, NULL, '{');
             json_write_text(&p->json, "name", body->name);
             write_vector(p, "centre", at[b].centre, f->dim);
             write_surface(p, &surface, at[b].centre, f->dim);
-            json_close(&p->json, '}');
+            json_end_object_or_list(&p->json, '}');
             rigid_surface_free(&surface);
         }
-        json_close(&p->json, ']');
+        json_end_object_or_list(&p->json, ']');
     }
     memory_free(at);
 }
 
-void film_write_rigid_body_motion_of_frame(struct page *p, const struct film *f, const struct output_frame *frame,
-                                           int frame_number)
+void animation_write_rigid_body_motion_of_frame(struct html_page *p, const struct run_animation *f,
+                                                const struct output_frame *frame, int frame_number)
 {
     const int rigids = rigids_of(f);
     struct rigid_placement *at = NEW("report.rigid", rigids, struct rigid_placement);
     if (rigids > 0 && rigids_read_placements_of_frame(at, rigids, f->folder, frame_number)) {
-        json_open(&p->json, "rigid", '[');
+        json_begin_object_or_list(&p->json, "rigid", '[');
         for (int b = 0; b < rigids; b++) {
-            json_open(&p->json, NULL, '{');
+            json_begin_object_or_list(&p->json, NULL, '{');
             real beside[DIM_MAX];
-            rigid_displacement_of_nearest_particle(&f->scene->body[f->scene->bodies + b].shape, &at[b], frame, beside);
+            rigid_body_find_nearest_particle_displacement(&f->scene->body[f->scene->bodies + b].shape, &at[b], frame,
+                                                          beside);
             write_vector(p, "x", at[b].x, f->dim);
             write_vector(p, "beside", beside, f->dim);
-            json_open(&p->json, "turn", '[');
+            json_begin_object_or_list(&p->json, "turn", '[');
             for (int d = 0; d < f->dim; d++) write_vector(p, NULL, at[b].turn[d], f->dim);
-            json_close(&p->json, ']');
-            json_close(&p->json, '}');
+            json_end_object_or_list(&p->json, ']');
+            json_end_object_or_list(&p->json, '}');
         }
-        json_close(&p->json, ']');
+        json_end_object_or_list(&p->json, ']');
     }
     memory_free(at);
 }

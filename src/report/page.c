@@ -19,13 +19,13 @@ static const struct {
     [PAGE_F32] = {"f32", 4}, [PAGE_PNG] = {"png", 1}, [PAGE_SVG] = {"svg", 1},
 };
 
-status page_begin_in_memory(struct page *p)
+status html_page_begin_in_memory(struct html_page *p)
 {
-    *p = (struct page){.json = {.depth = 1}};
+    *p = (struct html_page){.json = {.depth = 1}};
     p->json.file = memory_stream_open(&p->text, &p->text_length);
     p->arrays = memory_stream_open(&p->array_text, &p->array_length);
     if (!p->json.file || !p->arrays) {
-        page_release(p);
+        html_page_release(p);
         return status_set(FAILED, "report: out of memory");
     }
     fputc('{', p->json.file);
@@ -46,29 +46,30 @@ static void write_base64(FILE *to, const unsigned char *bytes, size_t length)
     }
 }
 
-void page_add_array(struct page *p, const char *key, enum page_type type, const void *values, int64_t value_count)
+void html_page_add_array(struct html_page *p, const char *key, enum page_type type, const void *values,
+                         int64_t value_count)
 {
-    json_open(&p->json, key, '{');
+    json_begin_object_or_list(&p->json, key, '{');
     json_write_integer(&p->json, "array", p->count);
     json_write_text(&p->json, "type", types[type].name);
     json_write_integer(&p->json, "length", value_count);
-    json_close(&p->json, '}');
+    json_end_object_or_list(&p->json, '}');
     fprintf(p->arrays, "<script type=\"text/plain\" id=\"array%d\">", p->count++);
     write_base64(p->arrays, values, (size_t)value_count * types[type].size);
     fputs("</script>\n", p->arrays);
 }
 
-status page_add_picture(struct page *p, const char *entry_name, enum page_type format, const char *path)
+status html_page_add_picture(struct html_page *p, const char *entry_name, enum page_type format, const char *path)
 {
     char *bytes;
     size_t length;
     TRY(file_read_whole(path, &bytes, &length));
-    page_add_array(p, entry_name, format, bytes, (int64_t)length);
+    html_page_add_array(p, entry_name, format, bytes, (int64_t)length);
     memory_free(bytes);
     return OK;
 }
 
-void page_add_text_file(struct page *p, const char *entry_name, const char *folder, const char *file_name)
+void html_page_add_text_file(struct html_page *p, const char *entry_name, const char *folder, const char *file_name)
 {
     char *text;
     size_t length;
@@ -78,7 +79,7 @@ void page_add_text_file(struct page *p, const char *entry_name, const char *fold
     memory_free(text);
 }
 
-void page_add_time(struct page *p, const char *entry_name, time_t moment)
+void html_page_add_time(struct html_page *p, const char *entry_name, time_t moment)
 {
     char text[64];
     struct tm tm;
@@ -109,7 +110,7 @@ static void write_json(FILE *to, const char *text, size_t length)
     }
 }
 
-static void write_page(FILE *to, const struct page *p, const char *title)
+static void write_page(FILE *to, const struct html_page *p, const char *title)
 {
     fputs(PAGE_BEGINNING, to);
     fputs("<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
@@ -132,7 +133,7 @@ static void write_page(FILE *to, const struct page *p, const char *title)
 
 /* Closes the streams of JSON and arrays of the page p. Returns FAILED, with a message, if there was no memory for
  * them. */
-static status page_close(struct page *p)
+static status page_close(struct html_page *p)
 {
     fputs("\n}\n", p->json.file);
     const bool json = fclose(p->json.file) == 0, arrays = fclose(p->arrays) == 0;
@@ -140,7 +141,7 @@ static status page_close(struct page *p)
     return json && arrays ? OK : status_set(FAILED, "report: out of memory");
 }
 
-status page_complete_and_write_file(struct page *p, const char *path, const char *title, int64_t *file_size)
+status html_page_complete_and_write_file(struct html_page *p, const char *path, const char *title, int64_t *file_size)
 {
     char *text = NULL;
     size_t length = 0;
@@ -155,11 +156,11 @@ status page_complete_and_write_file(struct page *p, const char *path, const char
     return written;
 }
 
-void page_release(struct page *p)
+void html_page_release(struct html_page *p)
 {
     if (p->json.file) fclose(p->json.file);
     if (p->arrays) fclose(p->arrays);
     free(p->text);
     free(p->array_text);
-    *p = (struct page){0};
+    *p = (struct html_page){0};
 }

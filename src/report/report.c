@@ -20,9 +20,10 @@ static status folder_check_kind(const char *folder)
         return status_set(REFUSED, "%s is a file; give the folder of a run or a study", shown.text);
     if (strlen(folder) + PATH_NAME_ROOM >= PATH_ROOM)
         return status_set(REFUSED, "%s: the name is too long; choose a shorter one", shown.text);
-    if (folder_holds_study(folder) || run_has_file(folder, "frames.hdf.series") || run_has_file(folder, "history.csv"))
+    if (folder_contains_study_table(folder) || run_folder_has_file(folder, "frames.hdf.series") ||
+        run_folder_has_file(folder, "history.csv"))
         return OK;
-    if (run_has_file(folder, "study.yaml"))
+    if (run_folder_has_file(folder, "study.yaml"))
         return status_set(
             REFUSED, "%s contains a study without a table; run its command again with --collect once a run is done",
             shown.text);
@@ -43,54 +44,56 @@ static status page_destination(struct path *path, const struct report_request *r
         return status_set(REFUSED, "report: -o '%s': give the name of a file or folder", printable_name(out).text);
     snprintf(path->text, sizeof path->text, "%s", out);
     for (size_t end = length; end > 1 && path->text[end - 1] == '/'; end--) path->text[end - 1] = '\0';
-    TRY(folder_make_for_file(out));
+    TRY(folder_create_parents_of_file(out));
     if (path_is_folder(path->text)) *path = path_join(path->text, PAGE_NAME);
     TRY(file_check_replaceable(path->text));
-    if (r->overwrite || !path_exists(path->text) || page_file_is_from_cleave(path->text)) return OK;
+    if (r->overwrite || !path_exists(path->text) || report_page_is_from_cleave(path->text)) return OK;
     return status_set(REFUSED,
                       "%s exists and is not a page of cleave; choose another -o, or replace it with --overwrite",
                       printable_name(path->text).text);
 }
 
 /* Adds the SI prefixes of units to the JSON text of the page p, as a list of factors and names. */
-static void write_prefixes(struct page *p)
+static void write_prefixes(struct html_page *p)
 {
-    json_open(&p->json, "prefixes", '[');
+    json_begin_object_or_list(&p->json, "prefixes", '[');
     for (int k = 0; k < UNIT_PREFIXES; k++) {
-        json_open(&p->json, NULL, '[');
+        json_begin_object_or_list(&p->json, NULL, '[');
         json_write_real(&p->json, NULL, unit_prefix[k].factor);
         json_write_text(&p->json, NULL, unit_prefix[k].name);
-        json_close(&p->json, ']');
+        json_end_object_or_list(&p->json, ']');
     }
-    json_close(&p->json, ']');
+    json_end_object_or_list(&p->json, ']');
 }
 
 /* Writes the entries that all pages have to the page p: the folder of the request r, the version, commit, processor
  * and time with which the page is made, and the prefixes of units. */
-static void write_origin(struct page *p, const struct report_request *r)
+static void write_origin(struct html_page *p, const struct report_request *r)
 {
     json_write_text(&p->json, "folder", r->folder);
     json_write_text(&p->json, "version", CLEAVE_VERSION);
     json_write_text(&p->json, "commit", program_commit());
     json_write_text(&p->json, "machine", machine_processor_name());
-    page_add_time(p, "made", time(NULL));
+    html_page_add_time(p, "made", time(NULL));
     write_prefixes(p);
 }
 
 static status report_page(const struct report_request *r, const struct path *path)
 {
-    struct page p;
+    struct html_page p;
     char name[NAME_MAX_LENGTH];
     int64_t bytes = 0;
-    TRY(page_begin_in_memory(&p));
+    TRY(html_page_begin_in_memory(&p));
     write_origin(&p, r);
     status s = OK;
-    if (folder_holds_study(r->folder))
-        report_write_page_of_study(&p, r->folder);
+    if (folder_contains_study_table(r->folder))
+        report_add_study_entries_to_page(&p, r->folder);
     else
-        s = report_write_page_of_run(&p, r, path->text);
-    if (s == OK) s = page_complete_and_write_file(&p, path->text, path_last_name(name, sizeof name, r->folder), &bytes);
-    page_release(&p);
+        s = report_add_run_entries_to_page(&p, r, path->text);
+    if (s == OK)
+        s = html_page_complete_and_write_file(&p, path->text, path_copy_base_name(name, sizeof name, r->folder),
+                                              &bytes);
+    html_page_release(&p);
     TRY(s);
     if (r->quiet) return OK;
     const int said =

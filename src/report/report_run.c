@@ -24,7 +24,7 @@ enum { FILM_BYTES = 9 << 20, HISTORY_BYTES = 1 << 20, PICTURE_PARTICLES = 200000
 
 /* Arguments of write_unit: the page, and the header of history.csv, which states units. */
 struct units {
-    struct page *page;
+    struct html_page *page;
     const char *header;
 };
 
@@ -39,16 +39,16 @@ static void write_unit(void *context, const char *key, double value)
     if (unit[0]) json_write_text(&u->page->json, key, unit);
 }
 
-static void write_figures(struct page *p, const char *folder, const char *header)
+static void write_figures(struct html_page *p, const char *folder, const char *header)
 {
     struct units u = {p, header};
     struct stat s;
     const struct path summary = path_join(folder, "summary.json");
-    page_add_text_file(p, "summary", folder, "summary.json");
-    json_open(&p->json, "units", '{');
+    html_page_add_text_file(p, "summary", folder, "summary.json");
+    json_begin_object_or_list(&p->json, "units", '{');
     if (path_is_file(summary.text)) (void)summary_visit_numbers(folder, write_unit, &u);
-    json_close(&p->json, '}');
-    if (stat(summary.text, &s) == 0) page_add_time(p, "ended", s.st_mtime);
+    json_end_object_or_list(&p->json, '}');
+    if (stat(summary.text, &s) == 0) html_page_add_time(p, "ended", s.st_mtime);
 }
 
 /* ---- history ----------------------------------------------------------------------------------------------------- */
@@ -56,7 +56,7 @@ static void write_figures(struct page *p, const char *folder, const char *header
 /* Writes the columns of history.csv in `folder` in single precision to the page p. Of long histories it writes every
  * n-th line, so that they fit into HISTORY_BYTES, and the last line. header: first line of the file; "": there is no
  * file. Returns FAILED, with a message, if the file cannot be read. */
-static status write_history(struct page *p, const char *folder, const char *header)
+static status write_history(struct html_page *p, const char *folder, const char *header)
 {
     struct history h;
     if (!header[0]) return OK;
@@ -64,18 +64,18 @@ static status write_history(struct page *p, const char *folder, const char *head
     const int64_t most = HISTORY_BYTES / (4 * h.columns), stride = h.rows / most + 1;
     const int64_t rows = h.rows > 0 ? (h.rows - 1 + stride - 1) / stride + 1 : 0;
     float *column = NEW("report.column", rows, float);
-    json_open(&p->json, "history", '{');
+    json_begin_object_or_list(&p->json, "history", '{');
     json_write_text(&p->json, "header", header);
     json_write_integer(&p->json, "listed", h.rows);
     json_write_integer(&p->json, "rows", rows);
-    json_open(&p->json, "columns", '[');
+    json_begin_object_or_list(&p->json, "columns", '[');
     for (int c = 0; c < h.columns; c++) {
         for (int64_t k = 0; k < rows; k++)
             column[k] = (float)history_value_at(&h, k < rows - 1 ? k * stride : h.rows - 1, c);
-        page_add_array(p, NULL, PAGE_F32, column, rows);
+        html_page_add_array(p, NULL, PAGE_F32, column, rows);
     }
-    json_close(&p->json, ']');
-    json_close(&p->json, '}');
+    json_end_object_or_list(&p->json, ']');
+    json_end_object_or_list(&p->json, '}');
     memory_free(column);
     history_free(&h);
     return OK;
@@ -84,39 +84,39 @@ static status write_history(struct page *p, const char *folder, const char *head
 /* ---- scene ------------------------------------------------------------------------------------------------------- */
 
 /* Writes the corners [m] of the pre-cracks of scene s to the JSON of the page p. */
-static void write_pre_cracks(struct page *p, const struct scene *s)
+static void write_pre_cracks(struct html_page *p, const struct scene *s)
 {
-    json_open(&p->json, "cracks", '[');
+    json_begin_object_or_list(&p->json, "cracks", '[');
     for (int k = 0; k < s->cracks; k++) {
-        json_open(&p->json, NULL, '[');
+        json_begin_object_or_list(&p->json, NULL, '[');
         for (int c = 0; c < s->crack[k].n; c++) {
-            json_open(&p->json, NULL, '[');
+            json_begin_object_or_list(&p->json, NULL, '[');
             for (int d = 0; d < s->dim; d++) json_write_rounded(&p->json, NULL, s->crack[k].corner[c][d], JSON_EXACT);
-            json_close(&p->json, ']');
+            json_end_object_or_list(&p->json, ']');
         }
-        json_close(&p->json, ']');
+        json_end_object_or_list(&p->json, ']');
     }
-    json_close(&p->json, ']');
+    json_end_object_or_list(&p->json, ']');
 }
 
 /* Writes the names of the materials and bodies of scene s to the JSON of the page p. */
-static void write_names(struct page *p, const struct scene *s)
+static void write_names(struct html_page *p, const struct scene *s)
 {
-    json_open(&p->json, "names", '{');
-    json_open(&p->json, "material", '[');
+    json_begin_object_or_list(&p->json, "names", '{');
+    json_begin_object_or_list(&p->json, "material", '[');
     for (int k = 0; k < s->materials + s->unused_materials; k++)
-        json_write_text(&p->json, NULL, scene_material_of_number(s, k)->name);
-    json_close(&p->json, ']');
-    json_open(&p->json, "body", '[');
+        json_write_text(&p->json, NULL, scene_find_material_by_number(s, k)->name);
+    json_end_object_or_list(&p->json, ']');
+    json_begin_object_or_list(&p->json, "body", '[');
     for (int k = 0; k < s->bodies; k++) json_write_text(&p->json, NULL, s->body[k].name);
-    json_close(&p->json, ']');
-    json_close(&p->json, '}');
+    json_end_object_or_list(&p->json, ']');
+    json_end_object_or_list(&p->json, '}');
 }
 
 /* Draws the scene to a temporary file beside the page and adds the picture to the page p. scene: path of the scene
  * file; path: path of the page. Returns FAILED or REFUSED, with the reason in the message, if the scene cannot be
  * drawn. */
-static status write_picture(struct page *p, const char *scene, const char *path)
+static status write_picture(struct html_page *p, const char *scene, const char *path)
 {
     struct path picture;
     struct plot_request r = {.format = PICTURE_PNG, .out = picture.text, .overwrite = true, .quiet = true};
@@ -126,7 +126,7 @@ static status write_picture(struct page *p, const char *scene, const char *path)
     unlink(picture.text); /* a link of this name is not followed */
     interrupt_cleanup_register(LEAVING_FRAME, picture.text, 0);
     status s = scene_draw_picture(scene, NULL, 0, &r);
-    if (s == OK) s = page_add_picture(p, "picture", PAGE_PNG, picture.text);
+    if (s == OK) s = html_page_add_picture(p, "picture", PAGE_PNG, picture.text);
     unlink(picture.text);
     interrupt_cleanup_register(LEAVING_FRAME, NULL, 0);
     return s;
@@ -134,7 +134,8 @@ static status write_picture(struct page *p, const char *scene, const char *path)
 
 /* Writes the names and pre-cracks of the scene s to the page p, and its picture. folder: folder of the run; particles:
  * number of particles in the first output frame; path: path of the page. */
-static void write_scene(struct page *p, const char *folder, const struct scene *s, int64_t particles, const char *path)
+static void write_scene(struct html_page *p, const char *folder, const struct scene *s, int64_t particles,
+                        const char *path)
 {
     json_write_text(&p->json, "name", s->name);
     json_write_integer(&p->json, "dim", s->dim);
@@ -152,26 +153,26 @@ static void write_scene(struct page *p, const char *folder, const struct scene *
 /* Writes the output frames of the run in `folder` to the page p, which shows them as a film; writes nothing if there
  * are none. scene: scene of the run; NULL: not known. Stores the number of particles of the first frame in *particles,
  * 0 without frames. Returns FAILED, with a message, if a frame cannot be read. */
-static status write_film(struct page *p, const char *folder, const struct scene *scene, int64_t *particles)
+static status write_film(struct html_page *p, const char *folder, const struct scene *scene, int64_t *particles)
 {
-    struct film f;
+    struct run_animation f;
     *particles = 0;
-    if (!run_has_file(folder, "frames.hdf.series")) return OK;
-    TRY(film_read_frames_of_run(&f, folder, scene));
+    if (!run_folder_has_file(folder, "frames.hdf.series")) return OK;
+    TRY(animation_read_frames_of_run(&f, folder, scene));
     *particles = f.set[0].n;
-    film_select_within_byte_budget(&f, FILM_BYTES);
-    const status s = film_write(p, &f);
-    film_free(&f);
+    animation_select_content_within_byte_budget(&f, FILM_BYTES);
+    const status s = animation_write_to_page(p, &f);
+    animation_free(&f);
     return s;
 }
 
-status report_write_page_of_run(struct page *p, const struct report_request *request, const char *page_path)
+status report_add_run_entries_to_page(struct html_page *p, const struct report_request *request, const char *page_path)
 {
     char header[HEADER_ROOM];
     int64_t particles;
     struct scene scene;
     json_write_text(&p->json, "kind", "run");
-    page_add_text_file(p, "scene", request->folder, "scene.yaml");
+    html_page_add_text_file(p, "scene", request->folder, "scene.yaml");
     const bool known = scene_read(&scene, path_join(request->folder, "scene.yaml").text, NULL, 0) == OK;
     if (!known) json_write_text(&p->json, "picture_missing", status_message());
     history_read_header(header, sizeof header, request->folder);

@@ -54,24 +54,24 @@ static enum page_type picture_format_of(const char *name)
 }
 
 /* Adds the picture of a study in the file `path` to the page p as an element of a list. name: its name. */
-static void write_study_picture(struct page *p, const char *name, const char *path)
+static void write_study_picture(struct html_page *p, const char *name, const char *path)
 {
-    json_open(&p->json, NULL, '{');
+    json_begin_object_or_list(&p->json, NULL, '{');
     json_write_text(&p->json, "name", name);
-    (void)page_add_picture(p, "of", picture_format_of(name), path);
-    json_close(&p->json, '}');
+    (void)html_page_add_picture(p, "of", picture_format_of(name), path);
+    json_end_object_or_list(&p->json, '}');
 }
 
 /* Adds the pictures that Cleave has drawn for the study in `folder` to the page p, at most PICTURES_MOST, and the names
  * of those that the page does not show. */
-static void write_pictures(struct page *p, const char *folder)
+static void write_pictures(struct html_page *p, const char *folder)
 {
     char **name;
     int added = 0;
     const struct path pictures = pictures_folder(folder);
     const int n = folder_names_read(&name, pictures.text);
     bool *left = NEW("report.left", n, bool);
-    json_open(&p->json, "pictures", '[');
+    json_begin_object_or_list(&p->json, "pictures", '[');
     for (int k = 0; k < n; k++) {
         const struct path path = path_join(pictures.text, name[k]);
         if (!path_is_file(path.text) || !picture_file_is_from_cleave(path.text)) continue;
@@ -80,23 +80,23 @@ static void write_pictures(struct page *p, const char *folder)
         write_study_picture(p, name[k], path.text);
         added++;
     }
-    json_close(&p->json, ']');
-    json_open(&p->json, "pictures_left_out", '[');
+    json_end_object_or_list(&p->json, ']');
+    json_begin_object_or_list(&p->json, "pictures_left_out", '[');
     for (int k = 0; k < n; k++)
         if (left[k]) json_write_text(&p->json, NULL, name[k]);
-    json_close(&p->json, ']');
+    json_end_object_or_list(&p->json, ']');
     memory_free(left);
     folder_names_free(name, n);
 }
 
 /* Adds the warnings of the runs of the study in `folder` to the page p, each text once and at most WARNINGS_MOST. */
-static void write_warnings(struct page *p, const char *folder)
+static void write_warnings(struct html_page *p, const char *folder)
 {
     char **name, key[32], text[MESSAGE_ROOM];
     static char seen[WARNINGS_MOST][MESSAGE_ROOM];
     int found = 0;
     const int n = folder_names_read(&name, folder);
-    json_open(&p->json, "warnings", '[');
+    json_begin_object_or_list(&p->json, "warnings", '[');
     for (int k = 0; k < n; k++) {
         const struct path run = path_join(folder, name[k]);
         if (!path_is_file(path_join(run.text, "summary.json").text)) continue;
@@ -110,7 +110,7 @@ static void write_warnings(struct page *p, const char *folder)
             json_write_text(&p->json, NULL, text);
         }
     }
-    json_close(&p->json, ']');
+    json_end_object_or_list(&p->json, ']');
     folder_names_free(name, n);
 }
 
@@ -124,12 +124,12 @@ static bool run_is_done(const char *folder)
 
 /* Adds the reasons for which runs of the study in `folder` have failed to the page p, with the names of the runs, at
  * most REASONS_MOST. */
-static void write_reasons(struct page *p, const char *folder)
+static void write_reasons(struct html_page *p, const char *folder)
 {
     char **log, text[MESSAGE_ROOM];
     int written = 0;
     const int n = folder_names_read(&log, path_join(folder, "logs").text);
-    json_open(&p->json, "reasons", '{');
+    json_begin_object_or_list(&p->json, "reasons", '{');
     for (int k = 0; k < n && written < REASONS_MOST; k++) {
         char *ending = strrchr(log[k], '.');
         if (!ending || strcmp(ending, ".txt") != 0) continue;
@@ -139,13 +139,13 @@ static void write_reasons(struct page *p, const char *folder)
         json_write_text(&p->json, log[k], text);
         written++;
     }
-    json_close(&p->json, '}');
+    json_end_object_or_list(&p->json, '}');
     folder_names_free(log, n);
 }
 
 /* Adds the units of the columns of sweep.csv to the page p: for varied keys the units of numbers without a unit, for
  * results the units in the header of history.csv of the first run that has such a file. folder: folder of the study. */
-static void write_study_units(struct page *p, const char *folder)
+static void write_study_units(struct html_page *p, const char *folder)
 {
     char **name, header[HEADER_ROOM] = "", unit[UNIT_ROOM], *table = NULL;
     size_t length = 0;
@@ -155,7 +155,7 @@ static void write_study_units(struct page *p, const char *folder)
     folder_names_free(name, n);
     if (file_read_whole(path_join(folder, "sweep.csv").text, &table, &length) != OK) return;
     table[strcspn(table, "\r\n")] = '\0';
-    json_open(&p->json, "units", '{');
+    json_begin_object_or_list(&p->json, "units", '{');
     bool keys = true; /* the varied keys are before the results, of which `steps` is the first */
     for (char *rest = table, *column; (column = strsep(&rest, ","));) {
         keys = keys && strcmp(column, "steps") != 0;
@@ -165,16 +165,16 @@ static void write_study_units(struct page *p, const char *folder)
             study_write_unit_of_result(unit, sizeof unit, header, column);
         if (unit[0]) json_write_text(&p->json, column, unit);
     }
-    json_close(&p->json, '}');
+    json_end_object_or_list(&p->json, '}');
     memory_free(table);
 }
 
-void report_write_page_of_study(struct page *p, const char *study_folder)
+void report_add_study_entries_to_page(struct html_page *p, const char *study_folder)
 {
     const bool sweep = path_is_file(path_join(study_folder, "sweep.csv").text);
     json_write_text(&p->json, "kind", sweep ? "sweep" : "converge");
-    page_add_text_file(p, "table", study_folder, sweep ? "sweep.csv" : "converge.csv");
-    page_add_text_file(p, "scene", study_folder, STUDY_SCENE);
+    html_page_add_text_file(p, "table", study_folder, sweep ? "sweep.csv" : "converge.csv");
+    html_page_add_text_file(p, "scene", study_folder, STUDY_SCENE);
     char *options = study_options_read(study_folder);
     if (options) json_write_text(&p->json, "options", options);
     memory_free(options);

@@ -125,7 +125,7 @@ real rigid_signed_distance(const struct rigid_body *r, const real *x, real *norm
     return distance;
 }
 
-void rigid_present_position_of_point(const struct rigid_body *r, const real *X, real *x)
+void rigid_compute_current_position_of_point(const struct rigid_body *r, const real *X, real *x)
 {
     real arm[DIM_MAX] = {0}, turn[DIM_MAX][DIM_MAX], turned[DIM_MAX];
     memcpy(turn, r->turn, sizeof turn);
@@ -222,14 +222,14 @@ static real work_of_step(const struct rigid_body *r)
     return work;
 }
 
-real rigid_work_of_drive_and_weight(const struct rigid_body *r)
+real rigid_work_of_prescribed_motion_and_weight(const struct rigid_body *r)
 {
     real fallen = 0;
     for (int d = 0; d < r->dim; d++) fallen += r->weight[d] * (r->x[d] - r->centre[d]);
     return r->work + work_of_step(r) + fallen;
 }
 
-void rigid_update_largest_force(struct rigid_body *r)
+void rigid_update_largest_contact_force(struct rigid_body *r)
 {
     r->force_most = real_max(r->force_most, sqrt(dot(r->force, r->force, r->dim)));
 }

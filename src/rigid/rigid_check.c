@@ -47,17 +47,18 @@ static status check_mirrors(const struct rigid_body *r, const struct scene *s)
     return OK;
 }
 
-status rigids_check_start_positions(const struct rigid_set *rigid, const struct scene *s, const struct particles *p)
+status rigids_check_no_overlap_at_start(const struct rigid_set *rigid, const struct scene *s, const struct particles *p)
 {
     for (int k = 0; k < rigid->n; k++) {
         const char *place = s->body[s->bodies + k].place;
-        TRY(status_prepend_location(place, check_room(&rigid->body[k], s, p)));
-        TRY(status_prepend_location(place, check_mirrors(&rigid->body[k], s)));
+        TRY(status_message_prepend_location(place, check_room(&rigid->body[k], s, p)));
+        TRY(status_message_prepend_location(place, check_mirrors(&rigid->body[k], s)));
     }
     return OK;
 }
 
-status rigids_check_speed(const struct rigid_set *rigid, const struct scene *s, const struct run_clock *clock)
+status rigids_check_motion_per_step_is_small(const struct rigid_set *rigid, const struct scene *s,
+                                             const struct run_clock *clock)
 {
     for (int k = 0; k < rigid->n; k++) {
         const struct rigid_body *r = &rigid->body[k];
@@ -93,7 +94,7 @@ static bool have_met(const struct rigid_body *r, const struct rigid_body *other,
         for (int d = 0; d < dim; d++)
             X[d] = from[d] + 0.5 * (to[d] - from[d] - (real)(n[d] - 1) * step) + (real)at[d] * step;
         if (!region_contains(r->shape, X, dim, 0)) continue;
-        rigid_present_position_of_point(r, X, x);
+        rigid_compute_current_position_of_point(r, X, x);
         if (rigid_signed_distance(other, x, normal) < -0.5 * spacing) return true;
     }
     return false;

@@ -183,15 +183,15 @@ static bool refine_moments(const struct region *shape, int dim, const real *from
     return fine->volume > 0.5 * previous.volume;
 }
 
-void region_compute_moments(const struct region *shape, int dim, const real *from, const real *to,
+void region_compute_moments(const struct region *shape, int dim, const real *box_low, const real *box_high,
                             struct region_moments *m)
 {
     struct region_moments uniform = {0}, fine = {0};
     *m = (struct region_moments){0};
     for (int d = 0; d < dim; d++)
-        if (!(to[d] > from[d])) return;
-    moments_of_uniform_grid(shape, dim, from, to, &uniform);
-    const bool filled = refine_moments(shape, dim, from, to, &fine);
+        if (!(box_high[d] > box_low[d])) return;
+    moments_of_uniform_grid(shape, dim, box_low, box_high, &uniform);
+    const bool filled = refine_moments(shape, dim, box_low, box_high, &fine);
     const bool enough = moments_distance(&uniform, &fine, dim) < MOMENTS_ACCURATE;
     *m = enough ? uniform : fine;
     m->change = enough ? 0 : fine.change;

@@ -17,11 +17,11 @@ struct region_moments {
  * surface are divided instead. */
 #define MOMENTS_ACCURATE 0.005
 
-/* Computes into *m the moments of the region `shape` within its bounding box `from` .. `to` (dim components each [m]):
- * with a uniform grid of sampling points, or, where this is less accurate than MOMENTS_ACCURATE (0.5 %), with cells
- * that are divided at the surface until the moments no longer change. The volume is 0 if the region is empty or the box
- * has no volume. */
-void region_compute_moments(const struct region *shape, int dim, const real *from, const real *to,
+/* Computes into *m the moments of the region `shape` within its bounding box `box_low` .. `box_high` (dim components
+ * each [m]): with a uniform grid of sampling points, or, where this is less accurate than MOMENTS_ACCURATE (0.5 %),
+ * with cells that are divided at the surface until the moments no longer change. The volume is 0 if the region is empty
+ * or the box has no volume. */
+void region_compute_moments(const struct region *shape, int dim, const real *box_low, const real *box_high,
                             struct region_moments *m);
 
 #endif

@@ -18,7 +18,8 @@ status rigids_make(struct rigid_set *rigid, const struct scene *s)
         const struct scene_body *b = &s->body[s->bodies + k];
         struct rigid_body *r = &rigid->body[k];
         memcpy(r->name, b->name, sizeof b->name);
-        TRY(status_prepend_location(b->place, rigid_make(r, &b->shape, s->dim, b->mass, b->velocity, s->spacing)));
+        TRY(status_message_prepend_location(b->place,
+                                            rigid_make(r, &b->shape, s->dim, b->mass, b->velocity, s->spacing)));
         r->ramp = b->ramp;
         for (int d = 0; d < s->dim; d++) r->weight[d] = b->force[d] + b->mass * s->gravity[d];
     }
@@ -30,12 +31,12 @@ void rigids_move_to_prescribed_positions(struct rigid_set *rigid, real t)
     for (int k = 0; k < rigid->n; k++) rigid_move_to_prescribed_position(&rigid->body[k], t);
 }
 
-void rigids_subtract_impulse_and_update_work(struct rigid_set *rigid, real dt_velocity, real impulse[DIM_MAX])
+void rigids_update_work_and_particle_impulse(struct rigid_set *rigid, real dt_velocity, real particle_impulse[DIM_MAX])
 {
     for (int k = 0; k < rigid->n; k++) {
         rigid_add_work_of_prescribed_motion(&rigid->body[k]);
-        rigid_update_largest_force(&rigid->body[k]);
-        for (int d = 0; d < rigid->dim; d++) impulse[d] -= rigid->body[k].force[d] * dt_velocity;
+        rigid_update_largest_contact_force(&rigid->body[k]);
+        for (int d = 0; d < rigid->dim; d++) particle_impulse[d] -= rigid->body[k].force[d] * dt_velocity;
     }
 }
 
@@ -52,7 +53,7 @@ struct rigid_energy rigids_compute_energy(const struct rigid_set *rigid, real dt
         sum.before += rigid_kinetic_energy(r);
         sum.step += r->kinetic;
         sum.last += rigid_kinetic_energy(r) + rigid_half_step_kinetic_energy_change(r, dt);
-        sum.work += rigid_work_of_drive_and_weight(r);
+        sum.work += rigid_work_of_prescribed_motion_and_weight(r);
     }
     return sum;
 }
@@ -86,7 +87,7 @@ int rigids_list_history_columns(const struct run *e, struct column *column)
     return n;
 }
 
-void rigids_store_motion_for_sample(struct rigid_set *rigid, real t)
+void rigids_store_motion_before_step(struct rigid_set *rigid, real t)
 {
     if (!rigid->motion) rigid->motion = NEW("rigid.motion", 2 * DIM_MAX * rigid->n, real);
     for (int k = 0; k < rigid->n; k++) {
@@ -98,7 +99,7 @@ void rigids_store_motion_for_sample(struct rigid_set *rigid, real t)
     }
 }
 
-void rigids_average_velocities_for_sample(struct rigid_set *rigid)
+void rigids_average_stored_and_current_velocities(struct rigid_set *rigid)
 {
     for (int k = 0; k < rigid->n; k++) {
         real *v = rigid->motion + 2 * DIM_MAX * k + DIM_MAX;
@@ -107,7 +108,7 @@ void rigids_average_velocities_for_sample(struct rigid_set *rigid)
     }
 }
 
-void rigids_velocity_of_body(const struct rigid_set *rigid, int k, real t, real dt, real *v)
+void rigids_compute_velocity_of_body_at_time(const struct rigid_set *rigid, int k, real t, real dt, real *v)
 {
     const struct rigid_body *r = &rigid->body[k];
     array_copy(v, r->v, DIM_MAX, sizeof *v);
@@ -116,10 +117,10 @@ void rigids_velocity_of_body(const struct rigid_set *rigid, int k, real t, real 
         v[d] += 0.5 * dt * (r->force[d] + r->weight[d]) / r->mass;
 }
 
-void rigids_extrapolate_velocities_for_sample(struct rigid_set *rigid, real t, real dt)
+void rigids_extrapolate_stored_velocities_to_time(struct rigid_set *rigid, real t, real dt)
 {
     for (int k = 0; k < rigid->n; k++)
-        rigids_velocity_of_body(rigid, k, t, dt, rigid->motion + 2 * DIM_MAX * k + DIM_MAX);
+        rigids_compute_velocity_of_body_at_time(rigid, k, t, dt, rigid->motion + 2 * DIM_MAX * k + DIM_MAX);
 }
 
 void rigids_write_history_values(struct run *e, real *record)

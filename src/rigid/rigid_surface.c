@@ -277,7 +277,7 @@ static void box_extend_to_region(const struct region *shape, int dim, real *low,
     }
 }
 
-bool rigid_compute_shown_box(const struct region *shape, int dim, real *low, real *high)
+bool rigid_compute_plotting_box(const struct region *shape, int dim, real *low, real *high)
 {
     real from[DIM_MAX], to[DIM_MAX], longest = 0;
     const bool bounded = region_compute_bounding_box_if_finite(shape, dim, from, to);
@@ -299,7 +299,7 @@ static void rigid_surfaces_make(struct rigid_set *rigid, const struct particles 
     for (int b = 0; b < rigid->n; b++) {
         real low[DIM_MAX], high[DIM_MAX];
         for (int d = 0; d < rigid->dim; d++) particles_coordinate_range(part, part->n, d, &low[d], &high[d]);
-        (void)rigid_compute_shown_box(rigid->body[b].shape, rigid->dim, low, high);
+        (void)rigid_compute_plotting_box(rigid->body[b].shape, rigid->dim, low, high);
         rigid_surface_approximate_by_polygons(&rigid->surface[b], rigid->body[b].shape, rigid->dim, low, high);
     }
 }
@@ -333,7 +333,7 @@ static void print_points(FILE *to, const struct rigid_set *rigid)
     for (int b = 0; b < rigid->n; b++)
         for (int64_t k = 0; k < rigid->surface[b].points; k++) {
             real x[DIM_MAX] = {0};
-            rigid_present_position_of_point(&rigid->body[b], &rigid->surface[b].X[k * DIM_MAX], x);
+            rigid_compute_current_position_of_point(&rigid->body[b], &rigid->surface[b].X[k * DIM_MAX], x);
             fprintf(to, "%.7g %.7g %.7g\n", x[0], x[1], x[2]);
         }
     fputs("</DataArray>\n</Points>\n", to);

@@ -19,7 +19,7 @@ static struct impedance impedance_lattice(const struct bond_source *source, cons
                                           const struct material *m)
 {
     real c11, c12;
-    family_elastic_constants(&source->family, m, &c11, &c12);
+    family_compute_cubic_elastic_constants(&source->family, m, &c11, &c12);
     return impedance_of(m, c11, scene->dim > 1 ? c12 : 0);
 }
 

@@ -13,19 +13,19 @@
  * thousand below omega_max^2, and omega_max^2 of a block of the lattice is 1 to 2 % below that of larger blocks. */
 #define MARGIN 0.98
 
-struct bond_operator bond_operator_make(struct bonds *b, struct particles *p, bond_force_fn *force,
-                                        const struct loads *loads, real spacing)
+struct bond_stiffness_operator bond_stiffness_operator_make(struct bonds *b, struct particles *p, bond_force_fn *force,
+                                                            const struct loads *loads, real spacing)
 {
-    struct bond_operator body = {b, p, force, loads, spacing, NEW("critical.root", p->n, real)};
+    struct bond_stiffness_operator body = {b, p, force, loads, spacing, NEW("critical.root", p->n, real)};
     for (int64_t i = 0; i < p->n; i++) body.root[i] = sqrt(p->mass[i]);
     return body;
 }
 
-void bond_operator_free(struct bond_operator *body) { memory_free(body->root); }
+void bond_stiffness_operator_free(struct bond_stiffness_operator *body) { memory_free(body->root); }
 
 /* Returns the largest absolute component of the displacement u/sqrt(m) over all particles of `body` [m]. u: [dim][n]
  * displacements times the square root of the mass. */
-static real largest_motion(const struct bond_operator *body, const real *u)
+static real largest_motion(const struct bond_stiffness_operator *body, const real *u)
 {
     const struct particles *p = body->p;
     real most = 0;
@@ -35,9 +35,9 @@ static real largest_motion(const struct bond_operator *body, const real *u)
     return most;
 }
 
-void bond_operator_apply(void *context, const real *displacement, real *result)
+void bond_stiffness_operator_apply(void *context, const real *displacement, real *result)
 {
-    const struct bond_operator *body = context;
+    const struct bond_stiffness_operator *body = context;
     struct particles *p = body->p;
     const real most = largest_motion(body, displacement), scale = most > 0 ? STRAIN * body->spacing / most : 0;
     for (int a = 0; a < p->dim; a++)
@@ -53,18 +53,18 @@ void bond_operator_apply(void *context, const real *displacement, real *result)
 real bonds_critical_time_step_by_iteration(struct bonds *b, struct particles *p, bond_force_fn *force,
                                            const struct loads *loads, real spacing)
 {
-    struct bond_operator body = bond_operator_make(b, p, force, loads, spacing);
+    struct bond_stiffness_operator body = bond_stiffness_operator_make(b, p, force, loads, spacing);
     real *x[DIM_MAX];
     for (int a = 0; a < p->dim; a++) {
         x[a] = NEW("critical.x", p->n_all, real);
         array_copy(x[a], p->x[a], p->n_all, sizeof *x[a]);
     }
-    const real omega2 = largest_eigenvalue(p->dim * p->n, bond_operator_apply, &body);
+    const real omega2 = largest_eigenvalue(p->dim * p->n, bond_stiffness_operator_apply, &body);
     for (int a = 0; a < p->dim; a++) {
         array_copy(p->x[a], x[a], p->n_all, sizeof *x[a]);
         memory_free(x[a]);
     }
-    bond_operator_free(&body);
+    bond_stiffness_operator_free(&body);
     return omega2 > 0 ? MARGIN * 2 / sqrt(omega2) : INFINITY;
 }
 

@@ -9,7 +9,7 @@
 static status position_dependent_on_grid(const struct boundary *b, const struct particles *p, const struct load *l)
 {
     for (int64_t k = 0; k < l->n && !b->rotates && boundary_motion_varies_in_space(b); k++)
-        if (particle_moves_with_nodes(p, l->particle[k]) && !(p->flag[l->particle[k]] & FLAG_MESHED))
+        if (particle_is_moved_by_grid_or_mesh_nodes(p, l->particle[k]) && !(p->flag[l->particle[k]] & FLAG_MESHED))
             return status_set(REFUSED,
                               "boundary %s: a %s that depends on x, y, z needs reference positions, which the grid of "
                               "mpm.frame: current does not have; set mpm.frame: reference, or method: pd",
@@ -56,8 +56,8 @@ static status starts_at_rest(const struct boundary *b, const struct particles *p
     return OK;
 }
 
-status prescribed_motion_check(const struct loads *loads, const struct particles *p, const struct scene *s,
-                               bool run_begins)
+status prescribed_motion_check_is_admissible(const struct loads *loads, const struct particles *p,
+                                             const struct scene *s, bool run_begins)
 {
     real wave_speed = 0;
     for (int m = 0; m < s->materials; m++) wave_speed = real_max(wave_speed, s->material[m].wave_speed);
@@ -65,20 +65,20 @@ status prescribed_motion_check(const struct loads *loads, const struct particles
         const struct load *l = &loads->load[k];
         const struct boundary *b = l->boundary;
         if (b->kind != BOUNDARY_VELOCITY) continue;
-        TRY(status_prepend_location(b->place, position_dependent_on_grid(b, p, l)));
+        TRY(status_message_prepend_location(b->place, position_dependent_on_grid(b, p, l)));
         if (!b->displaces) continue;
-        if (run_begins) TRY(status_prepend_location(b->place, starts_at_reference(b, p, l, s->spacing)));
+        if (run_begins) TRY(status_message_prepend_location(b->place, starts_at_reference(b, p, l, s->spacing)));
         if (s->solver != SOLVER_EXPLICIT) continue;
-        TRY(status_prepend_location(b->place, starts_at_rest(b, p, l, s->spacing)));
-        const real speed = load_largest_displacement_speed(l, p, s->duration);
+        TRY(status_message_prepend_location(b->place, starts_at_rest(b, p, l, s->spacing)));
+        const real speed = load_largest_speed_of_prescribed_displacement(l, p, s->duration);
         if (!(speed >= wave_speed)) continue;
         if (isinf(speed))
-            return status_prepend_location(b->place,
-                                           status_set(REFUSED,
-                                                      "boundary %s: its displacement jumps (time: step), which no body "
-                                                      "can follow; set time: ramp, pulse or table",
-                                                      b->name));
-        return status_prepend_location(
+            return status_message_prepend_location(
+                b->place, status_set(REFUSED,
+                                     "boundary %s: its displacement jumps (time: step), which no body "
+                                     "can follow; set time: ramp, pulse or table",
+                                     b->name));
+        return status_message_prepend_location(
             b->place, status_set(REFUSED,
                                  "boundary %s: its displacement grows by %.3g m/s, faster than waves in the body (%.4g "
                                  "m/s); use a longer time, or a smaller displacement",

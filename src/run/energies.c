@@ -142,7 +142,8 @@ static real kick_piece(const struct kick *k, int64_t first, int64_t end, real su
 {
     const struct particles *p = k->p;
     for (int64_t i = first; i < end; i++) {
-        if (p->flag[i] & FLAG_DRIVEN || (k->before ? p->flag[i] & FLAG_MESHED : particle_moves_with_nodes(p, i)))
+        if (p->flag[i] & FLAG_DRIVEN ||
+            (k->before ? p->flag[i] & FLAG_MESHED : particle_is_moved_by_grid_or_mesh_nodes(p, i)))
             continue;
         real change2 = 0;
         for (int d = 0; d < p->dim; d++)
@@ -165,7 +166,7 @@ static void kick_block(const void *context, int64_t first, int64_t end, real *su
     }
 }
 
-real particles_leapfrog_energy_gap(const struct particles *p, real *const *old_velocity, real dt)
+real particles_mean_minus_leapfrog_kinetic_energy(const struct particles *p, real *const *old_velocity, real dt)
 {
     real sum;
     reproducible_sums(p->n, 1, kick_block, &(struct kick){p, old_velocity, dt}, &sum);
@@ -207,7 +208,7 @@ struct strain_sum {
 real point_energy_fraction_not_carried_by_bonds(const struct partial_stress *partial, int dim, int64_t i)
 {
     if (!partial || !partial->index || partial->index[i] < 0) return 1;
-    const int n = symmetric_component_count(dim);
+    const int n = symmetric_tensor_component_count(dim);
     const real *M = partial->matrix + (int64_t)partial->index[i] * n * n;
     real trace = 0;
     for (int a = 0; a < n; a++) trace += M[a * n + a];
@@ -233,7 +234,7 @@ static ALWAYS_INLINE real strain_density(const struct strain_sum *s, int64_t i, 
     const real *compliance = s->compliance[s->p->material[i]];
     real stress[SYM_MAX], given[SYM_MAX], sum = 0;
     for (int a = 0; a < n; a++) stress[a] = s->p->stress[a][i];
-    point_stress_on_grid(s->p, s->partial, i, given, dim);
+    point_compute_stress_transmitted_to_grid(s->p, s->partial, i, given, dim);
     for (int a = 0; a < dim; a++) {
         real strain = 0;
         for (int b = 0; b < dim; b++) strain += compliance[a * n + b] * stress[b];
@@ -328,6 +329,6 @@ void particles_linear_momentum(const struct particles *p, const struct grid *con
 void bonds_compute_particle_stress(struct bonds *b, struct particles *p, const struct bond_source *s,
                                    const struct kernels *kernels)
 {
-    family_states_precompute(b, p, s);
+    families_compute_pressure_stiffness_and_rotation(b, p, s);
     kernels->bond_stress(b, p);
 }

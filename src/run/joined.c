@@ -24,8 +24,8 @@ static bool are_near(const struct particles *p, const struct cells *cells, real 
     return found;
 }
 
-status joined_bodies_check_close_enough(const struct scene *s, const struct particles *p, const struct cells *cells,
-                                        real cutoff)
+status joined_bodies_check_within_bond_reach(const struct scene *s, const struct particles *p,
+                                             const struct cells *cells, real cutoff)
 {
     const real tolerance = ON_SURFACE * s->spacing;
     for (int k = 0; k < s->interfaces; k++) {

@@ -15,7 +15,7 @@ static const struct {
                   [SPACE_PLANE_STRAIN] = {"plate in plane strain", 1.30, 1.76, 0.20},
                   [SPACE_SOLID] = {"solid", 1.83, 2.21, 0.14}};
 
-void warn_of_bond_plasticity(const struct scene *s, struct warnings *warning_list)
+void warn_that_bond_plasticity_is_not_von_mises(const struct scene *s, struct warnings *warning_list)
 {
     for (int m = 0; m < s->materials && s->method != METHOD_MPM && s->dim > 1; m++)
         if (material_yields(&s->material[m]))

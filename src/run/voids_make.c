@@ -8,18 +8,18 @@
 /* Largest distance along an axis of points in the cells of the mesh around one node, plus a margin [cells]. */
 #define CELLS_REACH 1.515
 
-real voids_interaction_distance(const struct scene *s, real cutoff)
+real scene_interaction_distance_across_voids(const struct scene *s, real cutoff)
 {
     const real cells = s->method == METHOD_PD ? 0 : CELLS_REACH * s->cell * s->spacing;
     return real_max(s->method == METHOD_MPM ? 0 : cutoff, cells);
 }
 
-static bool may_have_voids(const struct scene *s)
+/* Returns true if body number b of the scene s has a shape and is joined to another body or may have voids. v: planes
+ * of symmetry. */
+static bool body_may_have_voids(const struct scene *s, int b, const struct voids *v)
 {
-    bool any = false;
-    for (int b = 0; b < s->bodies; b++)
-        any |= !s->body[b].file && (s->body[b].joined != b || region_may_have_voids(&s->body[b].shape));
-    return any;
+    const struct scene_body *body = &s->body[b];
+    return !body->file && (body->joined != b || region_may_have_voids(&body->shape, v));
 }
 
 bool joined_bodies_are_all_defined_by_solids(const struct scene *s, int first_body)
@@ -37,7 +37,7 @@ static void list_shapes(const struct scene *s, struct voids *v)
 {
     uint8_t *wanted = NEW("voids.wanted", s->bodies, uint8_t);
     for (int b = 0; b < s->bodies; b++)
-        if (s->body[b].joined != b || region_may_have_voids(&s->body[b].shape))
+        if (body_may_have_voids(s, b, v))
             wanted[s->body[b].joined] = joined_bodies_are_all_defined_by_solids(s, s->body[b].joined);
     v->shape = NEW("voids.shape", s->bodies, const struct region *);
     v->body = NEW("voids.body", s->bodies, int);
@@ -47,10 +47,11 @@ static void list_shapes(const struct scene *s, struct voids *v)
     memory_free(wanted);
 }
 
-bool run_list_shapes_with_voids(struct material_tables *tables, const struct scene *s, const struct loads *loads)
+bool material_tables_list_bodies_with_possible_voids(struct material_tables *tables, const struct scene *s,
+                                                     const struct loads *loads)
 {
     struct voids *v = &tables->voids;
-    if (!may_have_voids(s)) return false;
+    bool any = false;
     *v = (struct voids){.dim = s->dim, .spacing = s->spacing};
     tables->void_mirror = NEW("voids.mirror", s->boundaries, struct mirror_plane);
     for (int b = 0; b < s->boundaries; b++)
@@ -58,6 +59,7 @@ bool run_list_shapes_with_voids(struct material_tables *tables, const struct sce
             tables->void_mirror[v->mirrors++] =
                 (struct mirror_plane){s->boundary[b].axis, loads->load[b].outside, s->boundary[b].at};
     v->mirror = tables->void_mirror;
-    list_shapes(s, v);
+    for (int b = 0; b < s->bodies; b++) any |= body_may_have_voids(s, b, v);
+    if (any) list_shapes(s, v);
     return v->shapes > 0;
 }

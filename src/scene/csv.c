@@ -105,7 +105,7 @@ static char *csv_word(char *field, char **rest)
     return csv_trim(field);
 }
 
-char *csv_cut_field(const struct csv_file *c, char **rest_of_line)
+char *csv_split_off_next_field(const struct csv_file *c, char **rest_of_line)
 {
     char *field = *rest_of_line;
     if (field == NULL) return NULL;

@@ -40,7 +40,7 @@ void csv_detect_separator(struct csv_file *c);
 /* Cuts the next field off the line *rest_of_line of the CSV file c and returns the field, terminated in place, without
  * surrounding blanks and double quotes. Quoted text may contain separators. *rest_of_line receives the rest of the
  * line, or NULL after the last field. Returns NULL if *rest_of_line is NULL. */
-char *csv_cut_field(const struct csv_file *c, char **rest_of_line);
+char *csv_split_off_next_field(const struct csv_file *c, char **rest_of_line);
 
 /* Cuts the unit off column_name, such as `time [us]` or `time (us)`, in place, and returns a pointer to the unit; "" if
  * there is none. */

@@ -23,7 +23,7 @@ static const real too_close = 1e-3;
 
 enum { PARTICLES_MAX = INT32_MAX - 64 }; /* largest number of particles, since indices are 32-bit numbers */
 
-static void draft_free(struct particle_draft *d)
+static void draft_free(struct new_particles *d)
 {
     for (int a = 0; a < DIM_MAX; a++) memory_free(d->X[a]);
     for (int a = 0; a < DIM_MAX; a++) memory_free(d->v[a]);
@@ -34,7 +34,7 @@ static void draft_free(struct particle_draft *d)
     memory_free(d->id);
 }
 
-static void draft_grow(struct particle_draft *d)
+static void draft_grow(struct new_particles *d)
 {
     d->room = d->room > 0 ? 2 * d->room : 4096;
     for (int a = 0; a < d->scene->dim; a++) GROW("fill.X", d->X[a], d->room);
@@ -46,11 +46,11 @@ static void draft_grow(struct particle_draft *d)
     GROW("fill.id", d->id, d->room);
 }
 
-status particle_draft_append_particle(struct particle_draft *d, const real *position, real volume, int material_number,
-                                      int body_number)
+status new_particles_append_particle(struct new_particles *d, const real *position, real volume, int material_number,
+                                     int body_number)
 {
     if (d->n + d->skipped >= PARTICLES_MAX)
-        return particle_draft_refuse_body(
+        return new_particles_report_body_fault(
             d, body_number, "has more particles than the limit of 2147483583; use a larger particles.spacing");
     if (d->n == d->room) draft_grow(d);
     for (int a = 0; a < d->scene->dim; a++) d->X[a][d->n] = position[a];
@@ -113,22 +113,22 @@ static real scatter(uint64_t seed, int64_t id, int component)
 
 static real cell_volume(const struct scene *s)
 {
-    return lattice_particle_volume(scene_section_or_thickness(s), s->spacing, s->dim);
+    return lattice_particle_volume(scene_cross_section_or_thickness(s), s->spacing, s->dim);
 }
 
 /* Computes the axes axis[dim] of the lattice that covers the whole shape of one body of d->scene. body: index of the
  * body. Returns REFUSED, with a message, if the shape or its first solid is unbounded, or if the lattice would have
  * more than 64 PARTICLES_MAX positions or one farther than FILL_FARTHEST spacings from its centre. */
-static status lattice_axes(const struct particle_draft *d, int body, struct axis axis[DIM_MAX])
+static status lattice_axes(const struct new_particles *d, int body, struct axis axis[DIM_MAX])
 {
     const struct scene *s = d->scene;
     real low[DIM_MAX], high[DIM_MAX], from[DIM_MAX], to[DIM_MAX], places = 1;
     if (!region_compute_bounding_box_if_finite(&s->body[body].shape, s->dim, from, to))
-        return particle_draft_refuse_body(
+        return new_particles_report_body_fault(
             d, body, "has an infinite shape; build it from finite solids such as boxes, balls or cylinders");
     if (!first_solid_box(&s->body[body].shape, s->dim, low, high) &&
         !first_solid_box(&s->body[0].shape, s->dim, low, high))
-        return particle_draft_refuse_body(d, body, "has an infinite first solid; begin with a finite one");
+        return new_particles_report_body_fault(d, body, "has an infinite first solid; begin with a finite one");
     for (int a = 0; a < s->dim; a++) {
         struct axis *x = &axis[a];
         x->centre = 0.5 * (low[a] + high[a]);
@@ -138,9 +138,10 @@ static status lattice_axes(const struct particle_draft *d, int body, struct axis
         real last = ceil((to[a] - x->centre) / s->spacing + x->half_count - 0.5);
         places *= real_max(0, last - first + 1);
         if (!(places < 64.0 * PARTICLES_MAX && -first < FILL_FARTHEST && last < FILL_FARTHEST))
-            return particle_draft_refuse_body(d, body,
-                                              "is too large for particles.spacing; use a larger spacing, or check the "
-                                              "units of both (m if none is written)");
+            return new_particles_report_body_fault(
+                d, body,
+                "is too large for particles.spacing; use a larger spacing, or check the "
+                "units of both (m if none is written)");
         x->first = (int64_t)first, x->last = (int64_t)last;
         axis_round(x);
     }
@@ -149,7 +150,7 @@ static status lattice_axes(const struct particle_draft *d, int body, struct axis
 
 /* Counts a particle that is inside a body but not created, because coarse cells replace it, in d->skipped. place[dim]:
  * its position [m], by which the bounding box d->low, d->high of these particles is extended. Returns OK. */
-static status place_skip(struct particle_draft *d, const real *place)
+static status place_skip(struct new_particles *d, const real *place)
 {
     for (int a = 0; a < d->scene->dim; a++) {
         d->low[a] = d->skipped > 0 ? real_min(d->low[a], place[a]) : place[a];
@@ -164,7 +165,7 @@ static status place_skip(struct particle_draft *d, const real *place)
  * random by up to half of `particles.irregularity` spacings along each axis (Imachi et al. 2019, eq. 49). body: index
  * of the body; volume: volume of the particle [m^3]. Returns REFUSED, with a message, if there would be too many
  * particles. */
-static status lattice_point(struct particle_draft *d, int body, const real *place, real volume)
+static status lattice_point(struct new_particles *d, int body, const real *place, real volume)
 {
     const struct scene *s = d->scene;
     real X[DIM_MAX] = {0};
@@ -172,22 +173,22 @@ static status lattice_point(struct particle_draft *d, int body, const real *plac
     if (!region_contains(&s->body[body].shape, place, s->dim, ON_SURFACE * s->spacing)) return OK;
     for (int a = 0; a < s->dim; a++)
         X[a] = place[a] + s->spacing * s->irregularity * scatter(s->seed, d->n, a); /* Imachi et al. 2019, eq. 49 */
-    return particle_draft_append_particle(
-        d, X, volume, scene_material_at_position(s, &s->body[body], place, s->body[body].material), body);
+    return new_particles_append_particle(
+        d, X, volume, scene_material_index_at_position(s, &s->body[body], place, s->body[body].material), body);
 }
 
 /* Returns REFUSED, with a message, if the scene of d has no spacing at which to fill the body number `body`. */
-static status check_spacing_given(const struct particle_draft *d, int body)
+static status check_spacing_given(const struct new_particles *d, int body)
 {
     if (d->scene->spacing > 0) return OK;
-    return particle_draft_refuse_body(
+    return new_particles_report_body_fault(
         d, body, "particles.spacing is missing: a shape is filled with particles at this distance; add it");
 }
 
 /* Adds the particles of the lattice in the shape of a body to d, the list of particles to be created, with x varying
  * fastest. body: index of the body. Returns REFUSED, with a message, if the input file (scene) has no spacing or the
  * shape does not fit it. */
-static status fill_lattice(struct particle_draft *d, int body)
+static status fill_lattice(struct new_particles *d, int body)
 {
     real volume = cell_volume(d->scene), place[DIM_MAX];
     struct axis axis[DIM_MAX] = {{0}}; /* unused directions have the one position 0 */
@@ -203,9 +204,9 @@ static status fill_lattice(struct particle_draft *d, int body)
     return OK;
 }
 
-status fill_compute_lattice_site_position(const struct scene *s, int body, real *X)
+status body_lattice_compute_first_site_position(const struct scene *s, int body, real *X)
 {
-    const struct particle_draft d = {.scene = s};
+    const struct new_particles d = {.scene = s};
     struct axis axis[DIM_MAX] = {{0}};
     TRY(check_spacing_given(&d, body));
     TRY(lattice_axes(&d, body, axis));
@@ -218,13 +219,13 @@ status fill_compute_lattice_site_position(const struct scene *s, int body, real 
 /* Collects the particles of all bodies of d->scene in d, the list of particles to be created: from particle lists, or
  * from lattices in the shapes. Returns REFUSED, with a message, for a body without particles or with an invalid list or
  * shape. */
-static status draft_make(struct particle_draft *d)
+static status draft_make(struct new_particles *d)
 {
     for (int body = 0; body < d->scene->bodies; body++) {
         const bool listed = d->scene->body[body].file != NULL;
         int64_t before = d->n;
-        TRY(listed ? particle_draft_append_body_from_file(d, body) : fill_lattice(d, body));
-        if (d->n == before && d->skipped == 0) return particle_draft_refuse_empty_body(d, body, listed);
+        TRY(listed ? new_particles_append_body_from_file(d, body) : fill_lattice(d, body));
+        if (d->n == before && d->skipped == 0) return new_particles_report_empty_body(d, body, listed);
     }
     return OK;
 }
@@ -236,18 +237,18 @@ static real volume_term(const void *volume, int64_t i) { return ((const real *)v
 
 /* Returns the spacing of the scene of d [m]. If the scene has none because all particles come from lists, returns the
  * edge of a square or cube of the mean particle volume. */
-static real spacing_of(const struct particle_draft *d)
+static real spacing_of(const struct new_particles *d)
 {
     const struct scene *s = d->scene;
     if (s->spacing > 0) return s->spacing;
-    return pow(reproducible_sum(d->n, volume_term, d->volume) / ((real)d->n * scene_section_or_thickness(s)),
+    return pow(reproducible_sum(d->n, volume_term, d->volume) / ((real)d->n * scene_cross_section_or_thickness(s)),
                1.0 / s->dim);
 }
 
 /* Creates the particles p from d, the list of particles to be created. A velocity that is NAN in d becomes that of the
  * body, a mass that is NAN follows from the density of the material. The method of the scene determines the kind of the
  * particles (peridynamic or material points). optional: optional arrays to create (WITH_*). */
-static void take_draft(struct particles *p, const struct particle_draft *d, int optional)
+static void take_draft(struct particles *p, const struct new_particles *d, int optional)
 {
     const struct scene *s = d->scene;
     particles_make(p, s->dim, d->n, optional);
@@ -271,7 +272,7 @@ static void take_draft(struct particles *p, const struct particle_draft *d, int 
 
 /* Sets p->n_body to the number of particles of d including those left out because coarse cells replace them
  * (d->skipped). If there are any, sets p->low, p->high to the bounding box of all of them [m]. */
-static void take_skipped(struct particles *p, const struct particle_draft *d)
+static void take_skipped(struct particles *p, const struct new_particles *d)
 {
     for (int a = 0; a < p->dim && d->skipped > 0; a++) {
         particles_coordinate_range(p, p->n, a, &p->low[a], &p->high[a]);
@@ -283,13 +284,13 @@ static void take_skipped(struct particles *p, const struct particle_draft *d)
 /* Returns REFUSED, with a message, if a particle of p is farther than FILL_FARTHEST spacings from the origin or its
  * mass is not a positive finite number. d: list from which p was created, for the name of the body in the message;
  * spacing: distance of particles [m]. */
-static status check_values(const struct particles *p, const struct particle_draft *d, real spacing)
+static status check_values(const struct particles *p, const struct new_particles *d, real spacing)
 {
     for (int64_t i = 0; i < p->n; i++) {
         bool good = isfinite(p->mass[i]) && p->mass[i] > 0 && isfinite(spacing);
         for (int a = 0; a < p->dim; a++) good = good && fabs(p->X[a][i]) <= FILL_FARTHEST * spacing;
         if (!good)
-            return particle_draft_refuse_body(
+            return new_particles_report_body_fault(
                 d, p->body[i],
                 "a particle is beyond 1e7 spacings from the origin, where double precision no longer resolves strains, "
                 "or has no finite mass; give positions and spacing in the same unit, and move the body to the origin");
@@ -300,16 +301,16 @@ static status check_values(const struct particles *p, const struct particle_draf
 /* Returns REFUSED if the initial state (`initial` of the scene) moves a particle farther than FILL_FARTHEST spacings
  * from the origin, makes its volume 0 or negative, or gives it a velocity or stress that is not finite. d: list from
  * which p was created, for the name of the body in the message; spacing: distance of particles [m]. */
-static status check_start(const struct particles *p, const struct particle_draft *d, real spacing)
+static status check_start(const struct particles *p, const struct new_particles *d, real spacing)
 {
     for (int64_t i = 0; i < p->n; i++) {
         real sum = p->volume[i];
         bool good = p->volume[i] > 0;
         for (int a = 0; a < p->dim; a++) good = good && fabs(p->x[a][i]) <= FILL_FARTHEST * spacing;
         for (int a = 0; a < p->dim; a++) sum += p->v[a][i];
-        for (int k = 0; k < symmetric_component_count(p->dim); k++) sum += p->stress[k][i];
+        for (int k = 0; k < symmetric_tensor_component_count(p->dim); k++) sum += p->stress[k][i];
         if (!good || !isfinite(sum))
-            return particle_draft_refuse_body(
+            return new_particles_report_body_fault(
                 d, p->body[i],
                 "`initial` moves a particle beyond 1e7 spacings from the origin, turns it inside out, or gives it a "
                 "speed or stress that is not a number; check its values (strains near 1e-3 are usual)");
@@ -320,7 +321,7 @@ static status check_start(const struct particles *p, const struct particle_draft
 /* Returns REFUSED if two particles are closer than too_close spacings. The message names the pair with the smallest
  * index of its first particle, so that it does not depend on the number of threads. d: list from which p was created,
  * for the name of the body in the message; spacing: distance of particles [m]. */
-static status check_distances(const struct particles *p, const struct particle_draft *d, real spacing)
+static status check_distances(const struct particles *p, const struct new_particles *d, real spacing)
 {
     struct cells cells;
     int64_t first = p->n;
@@ -349,24 +350,24 @@ static status check_distances(const struct particles *p, const struct particle_d
     else
         status_set(REFUSED, "bodies %s and %s both have a particle at (%.6g, %.6g, %.6g) m: move one body, or cut it",
                    one->name, two->name, X[0], X[1], X[2]);
-    return status_prepend_location((one > two ? one : two)->place, REFUSED);
+    return status_message_prepend_location((one > two ? one : two)->place, REFUSED);
 }
 
 /* Creates the particles p from d, the list of particles to be created, applies the initial states, checks values and
  * distances, and sorts the particles. Joined bodies become one. optional: optional arrays to create (WITH_*). Returns
  * REFUSED, with a message, for invalid values, lists or positions. */
-static status fill_made(struct particles *p, const struct particle_draft *d, int optional)
+static status fill_made(struct particles *p, const struct new_particles *d, int optional)
 {
     const struct scene *s = d->scene;
     real spacing = spacing_of(d);
-    TRY(fill_check_initial_states(s));
+    TRY(initial_states_check_no_body_inverts(s));
     take_draft(p, d, optional);
-    fill_set_particle_strength_factors(p, s);
-    fill_set_initial_temperatures(p, s);
+    particles_set_strength_factors(p, s);
+    particles_set_initial_temperatures(p, s);
     take_skipped(p, d);
     TRY(check_values(p, d, spacing));
-    TRY(fill_check_particle_lists_fit_spacing(p, s));
-    fill_set_initial_states(p, s, spacing);
+    TRY(particle_lists_check_distances_fit_spacing(p, s));
+    initial_states_apply_to_particles(p, s, spacing);
     TRY(check_start(p, d, spacing));
     particles_sort_by_lattice_rows(p, spacing, optional);
     TRY(check_distances(p, d, spacing));
@@ -374,10 +375,10 @@ static status fill_made(struct particles *p, const struct particle_draft *d, int
     return OK;
 }
 
-status fill_bodies_with_particles(struct particles *p, const struct scene *s,
-                                  const struct cells_without_particles *hollow, int optional_arrays)
+status bodies_fill_with_particles(struct particles *p, const struct scene *s,
+                                  const struct cells_without_particles *empty_cells, int optional_arrays)
 {
-    struct particle_draft draft = {.scene = s, .hollow = hollow};
+    struct new_particles draft = {.scene = s, .hollow = empty_cells};
     *p = (struct particles){0};
     status result = s->bodies > 0
                         ? draft_make(&draft)

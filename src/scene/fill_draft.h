@@ -7,7 +7,7 @@
 #include "scene/scene.h"
 
 /* Particles in the order of the bodies of the scene, collected before their number is known. Arrays have n entries. */
-struct particle_draft {
+struct new_particles {
     const struct scene *scene;
     const struct cells_without_particles *hollow; /* cells whose particles are not created; NULL: none */
     int64_t n, room;                              /* number of particles; number for which the arrays have memory */
@@ -23,27 +23,27 @@ struct particle_draft {
 /* Appends a particle at the position `position` (dim coordinates [m]) to d, the list of particles to be created.
  * volume: volume of the particle [m^3]; material_number, body_number: indices of its material and its body in the input
  * file. Returns REFUSED, with a message, if there would be more than PARTICLES_MAX particles. */
-status particle_draft_append_particle(struct particle_draft *d, const real *position, real volume, int material_number,
-                                      int body_number);
+status new_particles_append_particle(struct new_particles *d, const real *position, real volume, int material_number,
+                                     int body_number);
 
 /* Always returns REFUSED, with the message that a body of the input file d->scene has no particles. body: index of the
- * body. listed: true if its particles were to come from a list; otherwise the message gives the extents of the body's
- * shape. */
-status particle_draft_refuse_empty_body(const struct particle_draft *d, int body, bool listed);
+ * body. from_particle_list: true if its particles were to come from a list; otherwise the message gives the extents of
+ * the body's shape. */
+status new_particles_report_empty_body(const struct new_particles *d, int body, bool from_particle_list);
 
 /* Always returns REFUSED, with a message that names the body with the index `body_number` in the input file d->scene
  * and ends with the text `reason`. */
-status particle_draft_refuse_body(const struct particle_draft *d, int body_number, const char *reason);
+status new_particles_report_body_fault(const struct new_particles *d, int body_number, const char *reason);
 
 /* Appends the particles of the body with the index `body_number` from its particle list file to d, the list of
  * particles to be created. Returns REFUSED, with a message, if the file cannot be read or is invalid. */
-status particle_draft_append_body_from_file(struct particle_draft *d, int body_number);
+status new_particles_append_body_from_file(struct new_particles *d, int body_number);
 
 /* Returns REFUSED, with a message, if an initial state of scene s (the input file) turns a body inside out; else OK. */
-status fill_check_initial_states(const struct scene *s);
+status initial_states_check_no_body_inverts(const struct scene *s);
 
 /* Applies the initial states (velocities, strains, wave pulses) of scene s, the input file, to the particles p; in a
  * static problem all velocities are 0. spacing: distance of particles [m]. */
-void fill_set_initial_states(struct particles *p, const struct scene *s, real spacing);
+void initial_states_apply_to_particles(struct particles *p, const struct scene *s, real spacing);
 
 #endif

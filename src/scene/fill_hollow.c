@@ -10,13 +10,13 @@ static bool cell_inside(const struct grid *box, const struct region *shape, int6
 {
     for (int c = 0; c < 1 << box->dim; c++) {
         real X[DIM_MAX] = {0};
-        for (int d = 0; d < box->dim; d++) X[d] = grid_cell_particle_coordinate(box, I, c, d);
+        for (int d = 0; d < box->dim; d++) X[d] = grid_cell_quadrature_point_coordinate(box, I, c, d);
         if (!region_contains(shape, X, box->dim, -CLEARLY * box->h)) return false;
     }
     return true;
 }
 
-void fill_mark_cells_inside_body(struct cells_without_particles *h, const struct scene *s, int body_index)
+void body_mark_cells_with_all_sites_inside(struct cells_without_particles *h, const struct scene *s, int body_index)
 {
     h->whole = NEW("hollow.whole", h->box.n, uint8_t);
 #pragma omp parallel for schedule(dynamic, 4096)

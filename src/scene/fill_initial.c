@@ -17,12 +17,12 @@ static status check_initial(const struct scene *s, const struct scene_initial *i
         inverted |= !(stretch > 0);
     }
     if (growth > 0 && !inverted) return OK;
-    return status_prepend_location(
+    return status_message_prepend_location(
         initial->place,
         status_set(REFUSED, "has a displacement gradient that turns the body inside out; use strains near 1e-3"));
 }
 
-status fill_check_initial_states(const struct scene *s)
+status initial_states_check_no_body_inverts(const struct scene *s)
 {
     for (int k = 0; k < s->initials; k++) TRY(check_initial(s, &s->initial[k]));
     return OK;
@@ -68,11 +68,11 @@ static void fill_start_strain(struct particles *p, int64_t i, const struct scene
                               const real *arm)
 {
     const real *H = s->displacement_gradient;
-    int dim = p->dim, count = symmetric_component_count(dim);
+    int dim = p->dim, count = symmetric_tensor_component_count(dim);
     real strain[SYM_MAX], stiffness[SYM_MAX * SYM_MAX], growth = 1;
     for (int k = 0; k < count; k++) {
         int a, b;
-        symmetric_component_axes(dim, k, &a, &b);
+        symmetric_tensor_component_axes(dim, k, &a, &b);
         strain[k] = 0.5 * (H[a * dim + b] + H[b * dim + a]);
     }
     material_stiffness_matrix(m, dim, stiffness);
@@ -94,11 +94,11 @@ static void start_pulse(struct particles *p, int64_t i, const struct wave_pulse 
     const struct wave_state wave =
         wave_pulse_initial_state(w, X, w->transverse ? m->shear_speed : m->wave_speed, p->dim);
     const real *along = w->direction, *moved = w->polarisation;
-    const int dim = p->dim, count = symmetric_component_count(dim);
+    const int dim = p->dim, count = symmetric_tensor_component_count(dim);
     real strain[SYM_MAX], stiffness[SYM_MAX * SYM_MAX];
     for (int k = 0; k < count; k++) {
         int a, b;
-        symmetric_component_axes(dim, k, &a, &b);
+        symmetric_tensor_component_axes(dim, k, &a, &b);
         strain[k] = 0.5 * wave.strain * (along[a] * moved[b] + along[b] * moved[a]);
     }
     material_stiffness_matrix(m, dim, stiffness);
@@ -136,7 +136,7 @@ static void start_at_rest(struct particles *p, int64_t i)
     for (int k = 0; k < p->dim * p->dim && p->gradient[k] != NULL; k++) p->gradient[k][i] = 0;
 }
 
-void fill_set_initial_states(struct particles *p, const struct scene *s, real spacing)
+void initial_states_apply_to_particles(struct particles *p, const struct scene *s, real spacing)
 {
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < p->n; i++) {

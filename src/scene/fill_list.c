@@ -73,7 +73,7 @@ static status entry_material(const struct scene *s, const struct particle_list *
 /* Adds entry i of the particle list l to d, the list of particles to be created. body: index of its body in the scene;
  * volume: volume of the particle if l has no volumes [m^3]. Returns REFUSED, with a message, for an unknown
  * material. */
-static status take_entry(struct particle_draft *d, int body, const struct particle_list *l, int64_t i, real volume)
+static status take_entry(struct new_particles *d, int body, const struct particle_list *l, int64_t i, real volume)
 {
     const struct scene *s = d->scene;
     const struct scene_body *b = &s->body[body];
@@ -81,8 +81,8 @@ static status take_entry(struct particle_draft *d, int body, const struct partic
     real X[DIM_MAX];
     TRY(entry_material(s, l, b, i, &material));
     for (int a = 0; a < s->dim; a++) X[a] = l->X[a][i];
-    TRY(particle_draft_append_particle(d, X, l->volume ? l->volume[i] : volume,
-                                       scene_material_at_position(s, b, X, material), body));
+    TRY(new_particles_append_particle(d, X, l->volume ? l->volume[i] : volume,
+                                      scene_material_index_at_position(s, b, X, material), body));
     const int64_t last = d->n - 1;
     for (int a = 0; a < s->dim; a++)
         if (l->v[a]) d->v[a][last] = l->v[a][i];
@@ -94,15 +94,15 @@ static status take_entry(struct particle_draft *d, int body, const struct partic
 /* Adds the entries of the particle list l that belong to the body with the index `body` to d, the list of particles to
  * be created. These are the entries that name the body, or all if l has no column of bodies. Returns REFUSED, with a
  * message, if an entry names a body with another file, or if neither l gives volumes nor the scene a spacing. */
-static status take_list(struct particle_draft *d, int body, const struct particle_list *l)
+static status take_list(struct new_particles *d, int body, const struct particle_list *l)
 {
     const struct scene *s = d->scene;
     const char *path = s->body[body].file;
     char place[PLACE_LENGTH];
-    const real volume = lattice_particle_volume(scene_section_or_thickness(s), s->spacing, s->dim);
+    const real volume = lattice_particle_volume(scene_cross_section_or_thickness(s), s->spacing, s->dim);
     if (!l->volume && !(volume > 0))
-        return particle_draft_refuse_body(d, body,
-                                          "has a list without volumes; add a column volume, or set particles.spacing");
+        return new_particles_report_body_fault(
+            d, body, "has a list without volumes; add a column volume, or set particles.spacing");
     for (int64_t i = 0; i < l->n; i++) {
         const int owner = l->body != NULL ? (int)l->body[i] : body;
         if (!shares_file(s, owner, path))
@@ -118,7 +118,7 @@ static status take_list(struct particle_draft *d, int body, const struct particl
 /* Rounds the positions of the particles `first` .. d->n - 1 in d (the list of particles to be created) to exact lattice
  * sites, if they form a lattice within the rounding of the decimals in their file, such that planes of symmetry of the
  * scene are on sites or midway between two sites. Changes nothing otherwise. */
-static void take_lattice(struct particle_draft *d, int64_t first)
+static void take_lattice(struct new_particles *d, int64_t first)
 {
     const struct scene *s = d->scene;
     for (int a = 0; a < s->dim; a++) {
@@ -129,7 +129,7 @@ static void take_lattice(struct particle_draft *d, int64_t first)
     }
 }
 
-status particle_draft_append_body_from_file(struct particle_draft *d, int body_number)
+status new_particles_append_body_from_file(struct new_particles *d, int body_number)
 {
     const int64_t first = d->n;
     struct particle_list list;

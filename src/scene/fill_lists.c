@@ -107,7 +107,7 @@ static struct verdict crowd_look(const struct crowd *c)
 {
     const struct particles *p = c->p;
     const int64_t looked = c->n < LOOKED_AT ? c->n : LOOKED_AT;
-    const real section = scene_section_or_thickness(c->s);
+    const real section = scene_cross_section_or_thickness(c->s);
     real apart[LOOKED_AT], filled[LOOKED_AT], family = 0;
     int64_t lone = 0, within[LOOKED_AT];
 #pragma omp parallel for schedule(static)
@@ -203,7 +203,7 @@ static status crowd_judge(const struct crowd *c, const struct verdict *v)
                            "about %.2g GB of memory, but %.2g GB are available (%s). Particles of the list are %.4g m "
                            "apart: set particles.spacing to this distance",
                            v->family, c->reach / spacing, spacing, bytes * 1e-9, (real)machine_memory_size() * 1e-9,
-                           machine_memory_limit_name(), v->apart);
+                           machine_memory_limit_describe_source(), v->apart);
     return OK;
 }
 
@@ -217,7 +217,7 @@ static real fill_lists_reach_of(const struct scene *s)
     return real_max(REACH_LEAST, real_max(bonds, grid));
 }
 
-status fill_check_particle_lists_fit_spacing(const struct particles *p, const struct scene *s)
+status particle_lists_check_distances_fit_spacing(const struct particles *p, const struct scene *s)
 {
     status result = OK;
     for (int b = 0; b < s->bodies && result == OK; b++) {

@@ -1,7 +1,7 @@
 /* Sets the strength of particles of materials whose strength scatters in space, and initial temperatures. */
 #include "scene/fill.h"
 
-void fill_set_particle_strength_factors(struct particles *p, const struct scene *s)
+void particles_set_strength_factors(struct particles *p, const struct scene *s)
 {
     if (!p->strength) return;
 #pragma omp parallel for schedule(static)
@@ -14,13 +14,13 @@ void fill_set_particle_strength_factors(struct particles *p, const struct scene 
 
 real scene_initial_temperature(const struct scene *s, const struct material *material)
 {
-    if (law_has_room_temperature(&material->law)) return material->law.johnson_cook.T_room;
+    if (flow_law_has_room_temperature(&material->law)) return material->law.johnson_cook.T_room;
     for (int m = 0; m < s->materials; m++)
-        if (law_has_room_temperature(&s->material[m].law)) return s->material[m].law.johnson_cook.T_room;
+        if (flow_law_has_room_temperature(&s->material[m].law)) return s->material[m].law.johnson_cook.T_room;
     return ROOM_TEMPERATURE;
 }
 
-void fill_set_initial_temperatures(struct particles *p, const struct scene *s)
+void particles_set_initial_temperatures(struct particles *p, const struct scene *s)
 {
     if (!p->temperature) return;
 #pragma omp parallel for schedule(static)

@@ -72,7 +72,7 @@ static status table_read(hid_t file, const char *path, const char *name, struct 
     if (set < 0) return status_set(REFUSED, "%s: %s is not a dataset; store its numbers as one", path, name);
     bool good = table_shape(set, t);
     status checked = good ? table_check(t, path, name) : OK;
-    if (good && !hdf_dataset_is_in_its_file(set))
+    if (good && !hdf_dataset_is_stored_in_own_file(set))
         checked = status_set(REFUSED, "%s: %s is stored in another file; store its numbers in this file", path, name);
     if (checked != OK) {
         H5Dclose(set);
@@ -96,7 +96,7 @@ static status table_read(hid_t file, const char *path, const char *name, struct 
 static status table_take(struct particle_list *l, int column, const struct table *t, int k, const char *path)
 {
     real *array = NEW("list.column", l->n, real);
-    *particle_list_column_array(l, column) = array;
+    *particle_list_address_of_column_array(l, column) = array;
     for (int64_t i = 0; i < l->n; i++) {
         array[i] = t->value[i * t->columns + k] * t->factor;
         const char *fault = particle_list_reason_value_is_invalid(column, array[i]);
@@ -127,7 +127,8 @@ static status hdf5_column(struct particle_list *l, hid_t file, const char *path,
     else if (unit[0] && !unit_find_factor_to_si(&t.factor, unit, list_quantity[column].unit, what, sizeof what))
         s = status_set(REFUSED, "%s: %s: its unit %s %s", path, name, unit, what);
     if (t.columns > count)
-        particle_list_note_append(&l->head, ", ", column == COLUMN_X ? "further positions" : "further velocities");
+        particle_list_head_append_to_message(&l->head, ", ",
+                                             column == COLUMN_X ? "further positions" : "further velocities");
     for (int k = 0; k < count && s == OK; k++) s = table_take(l, column + k, &t, k, path);
     memory_free(t.value);
     return s;
@@ -147,7 +148,7 @@ static status hdf5_columns(struct particle_list *l, hid_t file, const char *path
         TRY(hdf5_column(l, file, path, sets[k].name, sets[k].column, sets[k].column == COLUMN_VX ? l->dim : 1));
         has[sets[k].column] = true;
     }
-    particle_list_note_missing_columns(&l->head, has);
+    particle_list_head_store_missing_columns(&l->head, has);
     if (!has[COLUMN_MASS] || !has[COLUMN_DENSITY]) return OK;
     return status_set(
         REFUSED, "%s: mass and density are both given, but each determines the other; remove one of the two datasets",
@@ -161,7 +162,7 @@ static status hdf5_read(struct particle_list *l, const char *path)
     status s;
     input_file_register_as_read(path);
     crash_message_set_file_in_use(path);
-    hdf_prepare();
+    hdf_disable_exit_handler_and_messages();
     H5E_BEGIN_TRY /* one message per fault: the error stack of HDF5 is not printed */
     {
         hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);

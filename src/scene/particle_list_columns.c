@@ -14,7 +14,7 @@ const struct list_quantity list_quantity[COLUMNS] = {
     {"density", UNIT_DENSITY}, {"material", UNIT_NONE}, {"body", UNIT_NONE},
 };
 
-real **particle_list_column_array(struct particle_list *l, int column)
+real **particle_list_address_of_column_array(struct particle_list *l, int column)
 {
     switch (column) {
     case COLUMN_VX:
@@ -41,26 +41,27 @@ bool particle_list_column_exceeds_dimension(int column, int dim)
     return column <= COLUMN_VZ && column % DIM_MAX >= dim; /* x, y, z, vx, vy, vz */
 }
 
-void particle_list_note_append(struct particle_list_head *head, const char *separator, const char *addition)
+void particle_list_head_append_to_message(struct particle_list_head *head, const char *separator, const char *addition)
 {
     const size_t used = strlen(head->note);
     snprintf(head->note + used, sizeof head->note - used, "%s%.40s", used ? separator : "", addition);
 }
 
-void particle_list_note_missing_columns(struct particle_list_head *head, const bool *file_has_column)
+void particle_list_head_store_missing_columns(struct particle_list_head *head, const bool *file_has_column)
 {
     head->material = file_has_column[COLUMN_MATERIAL],
     head->mass = file_has_column[COLUMN_MASS] || file_has_column[COLUMN_DENSITY];
     head->volumes = file_has_column[COLUMN_VOLUME];
-    if (head->note[0]) particle_list_note_append(head, " ", "not read");
-    if (head->unnamed) particle_list_note_append(head, "; ", "read as x y z block_id volume");
-    if (head->block) particle_list_note_append(head, "; ", "block_id is the material, counted from 1");
-    if (!file_has_column[COLUMN_VOLUME]) particle_list_note_append(head, "; ", "no volumes: taken from the spacing");
+    if (head->note[0]) particle_list_head_append_to_message(head, " ", "not read");
+    if (head->unnamed) particle_list_head_append_to_message(head, "; ", "read as x y z block_id volume");
+    if (head->block) particle_list_head_append_to_message(head, "; ", "block_id is the material, counted from 1");
+    if (!file_has_column[COLUMN_VOLUME])
+        particle_list_head_append_to_message(head, "; ", "no volumes: taken from the spacing");
 }
 
 void particle_list_free(struct particle_list *l)
 {
-    for (int c = 0; c < COLUMNS; c++) memory_free(*particle_list_column_array(l, c));
+    for (int c = 0; c < COLUMNS; c++) memory_free(*particle_list_address_of_column_array(l, c));
     memory_free(l->line);
     memory_free(l->material_at);
     memory_free(l->name);
@@ -82,7 +83,7 @@ bool unit_find_factor_to_si(real *factor, const char *unit, enum unit expected_k
     *factor = 1;
     if (*unit == '\0') return true;
     snprintf(number, sizeof number, "1 %.*s", UNIT_TEXT - 1, unit);
-    return number_read(factor, number, expected_kind, false, message, capacity);
+    return number_parse_with_unit(factor, number, expected_kind, false, message, capacity);
 }
 
 real particle_list_default_factor_to_si(const struct particle_list *l, int column)
@@ -101,5 +102,5 @@ status particle_list_check_memory(const char *path, int64_t particle_count)
                       "%s: %.3g particles need more than %.2g GB of memory, but %.2g GB are available (%s); use a "
                       "shorter list, or a machine with more memory",
                       path, (real)particle_count, 1e-9 * bytes, 1e-9 * (real)machine_memory_size(),
-                      machine_memory_limit_name());
+                      machine_memory_limit_describe_source());
 }

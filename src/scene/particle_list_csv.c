@@ -80,7 +80,8 @@ static status csv_column(struct csv *c, char *name, struct particle_list *l, boo
                                 name);
     if (strcasecmp(name, "weight") == 0) TRY(weight_column(c, name, unit, &k));
     if (k == COLUMN_NONE)
-        particle_list_note_append(&l->head, ", ", *name ? name : "a column has no name; give every column a name");
+        particle_list_head_append_to_message(&l->head, ", ",
+                                             *name ? name : "a column has no name; give every column a name");
     else if (has[k])
         return csv_report_fault(&c->in, name, "two columns are named %s; rename or remove one", list_quantity[k].name);
     else if (!unit_find_factor_to_si(&c->factor[c->fields], unit, list_quantity[k].unit, what, sizeof what))
@@ -118,7 +119,7 @@ static status header_read(struct csv *c, struct particle_list *l)
     const char *const names = l->dim == 1 ? "x,volume" : l->dim == 2 ? "x,y,volume" : "x,y,z,volume";
     header_separate(c);
     char *rest = c->in.text;
-    for (char *name; (name = csv_cut_field(&c->in, &rest)) != NULL;) TRY(csv_column(c, name, l, has));
+    for (char *name; (name = csv_split_off_next_field(&c->in, &rest)) != NULL;) TRY(csv_column(c, name, l, has));
     for (int k = 0; k < l->dim; k++)
         if (!has[k] && l->form.columns)
             return status_set(REFUSED,
@@ -135,7 +136,7 @@ static status header_read(struct csv *c, struct particle_list *l)
         return csv_report_fault(
             &c->in, c->in.text,
             "mass and density are both given, but each determines the other; remove one of the two columns");
-    particle_list_note_missing_columns(&l->head, has);
+    particle_list_head_store_missing_columns(&l->head, has);
     return OK;
 }
 
@@ -169,7 +170,7 @@ static int header_count(const char *names, int dim, bool *all)
     strcpy(trial.in.text, names);
     header_separate(&trial);
     char *rest = trial.in.text;
-    for (char *name; (name = csv_cut_field(&trial.in, &rest)) != NULL; n++) {
+    for (char *name; (name = csv_split_off_next_field(&trial.in, &rest)) != NULL; n++) {
         csv_cut_unit_off_column_name(name);
         has[column_named(name, dim)] = true;
     }
@@ -204,7 +205,7 @@ static void header_unify(char *names, const char *entry, int dim)
     strcpy(blank, names);
     strcpy(values, entry);
     tabs_to_blanks(blank);
-    while (csv_cut_field(&by_blanks, &rest)) n++;
+    while (csv_split_off_next_field(&by_blanks, &rest)) n++;
     if (header_count(blank, dim, &all) == n && all) strcpy(names, blank);
 }
 
@@ -318,7 +319,7 @@ static status csv_grow(struct csv *c, struct particle_list *l)
     TRY(particle_list_check_memory(c->in.path, room / 2));
     for (int k = 0; k < c->fields; k++) {
         if (c->column[k] == COLUMN_NONE) continue;
-        real **array = particle_list_column_array(l, c->column[k]);
+        real **array = particle_list_address_of_column_array(l, c->column[k]);
         GROW("list.column", *array, room);
         if (c->column[k] == COLUMN_MATERIAL) GROW("list.at", l->material_at, room);
     }
@@ -353,7 +354,7 @@ static status csv_value(struct csv *c, struct particle_list *l, int k, const cha
     const int column = c->column[k];
     const char *name = c->first[k] ? "block_id" : list_quantity[column].name;
     char *end;
-    real value = strtod(field, &end), *to = *particle_list_column_array(l, column) + l->n;
+    real value = strtod(field, &end), *to = *particle_list_address_of_column_array(l, column) + l->n;
     if (column == COLUMN_MATERIAL) l->material_at[l->n] = (int16_t)(field - c->in.text + 1);
     if (column == COLUMN_MATERIAL && l->head.unnamed && field[strspn(field, "0123456789")])
         return csv_report_fault(
@@ -381,7 +382,7 @@ static status csv_entry(struct csv *c, struct particle_list *l)
 {
     char *rest = c->in.text;
     for (int k = 0; k < c->fields; k++) {
-        const char *field = csv_cut_field(&c->in, &rest);
+        const char *field = csv_split_off_next_field(&c->in, &rest);
         if (field == NULL)
             return csv_report_fault(&c->in, c->in.text, "this line has %d values, but the %s %d columns", k,
                                     l->form.columns ? "scene names" : "header names", c->fields);

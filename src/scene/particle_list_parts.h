@@ -32,7 +32,7 @@ extern const struct list_quantity list_quantity[COLUMNS];
 
 /* Returns a pointer to the member of the particle list l, such as &l->volume, that stores the values of column `column`
  * (enum list_column) of its file. */
-real **particle_list_column_array(struct particle_list *l, int column);
+real **particle_list_address_of_column_array(struct particle_list *l, int column);
 
 /* Returns true if `column` (COLUMN_*) is a component of position or velocity along an axis that a space of `dim`
  * dimensions does not have. */
@@ -53,11 +53,11 @@ real particle_list_default_factor_to_si(const struct particle_list *l, int colum
 
 /* Appends the text `addition` to the note in *head, which is printed about a particle list, preceded by `separator` if
  * the note is not empty. */
-void particle_list_note_append(struct particle_list_head *head, const char *separator, const char *addition);
+void particle_list_head_append_to_message(struct particle_list_head *head, const char *separator, const char *addition);
 
 /* Stores in *head whether the file of a particle list has columns of materials, masses and volumes, and adds to its
  * note which defaults replace missing columns. file_has_column[COLUMNS]: true for each column that the file has. */
-void particle_list_note_missing_columns(struct particle_list_head *head, const bool *file_has_column);
+void particle_list_head_store_missing_columns(struct particle_list_head *head, const bool *file_has_column);
 
 /* Returns REFUSED, with a message that names the file `path`, if a run with `particle_count` particles needs more
  * memory than the machine has. */

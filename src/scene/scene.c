@@ -21,24 +21,24 @@ static status read_space(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-status scene_read_keys_of_tree(struct reader *r, const struct yaml_node *root)
+status scene_read_values_from_yaml_tree(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
-    TRY(expect_node_kind(r, root, NODE_MAP, "give a scene, which is a mapping of keys to values"));
+    TRY(check_node_kind(r, root, NODE_MAP, "give a scene, which is a mapping of keys to values"));
     r->root = root;
     TRY(check_all_keys_known(r, root));
     TRY(read_space(r, root));
     TRY(read_regions(r, root));
     s->conversion.criteria = CONVERT_ON_BREAK | CONVERT_ON_STRESS;
     TRY(read_keys_of_group(r, root, root, "", s));
-    TRY(check_scene_keys_and_set_defaults(r, root));
+    TRY(check_key_combinations_and_set_defaults(r, root));
     TRY(read_materials(r, root));
     TRY(read_bodies(r, root));
-    scene_set_unused_materials_aside(r->scene);
+    scene_exclude_unused_materials(r->scene);
     TRY(read_interfaces(r, root));
     resolve_default_time_step_safety_factor(r, root);
-    resolve_lattices_of_particle_lists(r, root);
-    resolve_automatic_frames_of_bodies(s);
+    detect_lattices_and_resolve_surface_correction(r, root);
+    scene_resolve_auto_shape_function_frames(s);
     TRY(check_particle_count_fits_indices(r, root));
     TRY(read_cracks(r, root));
     TRY(read_initial_states(r, root));
@@ -46,7 +46,7 @@ status scene_read_keys_of_tree(struct reader *r, const struct yaml_node *root)
     TRY(check_friction_is_supported(r, root));
     TRY(check_no_absorbing_boundary_if_static(r, root));
     TRY(check_loads_are_supported(r, root));
-    TRY(check_boundaries_of_joined_bodies(r, root));
+    TRY(check_boundaries_apply_to_all_joined_bodies(r, root));
     TRY(read_probes(r, root));
     TRY(read_regions_of_output_frames(r, root));
     TRY(read_crack_growths(r, root));
@@ -54,11 +54,13 @@ status scene_read_keys_of_tree(struct reader *r, const struct yaml_node *root)
     return check_keys_for_static_solver(r, root);
 }
 
-status scene_parse_tree(struct reader *r, const char *text, size_t length, struct yaml_node **root)
+status scene_text_parse_with_includes_and_overrides(struct reader *r, const char *text, size_t length,
+                                                    struct yaml_node **root)
 {
-    TRY(foreign_file_refuse(r, text, length));
+    TRY(other_program_file_refuse(r, text, length));
     TRY(tree_parse_yaml(r, text, length, -1, root));
-    if (!*root) return fault_at_location(r, -1, 1, 1, "the scene is empty; begin with keys such as space and duration");
+    if (!*root)
+        return fault_report_at_location(r, -1, 1, 1, "the scene is empty; begin with keys such as space and duration");
     TRY(tree_rename_old_keys(r, *root));
     TRY(tree_merge_included_files(r, *root));
     TRY(tree_apply_all_overrides(r, *root));

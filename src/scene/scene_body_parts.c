@@ -1,5 +1,5 @@
 /* Reads parts of a body that consist of another material. Bonds between parts act as springs in series (bonds/bonds.c:
- * material_pair_table_make_of_micro_moduli); in state-based models each end uses the modulus of its own material. */
+ * material_pair_table_compute_micro_moduli); in state-based models each end uses the modulus of its own material. */
 #include "base/memory.h"
 #include "scene_parts.h"
 
@@ -7,7 +7,7 @@ status read_body_parts(struct reader *r, const struct yaml_node *parts_node, con
                        struct scene_body *body)
 {
     if (!parts_node) return OK;
-    TRY(expect_list_of_valid_length(r, k, parts_node));
+    TRY(check_node_is_list_of_valid_length(r, k, parts_node));
     int part = body->parts; /* index after the parts from images */
     GROW("parts", body->part, body->parts + parts_node->n);
     body->parts += parts_node->n;
@@ -16,16 +16,17 @@ status read_body_parts(struct reader *r, const struct yaml_node *parts_node, con
     return OK;
 }
 
-int scene_part_at_position(const struct scene *s, const struct scene_body *b, const real *X)
+int scene_body_part_index_at_position(const struct scene *s, const struct scene_body *b, const real *X)
 {
     int part = b->parts - 1;
     while (part >= 0 && !region_contains(&b->part[part].region, X, s->dim, ON_SURFACE * s->spacing)) part--;
     return part;
 }
 
-int scene_material_at_position(const struct scene *s, const struct scene_body *b, const real *X, int default_material)
+int scene_material_index_at_position(const struct scene *s, const struct scene_body *b, const real *X,
+                                     int default_material)
 {
-    const int part = scene_part_at_position(s, b, X);
+    const int part = scene_body_part_index_at_position(s, b, X);
     return part < 0 ? default_material : b->part[part].material;
 }
 
@@ -36,7 +37,7 @@ bool scene_body_can_have_material(const struct scene_body *b, int material)
     return has;
 }
 
-const struct material *scene_material_of_number(const struct scene *s, int number)
+const struct material *scene_find_material_by_number(const struct scene *s, int number)
 {
     for (int m = 0; m < s->materials + s->unused_materials; m++)
         if (s->material_number[m] == number) return &s->material[m];
@@ -69,7 +70,7 @@ static void material_set_aside(struct scene *s, int unused)
     }
 }
 
-void scene_set_unused_materials_aside(struct scene *s)
+void scene_exclude_unused_materials(struct scene *s)
 {
     for (int m = s->materials - 1; m >= 0; m--)
         if (!material_is_used(s, m)) material_set_aside(s, m);

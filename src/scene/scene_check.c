@@ -16,16 +16,17 @@ static const struct yaml_node *scene_check_below(const struct yaml_node *root, c
 }
 
 /* Returns REFUSED, with a message, if `thickness` is missing in a plane space or given in another one, or if `section`
- * is given outside space line. In spaces without a thickness, sets it to 1. root: YAML tree of the input file (scene).
- */
+ * is given outside space line. In spaces without a thickness, sets it to 1. root: YAML tree of the scene. */
 static status check_measure(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
     const struct yaml_node *thickness = yaml_node_find(root, "thickness"), *section = yaml_node_find(root, "section");
     const char *space = space_names[s->space];
     if (s->dim == 2 && !thickness) return fault_report_missing_key(r, root, key_find("", "thickness"));
-    if (s->dim != 2 && thickness) return fault(r, thickness, "space %s has no thickness; remove this key", space);
-    if (s->dim != 1 && section) return fault(r, section, "space %s has no section; remove this key", space);
+    if (s->dim != 2 && thickness)
+        return fault_report_at_node(r, thickness, "space %s has no thickness; remove this key", space);
+    if (s->dim != 1 && section)
+        return fault_report_at_node(r, section, "space %s has no section; remove this key", space);
     if (s->dim != 2) s->thickness = 1;
     return OK;
 }
@@ -43,8 +44,7 @@ static real longest_side(const real *from, const real *to, int dim)
 
 /* Returns REFUSED, with a message, if the bodies of the scene would have more than 2e9 particles, the limit of 32-bit
  * indices and of memory, or if the box around a surface from a file has more than PLACES_OF_FILES lattice positions.
- * Numbers of particles are estimated from bounding boxes. root: YAML tree of the input file (scene), for the location
- * in the message. */
+ * Numbers of particles are estimated from bounding boxes. root: YAML tree of the scene, to locate errors. */
 status check_particle_count_fits_indices(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -54,7 +54,7 @@ status check_particle_count_fits_indices(struct reader *r, const struct yaml_nod
         if (s->body[b].file || !region_compute_bounding_box_if_finite(&s->body[b].shape, s->dim, from, to)) continue;
         for (int d = 0; d < s->dim; d++) count *= real_max(1, (to[d] - from[d]) / s->spacing);
         if (count > PLACES_OF_FILES && s->body[b].shape.n > 0 && s->body[b].shape.solid[0].hull)
-            return status_prepend_location(
+            return status_message_prepend_location(
                 s->body[b].place,
                 status_set(
                     REFUSED,
@@ -65,29 +65,32 @@ status check_particle_count_fits_indices(struct reader *r, const struct yaml_nod
     }
     if (total <= 2e9) return OK;
     const struct yaml_node *spacing = scene_check_below(root, "particles", "spacing");
-    return fault(r, spacing,
-                 "a spacing of %s makes about %.1e particles in bodies up to %.4g m long, more than the limit of 2e9; "
-                 "use a larger spacing",
-                 node_text(r, spacing), total, longest);
+    return fault_report_at_node(
+        r, spacing,
+        "a spacing of %s makes about %.1e particles in bodies up to %.4g m long, more than the limit of 2e9; "
+        "use a larger spacing",
+        node_value_to_text_for_message(r, spacing), total, longest);
 }
 
 /* Returns REFUSED, with a message, if the input file (scene) has friction where it is not supported: with the contact
- * law between pairs of particles, or together with planes of symmetry. root: YAML tree of the scene, for the location
- * in the message. */
+ * law between pairs of particles, or together with planes of symmetry. root: YAML tree of the scene, to locate errors.
+ */
 status check_friction_is_supported(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
     const struct yaml_node *friction = scene_check_below(root, "contact", "friction");
     if (!(s->contact_friction > 0)) return OK;
     if (s->contact_form == CONTACT_PAIR)
-        return fault(r, friction,
-                     "friction has no effect with contact.law: pair, whose particles interlock like gears; set "
-                     "contact.law: surface");
+        return fault_report_at_node(
+            r, friction,
+            "friction has no effect with contact.law: pair, whose particles interlock like gears; set "
+            "contact.law: surface");
     for (int b = 0; b < s->boundaries; b++)
         if (s->boundary[b].kind == BOUNDARY_MIRROR)
-            return fault(r, friction,
-                         "friction cannot be combined with planes of symmetry; set contact.friction: 0, or remove the "
-                         "boundaries `mirror`");
+            return fault_report_at_node(
+                r, friction,
+                "friction cannot be combined with planes of symmetry; set contact.friction: 0, or remove the "
+                "boundaries `mirror`");
     return OK;
 }
 
@@ -99,15 +102,15 @@ status check_no_absorbing_boundary_if_static(struct reader *r, const struct yaml
     const struct yaml_node *list = yaml_node_find(root, "boundary"), *n = list ? list->first : NULL;
     for (int b = 0; b < s->boundaries && n; b++, n = n->next)
         if (s->boundary[b].kind == BOUNDARY_ABSORBING && !scene_is_dynamic(s))
-            return fault(r, yaml_node_find(n, "absorbing"),
-                         "an absorbing face has no effect in a static equilibrium, which has no waves; remove it, or "
-                         "set solver: explicit");
+            return fault_report_at_node(
+                r, yaml_node_find(n, "absorbing"),
+                "an absorbing face has no effect in a static equilibrium, which has no waves; remove it, or "
+                "set solver: explicit");
     return OK;
 }
 
 /* Returns REFUSED, with a message, if a static problem has damping, or if damping is combined with coarse grid cells
- * that have time steps of their own (mpm.levels). root: YAML tree of the input file (scene), for the location in the
- * message. */
+ * that have time steps of their own (mpm.levels). root: YAML tree of the scene, to locate errors. */
 static status check_damping(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -115,13 +118,14 @@ static status check_damping(struct reader *r, const struct yaml_node *root)
                            *levels = scene_check_below(root, "mpm", "levels");
     if (!(s->damping > 0)) return OK;
     if (!scene_is_dynamic(s))
-        return fault(r, damping,
-                     "a static equilibrium has no velocities to damp; remove damping, or set solver: explicit");
+        return fault_report_at_node(
+            r, damping, "a static equilibrium has no velocities to damp; remove damping, or set solver: explicit");
     if (levels && s->levels != LEVELS_AUTO && s->levels > 0)
-        return fault(r, levels,
-                     "%s levels of coarse cells have longer time steps, but damping needs one time step for the whole "
-                     "body; set mpm.levels: 0",
-                     node_text(r, levels));
+        return fault_report_at_node(
+            r, levels,
+            "%s levels of coarse cells have longer time steps, but damping needs one time step for the whole "
+            "body; set mpm.levels: 0",
+            node_value_to_text_for_message(r, levels));
     return OK;
 }
 
@@ -136,23 +140,27 @@ status check_loads_are_supported(struct reader *r, const struct yaml_node *root)
         const struct boundary *load = &s->boundary[b];
         const bool formula = load->formula[0].n + load->formula[1].n + load->formula[2].n > 0;
         if (load->kind == BOUNDARY_PRESSURE && s->irregularity > PRESSURE_SHAKEN)
-            return fault(r, yaml_node_find(n, "pressure"),
-                         "a pressure needs the positions of faces, which are unknown with particles.irregularity above "
-                         "%g; use a traction, or a smaller particles.irregularity",
-                         PRESSURE_SHAKEN);
+            return fault_report_at_node(
+                r, yaml_node_find(n, "pressure"),
+                "a pressure needs the positions of faces, which are unknown with particles.irregularity above "
+                "%g; use a traction, or a smaller particles.irregularity",
+                PRESSURE_SHAKEN);
         if (!scene_is_single_equilibrium(s)) continue;
         if (load->follow)
-            return fault(r, yaml_node_find(n, "follow"),
-                         "a static equilibrium applies loads to the undeformed body; set follow: false, or solver: "
-                         "explicit with damping");
+            return fault_report_at_node(
+                r, yaml_node_find(n, "follow"),
+                "a static equilibrium applies loads to the undeformed body; set follow: false, or solver: "
+                "explicit with damping");
         if (load->rotates)
-            return fault(r, yaml_node_find(n, "rotation"),
-                         "a static solver moves supports along straight lines only; use displacement in place of "
-                         "rotation, or set solver: explicit");
-        if (formula && boundary_check_displacement_known(load) != OK)
-            return fault(r, yaml_node_find(n, "velocity"),
-                         "static solvers need the displacement, which a velocity as a formula of t does not give; give "
-                         "a displacement");
+            return fault_report_at_node(
+                r, yaml_node_find(n, "rotation"),
+                "a static solver moves supports along straight lines only; use displacement in place of "
+                "rotation, or set solver: explicit");
+        if (formula && boundary_check_displacement_has_closed_form(load) != OK)
+            return fault_report_at_node(
+                r, yaml_node_find(n, "velocity"),
+                "static solvers need the displacement, which a velocity as a formula of t does not give; give "
+                "a displacement");
     }
     return OK;
 }
@@ -164,8 +172,8 @@ static status check_steps(struct reader *r, const struct yaml_node *root)
     const struct scene *s = r->scene;
     const struct yaml_node *step = scene_check_below(root, "time", "step");
     if (!step || s->time_step == 0 || s->duration / s->time_step <= 1e12) return OK;
-    return fault(r, step, "%s makes %.1e time steps, more than the limit of 1e12; use a larger step",
-                 node_text(r, step), s->duration / s->time_step);
+    return fault_report_at_node(r, step, "%s makes %.1e time steps, more than the limit of 1e12; use a larger step",
+                                node_value_to_text_for_message(r, step), s->duration / s->time_step);
 }
 
 /* Returns REFUSED, with a message, if mpm.origin, a node of the grid, is more than FILL_FARTHEST spacings from 0;
@@ -175,10 +183,11 @@ static status check_origin(struct reader *r, const struct yaml_node *root)
     const struct scene *s = r->scene;
     for (int a = 0; a < s->dim && s->has_grid_origin && s->spacing > 0; a++)
         if (!(fabs(s->grid_origin[a]) <= FILL_FARTHEST * s->spacing))
-            return fault(r, scene_check_below(root, "mpm", "origin"),
-                         "%.3g m is more than 1e7 spacings from the origin, where double precision no longer resolves "
-                         "strains; use a position near the origin",
-                         s->grid_origin[a]);
+            return fault_report_at_node(
+                r, scene_check_below(root, "mpm", "origin"),
+                "%.3g m is more than 1e7 spacings from the origin, where double precision no longer resolves "
+                "strains; use a position near the origin",
+                s->grid_origin[a]);
     return OK;
 }
 
@@ -188,20 +197,20 @@ static status check_transfer(struct reader *r, const struct yaml_node *root)
 {
     const struct yaml_node *transfer = scene_check_below(root, "mpm", "transfer");
     if (!transfer || r->scene->shape != SHAPE_LINEAR || r->scene->transfer != TRANSFER_APIC) return OK;
-    return fault(r, transfer, "apic is unstable with mpm.shape: linear; set mpm.transfer: flip, or mpm.shape: gimp");
+    return fault_report_at_node(r, transfer,
+                                "apic is unstable with mpm.shape: linear; set mpm.transfer: flip, or mpm.shape: gimp");
 }
 
 /* Sets the default of time.safety, the ratio of the time step to the critical one: 0.5 if bonds can break, else 0.8.
  * Crack lengths and most crack angles are equal at both values. In a scene in which two crack paths are nearly
  * equivalent, the path can change above 0.3 to 0.5. Metals keep 0.8: at 0.5 they need 1.6 times the steps, and
  * taylor_bar loses 0.09 % of its energy instead of 0.04 %. Only bars shorter than two diameters are more accurate at
- * 0.5, for which say_flow_error prints a remark. root: YAML tree of the input file (scene), to see whether the key is
- * given. */
+ * 0.5, for which say_flow_error prints a remark. root: YAML tree of the scene, with or without the key. */
 void resolve_default_time_step_safety_factor(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
     if (!scene_check_below(root, "time", "safety"))
-        s->safety = scene_bonds_break(s) && s->method != METHOD_MPM ? 0.5 : 0.8;
+        s->safety = scene_bonds_can_break(s) && s->method != METHOD_MPM ? 0.5 : 0.8;
 }
 
 /* Sets the default of contact.between: contact exists if the input file (scene) has several bodies, rigid bodies or
@@ -212,22 +221,25 @@ status resolve_default_contact_bodies(struct reader *r, const struct yaml_node *
     struct scene *s = r->scene;
     const struct yaml_node *between = scene_check_below(root, "contact", "between");
     const struct yaml_node *friction = scene_check_below(root, "contact", "friction");
-    const bool faces = s->bodies + s->rigids > 1 || (scene_can_crack(s) && s->method != METHOD_MPM);
+    const bool faces = s->bodies + s->rigids > 1 || (scene_can_have_cracks(s) && s->method != METHOD_MPM);
     const bool meet = !scene_is_single_equilibrium(s) && !scene_has_load_steps_with_softening_bonds(s) && faces;
     if (!between) s->contact_between = !meet ? CONTACT_NONE : s->method == METHOD_MPM ? CONTACT_BODIES : CONTACT_ALL;
     if (s->contact_distance == DISTANCE_LAMMPS && (s->contact_form != CONTACT_PAIR || s->model != MODEL_BOND))
-        return fault(r, scene_check_below(root, "contact", "distance"),
-                     "the distance lammps is the rule of LAMMPS' peri/pmb; set contact.law: pair and model: bond, or "
-                     "another contact.distance");
+        return fault_report_at_node(
+            r, scene_check_below(root, "contact", "distance"),
+            "the distance lammps is the rule of LAMMPS' peri/pmb; set contact.law: pair and model: bond, or "
+            "another contact.distance");
     if (s->contact_between != CONTACT_NONE && scene_is_single_equilibrium(s))
-        return fault(r, between, "this static solver has no contact; set contact.between: none, or solver: explicit");
+        return fault_report_at_node(
+            r, between, "this static solver has no contact; set contact.between: none, or solver: explicit");
     if (s->contact_between != CONTACT_NONE && scene_has_load_steps_with_softening_bonds(s))
-        return fault(r, between,
-                     "load steps have no contact if bonds soften; set contact.between: none, or solver: explicit");
+        return fault_report_at_node(
+            r, between, "load steps have no contact if bonds soften; set contact.between: none, or solver: explicit");
     if (s->contact_friction > 0 && s->contact_between == CONTACT_NONE && s->rigids == 0)
-        return fault(r, friction,
-                     "nothing has contact (contact.between: none), so friction has no effect; remove it, or set "
-                     "contact.between: all");
+        return fault_report_at_node(
+            r, friction,
+            "nothing has contact (contact.between: none), so friction has no effect; remove it, or set "
+            "contact.between: all");
     return OK;
 }
 
@@ -240,10 +252,10 @@ status resolve_default_contact_bodies(struct reader *r, const struct yaml_node *
 static enum surface_rule surface_by_default(const struct scene *s, const struct yaml_node *root)
 {
     bool lattice = s->dim > 1 && s->irregularity == 0 && !scene_check_below(root, "pd", "normalisation");
-    for (int b = 0; b < s->bodies; b++) /* set by resolve_lattices_of_particle_lists */
+    for (int b = 0; b < s->bodies; b++) /* set by detect_lattices_and_resolve_surface_correction */
         lattice = lattice && (!s->body[b].file || s->body[b].list.lattice);
     if (s->method != METHOD_PD) return SURFACE_NONE;
-    if (scene_has_load_steps(s) && scene_bonds_break(s) && s->model == MODEL_BOND) return SURFACE_VOLUME;
+    if (scene_has_load_steps(s) && scene_bonds_can_break(s) && s->model == MODEL_BOND) return SURFACE_VOLUME;
     if (lattice) return SURFACE_MOMENTS;
     return s->model == MODEL_BOND ? SURFACE_VOLUME : SURFACE_NONE;
 }
@@ -277,12 +289,12 @@ static bool list_lattice(const struct scene *s, int body)
             return s->body[b].list.lattice;
     if (particle_list_read(&list, s->body[body].file, &s->body[body].form, s->dim) != OK) return false;
     const bool lattice = particle_list_is_lattice(
-        &list, s->spacing, lattice_particle_volume(scene_section_or_thickness(s), s->spacing, s->dim));
+        &list, s->spacing, lattice_particle_volume(scene_cross_section_or_thickness(s), s->spacing, s->dim));
     particle_list_free(&list);
     return lattice;
 }
 
-void resolve_lattices_of_particle_lists(struct reader *r, const struct yaml_node *root)
+void detect_lattices_and_resolve_surface_correction(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
     for (int b = 0; b < s->bodies; b++)
@@ -320,7 +332,7 @@ static bool body_yields(const struct scene *s, int body)
 
 /* Returns the reason why a body cannot use the reference frame (a mesh of the undeformed body), as part of a message;
  * NULL if it can. body: index in the scene s. */
-const char *scene_why_reference_frame_unsupported(const struct scene *s, int body)
+const char *scene_reason_total_lagrangian_mpm_unsupported(const struct scene *s, int body)
 {
     if (s->method == METHOD_PD) return "method pd has no material points";
     if (scene_is_single_equilibrium(s)) return "static solvers need the current frame";
@@ -341,9 +353,9 @@ const char *scene_why_reference_frame_unsupported(const struct scene *s, int bod
     return NULL;
 }
 
-const char *scene_why_reference_frame_not_chosen_by_auto(const struct scene *s, int body)
+const char *scene_reason_auto_rejects_total_lagrangian_mpm(const struct scene *s, int body)
 {
-    const char *why = scene_why_reference_frame_unsupported(s, body);
+    const char *why = scene_reason_total_lagrangian_mpm_unsupported(s, body);
     if (why) return why;
     if (s->bodies > 1) return "bodies have contact only on the grid of the current frame";
     if (s->body[body].file) return "it needs particles on a regular lattice, which particles from a list may not have";
@@ -352,10 +364,10 @@ const char *scene_why_reference_frame_not_chosen_by_auto(const struct scene *s, 
     return NULL;
 }
 
-const char *scene_why_reference_frame_is_no_remedy(const struct scene *s)
+const char *scene_reason_not_to_advise_total_lagrangian_mpm(const struct scene *s)
 {
     const char *why = NULL;
-    for (int b = 0; b < s->bodies && !why; b++) why = scene_why_reference_frame_not_chosen_by_auto(s, b);
+    for (int b = 0; b < s->bodies && !why; b++) why = scene_reason_auto_rejects_total_lagrangian_mpm(s, b);
     return why;
 }
 
@@ -382,14 +394,14 @@ bool scene_has_yielding_body_on_mesh(const struct scene *s)
  * frame `auto`, marks the keys mpm.shape, mpm.transfer and interface_damping as given, so that scene_echo.c writes
  * them. While a body has the frame `auto` they must not be written: these keys have a meaning in the current frame
  * only, and a scene that gives them requires it. */
-void resolve_automatic_frames_of_bodies(struct scene *s)
+void scene_resolve_auto_shape_function_frames(struct scene *s)
 {
     bool open = false;
     s->current_frame_key = current_frame_key(s);
     for (int b = 0; b < s->bodies; b++) {
         struct scene_body *body = &s->body[b];
         if (body->frame == FRAME_AUTO && s->method != METHOD_PD) {
-            body->frame_reason = scene_why_reference_frame_not_chosen_by_auto(s, b);
+            body->frame_reason = scene_reason_auto_rejects_total_lagrangian_mpm(s, b);
             if (!body->frame_reason) body->frame_reason = s->current_frame_key;
             if (body->frame_reason) body->frame = FRAME_CURRENT;
         }
@@ -412,8 +424,8 @@ static status check_times(struct reader *r, const struct yaml_node *root)
                            *times = scene_check_below(root, "output", "times");
     if (every && (frames || times)) return fault_report_exclusive_keys(r, frames ? frames : times, every);
     if (every && s->duration / s->every > FRAMES_MOST)
-        return fault(r, every, "%s makes more than %d frames; use an interval of at least %.3g s", node_text(r, every),
-                     FRAMES_MOST, s->duration / FRAMES_MOST);
+        return fault_report_at_node(r, every, "%s makes more than %d frames; use an interval of at least %.3g s",
+                                    node_value_to_text_for_message(r, every), FRAMES_MOST, s->duration / FRAMES_MOST);
     if (every) s->frames = (int)ceil(s->duration / s->every * (1 - 1e-12)); /* the last frame is at the end */
     if (s->times.n == 0) return OK;
     if (frames) return fault_report_exclusive_keys(r, frames, times);
@@ -426,7 +438,7 @@ static status check_times(struct reader *r, const struct yaml_node *root)
 static status check_accuracy(struct reader *r, const struct yaml_node *root)
 {
     const struct yaml_node *n = yaml_node_find(root, "accuracy");
-    return n ? fault(r, n, "has no effect without method: auto; remove it") : OK;
+    return n ? fault_report_at_node(r, n, "has no effect without method: auto; remove it") : OK;
 }
 
 /* Returns REFUSED, with a message, for combinations of material model and surface correction that have no meaning:
@@ -439,26 +451,29 @@ static status check_model(struct reader *r, const struct yaml_node *root)
     const struct yaml_node *model = yaml_node_find(root, "model"), *surface = scene_check_below(root, "pd", "surface");
     const bool moments = surface && s->surface == SURFACE_MOMENTS;
     if (moments && (s->dim == 1 || s->irregularity > 0))
-        return fault(r, surface, "the correction `moments` needs a regular lattice in 2D or 3D; set pd.surface: %s",
-                     s->model == MODEL_BOND ? "volume or none" : "none");
+        return fault_report_at_node(r, surface,
+                                    "the correction `moments` needs a regular lattice in 2D or 3D; set pd.surface: %s",
+                                    s->model == MODEL_BOND ? "volume or none" : "none");
     if (moments && s->model != MODEL_BOND && (s->method != METHOD_PD || !s->bulk))
-        return fault(
+        return fault_report_at_node(
             r, surface,
             "with model: %s the correction `moments` needs method: pd and pd.normalisation: bulk; set these, or "
             "pd.surface: none",
-            node_text(r, model));
+            node_value_to_text_for_message(r, model));
     if (s->dim == 1 && s->calibration != CALIBRATION_LATTICE && s->influence == INFLUENCE_INVERSE_SQUARE)
-        return fault(
+        return fault_report_at_node(
             r, scene_check_below(root, "pd", "influence"),
             "the influence inverse square has no continuum integral in one dimension; set pd.calibration: lattice");
     if (s->model == MODEL_BOND) return OK;
     if (s->dim == 1)
-        return fault(r, model, "the model %s is not defined in space: line; set model: bond", node_text(r, model));
+        return fault_report_at_node(r, model, "the model %s is not defined in space: line; set model: bond",
+                                    node_value_to_text_for_message(r, model));
     if (surface && s->surface == SURFACE_VOLUME)
-        return fault(r, surface,
-                     "the correction %s is for model: bond; with model: %s set pd.surface: none and correct bonds near "
-                     "surfaces by pd.normalisation",
-                     node_text(r, surface), node_text(r, model));
+        return fault_report_at_node(
+            r, surface,
+            "the correction %s is for model: bond; with model: %s set pd.surface: none and correct bonds near "
+            "surfaces by pd.normalisation",
+            node_value_to_text_for_message(r, surface), node_value_to_text_for_message(r, model));
     return OK;
 }
 
@@ -470,30 +485,33 @@ status check_keys_for_static_solver(struct reader *r, const struct yaml_node *ro
 {
     const struct scene *s = r->scene;
     const struct yaml_node *solver = yaml_node_find(root, "solver");
-    TRY(check_load_step_keys_unused(r, root));
+    TRY(check_no_load_step_keys_with_other_solver(r, root));
     TRY(check_softening_is_supported(r, root));
     if (!solver || scene_is_dynamic(s)) return OK;
     if (scene_has_load_steps(s)) return check_keys_for_load_steps(r, root);
     for (int m = 0; m < s->materials; m++)
         if (material_yields(&s->material[m]))
-            return fault(r, solver, "the solver %s is for elastic materials, but material %s yields; set solver: %s",
-                         node_text(r, solver), s->material[m].name,
-                         s->method == METHOD_ADAPTIVE ? "explicit" : "static (load steps), or explicit");
+            return fault_report_at_node(
+                r, solver, "the solver %s is for elastic materials, but material %s yields; set solver: %s",
+                node_value_to_text_for_message(r, solver), s->material[m].name,
+                s->method == METHOD_ADAPTIVE ? "explicit" : "static (load steps), or explicit");
     if (s->solver == SOLVER_CG && s->method != METHOD_PD)
-        return fault(r, solver,
-                     "the solver cg works with method: pd only; with material points set solver: relaxation");
+        return fault_report_at_node(
+            r, solver, "the solver cg works with method: pd only; with material points set solver: relaxation");
     if (s->method != METHOD_PD && s->transfer == TRANSFER_FLIP)
-        return fault(r, solver,
-                     "with mpm.transfer: flip a relaxation does not converge, because light nodes at the border keep "
-                     "moving; set mpm.transfer: apic and an mpm.shape other than linear");
+        return fault_report_at_node(
+            r, solver,
+            "with mpm.transfer: flip a relaxation does not converge, because light nodes at the border keep "
+            "moving; set mpm.transfer: apic and an mpm.shape other than linear");
     for (int k = 0; k < s->probes; k++)
         if (s->probe[k].kind == PROBE_PULSE || s->probe[k].kind == PROBE_PATCH)
-            return fault(r, solver, "the solver %s has no time steps, which probe %s needs; set solver: explicit",
-                         node_text(r, solver), s->probe[k].name);
+            return fault_report_at_node(r, solver,
+                                        "the solver %s has no time steps, which probe %s needs; set solver: explicit",
+                                        node_value_to_text_for_message(r, solver), s->probe[k].name);
     return OK;
 }
 
-status check_scene_keys_and_set_defaults(struct reader *r, const struct yaml_node *root)
+status check_key_combinations_and_set_defaults(struct reader *r, const struct yaml_node *root)
 {
     resolve_defaults(r, root);
     TRY(check_measure(r, root));

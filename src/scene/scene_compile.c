@@ -11,14 +11,14 @@ enum { POWER_MOST = 18 }; /* twice the largest power of a unit */
 /* ---- complaints -------------------------------------------------------------------------------------------------- */
 
 /* Returns the number, from 1, of the UTF-8 character at `character`, a pointer into c->text, for messages. */
-int compile_character_number(const struct compile *c, const char *character)
+int expression_position_of_character(const struct expression_compiler *c, const char *character)
 {
     int characters = 1;
     for (const char *at = c->text; at < character; at++) characters += ((unsigned char)*at & 0xC0) != 0x80;
     return characters;
 }
 
-bool compile_write_fault_and_return_false(struct compile *c, const char *format, ...)
+bool compile_write_fault_and_return_false(struct expression_compiler *c, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
@@ -27,10 +27,10 @@ bool compile_write_fault_and_return_false(struct compile *c, const char *format,
     return false;
 }
 
-struct named quantity_unit_name(const struct quantity *q)
+struct unit_name_text quantity_unit_name(const struct quantity *q)
 {
-    struct named n;
-    unit_describe(q->twice, n.text, sizeof n.text);
+    struct unit_name_text n;
+    unit_exponents_describe_kind_of_unit(q->twice, n.text, sizeof n.text);
     return n;
 }
 
@@ -45,7 +45,7 @@ bool quantity_is_dimensionless(const struct quantity *q) { return same_unit(q, &
 
 /* Appends a step to the compiled expression c: the operation `op`, with the number `value` if it pushes a number.
  * Returns false, with a message in c->what, if the expression has EXPRESSION_STEPS steps already. */
-static bool add_step(struct compile *c, enum expression_op op, real value)
+static bool add_step(struct expression_compiler *c, enum expression_op op, real value)
 {
     if (c->steps == EXPRESSION_STEPS)
         return compile_write_fault_and_return_false(c, "has more than %d numbers and operations; shorten it",
@@ -54,7 +54,8 @@ static bool add_step(struct compile *c, enum expression_op op, real value)
     return true;
 }
 
-bool compile_append_push_of_operand(struct compile *c, enum expression_op operation, const struct quantity *q)
+bool compile_append_step_that_pushes_operand(struct expression_compiler *c, enum expression_op operation,
+                                             const struct quantity *q)
 {
     if (c->operands == EXPRESSION_STACK)
         return compile_write_fault_and_return_false(
@@ -63,7 +64,7 @@ bool compile_append_push_of_operand(struct compile *c, enum expression_op operat
     return add_step(c, operation, q->value);
 }
 
-struct operand *compile_operand_from_top(struct compile *c, int entries_below_top)
+struct operand *operand_stack_entry_from_top(struct expression_compiler *c, int entries_below_top)
 {
     return &c->operand[c->operands - 1 - entries_below_top];
 }
@@ -72,10 +73,11 @@ struct operand *compile_operand_from_top(struct compile *c, int entries_below_to
  * operands by the result and appends a step to the expression. result_unit: unit of the result, which the caller
  * derives. If the operands are constant, evaluates the operation now and appends its value as a number instead. Returns
  * false, with a message in c, if the value is not finite or the expression is too long. */
-bool compile_append_operation(struct compile *c, enum expression_op operation, const struct quantity *result_unit)
+bool compile_append_step_that_applies_operation(struct expression_compiler *c, enum expression_op operation,
+                                                const struct quantity *result_unit)
 {
     const bool two = expression_op_is_binary(operation);
-    struct operand *a = compile_operand_from_top(c, two), *b = compile_operand_from_top(c, 0);
+    struct operand *a = operand_stack_entry_from_top(c, two), *b = operand_stack_entry_from_top(c, 0);
     const bool constant = a->constant && b->constant, bare = a->q.bare && b->q.bare;
     a->q.value = expression_op_apply(operation, a->q.value, b->q.value);
     memcpy(a->q.twice, result_unit->twice, sizeof a->q.twice);
@@ -96,18 +98,19 @@ static bool is_nothing(const struct operand *o) { return o->constant && o->q.bar
 /* Checks that the two topmost operands have the same unit; a 0 without a unit gets the unit of the other operand.
  * Returns true if they do. If the units differ, returns false with a message in c that names the operation
  * `operation_name` at position `operator_in_text` of c->text. */
-bool compile_match_units_of_top_operands(struct compile *c, const char *operation_name, const char *operator_in_text)
+bool compile_match_units_of_top_operands(struct expression_compiler *c, const char *operation_name,
+                                         const char *operator_in_text)
 {
-    struct quantity *a = &compile_operand_from_top(c, 1)->q, *b = &compile_operand_from_top(c, 0)->q;
-    if (is_nothing(compile_operand_from_top(c, 1))) memcpy(a->twice, b->twice, sizeof a->twice);
-    if (is_nothing(compile_operand_from_top(c, 0))) memcpy(b->twice, a->twice, sizeof b->twice);
+    struct quantity *a = &operand_stack_entry_from_top(c, 1)->q, *b = &operand_stack_entry_from_top(c, 0)->q;
+    if (is_nothing(operand_stack_entry_from_top(c, 1))) memcpy(a->twice, b->twice, sizeof a->twice);
+    if (is_nothing(operand_stack_entry_from_top(c, 0))) memcpy(b->twice, a->twice, sizeof b->twice);
     if (same_unit(a, b)) return true;
     return compile_write_fault_and_return_false(
         c, "combines %s and %s by %s (character %d); give both operands the same unit", quantity_unit_name(a).text,
-        quantity_unit_name(b).text, operation_name, compile_character_number(c, operator_in_text));
+        quantity_unit_name(b).text, operation_name, expression_position_of_character(c, operator_in_text));
 }
 
-static bool unit_in_bounds(struct compile *c, const struct quantity *q)
+static bool unit_in_bounds(struct expression_compiler *c, const struct quantity *q)
 {
     for (int k = 0; k < 3; k++)
         if (q->twice[k] > POWER_MOST || q->twice[k] < -POWER_MOST)
@@ -116,36 +119,36 @@ static bool unit_in_bounds(struct compile *c, const struct quantity *q)
     return true;
 }
 
-bool compile_append_negation(struct compile *c)
+bool compile_append_negation(struct expression_compiler *c)
 {
-    const struct quantity unit = compile_operand_from_top(c, 0)->q;
-    return compile_append_operation(c, EXPRESSION_MINUS, &unit);
+    const struct quantity unit = operand_stack_entry_from_top(c, 0)->q;
+    return compile_append_step_that_applies_operation(c, EXPRESSION_MINUS, &unit);
 }
 
-bool compile_append_sum_or_difference(struct compile *c, char sign, const char *operator_in_text)
+bool compile_append_sum_or_difference(struct expression_compiler *c, char sign, const char *operator_in_text)
 {
     const char word[2] = {sign, 0};
     if (!compile_match_units_of_top_operands(c, word, operator_in_text)) return false;
-    const struct quantity unit = compile_operand_from_top(c, 1)->q;
-    return compile_append_operation(c, sign == '+' ? EXPRESSION_ADD : EXPRESSION_SUBTRACT, &unit);
+    const struct quantity unit = operand_stack_entry_from_top(c, 1)->q;
+    return compile_append_step_that_applies_operation(c, sign == '+' ? EXPRESSION_ADD : EXPRESSION_SUBTRACT, &unit);
 }
 
-bool compile_append_product_or_quotient(struct compile *c, char sign, const char *operator_in_text)
+bool compile_append_product_or_quotient(struct expression_compiler *c, char sign, const char *operator_in_text)
 {
-    struct quantity unit = compile_operand_from_top(c, 1)->q;
-    const struct operand *b = compile_operand_from_top(c, 0);
+    struct quantity unit = operand_stack_entry_from_top(c, 1)->q;
+    const struct operand *b = operand_stack_entry_from_top(c, 0);
     for (int k = 0; k < 3; k++) unit.twice[k] += sign == '*' ? b->q.twice[k] : -b->q.twice[k];
     if (sign == '/' && b->constant && b->q.value == 0)
         return compile_write_fault_and_return_false(c, "divides by 0 (character %d); change the divisor",
-                                                    compile_character_number(c, operator_in_text));
+                                                    expression_position_of_character(c, operator_in_text));
     return unit_in_bounds(c, &unit) &&
-           compile_append_operation(c, sign == '*' ? EXPRESSION_TIMES : EXPRESSION_OVER, &unit);
+           compile_append_step_that_applies_operation(c, sign == '*' ? EXPRESSION_TIMES : EXPRESSION_OVER, &unit);
 }
 
 /* Raises *unit to the power `power`: multiplies the exponents of m, kg and s by the power. place: number of the
  * operator's character in the text, for the message. Returns false, with a message in c, if an exponent becomes neither
  * whole nor half, or twice the exponent exceeds POWER_MOST. */
-static bool power_of_unit(struct compile *c, struct quantity *unit, real power, int place)
+static bool power_of_unit(struct expression_compiler *c, struct quantity *unit, real power, int place)
 {
     for (int k = 0; k < 3; k++) {
         const real twice = unit->twice[k] * power;
@@ -153,7 +156,7 @@ static bool power_of_unit(struct compile *c, struct quantity *unit, real power, 
             return compile_write_fault_and_return_false(c,
                                                         "raises %s (character %d) to a power whose unit cannot be "
                                                         "represented; use whole and half powers of m, kg and s",
-                                                        quantity_unit_name(&compile_operand_from_top(c, 1)->q).text,
+                                                        quantity_unit_name(&operand_stack_entry_from_top(c, 1)->q).text,
                                                         place);
         unit->twice[k] = (int)twice;
     }
@@ -162,11 +165,11 @@ static bool power_of_unit(struct compile *c, struct quantity *unit, real power, 
 
 /* Appends the operation a^b on the two topmost operands a, b. Returns false, with a message in c, if the exponent b has
  * a unit, or if a has a unit and b is not constant. operator_in_text: position of the operator in c->text. */
-bool compile_append_power(struct compile *c, const char *operator_in_text)
+bool compile_append_power(struct expression_compiler *c, const char *operator_in_text)
 {
-    const struct operand *b = compile_operand_from_top(c, 0);
-    struct quantity unit = compile_operand_from_top(c, 1)->q;
-    const int place = compile_character_number(c, operator_in_text);
+    const struct operand *b = operand_stack_entry_from_top(c, 0);
+    struct quantity unit = operand_stack_entry_from_top(c, 1)->q;
+    const int place = expression_position_of_character(c, operator_in_text);
     const bool two = b->constant && b->q.value == 2;
     if (!quantity_is_dimensionless(&b->q))
         return compile_write_fault_and_return_false(c, "has %s as a power (character %d); give a plain number",
@@ -177,5 +180,5 @@ bool compile_append_power(struct compile *c, const char *operator_in_text)
             place);
     if (!quantity_is_dimensionless(&unit) && !power_of_unit(c, &unit, b->q.value, place)) return false;
     if (two) c->operands--, c->steps--; /* without the exponent 2 */
-    return compile_append_operation(c, two ? EXPRESSION_SQUARE : EXPRESSION_POWER, &unit);
+    return compile_append_step_that_applies_operation(c, two ? EXPRESSION_SQUARE : EXPRESSION_POWER, &unit);
 }

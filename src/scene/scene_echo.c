@@ -10,19 +10,19 @@
 #include "base/memory.h"
 #include "base/memory_stream.h"
 
-void writer_begin_key(struct writer *w, const char *key)
+void yaml_write_key(struct yaml_writer *w, const char *key)
 {
     fprintf(w->out, "%*s%s%s:", w->indent - (w->dash ? 2 : 0), "", w->dash ? "- " : "", key);
     w->dash = false;
 }
 
-void yaml_write_real(struct writer *w, real value)
+void yaml_write_real(struct yaml_writer *w, real value)
 {
     char text[32];
-    fputs(number_write_shortest(text, value), w->out);
+    fputs(number_write_shortest_exact_decimal(text, value), w->out);
 }
 
-void yaml_write_number_list(struct writer *w, const real *value, int count)
+void yaml_write_number_list(struct yaml_writer *w, const real *value, int count)
 {
     for (int k = 0; k < count; k++) {
         fputs(k ? ", " : "[", w->out);
@@ -31,7 +31,7 @@ void yaml_write_number_list(struct writer *w, const real *value, int count)
     fputc(']', w->out);
 }
 
-static void write_matrix(struct writer *w, const real *value)
+static void write_matrix(struct yaml_writer *w, const real *value)
 {
     int dim = w->scene->dim;
     for (int k = 0; k < dim; k++) {
@@ -59,7 +59,7 @@ static int letter_of(const unsigned char *c, unsigned *code)
 
 /* Writes `text` in double quotes to scene.yaml (w), as a YAML scalar. Quotes and backslashes are escaped; characters
  * other than printable ASCII become \U escapes. */
-void yaml_write_quoted_text(struct writer *w, const char *text)
+void yaml_write_quoted_text(struct yaml_writer *w, const char *text)
 {
     fputc('"', w->out);
     for (const unsigned char *c = (const unsigned char *)text; *c;) {
@@ -75,13 +75,13 @@ void yaml_write_quoted_text(struct writer *w, const char *text)
     fputc('"', w->out);
 }
 
-static void write_word(struct writer *w, const char *words, int index)
+static void write_word(struct yaml_writer *w, const char *words, int index)
 {
     while (index-- > 0) words = strchr(words, '|') + 1;
     fprintf(w->out, "%.*s", (int)strcspn(words, "|"), words);
 }
 
-static void write_choice(struct writer *w, const struct key *k, const void *place)
+static void write_choice(struct yaml_writer *w, const struct key *k, const void *place)
 {
     int word = 0;
     if (k->size == sizeof word) memcpy(&word, place, sizeof word);
@@ -91,7 +91,7 @@ static void write_choice(struct writer *w, const struct key *k, const void *plac
 
 /* Writes the words of key k (of input files) whose bits are set in `bits` to scene.yaml (w) as a YAML list; `none` if
  * no bit is set. */
-static void write_set(struct writer *w, const struct key *k, unsigned bits)
+static void write_set(struct yaml_writer *w, const struct key *k, unsigned bits)
 {
     const char *between = "[";
     if (!bits) fputs("none", w->out);
@@ -104,7 +104,7 @@ static void write_set(struct writer *w, const struct key *k, unsigned bits)
     if (bits) fputc(']', w->out);
 }
 
-void yaml_write_value(struct writer *w, const struct key *k, const void *value_address)
+void yaml_write_value(struct yaml_writer *w, const struct key *k, const void *value_address)
 {
     const struct scene *s = w->scene;
     switch (k->type) {
@@ -175,7 +175,7 @@ static bool has_value(const struct key *k, const void *base, const void *place)
     return true;
 }
 
-const void *key_value_address(const struct key *k, const void *group_values)
+const void *key_get_value_address_in_group(const struct key *k, const void *group_values)
 {
     return k->place ? (const char *)group_values + (k->place - 1) : NULL;
 }
@@ -190,18 +190,18 @@ static bool is_left_out(const struct key *k, const char *group, const void *base
     const struct scene_body *b = base;
     size_t n = 0;
     if (strcmp(group, "bodies") != 0) return false;
-    while (n < COUNT_OF(words) && strcmp(key_last_part(k), words[n]) != 0) n++;
+    while (n < COUNT_OF(words) && strcmp(key_get_last_name_of_path(k), words[n]) != 0) n++;
     if (!b->rigid) return n >= 2 && n < COUNT_OF(words);
     return n < 2 || (b->mass > 0 ? n == 5 : n == 3 || n == 4 || (n == 5 && !(b->ramp > 0)));
 }
 
 /* Writes the list output.regions to scene.yaml (w): the regions for which the run writes additional output frames, at
  * intervals of their own. */
-static void write_series(struct writer *w)
+static void write_series(struct yaml_writer *w)
 {
     const struct scene *s = w->scene;
     if (s->n_series == 0) return;
-    writer_begin_key(w, "regions");
+    yaml_write_key(w, "regions");
     fputc('\n', w->out);
     w->indent += 4;
     for (int k = 0; k < s->n_series; k++) {
@@ -213,32 +213,32 @@ static void write_series(struct writer *w)
 
 /* Writes all keys to scene.yaml (w) that are directly below the path `group_path` and have a value in the structure
  * `group_values`, with their units as comments. */
-void yaml_write_keys_of_group(struct writer *w, const char *group_path, const void *group_values)
+void yaml_write_keys_of_group(struct yaml_writer *w, const char *group_path, const void *group_values)
 {
     for (int i = 0; i < keys_count; i++) {
         const struct key *k = &keys[i];
         if (!key_is_directly_below(k, group_path) || is_left_out(k, group_path, group_values)) continue;
         if (k->type == KEY_MAP) {
-            writer_begin_key(w, key_last_part(k));
+            yaml_write_key(w, key_get_last_name_of_path(k));
             fputc('\n', w->out);
             w->indent += 2;
             yaml_write_keys_of_group(w, k->path, group_values);
             if (strcmp(k->path, "output") == 0) write_series(w);
             w->indent -= 2;
         }
-        if (!has_value(k, group_values, key_value_address(k, group_values))) continue;
-        writer_begin_key(w, key_last_part(k));
+        if (!has_value(k, group_values, key_get_value_address_in_group(k, group_values))) continue;
+        yaml_write_key(w, key_get_last_name_of_path(k));
         fputc(' ', w->out);
-        yaml_write_value(w, k, key_value_address(k, group_values));
+        yaml_write_value(w, k, key_get_value_address_in_group(k, group_values));
         fprintf(w->out, "%s%s\n", k->unit ? "  # " : "", unit_rows[k->unit].symbol);
     }
 }
 
 /* ---- lists ------------------------------------------------------------------------------------------------------- */
 
-/* Begins an item of a YAML list: sets the indent of w, and makes writer_begin_key write a dash before the item's first
+/* Begins an item of a YAML list: sets the indent of w, and makes yaml_write_key write a dash before the item's first
  * key. */
-void writer_begin_list_item(struct writer *w)
+void yaml_begin_list_item(struct yaml_writer *w)
 {
     w->indent = 4;
     w->dash = true;
@@ -246,9 +246,10 @@ void writer_begin_list_item(struct writer *w)
 
 /* Writes to scene.yaml (w) the line `key:` and below it, indented, the keys that are directly below the path
  * `group_path` and have a value in the structure `group_values`. */
-void yaml_write_group_as_mapping(struct writer *w, const char *key, const char *group_path, const void *group_values)
+void yaml_write_group_as_mapping(struct yaml_writer *w, const char *key, const char *group_path,
+                                 const void *group_values)
 {
-    writer_begin_key(w, key);
+    yaml_write_key(w, key);
     fputc('\n', w->out);
     w->indent += 2;
     yaml_write_keys_of_group(w, group_path, group_values);
@@ -257,9 +258,9 @@ void yaml_write_group_as_mapping(struct writer *w, const char *key, const char *
 
 /* Writes the key `table` with the pairs x[k], y[k], k = 0 .. points - 1, to scene.yaml (w). units: units of x and y,
  * written as a comment. */
-static void write_pairs(struct writer *w, const real *x, const real *y, int points, const char *units)
+static void write_pairs(struct yaml_writer *w, const real *x, const real *y, int points, const char *units)
 {
-    writer_begin_key(w, "table");
+    yaml_write_key(w, "table");
     for (int k = 0; k < points; k++) {
         fputs(k ? ", " : " [", w->out);
         yaml_write_number_list(w, (const real[]){x[k], y[k]}, 2);
@@ -269,7 +270,7 @@ static void write_pairs(struct writer *w, const real *x, const real *y, int poin
 
 /* Writes the flow law and the kinematic hardening of the material m to scene.yaml (w), if m yields. Linear hardening
  * that the key yield_tangent gives is not written here. */
-static void write_material_law(struct writer *w, const struct material *m)
+static void write_material_law(struct yaml_writer *w, const struct material *m)
 {
     const struct law *law = &m->law;
     const char *word = flow_properties[law->flow].word;
@@ -279,7 +280,7 @@ static void write_material_law(struct writer *w, const struct material *m)
     if (!word)
         yaml_write_group_as_mapping(w, "johnson_cook", "material.johnson_cook", law);
     else if (law->flow != FLOW_LINEAR || law->hardening != m->yield_hardening) {
-        writer_begin_key(w, "hardening");
+        yaml_write_key(w, "hardening");
         fputc('\n', w->out);
         w->indent += 2;
         if (law->flow == FLOW_TABLE)
@@ -293,10 +294,10 @@ static void write_material_law(struct writer *w, const struct material *m)
 
 /* Writes the key `rate` of a material to scene.yaml (w), the table by which its tensile strength grows with the strain
  * rate. Writes nothing if the strength does not depend on the rate. */
-static void write_rate(struct writer *w, const struct strength_rate *rate)
+static void write_rate(struct yaml_writer *w, const struct strength_rate *rate)
 {
     if (rate->points == 0) return;
-    writer_begin_key(w, "rate");
+    yaml_write_key(w, "rate");
     fputc('\n', w->out);
     w->indent += 2;
     write_pairs(w, rate->rate, rate->factor, rate->points, "1/s, 1");
@@ -305,16 +306,16 @@ static void write_rate(struct writer *w, const struct strength_rate *rate)
 
 /* Writes the materials of the scene to scene.yaml (w): the key `material` for a single one, else the list `materials`.
  */
-static void write_materials(struct writer *w)
+static void write_materials(struct yaml_writer *w)
 {
     const struct scene *s = w->scene;
     const int n = s->materials + s->unused_materials;
     bool one = n == 1; /* overrides of material.young then apply to the echo */
     fprintf(w->out, one ? "material:\n" : "materials:\n");
     for (int k = 0; k < n; k++) {
-        struct material m = *scene_material_of_number(s, k);
+        struct material m = *scene_find_material_by_number(s, k);
         if (!isnan(m.energy_release_rate)) m.critical_stretch = NAN; /* follows from energy_release_rate */
-        writer_begin_list_item(w);
+        yaml_begin_list_item(w);
         if (one) w->indent = 2, w->dash = false;
         yaml_write_keys_of_group(w, "material", &m);
         write_material_law(w, &m);
@@ -327,10 +328,10 @@ static void write_materials(struct writer *w)
 /* Writes to w the line `key: "file"` with the absolute path of the file, so that scene.yaml can be run from any folder.
  * contents_hash: hash of the file, written as a comment, since a run resumes only with identical contents; 0: the file
  * has not been read, and its name is written as it is. */
-void yaml_write_file_name(struct writer *w, const char *key, const char *file, uint64_t contents_hash)
+void yaml_write_file_path_and_hash(struct yaml_writer *w, const char *key, const char *file, uint64_t contents_hash)
 {
     char *whole = contents_hash ? realpath(file, NULL) : NULL;
-    writer_begin_key(w, key);
+    yaml_write_key(w, key);
     fputc(' ', w->out);
     yaml_write_quoted_text(w, whole ? whole : file);
     if (contents_hash) fprintf(w->out, "  # contents %016" PRIx64, contents_hash);
@@ -340,25 +341,25 @@ void yaml_write_file_name(struct writer *w, const char *key, const char *file, u
 
 /* Writes the key `particles` of the body b to scene.yaml (w): the file of its particle list, with scale and columns if
  * the input file (scene) gives them. */
-static void write_particle_list(struct writer *w, const struct scene_body *b)
+static void write_particle_list(struct yaml_writer *w, const struct scene_body *b)
 {
     const bool formed = b->form.scale > 0 || b->form.columns;
     if (!formed) {
-        yaml_write_file_name(w, "particles", b->file, b->contents);
+        yaml_write_file_path_and_hash(w, "particles", b->file, b->contents);
         return;
     }
-    writer_begin_key(w, "particles");
+    yaml_write_key(w, "particles");
     fputc('\n', w->out);
     w->indent += 2;
-    yaml_write_file_name(w, "file", b->file, b->contents);
+    yaml_write_file_path_and_hash(w, "file", b->file, b->contents);
     if (b->form.scale > 0) {
-        writer_begin_key(w, "scale");
+        yaml_write_key(w, "scale");
         fputc(' ', w->out);
         yaml_write_real(w, b->form.scale);
         fputs("  # m\n", w->out);
     }
     if (b->form.columns) {
-        writer_begin_key(w, "columns");
+        yaml_write_key(w, "columns");
         fprintf(w->out, " [\"");
         for (const char *c = b->form.columns; *c; c++) *c == ',' ? fputs("\", \"", w->out) : fputc(*c, w->out);
         fprintf(w->out, "\"]\n");
@@ -366,10 +367,10 @@ static void write_particle_list(struct writer *w, const struct scene_body *b)
     w->indent -= 2;
 }
 
-static void write_body_parts(struct writer *w, const struct scene_body *b)
+static void write_body_parts(struct yaml_writer *w, const struct scene_body *b)
 {
     if (!b->parts) return;
-    writer_begin_key(w, "parts");
+    yaml_write_key(w, "parts");
     fputc('\n', w->out);
     for (int k = 0; k < b->parts; k++) {
         w->indent = 8, w->dash = true;
@@ -377,27 +378,27 @@ static void write_body_parts(struct writer *w, const struct scene_body *b)
     }
 }
 
-static void write_bodies(struct writer *w)
+static void write_bodies(struct yaml_writer *w)
 {
     const struct scene *s = w->scene;
     fputs("bodies:\n", w->out);
     for (int k = 0; k < s->bodies + s->rigids; k++) {
-        writer_begin_list_item(w);
+        yaml_begin_list_item(w);
         yaml_write_keys_of_group(w, "bodies", &s->body[k]);
         if (s->body[k].file) write_particle_list(w, &s->body[k]);
         write_body_parts(w, &s->body[k]);
     }
 }
 
-static void write_interfaces(struct writer *w)
+static void write_interfaces(struct yaml_writer *w)
 {
     const struct scene *s = w->scene;
     if (s->interfaces) fputs("interfaces:\n", w->out);
     for (int k = 0; k < s->interfaces; k++) {
         struct scene_interface face = s->interface[k];
         if (!(face.energy_release_rate > 0)) face.energy_release_rate = NAN; /* not given */
-        writer_begin_list_item(w);
-        writer_begin_key(w, "bodies");
+        yaml_begin_list_item(w);
+        yaml_write_key(w, "bodies");
         fputs(" [", w->out);
         yaml_write_quoted_text(w, s->body[face.body[0]].name);
         fputs(", ", w->out);
@@ -407,7 +408,7 @@ static void write_interfaces(struct writer *w)
     }
 }
 
-static void write_cracks(struct writer *w)
+static void write_cracks(struct yaml_writer *w)
 {
     const struct scene *s = w->scene;
     if (s->cracks_given) fputs("cracks:\n", w->out);
@@ -424,24 +425,24 @@ static void write_cracks(struct writer *w)
     }
 }
 
-static void write_growths(struct writer *w)
+static void write_growths(struct yaml_writer *w)
 {
     const struct scene *s = w->scene;
     if (s->growths) fputs("growth:\n", w->out);
     for (int k = 0; k < s->growths; k++) {
         struct growth_rule g = s->growth[k];
         if (!g.probe[0]) g.toughness = NAN; /* without a meaning if there is no probe */
-        writer_begin_list_item(w);
+        yaml_begin_list_item(w);
         yaml_write_keys_of_group(w, "growth", &g);
     }
 }
 
-static void write_initials(struct writer *w)
+static void write_initials(struct yaml_writer *w)
 {
     const struct scene *s = w->scene;
     if (s->initials) fputs("initial:\n", w->out);
     for (int k = 0; k < s->initials; k++) {
-        writer_begin_list_item(w);
+        yaml_begin_list_item(w);
         const struct scene_initial *one = &s->initial[k];
         yaml_write_keys_of_group(w, "initial", one);
         if (one->sets_velocity) yaml_write_vector_of_formulas(w, "velocity", one->velocity, one->formula);
@@ -449,7 +450,7 @@ static void write_initials(struct writer *w)
     }
 }
 
-static void write_probes(struct writer *w)
+static void write_probes(struct yaml_writer *w)
 {
     const struct scene *s = w->scene;
     if (s->probes) fputs("probes:\n", w->out);
@@ -470,7 +471,7 @@ char *scene_to_yaml(const struct scene *s)
     if (s->dim != 2) head.thickness = NAN;
     if (s->dim != 1) head.section = NAN;
     head.has_frames = s->times.n == 0 && s->every == 0;
-    struct writer w = {.out = memory_stream_open(&text, &length), .scene = s, .dim = s->dim};
+    struct yaml_writer w = {.out = memory_stream_open(&text, &length), .scene = s, .dim = s->dim};
     if (!w.out) return NULL;
     yaml_write_keys_of_group(&w, "", &head);
     write_materials(&w);

@@ -23,7 +23,7 @@ static const struct shape_file *shape_of(const struct scene *s, const struct sol
     return NULL;
 }
 
-static void write_paths(struct writer *w, const struct shape_file *f)
+static void write_paths(struct yaml_writer *w, const struct shape_file *f)
 {
     fputs(f->files > 1 ? "file: [" : "file: ", w->out);
     for (int k = 0; k < f->files; k++) {
@@ -35,7 +35,7 @@ static void write_paths(struct writer *w, const struct shape_file *f)
     fprintf(w->out, "%s, contents: \"%016" PRIx64 "\"", f->files > 1 ? "]" : "", f->contents);
 }
 
-static void write_image(struct writer *w, const struct shape_file *f, const struct voxel_part *p)
+static void write_image(struct yaml_writer *w, const struct shape_file *f, const struct voxel_solid *p)
 {
     fputs(", pixel: ", w->out);
     yaml_write_real(w, f->size[0]);
@@ -51,7 +51,7 @@ static void write_image(struct writer *w, const struct shape_file *f, const stru
     fputc(']', w->out);
 }
 
-void yaml_write_solid_from_file(struct writer *w, const struct solid *solid)
+void yaml_write_solid_from_file(struct yaml_writer *w, const struct solid *solid)
 {
     static const char *const words[] = {[SHAPE_STL] = "stl", [SHAPE_MESH] = "mesh", [SHAPE_IMAGE] = "image"};
     const char *set;

@@ -7,20 +7,20 @@
 /* Writes the keys of a group of solids to scene.yaml (w) in flow style, such as `centre: [0, 0], radius: 1`. group:
  * path of the keys; base: structure with their values; between: text before the first key; a comma precedes further
  * keys. */
-static void write_keys(struct writer *w, const char *group, const void *base, const char *between)
+static void write_keys(struct yaml_writer *w, const char *group, const void *base, const char *between)
 {
     for (int i = 0; i < keys_count; i++) {
         const struct key *k = &keys[i];
         if (!key_is_directly_below(k, group) || !k->place) continue;
         if (k->has && !*((const bool *)base + (k->has - 1))) continue;
-        fprintf(w->out, "%s%s: ", between, key_last_part(k));
+        fprintf(w->out, "%s%s: ", between, key_get_last_name_of_path(k));
         yaml_write_value(w, k, (const char *)base + (k->place - 1));
         if (k->unit == UNIT_ANGLE) fputs(" rad", w->out);
         between = ", ";
     }
 }
 
-static void write_corners(struct writer *w, const struct polygon *p)
+static void write_corners(struct yaml_writer *w, const struct polygon *p)
 {
     for (int k = 0; k < p->n; k++) {
         fputs(k ? ", " : "corners: [", w->out);
@@ -30,9 +30,9 @@ static void write_corners(struct writer *w, const struct polygon *p)
     write_keys(w, "solid.polygon", p, ", ");
 }
 
-static void write_items(struct writer *w, const struct region *region, bool intersect);
+static void write_items(struct yaml_writer *w, const struct region *region, bool intersect);
 
-static void write_extrusion(struct writer *w, const struct solid *s)
+static void write_extrusion(struct yaml_writer *w, const struct solid *s)
 {
     const int dim = w->dim;
     fputs("shape: ", w->out);
@@ -43,7 +43,7 @@ static void write_extrusion(struct writer *w, const struct solid *s)
 }
 
 /* Writes shape and keys of the solid s to scene.yaml (w) in flow style, such as `box: {from: .., to: ..}`. */
-static void write_shape(struct writer *w, const struct solid *s)
+static void write_shape(struct yaml_writer *w, const struct solid *s)
 {
     static const char *const words[] = {[SOLID_BOX] = "box",           [SOLID_BALL] = "ball",
                                         [SOLID_CYLINDER] = "cylinder", [SOLID_HALF_SPACE] = "half-space",
@@ -71,7 +71,7 @@ static void write_shape(struct writer *w, const struct solid *s)
     fputc('}', w->out);
 }
 
-static void write_motions(struct writer *w, const struct solid *s)
+static void write_motions(struct yaml_writer *w, const struct solid *s)
 {
     static const char *const begins[] = {[MOTION_ROTATE] = ", rotate: {",
                                          [MOTION_MIRROR] = ", mirror: {",
@@ -96,7 +96,7 @@ static void write_motions(struct writer *w, const struct solid *s)
 
 /* Writes the solid s to scene.yaml (w) in flow style with its operation (add, subtract, intersect) and its motions.
  * plain: true to omit the word add. */
-static void write_solid(struct writer *w, const struct solid *s, bool plain)
+static void write_solid(struct yaml_writer *w, const struct solid *s, bool plain)
 {
     const bool group = s->kind == SOLID_GROUP;
     const char *word = s->subtract ? "subtract" : s->intersect ? "intersect" : group || !plain ? "add" : NULL;
@@ -114,7 +114,7 @@ static void write_solid(struct writer *w, const struct solid *s, bool plain)
 
 /* Writes the solids of a region to scene.yaml (w) as a list in flow style. intersect: true if they are the operands of
  * an intersection. */
-static void write_items(struct writer *w, const struct region *region, bool intersect)
+static void write_items(struct yaml_writer *w, const struct region *region, bool intersect)
 {
     for (int k = 0; k < region->n; k++) {
         fputs(k ? ", " : "[", w->out);
@@ -123,9 +123,9 @@ static void write_items(struct writer *w, const struct region *region, bool inte
     fputc(']', w->out);
 }
 
-void yaml_write_region(struct writer *w, const struct region *region) { write_items(w, region, false); }
+void yaml_write_region(struct yaml_writer *w, const struct region *region) { write_items(w, region, false); }
 
-void yaml_write_named_regions(struct writer *w)
+void yaml_write_named_regions(struct yaml_writer *w)
 {
     const struct scene *s = w->scene;
     if (s->regions) fputs("regions:\n", w->out);

@@ -26,7 +26,7 @@ static void write_example_number(const struct key *k, char *text, size_t capacit
     if (isdigit((unsigned char)*k->fallback))
         snprintf(text, capacity, "%s", k->fallback);
     else if (k->range.given && k->range.least >= 1)
-        snprintf(text, capacity, "%s", number_write_shortest(least, k->range.least));
+        snprintf(text, capacity, "%s", number_write_shortest_exact_decimal(least, k->range.least));
     else
         snprintf(text, capacity, "%s", k->type == KEY_INT ? "20" : unit_rows[k->unit].example);
 }
@@ -79,15 +79,15 @@ static void write_form(const struct key *k, char *text, size_t capacity)
         snprintf(text, capacity, "..");
 }
 
-void key_write_example(const struct key *k, int dim, const char *wanted, char *text, size_t capacity)
+void key_write_example(const struct key *k, int dim, const char *subkey_to_show, char *text, size_t capacity)
 {
     char value[200] = "..";
     const bool is_list = k->type == KEY_LIST;
     if (is_list || k->type == KEY_MAP || k->type == KEY_PART) {
-        const struct key *child = key_for_example(key_group_of_items(k), wanted);
+        const struct key *child = key_for_example(key_get_group_path_of_list_items(k), subkey_to_show);
         if (child) key_write_example(child, dim, NULL, value, sizeof value);
-        snprintf(text, capacity, "%s{%s: %.150s}%s", is_list ? "[" : "", child ? key_last_part(child) : "..", value,
-                 is_list ? "]" : "");
+        snprintf(text, capacity, "%s{%s: %.150s}%s", is_list ? "[" : "",
+                 child ? key_get_last_name_of_path(child) : "..", value, is_list ? "]" : "");
     } else if (is_vector(k))
         key_write_example_vector(k, dim, NULL, text, capacity);
     else if (k->type == KEY_SERIES)

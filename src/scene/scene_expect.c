@@ -22,7 +22,7 @@ static const char *form_text(struct reader *r, const struct key *k)
     case KEY_MATERIAL:
         return "the name of a material";
     default:
-        return k->words ? words_for_message(r, k->words) : "a mapping of keys";
+        return k->words ? allowed_words_join_for_message(r, k->words) : "a mapping of keys";
     }
 }
 
@@ -30,21 +30,21 @@ status fault_report_missing_key(struct reader *r, const struct yaml_node *map, c
 {
     char example[EXAMPLE_LENGTH];
     key_write_example(k, r->dim, NULL, example, sizeof example);
-    const char *leaf = key_last_part(k);
+    const char *leaf = key_get_last_name_of_path(k);
     const int group = leaf > k->path ? (int)(leaf - k->path) - 1 : 0;       /* length of the path before the last dot */
     const bool helps = k->type != KEY_CHOICE && strcmp(example, "..") != 0; /* the words of a choice are listed */
-    return fault_at_location(r, map->origin, map->line, map->column, "%s: missing%s%.*s; give %s%s%s", leaf,
-                             group > 0 ? " in " : "", group, k->path, form_text(r, k), helps ? ", such as " : "",
-                             helps ? example : "");
+    return fault_report_at_location(r, map->origin, map->line, map->column, "%s: missing%s%.*s; give %s%s%s", leaf,
+                                    group > 0 ? " in " : "", group, k->path, form_text(r, k), helps ? ", such as " : "",
+                                    helps ? example : "");
 }
 
-status expect_node_kind(struct reader *r, const struct yaml_node *n, enum node_kind kind, const char *advice)
+status check_node_kind(struct reader *r, const struct yaml_node *n, enum node_kind kind, const char *advice)
 {
     const bool top = n->key && n->parent && !n->parent->key;
-    const char *foreign = top ? foreign_value_advice(n->key, n->text) : NULL;
+    const char *foreign = top ? other_program_value_get_advice(n->key, n->text) : NULL;
     if (n->kind == kind) return OK;
-    return fault(r, n, "%s is not allowed here; %s%s%s", node_text(r, n), advice, foreign ? "; " : "",
-                 foreign ? foreign : "");
+    return fault_report_at_node(r, n, "%s is not allowed here; %s%s%s", node_value_to_text_for_message(r, n), advice,
+                                foreign ? "; " : "", foreign ? foreign : "");
 }
 
 /* Returns REFUSED, with a message and an example of a value of key k (of input files), if YAML node n is not of the
@@ -55,24 +55,24 @@ static status expect_kind_of_key(struct reader *r, const struct key *k, const st
     char example[EXAMPLE_LENGTH], form[EXAMPLE_LENGTH + 40];
     key_write_example(k, r->dim, n->kind == NODE_MAP && n->first ? n->first->key : NULL, example, sizeof example);
     snprintf(form, sizeof form, "give %s such as %s", expected, example);
-    return expect_node_kind(r, n, kind, form);
+    return check_node_kind(r, n, kind, form);
 }
 
-status expect_mapping(struct reader *r, const struct yaml_node *n, const char *group_path)
+status check_node_is_mapping(struct reader *r, const struct yaml_node *n, const char *group_path)
 {
     const struct key group = {.path = group_path, .type = KEY_MAP};
     return expect_kind_of_key(r, &group, n, NODE_MAP, "a mapping");
 }
 
-status expect_list(struct reader *r, const struct key *k, const struct yaml_node *n)
+status check_node_is_list(struct reader *r, const struct key *k, const struct yaml_node *n)
 {
     return expect_kind_of_key(r, k, n, NODE_LIST, "a list");
 }
 
-status expect_list_of_valid_length(struct reader *r, const struct key *k, const struct yaml_node *n)
+status check_node_is_list_of_valid_length(struct reader *r, const struct key *k, const struct yaml_node *n)
 {
     int least = (int)k->range.least, most = (int)k->range.most;
-    TRY(expect_list(r, k, n));
+    TRY(check_node_is_list(r, k, n));
     if (n->n >= least && n->n <= most) return OK;
-    return fault(r, n, "has %d items; give %d to %d", n->n, least, most);
+    return fault_report_at_node(r, n, "has %d items; give %d to %d", n->n, least, most);
 }

@@ -48,14 +48,14 @@ static const struct function functions[] = {
 /* ---- text -------------------------------------------------------------------------------------------------------- */
 
 /* Advances c->at, the position of the next character to compile, beyond blanks. */
-static void skip(struct compile *c)
+static void skip(struct expression_compiler *c)
 {
     while (*c->at == ' ' || *c->at == '\t' || *c->at == '\n') c->at++;
 }
 
 /* Appends the first `length` characters of `text` to c->kept, the text of the expression that scene.yaml contains.
  * Returns false, with a message in c, if c->kept becomes longer than EXPRESSION_TEXT characters. */
-static bool keep(struct compile *c, const char *text, size_t length)
+static bool keep(struct expression_compiler *c, const char *text, size_t length)
 {
     if (c->used + length > EXPRESSION_TEXT)
         return compile_write_fault_and_return_false(c, "is longer than %d characters; shorten it", EXPRESSION_TEXT);
@@ -68,7 +68,7 @@ static bool keep(struct compile *c, const char *text, size_t length)
 /* Appends the part of the source text from c->copied, up to which it has been copied already, to `here` to c->kept, the
  * text of the expression in scene.yaml. Returns false, with a message in c, if c->kept becomes longer than
  * EXPRESSION_TEXT characters. */
-static bool keep_to(struct compile *c, const char *here)
+static bool keep_to(struct expression_compiler *c, const char *here)
 {
     const char *from = c->copied;
     c->copied = here;
@@ -78,11 +78,11 @@ static bool keep_to(struct compile *c, const char *here)
 /* Appends the value q of a variable, in brackets, to c->kept (the text for scene.yaml) in place of its name. word:
  * beginning of the name in the source text; the name ends at c->at. Returns false, with a message in c, if c->kept
  * becomes longer than EXPRESSION_TEXT characters. */
-static bool keep_value(struct compile *c, const char *word, const struct quantity *q)
+static bool keep_value(struct expression_compiler *c, const char *word, const struct quantity *q)
 {
     char number[32], unit[200], text[240];
-    unit_write_text(q->twice, unit, sizeof unit);
-    snprintf(text, sizeof text, "(%s%s)", number_write_shortest(number, q->value), unit);
+    unit_exponents_write_as_text(q->twice, unit, sizeof unit);
+    snprintf(text, sizeof text, "(%s%s)", number_write_shortest_exact_decimal(number, q->value), unit);
     if (!keep_to(c, word)) return false;
     c->copied = c->at;
     return keep(c, text, strlen(text));
@@ -99,7 +99,7 @@ static size_t name_length(const char *c)
 
 /* Writes to c->what the message that `expected`, such as a number, is missing at c->at, where the text ends or
  * continues with something else. Returns false. */
-static bool missing(struct compile *c, const char *expected)
+static bool missing(struct expression_compiler *c, const char *expected)
 {
     if (*c->at == '\0')
         return compile_write_fault_and_return_false(c, "ends where %s is expected%s", expected,
@@ -110,21 +110,21 @@ static bool missing(struct compile *c, const char *expected)
     while (((unsigned char)c->at[length] & 0xC0) == 0x80) length++;
     return compile_write_fault_and_return_false(c, "has %.*s at character %d, where %s is expected",
                                                 (int)(length < 30 ? length : 30), c->at,
-                                                compile_character_number(c, c->at), expected);
+                                                expression_position_of_character(c, c->at), expected);
 }
 
 /* ---- grammar ----------------------------------------------------------------------------------------------------- */
 
 /* Compiles a sum from the text of c; defined below, and declared here because a factor may be a sum in brackets. */
-static bool compile_sum(struct compile *c);
+static bool compile_sum(struct expression_compiler *c);
 
-static bool deeper(struct compile *c, int levels)
+static bool deeper(struct expression_compiler *c, int levels)
 {
     if (c->depth + levels <= DEPTH_MOST) return true;
     return compile_write_fault_and_return_false(c, "is nested deeper than %d levels; use fewer brackets", DEPTH_MOST);
 }
 
-static bool compile_brackets(struct compile *c)
+static bool compile_brackets(struct expression_compiler *c)
 {
     c->at++;
     c->depth++;
@@ -135,30 +135,30 @@ static bool compile_brackets(struct compile *c)
     return true;
 }
 
-static bool apply_function(struct compile *c, const struct function *f, const char *at)
+static bool apply_function(struct expression_compiler *c, const struct function *f, const char *at)
 {
-    struct quantity unit = compile_operand_from_top(c, 0)->q;
+    struct quantity unit = operand_stack_entry_from_top(c, 0)->q;
     const bool two = f->rule == SAME || f->rule == ANGLE;
     if (two && !compile_match_units_of_top_operands(c, f->name, at)) return false;
-    if (two) unit = compile_operand_from_top(c, 1)->q;
+    if (two) unit = operand_stack_entry_from_top(c, 1)->q;
     if (f->rule == PLAIN && !quantity_is_dimensionless(&unit))
         return compile_write_fault_and_return_false(
             c, "applies %s to %s (character %d); give a plain number, such as (t/5us)", f->name,
-            quantity_unit_name(&unit).text, compile_character_number(c, at));
+            quantity_unit_name(&unit).text, expression_position_of_character(c, at));
     for (int k = 0; k < 3 && f->rule != KEEPS && f->rule != SAME; k++) {
         if (f->rule == ROOT && unit.twice[k] % 2 != 0)
             return compile_write_fault_and_return_false(
                 c, "takes the square root of %s (character %d), whose unit has no square root; change the operand",
-                quantity_unit_name(&unit).text, compile_character_number(c, at));
+                quantity_unit_name(&unit).text, expression_position_of_character(c, at));
         unit.twice[k] = f->rule == ROOT ? unit.twice[k] / 2 : 0;
     }
-    return compile_append_operation(c, f->op, &unit);
+    return compile_append_step_that_applies_operation(c, f->op, &unit);
 }
 
 /* Compiles a call of the function f with its operands in brackets; c->at must be at the opening bracket. min and max
  * take two operands or more. at: position of the function's name, for messages. Returns false, with a message in c, if
  * the call is invalid. */
-static bool compile_call(struct compile *c, const struct function *f, const char *at)
+static bool compile_call(struct expression_compiler *c, const struct function *f, const char *at)
 {
     const bool two = f->rule == SAME || f->rule == ANGLE;
     int given = 0;
@@ -185,7 +185,7 @@ static const struct function *function_named(const char *name)
 
 /* Compiles the variable `name`: x, y, z or t. Returns false, with a message in c, if the key does not allow it or the
  * space has no such coordinate. */
-static bool compile_coordinate(struct compile *c, char name)
+static bool compile_coordinate(struct expression_compiler *c, char name)
 {
     struct quantity q = {.twice = {2, 0, 0}};
     if (name == 't') q.twice[0] = 0, q.twice[2] = 2;
@@ -194,20 +194,20 @@ static bool compile_coordinate(struct compile *c, char name)
     if (name != 't' && name - 'x' >= c->r->dim)
         return compile_write_fault_and_return_false(c, "contains %c, but space %s has no such coordinate; remove it",
                                                     name, space_names[c->r->scene->space]);
-    return compile_append_push_of_operand(
+    return compile_append_step_that_pushes_operand(
         c, name == 't' ? EXPRESSION_T : (enum expression_op)(EXPRESSION_X + name - 'x'), &q);
 }
 
-static bool compile_variable(struct compile *c, const char *name, const char *at)
+static bool compile_variable(struct expression_compiler *c, const char *name, const char *at)
 {
     const struct quantity *q = variable_value(c->r, name, c->what, c->room);
     if (!q) return false;
-    return deeper(c, 2) && keep_value(c, at, q) && compile_append_push_of_operand(c, EXPRESSION_NUMBER, q);
+    return deeper(c, 2) && keep_value(c, at, q) && compile_append_step_that_pushes_operand(c, EXPRESSION_NUMBER, q);
 }
 
-bool is_variable_of_formulas(const char *text) { return strlen(text) == 1 && strchr("xyzt", *text); }
+bool text_is_formula_variable(const char *text) { return strlen(text) == 1 && strchr("xyzt", *text); }
 
-static bool compile_name(struct compile *c)
+static bool compile_name(struct expression_compiler *c)
 {
     struct quantity q = {.value = 3.14159265358979323846, .bare = true};
     const char *at = c->at;
@@ -223,38 +223,39 @@ static bool compile_name(struct compile *c)
     if (*c->at == '(')
         return compile_write_fault_and_return_false(
             c, "has an unknown function %s (character %d); see `cleave help expression`", name,
-            compile_character_number(c, at));
+            expression_position_of_character(c, at));
     if (f) return missing(c, "( and an operand");
-    if (is_variable_of_formulas(name)) return compile_coordinate(c, *name);
-    if (strcmp(name, "pi") == 0) return compile_append_push_of_operand(c, EXPRESSION_NUMBER, &q);
+    if (text_is_formula_variable(name)) return compile_coordinate(c, *name);
+    if (strcmp(name, "pi") == 0) return compile_append_step_that_pushes_operand(c, EXPRESSION_NUMBER, &q);
     c->at = at + length;
-    return quantity_read_unit_symbol(&q, name) == length ? compile_append_push_of_operand(c, EXPRESSION_NUMBER, &q)
-                                                         : compile_variable(c, name, at);
+    return quantity_read_unit_symbol(&q, name) == length
+               ? compile_append_step_that_pushes_operand(c, EXPRESSION_NUMBER, &q)
+               : compile_variable(c, name, at);
 }
 
 /* Compiles the number at c->at with its unit. power: true for an exponent, where a number has no unit. Returns false,
  * with a message in c, if there is no number or its unit is unknown. */
-static bool compile_number(struct compile *c, bool power)
+static bool compile_number(struct expression_compiler *c, bool power)
 {
     struct quantity q;
     const char *why = NULL;
     const size_t length = quantity_read_at_start_of_text(&q, c->at, !power, &why);
     if (length == 0)
         return compile_write_fault_and_return_false(c, "has no valid number at character %d: %s",
-                                                    compile_character_number(c, c->at), why);
+                                                    expression_position_of_character(c, c->at), why);
     c->at += length;
     const char *rest = c->at + strspn(c->at, " ");
     const int letters = (int)name_length(rest);
-    if (letters == 0) return compile_append_push_of_operand(c, EXPRESSION_NUMBER, &q);
+    if (letters == 0) return compile_append_step_that_pushes_operand(c, EXPRESSION_NUMBER, &q);
     return compile_write_fault_and_return_false(
         c, "has an unknown unit %.*s (character %d); write an operation, such as *, between a number and a name",
-        letters < 30 ? letters : 30, rest, compile_character_number(c, rest));
+        letters < 30 ? letters : 30, rest, expression_position_of_character(c, rest));
 }
 
 /* Compiles the operand that begins at c->at: a number, a variable, a function call or an expression in brackets. power:
  * true in an exponent, where a number has no unit. Returns false, with a message in c->what, if none of these begins
  * there. */
-static bool compile_primary(struct compile *c, bool power)
+static bool compile_primary(struct expression_compiler *c, bool power)
 {
     struct quantity q;
     skip(c);
@@ -263,13 +264,13 @@ static bool compile_primary(struct compile *c, bool power)
     if (isdigit((unsigned char)*c->at) || *c->at == '.') return compile_number(c, power);
     const size_t unit = quantity_read_unit_symbol(&q, c->at); /* the sign micro is no ASCII letter */
     c->at += unit;
-    return unit ? compile_append_push_of_operand(c, EXPRESSION_NUMBER, &q) : missing(c, "a number");
+    return unit ? compile_append_step_that_pushes_operand(c, EXPRESSION_NUMBER, &q) : missing(c, "a number");
 }
 
 /* Compiles an operand and the exponent that follows it, if any. Powers are right-associative: a^b^c is a^(b^c). An
  * exponent may have a sign. power: true if the operand is itself an exponent. Returns false, with a message in c->what,
  * if the text is invalid. */
-static bool compile_power(struct compile *c, bool power)
+static bool compile_power(struct expression_compiler *c, bool power)
 {
     if (!compile_primary(c, power)) return false;
     skip(c);
@@ -284,7 +285,7 @@ static bool compile_power(struct compile *c, bool power)
     return (!minus || compile_append_negation(c)) && compile_append_power(c, at);
 }
 
-static bool compile_product(struct compile *c)
+static bool compile_product(struct expression_compiler *c)
 {
     skip(c);
     const bool minus = *c->at == '-';
@@ -303,7 +304,7 @@ static bool compile_product(struct compile *c)
     return true;
 }
 
-static bool compile_sum(struct compile *c)
+static bool compile_sum(struct expression_compiler *c)
 {
     if (!compile_product(c)) return false;
     for (skip(c); *c->at == '+' || *c->at == '-'; skip(c)) {
@@ -315,7 +316,7 @@ static bool compile_sum(struct compile *c)
 
 /* Compiles the whole text c->text into steps, and checks that nothing follows the expression. Afterwards c->operand[0]
  * has the unit of the result. Returns false, with a message in c, if the expression is invalid. */
-static bool compile_text(struct compile *c)
+static bool compile_text(struct expression_compiler *c)
 {
     c->at = c->copied = c->text;
     if (strlen(c->text) > EXPRESSION_TEXT)
@@ -330,7 +331,7 @@ static bool compile_text(struct compile *c)
  * with the fault in message[capacity] as the rest of a sentence that begins with `text`. */
 bool quantity_evaluate_text(struct reader *r, const char *text, struct quantity *q, char *message, size_t capacity)
 {
-    struct compile c = {.r = r, .text = text, .what = message, .room = capacity};
+    struct expression_compiler c = {.r = r, .text = text, .what = message, .room = capacity};
     if (!compile_text(&c)) return false;
     *q = c.operand[0].q;
     return true;
@@ -343,7 +344,7 @@ static bool number_constant(const struct yaml_node *n, const struct key *k, stru
 {
     char what[256];
     real value;
-    if (!number_read(&value, n->text, k->unit, false, what, sizeof what)) return false;
+    if (!number_parse_with_unit(&value, n->text, k->unit, false, what, sizeof what)) return false;
     expression_make_constant(e, value, n->text);
     return true;
 }
@@ -352,38 +353,40 @@ status read_expression(struct reader *r, const struct key *k, const struct yaml_
                        struct expression *expression)
 {
     char what[256];
-    struct compile c = {.r = r, .of = allowed_variables, .text = n->text, .what = what, .room = sizeof what};
+    struct expression_compiler c = {
+        .r = r, .of = allowed_variables, .text = n->text, .what = what, .room = sizeof what};
     const struct unit_row *unit = &unit_rows[k->unit];
     if (n->kind != NODE_SCALAR)
-        return fault(r, n, "%s is not an expression; give %s, such as %s", node_text(r, n), unit->name, unit->example);
+        return fault_report_at_node(r, n, "%s is not an expression; give %s, such as %s",
+                                    node_value_to_text_for_message(r, n), unit->name, unit->example);
     if (number_constant(n, k, expression)) return OK;
-    if (!compile_text(&c)) return fault(r, n, "%s %s", node_text(r, n), what);
+    if (!compile_text(&c)) return fault_report_at_node(r, n, "%s %s", node_value_to_text_for_message(r, n), what);
     const struct operand *result = &c.operand[0];
-    if (!quantity_has_unit(&result->q, k->unit, what, sizeof what) ||
+    if (!quantity_unit_is_of_kind_or_absent(&result->q, k->unit, what, sizeof what) ||
         (result->constant && !value_is_in_unit_bounds(result->q.value, k->unit, what, sizeof what)))
-        return fault(r, n, "%s %s", node_text(r, n), what);
+        return fault_report_at_node(r, n, "%s %s", node_value_to_text_for_message(r, n), what);
     expression_make(expression, c.step, c.steps, c.kept);
     return OK;
 }
 
-bool looks_like_expression(const struct reader *r, const char *text)
+bool text_looks_like_expression(const struct reader *r, const char *text)
 {
     const char *c = text + (*text == '-' || *text == '+');
     if (strpbrk(c, "()*+")) return true;
     return name_length(c) > 0 && (r->variables > 0 || strpbrk(c, "/^-"));
 }
 
-const char *reserved_word_meaning(const char *word)
+const char *reserved_expression_word_get_meaning(const char *word)
 {
     struct quantity q;
     if (function_named(word)) return "the name of a function";
-    if (is_variable_of_formulas(word)) return *word == 't' ? "the time" : "a coordinate";
+    if (text_is_formula_variable(word)) return *word == 't' ? "the time" : "a coordinate";
     if (strcmp(word, "pi") == 0 || strcmp(word, "inf") == 0) return "a number";
     const size_t length = strlen(word), digit = length > 1 && strchr("23", word[length - 1]) ? 1 : 0;
     return quantity_read_unit_symbol(&q, word) == length - digit ? "a unit" : NULL;
 }
 
-void scene_print_expressions(FILE *out)
+void scene_print_expression_syntax(FILE *out)
 {
     fputs("Expressions: wherever a scene has a number, and as loads that vary in space and time.\n\n"
           "    variables: {a: 3 mm, n: 4, b: 2*a + 1 mm, E: 190 GPa, nu: 0.3}\n"

@@ -46,7 +46,8 @@ status read_input_file_path(struct reader *r, const struct yaml_node *name_node,
     const char *from = origin_file_name(r, name_node->origin);
     const size_t folder = (size_t)path_folder_length(from), length = strlen(name_node->text);
     if (name_node->kind != NODE_SCALAR || length == 0)
-        return fault(r, name_node, "%s is not a file name; give %s", node_text(r, name_node), file_kind);
+        return fault_report_at_node(r, name_node, "%s is not a file name; give %s",
+                                    node_value_to_text_for_message(r, name_node), file_kind);
     *path = NEW("file name", folder + length + 1, char);
     if (r->files && folder > 0 && name_node->text[0] != '/') {
         memcpy(*path, from, folder);
@@ -56,7 +57,7 @@ status read_input_file_path(struct reader *r, const struct yaml_node *name_node,
     memcpy(*path, name_node->text, length + 1);
     if (!r->files) return OK;
     if (access(*path, R_OK) == 0) return file_contents_hash(*path, contents_hash);
-    return fault(r, name_node,
-                 "%s cannot be read; put %s of this name into the folder of the scene, or correct the name",
-                 node_text(r, name_node), file_kind);
+    return fault_report_at_node(
+        r, name_node, "%s cannot be read; put %s of this name into the folder of the scene, or correct the name",
+        node_value_to_text_for_message(r, name_node), file_kind);
 }

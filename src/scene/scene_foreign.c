@@ -357,7 +357,7 @@ static const struct foreign *foreign_row(const char *word)
     return NULL;
 }
 
-bool foreign_word_advice(const char *foreign_word, const char *group, char *text, size_t capacity)
+bool other_program_keyword_write_advice(const char *foreign_word, const char *group, char *text, size_t capacity)
 {
     if (isdigit((unsigned char)*foreign_word))
         return snprintf(text, capacity, "a comma separates keys here; the decimal sign is a point, as in 1.5 mm"), true;
@@ -377,7 +377,7 @@ bool foreign_word_advice(const char *foreign_word, const char *group, char *text
     return true;
 }
 
-const char *foreign_value_advice(const char *key_path, const char *foreign_value)
+const char *other_program_value_get_advice(const char *key_path, const char *foreign_value)
 {
     for (size_t k = 0; k < COUNT_OF(foreign_values); k++) {
         const char *words = foreign_values[k].words;
@@ -387,7 +387,7 @@ const char *foreign_value_advice(const char *key_path, const char *foreign_value
     return NULL;
 }
 
-const char *foreign_word_equivalent_keys(const char *foreign_word)
+const char *other_program_keyword_get_equivalent_keys(const char *foreign_word)
 {
     const struct foreign *row = foreign_row(foreign_word);
     return row ? row->paths : NULL;

@@ -31,7 +31,7 @@ static bool line_begins_with_any(const char *line, size_t length, const char *be
     return false;
 }
 
-status foreign_file_refuse(struct reader *r, const char *text, size_t length)
+status other_program_file_refuse(struct reader *r, const char *text, size_t length)
 {
     int number = 1;
     const char *end = text + length, *line = text;
@@ -46,6 +46,6 @@ status foreign_file_refuse(struct reader *r, const char *text, size_t length)
     if (line_length == 0 || (isalpha((unsigned char)*line) && memchr(line, ':', line_length))) return OK; /* a key */
     for (size_t k = 0; k < COUNT_OF(foreign_files); k++)
         if (line_begins_with_any(line, line_length, foreign_files[k].begins))
-            return fault_at_location(r, -1, number, 1, "%s", foreign_files[k].text);
+            return fault_report_at_location(r, -1, number, 1, "%s", foreign_files[k].text);
     return OK;
 }

@@ -65,8 +65,8 @@ static void range_text(const struct key *k, char *text, size_t capacity)
         return;
     }
     if (!k->range.given) return;
-    number_write_shortest(least, k->range.least);
-    number_write_shortest(most, k->range.most);
+    number_write_shortest_exact_decimal(least, k->range.least);
+    number_write_shortest_exact_decimal(most, k->range.most);
     if (isinf(k->range.most))
         snprintf(text, capacity, "%s %s", k->range.open ? ">" : ">=", least);
     else if (k->range.open)
@@ -140,18 +140,19 @@ bool key_is_at_or_below_path(const struct key *k, const char *path)
  * and to the last part of its path. */
 static int key_distance(const struct key *k, const char *path)
 {
-    const int whole = edit_distance(k->path, path), leaf = edit_distance(key_last_part(k), path);
+    const int whole = edit_distance(k->path, path), leaf = edit_distance(key_get_last_name_of_path(k), path);
     return whole < leaf ? whole : leaf;
 }
 
 /* Returns REFUSED with the message that `path` is no key. The message names the key nearest by edit distance if the two
- * are similar (words_are_similar), else the pages of `cleave help`. */
+ * are similar (word_is_probable_misspelling_of), else the pages of `cleave help`. */
 static status help_unknown(const char *path)
 {
     const struct key *nearest = &keys[0];
     for (int k = 1; k < keys_count; k++)
         if (key_distance(&keys[k], path) < key_distance(nearest, path)) nearest = &keys[k];
-    if (words_are_similar(nearest->path, path) || words_are_similar(key_last_part(nearest), path))
+    if (word_is_probable_misspelling_of(nearest->path, path) ||
+        word_is_probable_misspelling_of(key_get_last_name_of_path(nearest), path))
         return status_set(REFUSED, "%.64s: unknown key; did you mean %s?", path, nearest->path);
     return status_set(REFUSED,
                       "%.64s: neither a key nor a page; `cleave help scene` lists the keys; pages are units, "
@@ -162,7 +163,7 @@ static status help_unknown(const char *path)
 /* Returns true if `leaf` is the last part of the path of key k (of input files). */
 static bool has_leaf(const struct key *k, const char *leaf)
 {
-    return k->type != KEY_GROUP && !strcmp(key_last_part(k), leaf);
+    return k->type != KEY_GROUP && !strcmp(key_get_last_name_of_path(k), leaf);
 }
 
 /* Returns true if `word`, with _ for blanks, is one of the words that key k (of input files) has as values. Returns
@@ -185,7 +186,7 @@ bool scene_help_can_explain_word(const char *key)
 {
     char path[128];
     path_of_table(key, path, sizeof path);
-    bool has = key_current_name_of_former_key(path) || foreign_word_equivalent_keys(path);
+    bool has = former_key_get_current_name(path) || other_program_keyword_get_equivalent_keys(path);
     for (int k = 0; k < keys_count && !has; k++)
         has = key_is_at_or_below_path(&keys[k], path) || has_leaf(&keys[k], path) || is_value_of(&keys[k], path);
     return has;
@@ -203,8 +204,8 @@ static void print_key(FILE *out, const struct key *k)
 static void help_foreign(FILE *out, const char *word)
 {
     char text[400], path[64];
-    if (foreign_word_advice(word, "", text, sizeof text)) fprintf(out, "%s: %s\n", word, text);
-    for (const char *c = foreign_word_equivalent_keys(word); *c; c += strspn(c, " ")) {
+    if (other_program_keyword_write_advice(word, "", text, sizeof text)) fprintf(out, "%s: %s\n", word, text);
+    for (const char *c = other_program_keyword_get_equivalent_keys(word); *c; c += strspn(c, " ")) {
         const size_t length = strcspn(c, " ");
         snprintf(path, sizeof path, "%.*s", (int)length, c);
         int found = 0;
@@ -229,8 +230,8 @@ static int help_word_of_keys(FILE *out, const char *word)
         fprintf(out, "%s%s is a value of %s\n", printed ? "\n" : "", word, keys[k].path);
         print_key(out, &keys[k]), printed++;
     }
-    if (foreign_word_equivalent_keys(word) && printed > 0) fputc('\n', out);
-    if (foreign_word_equivalent_keys(word)) help_foreign(out, word), printed++;
+    if (other_program_keyword_get_equivalent_keys(word) && printed > 0) fputc('\n', out);
+    if (other_program_keyword_get_equivalent_keys(word)) help_foreign(out, word), printed++;
     return printed;
 }
 
@@ -239,7 +240,7 @@ static int help_word_of_keys(FILE *out, const char *word)
 static bool help_unit(FILE *out, const char *word)
 {
     struct quantity q;
-    const char *meant = unit_meant_by_word(word);
+    const char *meant = unknown_unit_name_suggest_known_unit(word);
     const bool known = *word && quantity_read_unit_symbol(&q, word) == strlen(word);
     if (known)
         fprintf(out, "%s: a unit, written behind a number; `cleave help units` lists all units\n", word);
@@ -253,7 +254,7 @@ status scene_print_help_on_keys(FILE *out, const char *key)
     char path[128] = "";
     int found = 0;
     if (key) path_of_table(key, path, sizeof path);
-    const char *now = key_current_name_of_former_key(path);
+    const char *now = former_key_get_current_name(path);
     if (now) fprintf(out, "%s has been renamed to %s\n\n", path, now), snprintf(path, sizeof path, "%s", now);
     for (int k = 0; k < keys_count; k++) found += key_is_at_or_below_path(&keys[k], path);
     if (found == 0) return help_word_of_keys(out, path) > 0 || help_unit(out, path) ? OK : help_unknown(path);

@@ -8,13 +8,16 @@
 #include "scene_parts.h"
 #include "scene_shapes.h"
 
-int compare_paths(const void *a, const void *b) { return strverscmp(*(char *const *)a, *(char *const *)b); }
+int compare_file_names_numerically(const void *a, const void *b)
+{
+    return strverscmp(*(char *const *)a, *(char *const *)b);
+}
 
 /* ---- grey values ------------------------------------------------------------------------------------------------- */
 
 /* Appends the grey values that `text` gives, such as 255 or 100-255, to the ranges of p. n: YAML node of the text, for
  * messages. Returns REFUSED, with a message, for another form, for values above GREY_MAX and for too many ranges. */
-static status grey_range_read(struct reader *r, const struct yaml_node *n, const char *text, struct voxel_part *p)
+static status grey_range_read(struct reader *r, const struct yaml_node *n, const char *text, struct voxel_solid *p)
 {
     int low = -1, high = -1, end = 0;
     if (sscanf(text, "%d%n", &low, &end) == 1 && text[end] == '\0')
@@ -22,25 +25,28 @@ static status grey_range_read(struct reader *r, const struct yaml_node *n, const
     else if (sscanf(text, "%d - %d%n", &low, &high, &end) != 2 || text[end] != '\0')
         low = -1;
     if (low < 0 || high < low || high > GREY_MAX)
-        return fault(
+        return fault_report_at_node(
             r, n, "%s is not a grey value; give a number such as 255, or a range such as 100-255 (largest value: %d)",
-            text_for_message(r, text), GREY_MAX);
+            text_to_printable_line_for_message(r, text), GREY_MAX);
     if (p->ranges == GREY_RANGES_MAX)
-        return fault(r, n, "more than %d ranges of grey values; join some", GREY_RANGES_MAX);
+        return fault_report_at_node(r, n, "more than %d ranges of grey values; join some", GREY_RANGES_MAX);
     p->range[p->ranges++] = (struct grey_range){low, high};
     return OK;
 }
 
-status read_grey_values(struct reader *r, const struct yaml_node *values_node, struct voxel_part *p)
+status read_grey_value_ranges_of_voxel_solid(struct reader *r, const struct yaml_node *values_node,
+                                             struct voxel_solid *p)
 {
     p->ranges = 0;
     if (values_node->kind == NODE_SCALAR) return grey_range_read(r, values_node, values_node->text, p);
     if (values_node->kind != NODE_LIST || values_node->n == 0)
-        return fault(r, values_node,
-                     "is not a grey value; give a number such as 255, a range such as 100-255, or a list of these");
+        return fault_report_at_node(
+            r, values_node,
+            "is not a grey value; give a number such as 255, a range such as 100-255, or a list of these");
     for (const struct yaml_node *item = values_node->first; item; item = item->next) {
         if (item->kind != NODE_SCALAR)
-            return fault(r, item, "is not a grey value; give a number such as 255, or a range such as 100-255");
+            return fault_report_at_node(r, item,
+                                        "is not a grey value; give a number such as 255, or a range such as 100-255");
         TRY(grey_range_read(r, item, item->text, p));
     }
     return OK;
@@ -63,20 +69,21 @@ static status check_covered(struct reader *r, const struct yaml_node *n, const s
     for (int64_t k = all - 1; k >= 0; k--)
         if (!in[v->grey[k]]) missing++, value = v->grey[k];
     if (missing == 0) return OK;
-    return fault(r, n,
-                 "%.3g %% of the image have grey values without a material, for instance %d; give each value a "
-                 "material, or void to leave its pixels out",
-                 100 * (real)missing / (real)all, value);
+    return fault_report_at_node(
+        r, n,
+        "%.3g %% of the image have grey values without a material, for instance %d; give each value a "
+        "material, or void to leave its pixels out",
+        100 * (real)missing / (real)all, value);
 }
 
-status read_grey_materials(struct reader *r, const struct yaml_node *materials_node, const struct voxels *voxels,
-                           struct voxel_part *p)
+status read_materials_by_grey_value(struct reader *r, const struct yaml_node *materials_node,
+                                    const struct voxels *voxels, struct voxel_solid *p)
 {
     if (!r->bounded || r->cutting)
-        return fault(r, materials_node,
-                     "is only for an image that is the shape of a body; here give values, such as 100-255");
-    TRY(expect_node_kind(r, materials_node, NODE_MAP,
-                         "give a mapping of grey values to materials, such as {0: void, 1-255: rock}"));
+        return fault_report_at_node(
+            r, materials_node, "is only for an image that is the shape of a body; here give values, such as 100-255");
+    TRY(check_node_kind(r, materials_node, NODE_MAP,
+                        "give a mapping of grey values to materials, such as {0: void, 1-255: rock}"));
     bool *in = NEW("grey values", GREY_MAX + 1, bool);
     status s = OK;
     p->ranges = 0;
@@ -86,13 +93,14 @@ status read_grey_materials(struct reader *r, const struct yaml_node *materials_n
         if (s != OK) break;
         const struct grey_range range = p->range[before];
         for (int grey = range.low; grey <= range.high && s == OK; grey++) {
-            if (in[grey]) s = fault(r, c, "has grey value %d in two ranges; remove it from one of them", grey);
+            if (in[grey])
+                s = fault_report_at_node(r, c, "has grey value %d in two ranges; remove it from one of them", grey);
             in[grey] = true;
         }
         if (is_void(c)) p->ranges = before;
     }
     if (s == OK && p->ranges == 0)
-        s = fault(r, materials_node, "has only void grey values; give at least one of them a material");
+        s = fault_report_at_node(r, materials_node, "has only void grey values; give at least one of them a material");
     if (s == OK) s = check_covered(r, materials_node, voxels, in);
     memory_free(in);
     r->grey_materials++;
@@ -104,7 +112,7 @@ status read_grey_materials(struct reader *r, const struct yaml_node *materials_n
 static struct yaml_node *node_copy(struct reader *r, const struct yaml_node *n, struct yaml_node *parent,
                                    const char *without)
 {
-    struct yaml_node *copy = arena_new(r, sizeof *copy);
+    struct yaml_node *copy = arena_allocate_zeroed(r, sizeof *copy);
     *copy = *n;
     copy->parent = parent, copy->first = copy->last = copy->next = NULL, copy->n = 0;
     for (const struct yaml_node *c = n->first; c; c = c->next)
@@ -127,10 +135,11 @@ static status read_grey_part(struct reader *r, const struct yaml_node *solid, co
 {
     const int material = entry->kind == NODE_SCALAR ? material_called(r->scene, entry->text) : -1;
     if (material < 0)
-        return fault(r, entry, "the scene has no material %s; to leave out the pixels of this grey value, write void",
-                     node_text(r, entry));
+        return fault_report_at_node(
+            r, entry, "the scene has no material %s; to leave out the pixels of this grey value, write void",
+            node_value_to_text_for_message(r, entry));
     struct yaml_node *copy = node_copy(r, solid, solid->parent, "materials"), *image = yaml_node_find(copy, "image");
-    struct yaml_node *values = arena_new(r, sizeof *values);
+    struct yaml_node *values = arena_allocate_zeroed(r, sizeof *values);
     *values = (struct yaml_node){.kind = NODE_SCALAR,
                                  .line = entry->line,
                                  .column = entry->column,
@@ -165,7 +174,8 @@ status read_body_parts_by_grey_value(struct reader *r, const struct yaml_node *s
         }
     }
     if (found == wanted) return OK;
-    return fault(r, shape_node,
-                 "is an image with materials, which cannot be nested in another solid; put it directly into the list "
-                 "of the shape");
+    return fault_report_at_node(
+        r, shape_node,
+        "is an image with materials, which cannot be nested in another solid; put it directly into the list "
+        "of the shape");
 }

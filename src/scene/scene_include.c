@@ -22,7 +22,7 @@ struct chain {
 
 /* Returns true if the value of the key at `path` ("": the whole scene) is a mapping that is merged entry by entry with
  * an included one. Any other value replaces the included value as a whole. */
-bool key_is_merged_with_included_scene(const char *path)
+bool key_is_mapping_merged_with_included_file(const char *path)
 {
     if (*path == '\0') return true;
     const struct key *k = key_find("", path);
@@ -40,14 +40,15 @@ static bool is_empty(const struct yaml_node *n) { return n->kind == NODE_SCALAR 
 static status check_twins(const struct reader *r, const struct yaml_node *map)
 {
     if (map->n > KEYS_MOST)
-        return fault(r, map, "has %d keys, but a mapping has at most %d; remove some", map->n, KEYS_MOST);
+        return fault_report_at_node(r, map, "has %d keys, but a mapping has at most %d; remove some", map->n,
+                                    KEYS_MOST);
     for (const struct yaml_node *n = map->first; n; n = n->next) TRY(check_key_given_once(r, map, n));
     return OK;
 }
 
 /* Merges the mapping `over` into the mapping `under`. Values of `over` take precedence. Mappings for which
- * key_is_merged_with_included_scene is true are merged entry by entry. An empty value removes the entry. group: path of
- * both mappings in the scene. Returns REFUSED, with a message, for a key that occurs twice in a mapping. */
+ * key_is_mapping_merged_with_included_file is true are merged entry by entry. An empty value removes the entry. group:
+ * path of both mappings in the scene. Returns REFUSED, with a message, for a key that occurs twice in a mapping. */
 static status merge(struct reader *r, struct yaml_node *under, struct yaml_node *over, const char *group)
 {
     char path[64];
@@ -58,7 +59,7 @@ static status merge(struct reader *r, struct yaml_node *under, struct yaml_node 
         struct yaml_node *old = yaml_node_find(under, n->key);
         next = n->next;
         snprintf(path, sizeof path, "%.30s%s%.30s", group, *group ? "." : "", n->key);
-        if (old && old->kind == NODE_MAP && n->kind == NODE_MAP && key_is_merged_with_included_scene(path)) {
+        if (old && old->kind == NODE_MAP && n->kind == NODE_MAP && key_is_mapping_merged_with_included_file(path)) {
             TRY(merge(r, old, n, path));
             continue;
         }
@@ -92,7 +93,7 @@ static char *path_from(struct reader *r, const struct yaml_node *n)
 {
     const char *from = origin_file_name(r, n->origin);
     const size_t folder = *n->text == '/' ? 0 : (size_t)path_folder_length(from), length = strlen(n->text);
-    char *path = arena_new(r, folder + length + 1);
+    char *path = arena_allocate_zeroed(r, folder + length + 1);
     memcpy(path, from, folder);
     memcpy(path + folder, n->text, length);
     return path;
@@ -110,22 +111,26 @@ static status include_file(struct reader *r, const struct yaml_node *n, const st
     char *text, *path;
     size_t length;
     if (n->kind != NODE_SCALAR || is_empty(n))
-        return fault(r, n, "%s is not a file name; give a scene file", node_text(r, n));
+        return fault_report_at_node(r, n, "%s is not a file name; give a scene file",
+                                    node_value_to_text_for_message(r, n));
     if (!r->files)
-        return fault(r, n, "%s: scenes with the key include cannot be read here; give a scene without this key",
-                     node_text(r, n));
+        return fault_report_at_node(
+            r, n, "%s: scenes with the key include cannot be read here; give a scene without this key",
+            node_value_to_text_for_message(r, n));
     path = path_from(r, n);
     if (stat(path, &file) != 0 || !S_ISREG(file.st_mode))
-        return fault(r, n, "%s cannot be read; give a scene file in the folder of this one", node_text(r, n));
+        return fault_report_at_node(r, n, "%s cannot be read; give a scene file in the folder of this one",
+                                    node_value_to_text_for_message(r, n));
     if (is_open(chain, &file))
-        return fault(r, n, "%s includes itself, or the scene that includes it; remove one of these includes",
-                     node_text(r, n));
+        return fault_report_at_node(r, n,
+                                    "%s includes itself, or the scene that includes it; remove one of these includes",
+                                    node_value_to_text_for_message(r, n));
     if (length_of(chain) == CHAIN_MOST)
-        return fault(r, n,
-                     "%s ends a chain of more than %d scenes, each included by the previous one; merge some of them",
-                     node_text(r, n), CHAIN_MOST);
+        return fault_report_at_node(
+            r, n, "%s ends a chain of more than %d scenes, each included by the previous one; merge some of them",
+            node_value_to_text_for_message(r, n), CHAIN_MOST);
     if (r->includes == INCLUDED_MOST)
-        return fault(r, n, "more than %d scenes are included; merge some of them", INCLUDED_MOST);
+        return fault_report_at_node(r, n, "more than %d scenes are included; merge some of them", INCLUDED_MOST);
     const int origin = ORIGIN_INCLUDED - r->includes;
     r->included[r->includes++] = path;
     TRY(file_read_bytes(path, &text, &length));
@@ -133,8 +138,9 @@ static status include_file(struct reader *r, const struct yaml_node *n, const st
     memory_free(text);
     TRY(read);
     if (!*root)
-        return fault_at_location(r, origin, 1, 1, "the scene is empty; begin with keys such as space and duration");
-    TRY(expect_node_kind(r, *root, NODE_MAP, "give a scene, which is a mapping of keys to values"));
+        return fault_report_at_location(r, origin, 1, 1,
+                                        "the scene is empty; begin with keys such as space and duration");
+    TRY(check_node_kind(r, *root, NODE_MAP, "give a scene, which is a mapping of keys to values"));
     TRY(tree_rename_old_keys(r, *root));
     struct yaml_node *name = yaml_node_find(*root, "name");
     if (name) yaml_node_remove(*root, name);
@@ -151,7 +157,8 @@ static status include_all(struct reader *r, struct yaml_node *root, const struct
     struct yaml_node base = {.kind = NODE_MAP, .text = ""};
     const struct yaml_node *n = list->kind == NODE_LIST ? list->first : list;
     TRY(check_twins(r, root));
-    if (!n || list->n > INCLUDED_MOST) return fault(r, list, "has %d items; give 1 to %d", list->n, INCLUDED_MOST);
+    if (!n || list->n > INCLUDED_MOST)
+        return fault_report_at_node(r, list, "has %d items; give 1 to %d", list->n, INCLUDED_MOST);
     yaml_node_remove(root, list);
     for (const struct yaml_node *next; n; n = next) {
         next = list->kind == NODE_LIST ? n->next : NULL;
@@ -173,7 +180,7 @@ status tree_merge_included_files(struct reader *r, struct yaml_node *root)
     TRY(include_all(r, root, known ? &(struct chain){NULL, file.st_dev, file.st_ino} : NULL));
     for (int k = 0; k < r->overrides; k++)
         if (strcmp(r->override[k].key, "include") == 0)
-            return fault_at_location(r, k, 0, 0,
-                                     "include cannot be given by -s; write a scene file that includes this one");
+            return fault_report_at_location(r, k, 0, 0,
+                                            "include cannot be given by -s; write a scene file that includes this one");
     return OK;
 }

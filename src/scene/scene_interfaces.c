@@ -16,7 +16,7 @@ static status interface_bodies(struct reader *r, const struct yaml_node *n, stru
     const struct yaml_node *names = yaml_node_find(n, "bodies");
     if (!names) return fault_report_missing_key(r, n, key_find("interfaces", "bodies"));
     if (names->kind != NODE_LIST || names->n != 2)
-        return fault(r, names, "is not two names; give the names of two bodies, such as [plate, layer]");
+        return fault_report_at_node(r, names, "is not two names; give the names of two bodies, such as [plate, layer]");
     const struct yaml_node *name = names->first;
     for (int k = 0; k < 2; k++, name = name->next) {
         face->body[k] = -1;
@@ -24,17 +24,20 @@ static status interface_bodies(struct reader *r, const struct yaml_node *n, stru
             if (name->kind == NODE_SCALAR && strcmp(s->body[b].name, name->text) == 0) face->body[k] = b;
         for (int b = 0; b < s->rigids; b++)
             if (name->kind == NODE_SCALAR && strcmp(s->body[s->bodies + b].name, name->text) == 0)
-                return fault(r, name,
-                             "%s is rigid, but an interface joins only bodies with particles; name two such bodies, or "
-                             "remove the interface (contact acts without it)",
-                             name->text);
-        if (face->body[k] < 0) return fault(r, name, "is not the name of a body with particles; check its spelling");
+                return fault_report_at_node(
+                    r, name,
+                    "%s is rigid, but an interface joins only bodies with particles; name two such bodies, or "
+                    "remove the interface (contact acts without it)",
+                    name->text);
+        if (face->body[k] < 0)
+            return fault_report_at_node(r, name, "is not the name of a body with particles; check its spelling");
     }
-    if (face->body[0] == face->body[1]) return fault(r, names, "names one body twice; give two bodies");
+    if (face->body[0] == face->body[1]) return fault_report_at_node(r, names, "names one body twice; give two bodies");
     for (const struct scene_interface *other = s->interface; other < face; other++)
         if ((other->body[0] == face->body[0] && other->body[1] == face->body[1]) ||
             (other->body[0] == face->body[1] && other->body[1] == face->body[0]))
-            return fault(r, names, "these two bodies have an interface already; remove one of the two interfaces");
+            return fault_report_at_node(r, names,
+                                        "these two bodies have an interface already; remove one of the two interfaces");
     return OK;
 }
 
@@ -45,9 +48,10 @@ static status material_apart(struct reader *r, const struct yaml_node *n, struct
 {
     struct scene *s = r->scene;
     if (s->materials >= 255)
-        return fault(r, n,
-                     "each joined body needs a material of its own, and the limit of 255 materials is reached; use "
-                     "fewer interfaces");
+        return fault_report_at_node(
+            r, n,
+            "each joined body needs a material of its own, and the limit of 255 materials is reached; use "
+            "fewer interfaces");
     const int all = s->materials + s->unused_materials;
     GROW("materials", s->material, all + 1);
     GROW("materials.numbers", s->material_number, all + 1);
@@ -73,15 +77,17 @@ static status interface_strength(struct reader *r, const struct yaml_node *n, st
     if (!(face->energy_release_rate > 0)) return OK;
     struct scene_body *one = &s->body[face->body[0]], *other = &s->body[face->body[1]];
     if (one->parts > 0 || other->parts > 0)
-        return fault(r, yaml_node_find(n, "energy_release_rate"),
-                     "body %s has parts of different materials; an interface with its own energy needs bodies of one "
-                     "material each",
-                     one->parts > 0 ? one->name : other->name);
+        return fault_report_at_node(
+            r, yaml_node_find(n, "energy_release_rate"),
+            "body %s has parts of different materials; an interface with its own energy needs bodies of one "
+            "material each",
+            one->parts > 0 ? one->name : other->name);
     if (material_has_softening_bonds(&s->material[one->material]) ||
         material_has_softening_bonds(&s->material[other->material]))
-        return fault(r, yaml_node_find(n, "energy_release_rate"),
-                     "one of the bodies has a tensile_strength; an interface with its own energy joins brittle bodies "
-                     "only; remove the tensile_strength, or this key");
+        return fault_report_at_node(
+            r, yaml_node_find(n, "energy_release_rate"),
+            "one of the bodies has a tensile_strength; an interface with its own energy joins brittle bodies "
+            "only; remove the tensile_strength, or this key");
     if (one->material == other->material) TRY(material_apart(r, n, other));
     const struct material *a = &s->material[one->material], *b = &s->material[other->material];
     struct material between = a->young < b->young ? *a : *b, first = *a, second = *b;
@@ -109,7 +115,7 @@ status read_interfaces(struct reader *r, const struct yaml_node *root)
     const struct yaml_node *list = yaml_node_find(root, "interfaces");
     for (int b = 0; b < s->bodies; b++) s->body[b].joined = b;
     if (!list) return OK;
-    TRY(expect_list_of_valid_length(r, key_find("", "interfaces"), list));
+    TRY(check_node_is_list_of_valid_length(r, key_find("", "interfaces"), list));
     if (s->method == METHOD_ADAPTIVE) return refuse_interfaces_with_adaptive_method(r, list);
     s->interface = NEW("interfaces", list->n, struct scene_interface);
     s->interfaces = list->n;
@@ -119,10 +125,10 @@ status read_interfaces(struct reader *r, const struct yaml_node *root)
         TRY(read_keys_of_group(r, n, n, "interfaces", face));
         TRY(interface_bodies(r, n, face));
         if (!face->joined && yaml_node_find(n, "energy_release_rate"))
-            return fault(r, yaml_node_find(n, "energy_release_rate"),
-                         "has no effect on bodies that are not joined; remove it, or set joined: true");
+            return fault_report_at_node(r, yaml_node_find(n, "energy_release_rate"),
+                                        "has no effect on bodies that are not joined; remove it, or set joined: true");
         if (s->method == METHOD_MPM && yaml_node_find(n, "energy_release_rate"))
-            return fault(
+            return fault_report_at_node(
                 r, yaml_node_find(n, "energy_release_rate"),
                 "bodies joined by the grid of method: mpm do not separate; set method: pd, or remove this key");
         if (!face->joined) continue;
@@ -132,7 +138,7 @@ status read_interfaces(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-status check_boundaries_of_joined_bodies(struct reader *r, const struct yaml_node *root)
+status check_boundaries_apply_to_all_joined_bodies(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
     const struct yaml_node *n = yaml_node_find(root, "boundary");
@@ -141,10 +147,11 @@ status check_boundaries_of_joined_bodies(struct reader *r, const struct yaml_nod
         const int body = s->boundary[k].body;
         for (int b = 0; b < s->bodies && body >= 0; b++)
             if (b != body && s->body[b].joined == s->body[body].joined)
-                return fault(r, yaml_node_find(n, "body"),
-                             "the body is joined to body %s by an interface, and both count as one body; remove this "
-                             "key and give a region",
-                             s->body[b].name);
+                return fault_report_at_node(
+                    r, yaml_node_find(n, "body"),
+                    "the body is joined to body %s by an interface, and both count as one body; remove this "
+                    "key and give a region",
+                    s->body[b].name);
     }
     return OK;
 }

@@ -64,19 +64,20 @@ struct reader {
     const struct yaml_node *regions;  /* mapping of the named regions; NULL: none */
     const struct yaml_node *sections; /* mapping of the named plane sections of extrusions; NULL: none */
     const struct naming *naming;      /* innermost named region that is being read; NULL: none */
-    /* receives the largest spacing at which all strengths are valid (limit_spacing_of_spacing_search) [m]; NULL:
-     * strengths that do not suit the spacing are refused */
+    /* receives the largest spacing at which all strengths are valid (spacing_search_reduce_upper_bound_if_active) [m];
+     * NULL: strengths that do not suit the spacing are refused */
     real *spacing_most;
 };
 
 /* Returns `byte_count` bytes of zeros in memory of the reader r, which arena_free releases as a whole. */
-void *arena_new(struct reader *r, size_t byte_count);
+void *arena_allocate_zeroed(struct reader *r, size_t byte_count);
 
 /* Returns a copy of the first `length` bytes of `text` with a final 0, in memory of the reader r that arena_free
  * releases. */
 char *arena_copy_text(struct reader *r, const char *text, size_t length);
 
-/* Releases the nodes and texts that arena_new and arena_copy_text have allocated for the reader r, all at once. */
+/* Releases the nodes and texts that arena_allocate_zeroed and arena_copy_text have allocated for the reader r, all at
+ * once. */
 void arena_free(struct reader *r);
 
 /* Parses the YAML text text[length] to a tree of nodes in memory of the reader r and stores its root in *root; NULL if
@@ -102,7 +103,7 @@ status tree_merge_included_files(struct reader *r, struct yaml_node *root);
 
 /* Returns true if the value of the key at `path` ("" for the whole input file) is a mapping that is merged key by key
  * with that of an included file. Other values, such as solids, replace the included value as a whole. */
-bool key_is_merged_with_included_scene(const char *path);
+bool key_is_mapping_merged_with_included_file(const char *path);
 
 /* Applies r->override, all overrides of the command line that the reader r has, to the tree `root` of the input file.
  * Returns REFUSED, with a message, for an invalid one. */
@@ -115,11 +116,11 @@ status tree_rename_old_keys(struct reader *r, struct yaml_node *root);
 
 /* Returns the present name of the key `path` of an override. If `path` is a name of an earlier version of Cleave, notes
  * this in r->scene (r: reader of the input file) for a warning; otherwise returns `path` itself. */
-const char *key_path_current_name_of_override(struct reader *r, const char *path);
+const char *override_key_get_current_name(struct reader *r, const char *path);
 
 /* Returns the present name of a key that had the name `former_path` in an earlier version of Cleave; NULL if there was
  * no such key. */
-const char *key_current_name_of_former_key(const char *former_path);
+const char *former_key_get_current_name(const char *former_path);
 
 /* Returns the name of the file from which a node was read; for an override it is the input file. origin_index: index of
  * the file or override, from the node (struct yaml_node). r: reader of the input file. */
@@ -140,28 +141,29 @@ status tree_apply_override(struct reader *r, struct yaml_node *root, const char 
 
 /* Returns the node at `path` (names of keys from the root on, joined by dots, without indices of lists); NULL if the
  * tree has no such node. */
-const struct yaml_node *tree_find(const struct yaml_node *root, const char *path);
+const struct yaml_node *tree_find_node_by_path(const struct yaml_node *root, const char *path);
 
 /* Parses the input file text[length], merges the files that it includes, applies overrides, and stores the tree in
  * *root, in memory of the reader r. Returns REFUSED, with a message, if the text is malformed or a file is missing. */
-status scene_parse_tree(struct reader *r, const char *text, size_t length, struct yaml_node **root);
+status scene_text_parse_with_includes_and_overrides(struct reader *r, const char *text, size_t length,
+                                                    struct yaml_node **root);
 
 /* Reads all keys of the tree `root` of an input file into r->scene (r: reader of the file) and checks them. Returns
  * REFUSED, with a message, if one is invalid. */
-status scene_read_keys_of_tree(struct reader *r, const struct yaml_node *root);
+status scene_read_values_from_yaml_tree(struct reader *r, const struct yaml_node *root);
 
-struct pilot_wish;
+struct pilot_requirements;
 /* Reads what an input file with `method: auto` requires of its pilot runs (short runs by which the method is chosen)
  * into *requirements, which the caller has set to zero. r, root: reader and tree of the input file; text[length]: its
  * text. Returns REFUSED, with a message, for an invalid file. */
-status pilot_requirements_read(struct reader *r, const struct yaml_node *root, const char *text, size_t length,
-                               struct pilot_wish *requirements);
+status pilot_run_requirements_read(struct reader *r, const struct yaml_node *root, const char *text, size_t length,
+                                   struct pilot_requirements *requirements);
 
 /* ---- numbers and units (scene_units.c) --------------------------------------------------------------------------- */
 
 /* Writes the number `value` into `text` with the fewest digits from which the same value, bit for bit, is read again.
  * Returns `text`. */
-const char *number_write_shortest(char text[32], real value);
+const char *number_write_shortest_exact_decimal(char text[32], real value);
 
 /* A number with its unit, which is given by exponents of m, kg and s. */
 struct quantity {
@@ -185,23 +187,25 @@ size_t quantity_read_unit_symbol(struct quantity *q, const char *text);
 /* Removes kelvin from the text of a unit of temperature or specific heat, such as kJ/(kg K) or kJ/kg/K, which becomes
  * kJ/kg. Writes the shortened text to shortened[capacity] and returns it. Returns `text` itself if there is no kelvin,
  * or if `kind_of_unit` is another kind of unit. (Kelvin is no symbol of its own, since variables may be called K.) */
-const char *unit_without_kelvin(const char *text, enum unit kind_of_unit, char *shortened, size_t capacity);
+const char *unit_text_remove_kelvin(const char *text, enum unit kind_of_unit, char *shortened, size_t capacity);
 
 /* Returns true if q has a unit of the kind `kind_of_unit` or no unit. Otherwise returns false and writes the fault to
  * message[capacity], as the rest of a sentence that begins with the text of the value. */
-bool quantity_has_unit(const struct quantity *q, enum unit kind_of_unit, char *message, size_t capacity);
+bool quantity_unit_is_of_kind_or_absent(const struct quantity *q, enum unit kind_of_unit, char *message,
+                                        size_t capacity);
 
 /* Returns true if `value` [SI] is finite and inside the bounds of `kind_of_unit`. Otherwise returns false and writes
  * the fault to message[capacity], as the rest of a sentence that begins with the text of the value. */
 bool value_is_in_unit_bounds(real value, enum unit kind_of_unit, char *message, size_t capacity);
 
-/* Describes a unit for messages, as `a length`, or as `in m^2 s^-1` if its kind has no name, in text[capacity]. twice:
- * exponents of m, kg and s in the unit, multiplied by 2, so that those of square roots are whole numbers. */
-void unit_describe(const int twice[3], char *text, size_t capacity);
+/* Describes a unit for messages, as `a length`, or as `in m^2 s^-1` if its kind has no name, in text[capacity].
+ * doubled_exponents: exponents of m, kg and s in the unit, multiplied by 2, so that those of square roots are whole
+ * numbers. */
+void unit_exponents_describe_kind_of_unit(const int doubled_exponents[3], char *text, size_t capacity);
 
-/* Writes a unit in the form in which input files give it, such as ` m^2 s^-1`, to text[capacity]. twice: exponents of
- * m, kg and s in the unit, multiplied by 2, so that those of square roots are whole numbers. */
-void unit_write_text(const int twice[3], char *text, size_t capacity);
+/* Writes a unit in the form in which input files give it, such as ` m^2 s^-1`, to text[capacity]. doubled_exponents:
+ * exponents of m, kg and s in the unit, multiplied by 2, so that those of square roots are whole numbers. */
+void unit_exponents_write_as_text(const int doubled_exponents[3], char *text, size_t capacity);
 
 /* ---- expressions (scene_expression.c) ---------------------------------------------------------------------------- */
 
@@ -223,10 +227,10 @@ bool quantity_evaluate_text(struct reader *r, const char *text, struct quantity 
 
 /* Returns true if messages about `text` should call it an expression, not a number: it contains operators or brackets,
  * or begins with a name. r: reader of the input file. */
-bool looks_like_expression(const struct reader *r, const char *text);
+bool text_looks_like_expression(const struct reader *r, const char *text);
 
 /* Returns true if `text` is x, y, z or t alone, the variables of formulas: a coordinate or the time. */
-bool is_variable_of_formulas(const char *text);
+bool text_is_formula_variable(const char *text);
 
 /* ---- variables (scene_number.c) ---------------------------------------------------------------------------------- */
 
@@ -248,15 +252,16 @@ bool number_evaluate_text(struct reader *r, real *value, const char *text, enum 
 /* Improves the message message[capacity] about the invalid value `text` of key k. If `text` is a length although the
  * key counts spacings, replaces the message by one that states the length in spacings. The spacing of the input file
  * must have been read. r: reader of the input file. */
-void advise_length_in_spacings(struct reader *r, const struct key *k, const char *text, char *message, size_t capacity);
+void message_suggest_length_as_number_of_spacings(struct reader *r, const struct key *k, const char *text,
+                                                  char *message, size_t capacity);
 
 /* Returns the unit that is meant by the name `unknown_name` of an unknown unit, as text for a message, such as `us?`
  * for usec. Returns NULL for other names. */
-const char *unit_meant_by_word(const char *unknown_name);
+const char *unknown_unit_name_suggest_known_unit(const char *unknown_name);
 
 /* Returns the meaning of the word `word`, such as "a unit", for messages, if it is reserved in expressions and thus
  * cannot name a variable. Returns NULL for other words. */
-const char *reserved_word_meaning(const char *word);
+const char *reserved_expression_word_get_meaning(const char *word);
 
 /* ---- the table of keys (scene_keys.c) ---------------------------------------------------------------------------- */
 
@@ -311,7 +316,7 @@ extern const struct key keys[];
 extern const int keys_count;
 
 /* Returns the last part of the path of key k, behind the last dot, as a pointer into the path. */
-const char *key_last_part(const struct key *k);
+const char *key_get_last_name_of_path(const struct key *k);
 
 /* Writes the meaning, type, range and default of key k to text[capacity]. */
 void key_describe_meaning_and_type(const struct key *k, char *text, size_t capacity);
@@ -327,61 +332,61 @@ bool key_is_directly_below(const struct key *k, const char *group_path);
 
 /* Returns the path of the group in which the table has the keys of an item of list k: material for `materials`,
  * bodies.parts for `parts`, else the path of the list. */
-const char *key_group_of_items(const struct key *k);
+const char *key_get_group_path_of_list_items(const struct key *k);
 
 /* Writes an example of a value of key k for messages to text[capacity], such as [{from: [0.5 mm, 0]}]. dim: number of
- * components of points. wanted: name of a key below k that the example is to show, if k is a mapping or a list of
- * mappings; for NULL or any other name, the example shows a required key. */
-void key_write_example(const struct key *k, int dim, const char *wanted, char *text, size_t capacity);
+ * components of points. subkey_to_show: name of a key below k that the example is to show, if k is a mapping or a list
+ * of mappings; for NULL or any other name, the example shows a required key. */
+void key_write_example(const struct key *k, int dim, const char *subkey_to_show, char *text, size_t capacity);
 
 /* Writes an example of a vector of dim numbers, a value of key k, for messages to text[capacity], such as [0.5 mm, 0].
  * The components after the first are 0, or equal to the first if k has a range. first: text of the first component;
  * NULL for an example of a number of key k. */
 void key_write_example_vector(const struct key *k, int dim, const char *first, char *text, size_t capacity);
 
-/* Returns the key whose last part is `last_part` directly below the key `group_path` ("" for the top of an input file);
- * NULL if there is none. */
-const struct key *key_find(const char *group_path, const char *last_part);
+/* Returns the key whose last part is `name_in_group` directly below the key `group_path` ("" for the top of an input
+ * file); NULL if there is none. */
+const struct key *key_find(const char *group_path, const char *name_in_group);
 
 /* Returns the key directly below the key `group_path` ("" for the top of an input file) whose last part has the
- * smallest edit distance to `last_part`. */
-const struct key *key_find_most_similar(const char *group_path, const char *last_part);
+ * smallest edit distance to `name_in_group`. */
+const struct key *key_find_most_similar(const char *group_path, const char *name_in_group);
 
-/* Returns a key whose last part is `last_part`, in any group; one at the top of an input file if there is one. Returns
+/* Returns a key whose last part is `key_name`, in any group; one at the top of an input file if there is one. Returns
  * NULL if there is none. Stores the number of keys with this last part in *matching_key_count. */
-const struct key *key_find_in_any_group(const char *last_part, int *matching_key_count);
+const struct key *key_find_in_any_group(const char *key_name, int *matching_key_count);
 
 /* ---- words of other programs (scene_foreign.c) ------------------------------------------------------------------- */
 
 /* Writes advice for `foreign_word`, a word of another program that is no key of `group` ("" for the top of an input
  * file) to text[capacity]: the equivalent key, or a note that Cleave has none. Returns false, and writes nothing, for
  * unknown words. */
-bool foreign_word_advice(const char *foreign_word, const char *group, char *text, size_t capacity);
+bool other_program_keyword_write_advice(const char *foreign_word, const char *group, char *text, size_t capacity);
 
 /* Returns advice, a static text, about the invalid value `foreign_value` of the key at `key_path`, if it is a word of
  * another program; else NULL. */
-const char *foreign_value_advice(const char *key_path, const char *foreign_value);
+const char *other_program_value_get_advice(const char *key_path, const char *foreign_value);
 
 /* Returns REFUSED, with a message, if text[length], the file of the reader r, is the input of Abaqus, LS-DYNA or
  * LAMMPS, a mesh of Gmsh or an STL file; OK if it may be an input file. Defined in scene_foreign_file.c. */
-status foreign_file_refuse(struct reader *r, const char *text, size_t length);
+status other_program_file_refuse(struct reader *r, const char *text, size_t length);
 
 /* Returns the keys that are equivalent to `foreign_word`, a word of another program, separated by spaces ("" if there
  * are none); NULL for unknown words. */
-const char *foreign_word_equivalent_keys(const char *foreign_word);
+const char *other_program_keyword_get_equivalent_keys(const char *foreign_word);
 
 /* ---- messages (scene_faults.c), forms (scene_expect.c, scene_unknown.c) and values (scene_value.c) --------------- */
 
 /* Sets a message about node `at`, composed as by printf from `format`, and returns REFUSED. The message begins with
  * `file:line:column: key: `, or with `-s key=value: key: ` if an override gave the node. r: reader of the input file.
  */
-status fault(const struct reader *r, const struct yaml_node *at, const char *format, ...)
+status fault_report_at_node(const struct reader *r, const struct yaml_node *at, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
 /* Sets a message, composed as by printf from `format`, and returns REFUSED. The message begins with `file:line:column:
  * `, or with the text of the override. origin: file or override (see struct yaml_node); line, column: location in the
  * file. r: reader of the input file. */
-status fault_at_location(const struct reader *r, int origin, int line, int column, const char *format, ...)
+status fault_report_at_location(const struct reader *r, int origin, int line, int column, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
 
 /* Writes a location to text[capacity]: file, line and column, or the text of the override that gives it. origin_index:
@@ -389,12 +394,12 @@ status fault_at_location(const struct reader *r, int origin, int line, int colum
 void location_write_text(const struct reader *r, int origin_index, int line, int column, char *text, size_t capacity);
 
 /* Stores in r->scene (r: reader of the input file) where each key was given, for keys up to two levels below `root`, so
- * that later messages (scene_prepend_location) can state the location. */
+ * that later messages (scene_prepend_location_to_error_message) can state the location. */
 void scene_store_key_locations(const struct reader *r, const struct yaml_node *root);
 
 /* Writes the text with which messages about node `node` begin, its location and key, to text[capacity]. It is for
  * messages that are composed after the input file has been read. r: reader of the input file. */
-void fault_write_location_of_node(const struct reader *r, const struct yaml_node *node, char *text, size_t capacity);
+void location_write_text_of_node(const struct reader *r, const struct yaml_node *node, char *text, size_t capacity);
 
 /* Returns REFUSED with the message that the required key k is missing in `map`. r: reader of the input file. */
 status fault_report_missing_key(struct reader *r, const struct yaml_node *map, const struct key *k);
@@ -409,14 +414,14 @@ status check_key_given_once(const struct reader *r, const struct yaml_node *map,
 
 /* Returns the value of node n as one short, printable line for messages. The text is static or in memory of the reader
  * r, which arena_free releases. */
-const char *node_text(struct reader *r, const struct yaml_node *n);
+const char *node_value_to_text_for_message(struct reader *r, const struct yaml_node *n);
 
 /* Returns `text` as one short, printable line for messages, in memory of the reader r that arena_free releases. */
-const char *text_for_message(struct reader *r, const char *text);
+const char *text_to_printable_line_for_message(struct reader *r, const char *text);
 
 /* Returns the list of words `words`, of the form a|b|c, as the text `a, b or c` for a message, in memory of the reader
  * r that arena_free releases. */
-const char *words_for_message(struct reader *r, const char *words);
+const char *allowed_words_join_for_message(struct reader *r, const char *words);
 
 /* Returns REFUSED, with a message, if a key of the mapping `mapping` is unknown in the group `group_path` or occurs
  * twice; else OK. r: reader of the input file. */
@@ -429,11 +434,11 @@ status check_all_keys_known(const struct reader *r, const struct yaml_node *root
 
 /* Returns REFUSED, with a message that has an example, if node n is no mapping; else OK. group_path: path of its keys
  * in the table. r: reader of the input file. */
-status expect_mapping(struct reader *r, const struct yaml_node *n, const char *group_path);
+status check_node_is_mapping(struct reader *r, const struct yaml_node *n, const char *group_path);
 
 /* Returns REFUSED if node n is not of the kind `kind`, with a message of the form "... is not allowed here; ADVICE";
  * else OK. advice: what to give instead, such as "give a list". r: reader of the input file. */
-status expect_node_kind(struct reader *r, const struct yaml_node *n, enum node_kind kind, const char *advice);
+status check_node_kind(struct reader *r, const struct yaml_node *n, enum node_kind kind, const char *advice);
 
 /* Reads all keys of the group `group_path` that need no function of their own into the structure `group_values`.
  * mapping: mapping with the keys, or NULL to store the defaults only; location_node: node at whose location missing
@@ -456,15 +461,15 @@ status read_point(struct reader *r, const struct key *k, const struct yaml_node 
 
 /* Returns, as words for messages, the space whose dimensions points must have where the reader r is at present: that of
  * the input file, such as `space plane stress`, or `the plane of extrude` inside the section of an extruded solid. */
-const char *space_name_for_message(const struct reader *r);
+const char *reader_get_expected_point_space_as_text(const struct reader *r);
 
 /* Returns REFUSED, with a message that has an example of a value of key k, if node n is no list; else OK. r: reader of
  * the input file. */
-status expect_list(struct reader *r, const struct key *k, const struct yaml_node *n);
+status check_node_is_list(struct reader *r, const struct key *k, const struct yaml_node *n);
 
 /* Returns REFUSED, with a message, if node n is no list, or if the number of its items is outside the range of key k.
  * r: reader of the input file. */
-status expect_list_of_valid_length(struct reader *r, const struct key *k, const struct yaml_node *n);
+status check_node_is_list_of_valid_length(struct reader *r, const struct key *k, const struct yaml_node *n);
 
 /* Reads a file name from node name_node: searches the folder of the input file, then the current folder. Stores the
  * path in *path and a hash of the contents of the file in *contents_hash. r: reader of the input file. The caller

@@ -3,7 +3,7 @@
 
 #include "scene_internal.h"
 
-const char *key_last_part(const struct key *k)
+const char *key_get_last_name_of_path(const struct key *k)
 {
     const char *dot = strrchr(k->path, '.');
     return dot ? dot + 1 : k->path;
@@ -17,38 +17,39 @@ bool key_is_directly_below(const struct key *k, const char *group_path)
     return strncmp(k->path, group_path, length) == 0 && k->path[length] == '.' && !strchr(k->path + length + 1, '.');
 }
 
-const char *key_group_of_items(const struct key *k)
+const char *key_get_group_path_of_list_items(const struct key *k)
 {
     if (strcmp(k->path, "materials") == 0) return "material";
     return strcmp(k->path, "parts") == 0 ? "bodies.parts" : k->path;
 }
 
-const struct key *key_find(const char *group_path, const char *last_part)
+const struct key *key_find(const char *group_path, const char *name_in_group)
 {
     for (int k = 0; k < keys_count; k++)
-        if (key_is_directly_below(&keys[k], group_path) && strcmp(key_last_part(&keys[k]), last_part) == 0)
+        if (key_is_directly_below(&keys[k], group_path) &&
+            strcmp(key_get_last_name_of_path(&keys[k]), name_in_group) == 0)
             return &keys[k];
     return NULL;
 }
 
-const struct key *key_find_most_similar(const char *group_path, const char *last_part)
+const struct key *key_find_most_similar(const char *group_path, const char *name_in_group)
 {
     const struct key *nearest = NULL;
     int least = 1000;
     for (int k = 0; k < keys_count; k++) {
         if (!key_is_directly_below(&keys[k], group_path)) continue;
-        int distance = edit_distance(key_last_part(&keys[k]), last_part);
+        int distance = edit_distance(key_get_last_name_of_path(&keys[k]), name_in_group);
         if (distance < least) nearest = &keys[k], least = distance;
     }
     return nearest;
 }
 
-const struct key *key_find_in_any_group(const char *last_part, int *matching_key_count)
+const struct key *key_find_in_any_group(const char *key_name, int *matching_key_count)
 {
     const struct key *first = NULL;
     *matching_key_count = 0;
     for (int k = 0; k < keys_count; k++) {
-        if (keys[k].type == KEY_GROUP || strcmp(key_last_part(&keys[k]), last_part) != 0) continue;
+        if (keys[k].type == KEY_GROUP || strcmp(key_get_last_name_of_path(&keys[k]), key_name) != 0) continue;
         if ((*matching_key_count)++ == 0 || !strchr(keys[k].path, '.')) first = &keys[k];
     }
     return first;
@@ -60,7 +61,7 @@ const char *scene_key_unit(const char *path)
     const size_t group = strcspn(path, ".[");
     bool unique = true;
     for (int k = 0; k < keys_count; k++) {
-        if (keys[k].type == KEY_GROUP || strcmp(key_last_part(&keys[k]), leaf) != 0) continue;
+        if (keys[k].type == KEY_GROUP || strcmp(key_get_last_name_of_path(&keys[k]), leaf) != 0) continue;
         const char *symbol = unit_rows[keys[k].unit].symbol;
         const size_t own = strcspn(keys[k].path, ".");
         /* `materials` of a path is the group `material` */

@@ -17,23 +17,25 @@ static status check_curve(struct reader *r, const struct yaml_node *n, const str
     real before = INFINITY;
     for (int k = 0; k < c->points; k++, point = point->next) {
         if (k == 0 && c->strain[0] != 0)
-            return fault(r, point,
-                         "begins at a plastic strain of %g; give the yield stress at strain 0 as the first point",
-                         c->strain[0]);
+            return fault_report_at_node(
+                r, point, "begins at a plastic strain of %g; give the yield stress at strain 0 as the first point",
+                c->strain[0]);
         if (k == 0) continue;
         if (!(c->strain[k] > c->strain[k - 1]))
-            return fault(
+            return fault_report_at_node(
                 r, point,
                 "the plastic strain %g is not larger than the previous one, %g; give strains in ascending order",
                 c->strain[k], c->strain[k - 1]);
         const real slope = (c->stress[k] - c->stress[k - 1]) / (c->strain[k] - c->strain[k - 1]);
         if (slope < 0)
-            return fault(r, point, "the yield stress falls to %g Pa; give stresses that do not fall", c->stress[k]);
+            return fault_report_at_node(r, point, "the yield stress falls to %g Pa; give stresses that do not fall",
+                                        c->stress[k]);
         if (slope > before * (1 + SLOPE_ROUNDING))
-            return fault(r, point,
-                         "the slope of the curve increases at this point, to %g Pa from %g Pa; give a curve whose "
-                         "slope does not increase",
-                         slope, before);
+            return fault_report_at_node(
+                r, point,
+                "the slope of the curve increases at this point, to %g Pa from %g Pa; give a curve whose "
+                "slope does not increase",
+                slope, before);
         before = slope;
     }
     return OK;
@@ -49,11 +51,13 @@ static status read_curve(struct reader *r, const struct yaml_node *n, struct flo
                                .type = KEY_REAL,
                                .unit = UNIT_PRESSURE,
                                .range = {0, INFINITY, true, true}};
-    TRY(expect_node_kind(r, n, NODE_LIST, "give a list of points [plastic strain, stress]"));
-    if (n->n < 2 || n->n > FLOW_POINTS) return fault(r, n, "has %d points; give 2 to %d", n->n, FLOW_POINTS);
+    TRY(check_node_kind(r, n, NODE_LIST, "give a list of points [plastic strain, stress]"));
+    if (n->n < 2 || n->n > FLOW_POINTS)
+        return fault_report_at_node(r, n, "has %d points; give 2 to %d", n->n, FLOW_POINTS);
     for (const struct yaml_node *point = n->first; point; point = point->next, c->points++) {
         if (point->kind != NODE_LIST || point->n != 2)
-            return fault(r, point, "%s is not a point of a curve; give [plastic strain, stress]", node_text(r, point));
+            return fault_report_at_node(r, point, "%s is not a point of a curve; give [plastic strain, stress]",
+                                        node_value_to_text_for_message(r, point));
         TRY(read_number(r, &strain, point->first, &c->strain[c->points]));
         TRY(read_number(r, &stress, point->first->next, &c->stress[c->points]));
     }
@@ -68,7 +72,7 @@ static status fault_no_law(struct reader *r, const struct yaml_node *n)
         const char *word = flow_properties[flow].word;
         if (word) length += snprintf(words + length, sizeof words - (size_t)length, "%s%s", length ? "|" : "", word);
     }
-    return fault(r, n, "has no law; give %s", words_for_message(r, words));
+    return fault_report_at_node(r, n, "has no law; give %s", allowed_words_join_for_message(r, words));
 }
 
 /* Reads the flow law in the mapping `hardening` into `law`. material: YAML node of the material; n: node of
@@ -105,9 +109,9 @@ static status read_johnson_cook(struct reader *r, const struct yaml_node *materi
     TRY(read_keys_of_group(r, n, n, "material.johnson_cook", law));
     law->given = true, law->flow = FLOW_JOHNSON_COOK;
     if (law->johnson_cook.T_melt > law->johnson_cook.T_room) return OK;
-    return fault(r, yaml_node_find(n, "T_melt"),
-                 "%g K is not above T_room, %g K; give the melting temperature of the material",
-                 law->johnson_cook.T_melt, law->johnson_cook.T_room);
+    return fault_report_at_node(r, yaml_node_find(n, "T_melt"),
+                                "%g K is not above T_room, %g K; give the melting temperature of the material",
+                                law->johnson_cook.T_melt, law->johnson_cook.T_room);
 }
 
 /* Completes the heating of a material by plastic work in `law`: sets the fraction of the work that becomes heat to 0.9
@@ -117,11 +121,12 @@ static status read_heat(struct reader *r, const struct yaml_node *material, stru
 {
     const struct yaml_node *heat = yaml_node_find(material, "specific_heat"),
                            *share = yaml_node_find(material, "taylor_quinney");
-    if (!heat && share) return fault(r, share, "has no effect without specific_heat; add specific_heat, or remove it");
+    if (!heat && share)
+        return fault_report_at_node(r, share, "has no effect without specific_heat; add specific_heat, or remove it");
     if (!heat) return OK;
     if (!law->given || law->flow != FLOW_JOHNSON_COOK)
-        return fault(r, heat,
-                     "has no effect without johnson_cook, whose yield stress depends on temperature; remove it");
+        return fault_report_at_node(
+            r, heat, "has no effect without johnson_cook, whose yield stress depends on temperature; remove it");
     if (!share) law->taylor_quinney = 0.9;
     return OK;
 }
@@ -138,7 +143,7 @@ static status check_first_yield(struct reader *r, const struct yaml_node *materi
     const bool linear = m->law.flow == FLOW_LINEAR && !yaml_node_find(material, "hardening");
     if (own && isfinite(m->yield_stress)) return fault_report_exclusive_keys(r, yield, law_node);
     if (!own && !isfinite(m->yield_stress))
-        return fault(r, law_node, "needs the yield stress at zero plastic strain; add yield_stress");
+        return fault_report_at_node(r, law_node, "needs the yield stress at zero plastic strain; add yield_stress");
     if (!linear && m->yield_tangent > 0) return fault_report_exclusive_keys(r, tangent, law_node);
     return OK;
 }
@@ -150,7 +155,7 @@ static status check_law_place(struct reader *r, const struct yaml_node *law_node
     return r->scene->method == METHOD_MPM ? OK : refuse_flow_law_without_mpm(r, law_node);
 }
 
-const struct yaml_node *scene_material_yield_key(const struct yaml_node *material_node)
+const struct yaml_node *material_node_find_yield_key(const struct yaml_node *material_node)
 {
     static const char *const names[] = {"yield_stress", "johnson_cook", "hardening"};
     for (size_t k = 0; k < COUNT_OF(names); k++)

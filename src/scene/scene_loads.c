@@ -17,16 +17,18 @@ static status read_profile(struct reader *r, const struct yaml_node *n, struct p
     f->direction[0] = 1;
     if (!n || (n->kind == NODE_SCALAR && strcmp(n->text, "uniform") == 0)) return OK;
     if (n->kind != NODE_MAP)
-        return fault(r, n, "%s is not a profile; give uniform or a mapping such as {sine: {wavelength: 1 m}}",
-                     node_text(r, n));
+        return fault_report_at_node(r, n,
+                                    "%s is not a profile; give uniform or a mapping such as {sine: {wavelength: 1 m}}",
+                                    node_value_to_text_for_message(r, n));
     TRY(check_keys_known(r, n, "boundary.profile"));
-    if (n->n != 1) return fault(r, n, "has %d keys; give one, such as {sine: {wavelength: 1 m}}", n->n);
+    if (n->n != 1) return fault_report_at_node(r, n, "has %d keys; give one, such as {sine: {wavelength: 1 m}}", n->n);
     f->kind = PROFILE_SINE;
     TRY(read_keys_of_group(r, n->first, n->first, "boundary.profile.sine", f));
     real length2 = dot(f->direction, f->direction, r->dim);
     if (length2 > 0 && isfinite(length2)) return OK;
-    return fault(r, yaml_node_find(n->first, "direction"),
-                 "has a length of 0 or infinity; give the direction in which the force varies, such as [1, 0]");
+    return fault_report_at_node(
+        r, yaml_node_find(n->first, "direction"),
+        "has a length of 0 or infinity; give the direction in which the force varies, such as [1, 0]");
 }
 
 /* ---- boundary conditions ----------------------------------------------------------------------------------------- */
@@ -37,10 +39,11 @@ static status read_axis(struct reader *r, const struct yaml_node *n, const char 
 {
     *axis = word_index_in_list("x|y|z", text);
     if (n->kind != NODE_SCALAR || *axis < 0 || *axis >= r->dim)
-        return fault(r, n, "%s is not an axis of space %s; give %s", node_text(r, n), space_names[r->scene->space],
-                     r->dim == 1   ? "x"
-                     : r->dim == 2 ? "x or y"
-                                   : "x, y or z");
+        return fault_report_at_node(r, n, "%s is not an axis of space %s; give %s",
+                                    node_value_to_text_for_message(r, n), space_names[r->scene->space],
+                                    r->dim == 1   ? "x"
+                                    : r->dim == 2 ? "x or y"
+                                                  : "x, y or z");
     return OK;
 }
 
@@ -54,10 +57,13 @@ static status read_fixed(struct reader *r, const struct yaml_node *n, struct bou
         return OK;
     }
     if (n->kind != NODE_LIST || n->n == 0)
-        return fault(r, n, "%s is not a list of axes; give all, or a list such as [x, y]", node_text(r, n));
+        return fault_report_at_node(r, n, "%s is not a list of axes; give all, or a list such as [x, y]",
+                                    node_value_to_text_for_message(r, n));
     for (const struct yaml_node *c = n->first; c; c = c->next) {
         TRY(read_axis(r, c, c->text, &axis));
-        if (b->components >> axis & 1) return fault(r, c, "%s is given twice; name each axis once", node_text(r, c));
+        if (b->components >> axis & 1)
+            return fault_report_at_node(r, c, "%s is given twice; name each axis once",
+                                        node_value_to_text_for_message(r, c));
         b->components |= (uint8_t)(1 << axis);
     }
     return OK;
@@ -70,7 +76,7 @@ static status read_formula(struct reader *r, const struct key *k, const struct y
                            struct expression *f)
 {
     const bool formula =
-        n->kind == NODE_SCALAR && (is_variable_of_formulas(n->text) || looks_like_expression(r, n->text));
+        n->kind == NODE_SCALAR && (text_is_formula_variable(n->text) || text_looks_like_expression(r, n->text));
     if (!formula) return read_number(r, k, n, value);
     TRY(read_expression(r, k, n, of, f));
     *value = 1;
@@ -106,7 +112,7 @@ static status read_pressure(struct reader *r, const struct yaml_node *n, struct 
 {
     TRY(read_load_value(r, key_find("boundary", "pressure"), n, b, 0));
     for (int d = 1; d < r->dim; d++) b->value[d] = b->value[0];
-    b->section = scene_section_or_thickness(r->scene);
+    b->section = scene_cross_section_or_thickness(r->scene);
     return OK;
 }
 
@@ -132,12 +138,14 @@ static status read_velocity(struct reader *r, const struct yaml_node *n, struct 
     } else if (n->kind == NODE_SCALAR && r->dim == 1) {
         TRY(read_component(r, n, b, 0));
     } else {
-        return fault(r, n, "%s does not have the number of components of space %s; give a list of %d, for example %s",
-                     node_text(r, n), space_names[r->scene->space], r->dim, examples[b->displaces][r->dim - 1]);
+        return fault_report_at_node(
+            r, n, "%s does not have the number of components of space %s; give a list of %d, for example %s",
+            node_value_to_text_for_message(r, n), space_names[r->scene->space], r->dim,
+            examples[b->displaces][r->dim - 1]);
     }
     return b->components ? OK
-                         : fault(r, n, "every component is free; give at least one %s",
-                                 b->displaces ? "displacement" : "velocity");
+                         : fault_report_at_node(r, n, "every component is free; give at least one %s",
+                                                b->displaces ? "displacement" : "velocity");
 }
 
 status read_rotation_axis(struct reader *r, const struct yaml_node *rotation_node, const char *group_path,
@@ -147,21 +155,24 @@ status read_rotation_axis(struct reader *r, const struct yaml_node *rotation_nod
     const struct yaml_node *list = yaml_node_find(rotation_node, "axis");
     int d = 0;
     if (r->dim == 1)
-        return fault(r, rotation_node,
-                     "a body in space line cannot turn; remove rotation, or set a plane space or solid");
+        return fault_report_at_node(r, rotation_node,
+                                    "a body in space line cannot turn; remove rotation, or set a plane space or solid");
     unit_vector[2] = 1;
     if (!list && r->dim == 2) return OK;
     if (!list) return fault_report_missing_key(r, rotation_node, k);
-    if (r->dim == 2) return fault(r, list, "is always z in a plane space; remove it");
+    if (r->dim == 2) return fault_report_at_node(r, list, "is always z in a plane space; remove it");
     if (list->kind != NODE_LIST || list->n != DIM_MAX)
-        return fault(r, list, "%s is not an axis; give three numbers such as [0, 0, 1]", node_text(r, list));
+        return fault_report_at_node(r, list, "%s is not an axis; give three numbers such as [0, 0, 1]",
+                                    node_value_to_text_for_message(r, list));
     for (const struct yaml_node *c = list->first; c; c = c->next) {
         struct key plain = *k;
         plain.unit = UNIT_NONE;
         TRY(read_number(r, &plain, c, &unit_vector[d++]));
     }
     const real length2 = dot(unit_vector, unit_vector, DIM_MAX);
-    return length2 > 0 && isfinite(length2) ? OK : fault(r, list, "has the length 0; give an axis such as [0, 0, 1]");
+    return length2 > 0 && isfinite(length2)
+               ? OK
+               : fault_report_at_node(r, list, "has the length 0; give an axis such as [0, 0, 1]");
 }
 
 /* Reads the prescribed rotation of the boundary condition b from the mapping n: rate, centre and axis. Returns REFUSED,
@@ -185,7 +196,8 @@ static status read_mirror(struct reader *r, const struct yaml_node *map, const s
     int axis;
     for (size_t k = 0; k < COUNT_OF(senseless); k++) {
         const struct yaml_node *other = yaml_node_find(map, senseless[k]);
-        if (other) return fault(r, other, "has no effect with mirror, which acts on every body; remove it");
+        if (other)
+            return fault_report_at_node(r, other, "has no effect with mirror, which acts on every body; remove it");
     }
     TRY(read_keys_of_group(r, n, n, "boundary.mirror", b));
     const struct yaml_node *at = yaml_node_find(n, "axis");
@@ -197,10 +209,12 @@ static status read_mirror(struct reader *r, const struct yaml_node *map, const s
 static status read_absorbing(struct reader *r, const struct yaml_node *map, const struct yaml_node *n)
 {
     const struct yaml_node *time = yaml_node_find(map, "time");
-    if (time) return fault(r, time, "cannot be given with absorbing, which acts at all times; remove it");
+    if (time)
+        return fault_report_at_node(r, time, "cannot be given with absorbing, which acts at all times; remove it");
     if (n->kind == NODE_SCALAR && strcmp(n->text, "true") == 0) return OK;
-    return fault(r, n, "%s is given, but absorbing can only be true; write absorbing: true, or leave the boundary out",
-                 node_text(r, n));
+    return fault_report_at_node(
+        r, n, "%s is given, but absorbing can only be true; write absorbing: true, or leave the boundary out",
+        node_value_to_text_for_message(r, n));
 }
 
 /* Reads the face of the boundary condition b, such as `x+`, into b->face (axis 0 to 2) and b->side (+1 or -1). map:
@@ -213,14 +227,14 @@ static status read_face(struct reader *r, const struct yaml_node *map, struct bo
     if (!n) return fault_report_missing_key(r, map, k);
     int face = n->kind == NODE_SCALAR ? word_index_in_list(k->words, n->text) : -1;
     if (face < 0 || face >= 2 * r->dim)
-        return fault(r, n, "%s is not the name of a face in space %s; give %s", node_text(r, n),
-                     space_names[r->scene->space],
-                     r->dim == 1   ? "x+ or x-"
-                     : r->dim == 2 ? "x+, x-, y+ or y-"
-                                   : words_for_message(r, k->words));
+        return fault_report_at_node(r, n, "%s is not the name of a face in space %s; give %s",
+                                    node_value_to_text_for_message(r, n), space_names[r->scene->space],
+                                    r->dim == 1   ? "x+ or x-"
+                                    : r->dim == 2 ? "x+, x-, y+ or y-"
+                                                  : allowed_words_join_for_message(r, k->words));
     b->face = face / 2;
     b->side = face % 2 == 0 ? 1 : -1;
-    b->section = scene_section_or_thickness(r->scene);
+    b->section = scene_cross_section_or_thickness(r->scene);
     return OK;
 }
 
@@ -232,7 +246,7 @@ static status read_layer(struct reader *r, const struct yaml_node *map, struct b
     const struct yaml_node *depth = yaml_node_find(map, "depth");
     const struct scene *s = r->scene;
     if (!yaml_node_find(map, "face"))
-        return depth ? fault(r, depth, "has no effect without face; add one, such as face: x+") : OK;
+        return depth ? fault_report_at_node(r, depth, "has no effect without face; add one, such as face: x+") : OK;
     b->depth = (s->method == METHOD_MPM ? 1 : s->horizon) * s->spacing;
     if (depth) TRY(read_number(r, key_find("boundary", "depth"), depth, &b->depth));
     return read_face(r, map, b);
@@ -247,13 +261,16 @@ static status kind_of_boundary(struct reader *r, const struct yaml_node *map, co
     for (const struct yaml_node *n = map->first; n; n = n->next) {
         if (word_index_in_list(words, n->key) < 0) continue;
         if (*kind)
-            return fault(r, n,
-                         "is given together with %s in one item of the list; write each boundary condition as an item "
-                         "of its own",
-                         (*kind)->key);
+            return fault_report_at_node(
+                r, n,
+                "is given together with %s in one item of the list; write each boundary condition as an item "
+                "of its own",
+                (*kind)->key);
         *kind = n;
     }
-    return *kind ? OK : fault(r, map, "has no load or support; give one of %s", words_for_message(r, words));
+    return *kind ? OK
+                 : fault_report_at_node(r, map, "has no load or support; give one of %s",
+                                        allowed_words_join_for_message(r, words));
 }
 
 /* Returns true if the text of YAML node n, a number or a formula, contains a unit and is not 0. value: the number that
@@ -281,10 +298,11 @@ static status check_time_unit(struct reader *r, const struct yaml_node *kind, co
     for (const struct yaml_node *c = kind->kind == NODE_LIST ? kind->first : NULL; c && k < r->dim; c = c->next)
         unit = carries_unit(r, c, b->value[k++]) || unit;
     if (!b->time_unit || (most <= 1 && !unit)) return OK;
-    return fault(r, kind,
-                 "%s has a unit, and so has the column of the file that multiplies it; give a direction such as [0, "
-                 "-1], or a column without unit",
-                 node_text(r, kind));
+    return fault_report_at_node(
+        r, kind,
+        "%s has a unit, and so has the column of the file that multiplies it; give a direction such as [0, "
+        "-1], or a column without unit",
+        node_value_to_text_for_message(r, kind));
 }
 
 /* Reads the value of the boundary condition b by its kind. n: YAML node of the condition; kind: its entry that gives
@@ -303,17 +321,21 @@ static status read_kind(struct reader *r, const struct yaml_node *n, const struc
         TRY(read_layer(r, n, b));
     else
         depth = yaml_node_find(n, "depth");
-    if (depth) return fault(r, depth, "has no effect without fixed, velocity, displacement or rotation; remove it");
+    if (depth)
+        return fault_report_at_node(r, depth,
+                                    "has no effect without fixed, velocity, displacement or rotation; remove it");
     if (boundary_applies_force(b) || b->kind == BOUNDARY_MIRROR) face = yaml_node_find(n, "face");
     if (face && b->kind == BOUNDARY_PRESSURE)
-        return fault(r, face,
-                     "a pressure acts on every free face of the particles in `region`; give region in place of face, "
-                     "or a traction in place of the pressure");
-    if (face && b->kind != BOUNDARY_TRACTION) return fault(r, face, "has no effect with %s; remove it", kind->key);
+        return fault_report_at_node(
+            r, face,
+            "a pressure acts on every free face of the particles in `region`; give region in place of face, "
+            "or a traction in place of the pressure");
+    if (face && b->kind != BOUNDARY_TRACTION)
+        return fault_report_at_node(r, face, "has no effect with %s; remove it", kind->key);
     if (b->follow && b->kind != BOUNDARY_PRESSURE)
-        return fault(r, yaml_node_find(n, "follow"), "has no effect without pressure; remove it");
+        return fault_report_at_node(r, yaml_node_find(n, "follow"), "has no effect without pressure; remove it");
     if (profile && b->kind != BOUNDARY_BODY_FORCE)
-        return fault(r, profile, "has no effect without body_force; remove it");
+        return fault_report_at_node(r, profile, "has no effect without body_force; remove it");
     TRY(read_profile(r, profile, &b->profile));
     if (b->kind == BOUNDARY_MIRROR) return read_mirror(r, n, kind, b);
     if (b->kind == BOUNDARY_ABSORBING) {
@@ -333,7 +355,7 @@ static status read_kind(struct reader *r, const struct yaml_node *n, const struc
 static status read_boundary(struct reader *r, const struct yaml_node *n, struct boundary *b)
 {
     const struct yaml_node *kind;
-    TRY(expect_mapping(r, n, "boundary"));
+    TRY(check_node_is_mapping(r, n, "boundary"));
     TRY(check_keys_known(r, n, "boundary"));
     TRY(kind_of_boundary(r, n, &kind));
     TRY(read_keys_of_group(r, n, n, "boundary", b));
@@ -350,15 +372,16 @@ static status gravity_add(struct reader *r, const struct yaml_node *n)
     struct scene *s = r->scene;
     struct boundary *b = &s->boundary[s->boundaries];
     if (s->boundaries == BOUNDARIES_MAX)
-        return fault(r, n, "is one boundary condition more than the limit of %d; join or remove some", BOUNDARIES_MAX);
+        return fault_report_at_node(r, n, "is one boundary condition more than the limit of %d; join or remove some",
+                                    BOUNDARIES_MAX);
     for (int k = 0; k < s->boundaries; k++)
         if (strcmp(s->boundary[k].name, "gravity") == 0)
-            return fault(
+            return fault_report_at_node(
                 r, n,
                 "a boundary has the name gravity, which is the name of the load by this key; rename the boundary");
     *b = (struct boundary){.name = "gravity", .kind = BOUNDARY_BODY_FORCE, .body = -1, .by_mass = true};
     memcpy(b->value, s->gravity, sizeof b->value);
-    fault_write_location_of_node(r, n, b->place, sizeof b->place);
+    location_write_text_of_node(r, n, b->place, sizeof b->place);
     s->boundaries++;
     return OK;
 }
@@ -368,19 +391,19 @@ status read_boundaries(struct reader *r, const struct yaml_node *root)
     struct scene *s = r->scene;
     const struct yaml_node *list = yaml_node_find(root, "boundary"), *n = list ? list->first : NULL;
     const bool falls = dot(s->gravity, s->gravity, s->dim) > 0;
-    if (list) TRY(expect_list_of_valid_length(r, key_find("", "boundary"), list));
+    if (list) TRY(check_node_is_list_of_valid_length(r, key_find("", "boundary"), list));
     s->boundary = NEW("boundary conditions", (list ? list->n : 0) + falls, struct boundary);
     for (int k = 0; n; k++, n = n->next) {
         struct boundary *b = &s->boundary[k];
         s->boundaries++; /* released with the scene if the rest is refused */
         b->body = -1, b->end = s->duration;
-        fault_write_location_of_node(r, n, b->place, sizeof b->place);
+        location_write_text_of_node(r, n, b->place, sizeof b->place);
         snprintf(b->name, sizeof b->name, "boundary%d", k);
         TRY(read_boundary(r, n, b));
         for (int j = 0; j < k; j++)
             if (strcmp(s->boundary[j].name, b->name) == 0)
-                return fault(r, n, "%s is already the name of another boundary; give each boundary its own name",
-                             b->name);
+                return fault_report_at_node(
+                    r, n, "%s is already the name of another boundary; give each boundary its own name", b->name);
     }
     return falls ? gravity_add(r, yaml_node_find(root, "gravity")) : OK;
 }

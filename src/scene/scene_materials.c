@@ -17,8 +17,8 @@ static status read_strength(struct reader *r, const struct yaml_node *n, struct 
     for (size_t k = 0; k < COUNT_OF(ways); k++) {
         const struct yaml_node *way = yaml_node_find(n, ways[k]);
         if (way && given)
-            return fault(r, way, "is given together with %s, but each determines the other; remove one of the two",
-                         given->key);
+            return fault_report_at_node(
+                r, way, "is given together with %s, but each determines the other; remove one of the two", given->key);
         if (way) given = way;
     }
     if (toughness) {
@@ -53,19 +53,21 @@ static status read_hardening(struct reader *r, const struct yaml_node *n, struct
                            *hardening = yaml_node_find(n, "yield_hardening");
     real H;
     if (tangent && hardening)
-        return fault(r, hardening,
-                     "is given together with yield_tangent, but each determines the other; remove one of the two");
+        return fault_report_at_node(
+            r, hardening, "is given together with yield_tangent, but each determines the other; remove one of the two");
     if (hardening) {
         TRY(read_number(r, key_find("material", "yield_hardening"), hardening, &H));
         m->yield_tangent = m->young * H / (m->young + H);
     }
     if ((tangent || hardening) && !yaml_node_find(n, "yield_stress"))
-        return fault(r, tangent ? tangent : hardening, "has no effect without yield_stress: add yield_stress");
+        return fault_report_at_node(r, tangent ? tangent : hardening,
+                                    "has no effect without yield_stress: add yield_stress");
     if (m->yield_tangent < m->young) return OK;
-    return fault(r, tangent ? tangent : hardening,
-                 "%s is not below Young's modulus; give the slope of the stress-strain curve after yield, at least 0 "
-                 "and below young",
-                 node_text(r, tangent ? tangent : hardening));
+    return fault_report_at_node(
+        r, tangent ? tangent : hardening,
+        "%s is not below Young's modulus; give the slope of the stress-strain curve after yield, at least 0 "
+        "and below young",
+        node_value_to_text_for_message(r, tangent ? tangent : hardening));
 }
 
 /* Reads the random scatter of the strength of material m. n: YAML node of `scatter`, or NULL if there is none. Returns
@@ -83,22 +85,26 @@ static status read_scatter(struct reader *r, const struct yaml_node *n, struct m
     if (!yaml_node_find(n, own[s->form]))
         return fault_report_missing_key(r, n, key_find("material.scatter", own[s->form]));
     if (other)
-        return fault(r, other,
-                     "belongs to another distribution of strength; give %s in its place, the parameter of the chosen "
-                     "distribution",
-                     own[s->form]);
+        return fault_report_at_node(
+            r, other,
+            "belongs to another distribution of strength; give %s in its place, the parameter of the chosen "
+            "distribution",
+            own[s->form]);
     if (!isfinite(m->critical_stretch) && isnan(m->energy_release_rate))
-        return fault(r, n,
-                     "has no effect, because bonds of this material never break; give energy_release_rate, "
-                     "critical_stretch or toughness");
+        return fault_report_at_node(
+            r, n,
+            "has no effect, because bonds of this material never break; give energy_release_rate, "
+            "critical_stretch or toughness");
     if (material_yields(m) && r->scene->method == METHOD_MPM)
-        return fault(r, n,
-                     "scatter varies the strength of bonds, but method: mpm has no bonds, and yield stresses do not "
-                     "scatter; set method: pd, or remove scatter");
+        return fault_report_at_node(
+            r, n,
+            "scatter varies the strength of bonds, but method: mpm has no bonds, and yield stresses do not "
+            "scatter; set method: pd, or remove scatter");
     if (material_yields(m) && r->scene->method == METHOD_ADAPTIVE)
-        return fault(r, n,
-                     "scatter and yield_stress cannot be combined with material points, whose stress after yield does "
-                     "not show how near bonds are to breaking; set method: pd, or remove yield_stress");
+        return fault_report_at_node(
+            r, n,
+            "scatter and yield_stress cannot be combined with material points, whose stress after yield does "
+            "not show how near bonds are to breaking; set method: pd, or remove yield_stress");
     return OK;
 }
 
@@ -118,7 +124,7 @@ static status read_viscosity(struct reader *r, const struct yaml_node *n, struct
                       : !scene_is_dynamic(s)                              ? "needs solver: explicit"
                       : s->levels > 0 ? "needs one time step for the whole body; set mpm.levels: 0"
                                       : NULL;
-    return why ? fault(r, n, "%s", why) : OK;
+    return why ? fault_report_at_node(r, n, "%s", why) : OK;
 }
 
 /* Reads the material of YAML node n into m, with defaults that depend on the space, and derives its wave speeds and
@@ -139,13 +145,13 @@ static status scene_parts_read_material(struct reader *r, const struct yaml_node
     TRY(read_scatter(r, yaml_node_find(n, "scatter"), m));
     TRY(read_viscosity(r, yaml_node_find(n, "viscosity"), m));
     if (s->model != MODEL_BOND && material_yields(m))
-        return refuse_yield_with_state_model(r, scene_material_yield_key(n));
+        return refuse_yield_with_state_model(r, material_node_find_yield_key(n));
     material_compute_derived_constants(m, s->space);
     if (!isnan(m->energy_release_rate)) m->critical_stretch = scene_critical_stretch(s, m);
     if (m->critical_stretch > 0) return read_softening_onset(r, n, m);
-    return fault(r, n,
-                 "its critical stretch is too small to be represented (it rounds to 0); give a larger "
-                 "energy_release_rate and check its unit");
+    return fault_report_at_node(r, n,
+                                "its critical stretch is too small to be represented (it rounds to 0); give a larger "
+                                "energy_release_rate and check its unit");
 }
 
 status read_materials(struct reader *r, const struct yaml_node *root)
@@ -154,7 +160,7 @@ status read_materials(struct reader *r, const struct yaml_node *root)
     const struct yaml_node *one = yaml_node_find(root, "material"), *many = yaml_node_find(root, "materials");
     if (!one && !many) return fault_report_missing_key(r, root, key_find("", "material"));
     if (one && many) return fault_report_exclusive_keys(r, one, many);
-    if (many) TRY(expect_list_of_valid_length(r, key_find("", "materials"), many));
+    if (many) TRY(check_node_is_list_of_valid_length(r, key_find("", "materials"), many));
     s->materials = many ? many->n : 1;
     s->material = NEW("materials", s->materials, struct material);
     s->material_number = NEW("materials.numbers", s->materials, int);
@@ -165,9 +171,9 @@ status read_materials(struct reader *r, const struct yaml_node *root)
         if (many && !yaml_node_find(n, "name")) return fault_report_missing_key(r, n, key_find("material", "name"));
         for (int j = 0; j < k; j++)
             if (strcmp(s->material[j].name, s->material[k].name) == 0)
-                return fault(r, yaml_node_find(n, "name"),
-                             "%s is already the name of another material; give each material its own name",
-                             s->material[k].name);
+                return fault_report_at_node(
+                    r, yaml_node_find(n, "name"),
+                    "%s is already the name of another material; give each material its own name", s->material[k].name);
         TRY(check_single_softening_law(r, n, k));
     }
     return OK;

@@ -17,7 +17,7 @@ struct arena_block {
     _Alignas(16) char bytes[];
 };
 
-void *arena_new(struct reader *r, size_t byte_count)
+void *arena_allocate_zeroed(struct reader *r, size_t byte_count)
 {
     byte_count = (byte_count + 15) & ~(size_t)15;
     struct arena_block *block = r->arena;
@@ -34,7 +34,7 @@ void *arena_new(struct reader *r, size_t byte_count)
 
 char *arena_copy_text(struct reader *r, const char *text, size_t length)
 {
-    char *copy = arena_new(r, length + 1);
+    char *copy = arena_allocate_zeroed(r, length + 1);
     memcpy(copy, text, length);
     return copy;
 }

@@ -82,11 +82,13 @@ static status check_variable_name(struct reader *r, const struct yaml_node *n)
     size_t length = 0;
     while (is_letter(n->key[length])) length++;
     if (length == 0 || length > NAME_LONGEST || n->key[length] || isdigit((unsigned char)*n->key))
-        return fault(r, n,
-                     "cannot be the name of a variable; use up to %d letters, digits and _, and begin with a letter",
-                     NAME_LONGEST);
-    const char *meaning = reserved_word_meaning(n->key);
-    return meaning ? fault(r, n, "means %s in expressions; choose another name, such as %.20s1", meaning, n->key) : OK;
+        return fault_report_at_node(
+            r, n, "cannot be the name of a variable; use up to %d letters, digits and _, and begin with a letter",
+            NAME_LONGEST);
+    const char *meaning = reserved_expression_word_get_meaning(n->key);
+    return meaning ? fault_report_at_node(r, n, "means %s in expressions; choose another name, such as %.20s1", meaning,
+                                          n->key)
+                   : OK;
 }
 
 /* Returns true if `text` contains `name` as a whole word, not only as a part of a longer word. */
@@ -121,9 +123,9 @@ static status check_overrides(struct reader *r, const struct yaml_node *root)
             if (other->n->origin < 0 &&
                 (!nearest || edit_distance(other->n->key, v->n->key) < edit_distance(nearest->n->key, v->n->key)))
                 nearest = other;
-        return fault(r, v->n, "no value of the scene uses this variable; %s%s%s",
-                     nearest ? "did you mean " : "see `cleave help variables`", nearest ? nearest->n->key : "",
-                     nearest ? "?" : "");
+        return fault_report_at_node(r, v->n, "no value of the scene uses this variable; %s%s%s",
+                                    nearest ? "did you mean " : "see `cleave help variables`",
+                                    nearest ? nearest->n->key : "", nearest ? "?" : "");
     }
     return OK;
 }
@@ -135,17 +137,19 @@ status read_variables(struct reader *r, const struct yaml_node *root)
     char what[256];
     r->variables = 0;
     if (!map || (map->kind == NODE_SCALAR && *map->text == '\0')) return OK;
-    TRY(expect_node_kind(r, map, NODE_MAP, "give a mapping such as {a: 3 mm, b: 2*a}"));
-    if (map->n > k->range.most) return fault(r, map, "has %d variables; give at most %g", map->n, k->range.most);
-    r->variable = arena_new(r, (size_t)(map->n + 1) * sizeof *r->variable);
+    TRY(check_node_kind(r, map, NODE_MAP, "give a mapping such as {a: 3 mm, b: 2*a}"));
+    if (map->n > k->range.most)
+        return fault_report_at_node(r, map, "has %d variables; give at most %g", map->n, k->range.most);
+    r->variable = arena_allocate_zeroed(r, (size_t)(map->n + 1) * sizeof *r->variable);
     for (const struct yaml_node *n = map->first; n; n = n->next) {
         TRY(check_variable_name(r, n));
-        TRY(expect_node_kind(r, n, NODE_SCALAR, "give a number or an expression"));
+        TRY(check_node_kind(r, n, NODE_SCALAR, "give a number or an expression"));
         TRY(check_key_given_once(r, map, n));
         r->variable[r->variables++] = (struct variable){.n = n};
     }
     for (struct variable *v = r->variable; v < r->variable + r->variables; v++)
-        if (!evaluate(r, v, what, sizeof what)) return fault(r, v->n, "%s %s", node_text(r, v->n), what);
+        if (!evaluate(r, v, what, sizeof what))
+            return fault_report_at_node(r, v->n, "%s %s", node_value_to_text_for_message(r, v->n), what);
     return check_overrides(r, root);
 }
 
@@ -159,23 +163,24 @@ bool number_evaluate_text(struct reader *r, real *value, const char *text, enum 
 {
     char other[256];
     struct quantity q;
-    if (number_read(value, text, kind_of_unit, allow_infinity, message, capacity)) return true;
+    if (number_parse_with_unit(value, text, kind_of_unit, allow_infinity, message, capacity)) return true;
     const bool known = quantity_evaluate_text(r, text, &q, other, sizeof other);
     if (known && kind_of_unit == UNIT_ANGLE && q.bare) { /* a bare 30 could be degrees */
         snprintf(message, capacity, "has no unit; give %s, such as %s", unit_rows[kind_of_unit].name,
                  unit_rows[kind_of_unit].example);
         return false;
     }
-    if (known && quantity_has_unit(&q, kind_of_unit, other, sizeof other) &&
+    if (known && quantity_unit_is_of_kind_or_absent(&q, kind_of_unit, other, sizeof other) &&
         value_is_in_unit_bounds(q.value, kind_of_unit, other, sizeof other)) {
         *value = q.value;
         return true;
     }
-    if (looks_like_expression(r, text)) snprintf(message, capacity, "%s", other);
+    if (text_looks_like_expression(r, text)) snprintf(message, capacity, "%s", other);
     return false;
 }
 
-void advise_length_in_spacings(struct reader *r, const struct key *k, const char *text, char *message, size_t capacity)
+void message_suggest_length_as_number_of_spacings(struct reader *r, const struct key *k, const char *text,
+                                                  char *message, size_t capacity)
 {
     char other[256];
     real length;
@@ -185,6 +190,6 @@ void advise_length_in_spacings(struct reader *r, const struct key *k, const char
         snprintf(message, capacity, "is a length; give a plain number, the length in spacings");
         return;
     }
-    snprintf(message, capacity, "is a length; give it in spacings, here %s: %.4g%s", key_last_part(k),
-             length / r->scene->spacing, strcmp(key_last_part(k), "horizon") ? "" : " (3.015 is usual)");
+    snprintf(message, capacity, "is a length; give it in spacings, here %s: %.4g%s", key_get_last_name_of_path(k),
+             length / r->scene->spacing, strcmp(key_get_last_name_of_path(k), "horizon") ? "" : " (3.015 is usual)");
 }

@@ -36,7 +36,7 @@ static bool step_of_path(const char **path, const char **key, size_t *length, in
  * (KEY=VALUE on the command line), for messages. The memory belongs to the reader r. */
 static struct yaml_node *new_entry(struct reader *r, struct yaml_node *map, const char *key, size_t length, int origin)
 {
-    struct yaml_node *n = arena_new(r, sizeof *n);
+    struct yaml_node *n = arena_allocate_zeroed(r, sizeof *n);
     *n = (struct yaml_node){.kind = NODE_MAP, .line = 1, .column = 1, .origin = origin, .text = ""};
     n->key = arena_copy_text(r, key, length);
     yaml_node_append(map, n);
@@ -71,11 +71,12 @@ static const struct yaml_node *blamed(struct yaml_node *n, int origin)
 static status item_of(struct reader *r, struct yaml_node *list, int index, int origin, struct yaml_node **out)
 {
     if (list->kind != NODE_LIST)
-        return fault(r, blamed(list, origin), "is not a list in this scene, so [%d] cannot be used; remove it", index);
+        return fault_report_at_node(r, blamed(list, origin),
+                                    "is not a list in this scene, so [%d] cannot be used; remove it", index);
     if (index >= list->n)
-        return fault(r, blamed(list, origin),
-                     "has %d items, so [%d] is beyond the last one; use a smaller number (the first is [0])", list->n,
-                     index);
+        return fault_report_at_node(
+            r, blamed(list, origin),
+            "has %d items, so [%d] is beyond the last one; use a smaller number (the first is [0])", list->n, index);
     struct yaml_node *n = list->first;
     while (index-- > 0) n = n->next;
     *out = n;
@@ -92,7 +93,7 @@ static const char *names_text(struct reader *r, const struct yaml_node *list)
         const char *name = item_name(list, n);
         if (!name) continue;
         used += (size_t)snprintf(text + used, sizeof text - used, "%s%.40s", used ? ", " : " or by name (",
-                                 text_for_message(r, name));
+                                 text_to_printable_line_for_message(r, name));
     }
     if (used) snprintf(text + used, sizeof text - used, "%s)", used < 100 ? "" : ", ...");
     return arena_copy_text(r, text, strlen(text));
@@ -116,9 +117,10 @@ static status item_called(struct reader *r, struct yaml_node *list, const char *
             return OK;
         }
     }
-    return fault(r, blamed(list, origin), "has %d item%s, and %s is %s; name an item by its number (from 0)%s", list->n,
-                 list->n == 1 ? "" : "s", text_for_message(r, called),
-                 number ? "beyond the last" : "not the name of one", names_text(r, list));
+    return fault_report_at_node(r, blamed(list, origin),
+                                "has %d item%s, and %s is %s; name an item by its number (from 0)%s", list->n,
+                                list->n == 1 ? "" : "s", text_to_printable_line_for_message(r, called),
+                                number ? "beyond the last" : "not the name of one", names_text(r, list));
 }
 
 static bool is_key(const struct yaml_node *n, const char *key, size_t length)
@@ -164,11 +166,14 @@ static status scene_override_entry_of(struct reader *r, struct yaml_node *map, c
     bool empty = map->kind == NODE_SCALAR && *map->text == '\0';
     if (empty) map->kind = NODE_MAP;
     if (map->kind != NODE_MAP)
-        return fault(r, &at, "%s has the value %s and no keys below it; `cleave help` shows the path of every key",
-                     map->key ? text_for_message(r, map->key) : "the item", node_text(r, map));
+        return fault_report_at_node(
+            r, &at, "%s has the value %s and no keys below it; `cleave help` shows the path of every key",
+            map->key ? text_to_printable_line_for_message(r, map->key) : "the item",
+            node_value_to_text_for_message(r, map));
     if (strspn(at.key, "0123456789") == length) {
         at.key = map->key;
-        return fault(r, &at, "is not a list in this scene, so %.*s cannot be used; remove it", (int)length, key);
+        return fault_report_at_node(r, &at, "is not a list in this scene, so %.*s cannot be used; remove it",
+                                    (int)length, key);
     }
     *out = yaml_node_find(map, at.key);
     if (!*out) *out = new_entry(r, map, key, length, origin);
@@ -208,25 +213,26 @@ static void replace(struct yaml_node *n, const struct yaml_node *value)
 static status override_one(struct reader *r, struct yaml_node *root, int origin)
 {
     const struct scene_override *o = &r->override[origin];
-    const char *path = key_path_current_name_of_override(r, o->key), *key = NULL;
+    const char *path = override_key_get_current_name(r, o->key), *key = NULL;
     size_t length = 0;
     int index;
     struct yaml_node *n = root, *value;
     TRY(tree_parse_yaml(r, o->value, strlen(o->value), origin, &value));
     while (*path) {
         if (!step_of_path(&path, &key, &length, &index))
-            return fault_at_location(
+            return fault_report_at_location(
                 r, origin, 0, 0, "%s: is not a path of keys; give one such as material.young or boundary.0.velocity",
-                text_for_message(r, o->key));
+                text_to_printable_line_for_message(r, o->key));
         if (*path == '\0' && is_new_item(n, key, length, index, value)) return yaml_node_append(n, value), OK;
         TRY(index >= 0 ? item_of(r, n, index, origin, &n) : scene_override_entry_of(r, n, key, length, origin, &n));
     }
-    if (n == root) return fault_at_location(r, origin, 0, 0, "has no key; write for example material.young=70e9");
+    if (n == root)
+        return fault_report_at_location(r, origin, 0, 0, "has no key; write for example material.young=70e9");
     if (value)
         replace(n, value);
     else if (n->origin == origin)
-        return fault(r, n,
-                     "is not in the scene, so it cannot be removed (an empty value removes a key); check its spelling");
+        return fault_report_at_node(
+            r, n, "is not in the scene, so it cannot be removed (an empty value removes a key); check its spelling");
     else
         yaml_node_remove(n->parent, n);
     return OK;
@@ -241,7 +247,7 @@ status tree_apply_all_overrides(struct reader *r, struct yaml_node *root)
 status tree_apply_override(struct reader *r, struct yaml_node *root, const char *key, const char *value)
 {
     const int n = r->overrides;
-    struct scene_override *more = arena_new(r, (size_t)(n + 1) * sizeof *more);
+    struct scene_override *more = arena_allocate_zeroed(r, (size_t)(n + 1) * sizeof *more);
     array_copy(more, r->override, n, sizeof *more);
     more[n].key = arena_copy_text(r, key, strlen(key));
     more[n].value = arena_copy_text(r, value, strlen(value));
@@ -249,7 +255,7 @@ status tree_apply_override(struct reader *r, struct yaml_node *root, const char 
     return override_one(r, root, r->overrides++);
 }
 
-const struct yaml_node *tree_find(const struct yaml_node *root, const char *path)
+const struct yaml_node *tree_find_node_by_path(const struct yaml_node *root, const char *path)
 {
     char leaf[64];
     const struct yaml_node *n = root;

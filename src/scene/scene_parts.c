@@ -19,15 +19,16 @@ static status read_list_columns(struct reader *r, const struct yaml_node *n, str
 {
     size_t length = 1;
     if (n->kind != NODE_LIST || n->n == 0)
-        return fault(r, n, "%s is not a list of columns; give a list such as [x, y, z, volume, block]",
-                     node_text(r, n));
+        return fault_report_at_node(r, n, "%s is not a list of columns; give a list such as [x, y, z, volume, block]",
+                                    node_value_to_text_for_message(r, n));
     for (const struct yaml_node *name = n->first; name; name = name->next) {
         if (name->kind != NODE_SCALAR || strpbrk(name->text, ",;\"'\n"))
-            return fault(r, name, "%s is not the name of a column; give names such as [x, y, z, volume, block]",
-                         node_text(r, name));
+            return fault_report_at_node(r, name,
+                                        "%s is not the name of a column; give names such as [x, y, z, volume, block]",
+                                        node_value_to_text_for_message(r, name));
         length += strlen(name->text) + 1;
     }
-    if (length > COLUMNS_TEXT) return fault(r, n, "is longer than %d letters; shorten it", COLUMNS_TEXT);
+    if (length > COLUMNS_TEXT) return fault_report_at_node(r, n, "is longer than %d letters; shorten it", COLUMNS_TEXT);
     b->columns = NEW("list.columns", length, char);
     for (const struct yaml_node *name = n->first; name; name = name->next) {
         strcat(b->columns, name->text);
@@ -45,12 +46,13 @@ static status read_particle_list(struct reader *r, const struct yaml_node *n, st
     const bool mapping = n->kind == NODE_MAP;
     const struct yaml_node *file = mapping ? yaml_node_find(n, "file") : n;
     const struct yaml_node *columns = mapping ? yaml_node_find(n, "columns") : NULL;
-    fault_write_location_of_node(r, n, b->place, sizeof b->place);
+    location_write_text_of_node(r, n, b->place, sizeof b->place);
     if (mapping) TRY(read_keys_of_group(r, n, n, "bodies.particles", b));
     if (!file) return fault_report_missing_key(r, n, key_find("bodies.particles", "file"));
     if (file->kind != NODE_SCALAR || !path_has_particle_list_extension(file->text))
-        return fault(r, file, "%s is not a particle list; give the name of a file that ends in .csv, .h5 or .exo",
-                     node_text(r, file));
+        return fault_report_at_node(r, file,
+                                    "%s is not a particle list; give the name of a file that ends in .csv, .h5 or .exo",
+                                    node_value_to_text_for_message(r, file));
     if (mapping) TRY(read_length_unit_of_file(r, n, false, &b->form.scale));
     if (columns) TRY(read_list_columns(r, columns, b));
     TRY(read_input_file_path(r, file, "a particle list", &b->file, &b->contents));
@@ -66,20 +68,22 @@ static status check_rigid_body(struct reader *r, const struct yaml_node *n, cons
     static const char *const others[] = {"material", "particles", "frame", "parts"};
     for (size_t k = 0; k < COUNT_OF(own) && !b->rigid; k++)
         if (yaml_node_find(n, own[k]))
-            return fault(r, yaml_node_find(n, own[k]), "is a key of rigid bodies only; add rigid: true, or remove it");
+            return fault_report_at_node(r, yaml_node_find(n, own[k]),
+                                        "is a key of rigid bodies only; add rigid: true, or remove it");
     if (yaml_node_find(n, "ramp") && (yaml_node_find(n, "mass") || !yaml_node_find(n, "velocity")))
-        return fault(r, yaml_node_find(n, "ramp"),
-                     "is for a rigid body with a prescribed velocity; give velocity, and remove mass");
+        return fault_report_at_node(r, yaml_node_find(n, "ramp"),
+                                    "is for a rigid body with a prescribed velocity; give velocity, and remove mass");
     if (yaml_node_find(n, "force") && !yaml_node_find(n, "mass"))
-        return fault(r, yaml_node_find(n, "force"),
-                     "has no effect on a rigid body without a mass, which keeps its velocity; give a mass");
+        return fault_report_at_node(
+            r, yaml_node_find(n, "force"),
+            "has no effect on a rigid body without a mass, which keeps its velocity; give a mass");
     for (size_t k = 0; k < COUNT_OF(others) && b->rigid; k++)
         if (yaml_node_find(n, others[k]))
-            return fault(
+            return fault_report_at_node(
                 r, yaml_node_find(n, others[k]),
                 "has no meaning for a rigid body; remove it, and give a shape, and a mass if the body moves freely");
-    if (b->rigid && region_contains_infinite_box_solid(&b->shape, r->scene->dim))
-        return fault(r, yaml_node_find(n, "shape"), "has an infinite box; use a half-space");
+    if (b->rigid && region_has_box_with_infinite_side(&b->shape, r->scene->dim))
+        return fault_report_at_node(r, yaml_node_find(n, "shape"), "has an infinite box; use a half-space");
     return OK;
 }
 
@@ -89,7 +93,7 @@ static status check_rigid_body(struct reader *r, const struct yaml_node *n, cons
 static status scene_parts_read_body(struct reader *r, const struct yaml_node *n, struct scene_body *b, int number)
 {
     const struct yaml_node *shape = yaml_node_find(n, "shape"), *file = yaml_node_find(n, "particles");
-    fault_write_location_of_node(r, n, b->place, sizeof b->place);
+    location_write_text_of_node(r, n, b->place, sizeof b->place);
     b->material = -1;
     r->bounded = !yaml_node_find(n, "rigid");
     TRY(read_keys_of_group(r, n, n, "bodies", b));
@@ -106,7 +110,8 @@ static status scene_parts_read_body(struct reader *r, const struct yaml_node *n,
     if (!yaml_node_find(n, "frame")) b->frame = r->scene->frame;
     for (int j = 0; j < number; j++)
         if (strcmp(r->scene->body[j].name, b->name) == 0)
-            return fault(r, n, "%s is already the name of another body; give each body its own", b->name);
+            return fault_report_at_node(r, n, "%s is already the name of another body; give each body its own",
+                                        b->name);
     return OK;
 }
 
@@ -132,24 +137,26 @@ status read_bodies(struct reader *r, const struct yaml_node *root)
     if (!one && !many) return fault_report_missing_key(r, root, key_find("", "body"));
     if (one && many) return fault_report_exclusive_keys(r, one, many);
     const struct yaml_node *parts = yaml_node_find(root, "parts");
-    if (many && parts) return fault(r, parts, "belongs to the key body; with the key bodies, give parts in each body");
-    if (many) TRY(expect_list_of_valid_length(r, key_find("", "bodies"), many));
+    if (many && parts)
+        return fault_report_at_node(r, parts, "belongs to the key body; with the key bodies, give parts in each body");
+    if (many) TRY(check_node_is_list_of_valid_length(r, key_find("", "bodies"), many));
     const int n_bodies = many ? many->n : 1;
     s->body = NEW("bodies", n_bodies, struct scene_body);
     if (one) {
         s->bodies = 1;
         strcpy(s->body->name, "body");
-        fault_write_location_of_node(r, one, s->body->place, sizeof s->body->place);
+        location_write_text_of_node(r, one, s->body->place, sizeof s->body->place);
         s->body->frame = s->frame;
         r->bounded = true;
         TRY(read_region(r, one, &s->body->shape));
         r->bounded = false;
         TRY(read_body_parts_by_grey_value(r, one, s->body));
         if (s->materials > 1 && !parts && s->body->parts == 0)
-            return fault(r, one,
-                         "the scene has %d materials, but the key body cannot name one; use parts, or the key bodies "
-                         "with a material for each",
-                         s->materials);
+            return fault_report_at_node(
+                r, one,
+                "the scene has %d materials, but the key body cannot name one; use parts, or the key bodies "
+                "with a material for each",
+                s->materials);
         return read_body_parts(r, parts, key_find("", "parts"), s->body);
     }
     const struct yaml_node *n = many->first;
@@ -160,7 +167,7 @@ status read_bodies(struct reader *r, const struct yaml_node *root)
     }
     s->bodies = 0;
     sort_bodies(s, n_bodies);
-    if (s->bodies == 0) return fault(r, many, "all bodies are rigid; add a body with a material");
+    if (s->bodies == 0) return fault_report_at_node(r, many, "all bodies are rigid; add a body with a material");
     if (s->rigids == 0) return OK;
     return s->method == METHOD_MPM || scene_is_single_equilibrium(s) ? refuse_unsupported_rigid_bodies(r, many) : OK;
 }
@@ -178,12 +185,13 @@ static status read_polarisation(struct reader *r, const struct yaml_node *n, str
     if (!n)
         memcpy(moved, w->direction, sizeof w->direction);
     else if (!(length > 0))
-        return fault(r, n, "has the length 0 and thus no direction; give `direction`, or move one of the two ends");
+        return fault_report_at_node(
+            r, n, "has the length 0 and thus no direction; give `direction`, or move one of the two ends");
     for (int d = 0; n && d < dim; d++) moved[d] /= length;
     const real along = dot(moved, w->direction, dim);
     w->transverse = fabs(along) < 1e-6;
     if (!w->transverse && fabs(along) < 1 - 1e-6)
-        return fault(
+        return fault_report_at_node(
             r, n,
             "is neither parallel nor perpendicular to direction, as the motion in a plane wave must be; change it");
     for (int d = 0; d < dim; d++)
@@ -199,7 +207,8 @@ static status read_pulse(struct reader *r, const struct yaml_node *n, struct sce
     if (!n) return OK;
     TRY(read_keys_of_group(r, n, n, "initial.pulse", initial));
     length = sqrt(dot(direction, direction, r->dim));
-    if (!(length > 0)) return fault(r, yaml_node_find(n, "direction"), "has the length 0; give a direction such as 1");
+    if (!(length > 0))
+        return fault_report_at_node(r, yaml_node_find(n, "direction"), "has the length 0; give a direction such as 1");
     for (int d = 0; d < r->dim; d++) direction[d] /= length;
     initial->sets_pulse = true;
     return read_polarisation(r, yaml_node_find(n, "polarisation"), &initial->pulse);
@@ -245,18 +254,19 @@ static status read_initial_velocity(struct reader *r, const struct yaml_node *n,
 static status read_initial(struct reader *r, const struct yaml_node *n, struct scene_initial *initial)
 {
     initial->body = -1;
-    fault_write_location_of_node(r, n, initial->place, sizeof initial->place);
+    location_write_text_of_node(r, n, initial->place, sizeof initial->place);
     TRY(read_keys_of_group(r, n, n, "initial", initial));
     TRY(read_initial_velocity(r, yaml_node_find(n, "velocity"), initial));
     TRY(read_pulse(r, yaml_node_find(n, "pulse"), initial));
     TRY(read_initial_rotation(r, n, initial));
     if (initial->sets_strain && r->scene->solver == SOLVER_RELAXATION && r->scene->method != METHOD_PD)
-        return fault(r, yaml_node_find(n, "displacement_gradient"),
-                     "with solver: relaxation the equilibrium of material points depends on their initial strain; set "
-                     "solver: static, or remove the initial strain");
+        return fault_report_at_node(
+            r, yaml_node_find(n, "displacement_gradient"),
+            "with solver: relaxation the equilibrium of material points depends on their initial strain; set "
+            "solver: static, or remove the initial strain");
     if (initial->sets_velocity || initial->sets_strain || initial->sets_pulse) return OK;
-    return fault(r, n,
-                 "has no initial state; give velocity, velocity_gradient, rotation, displacement_gradient or pulse");
+    return fault_report_at_node(
+        r, n, "has no initial state; give velocity, velocity_gradient, rotation, displacement_gradient or pulse");
 }
 
 status read_initial_states(struct reader *r, const struct yaml_node *root)
@@ -264,7 +274,7 @@ status read_initial_states(struct reader *r, const struct yaml_node *root)
     struct scene *s = r->scene;
     const struct yaml_node *list = yaml_node_find(root, "initial");
     if (!list) return OK;
-    TRY(expect_list_of_valid_length(r, key_find("", "initial"), list));
+    TRY(check_node_is_list_of_valid_length(r, key_find("", "initial"), list));
     s->initials = list->n;
     s->initial = NEW("initial states", list->n, struct scene_initial);
     const struct yaml_node *n = list->first;
@@ -283,26 +293,28 @@ static status read_growth(struct reader *r, const struct yaml_node *n, struct gr
     TRY(read_keys_of_group(r, n, n, "growth", g));
     length = sqrt(dot(g->direction, g->direction, r->dim));
     if (!(length > 0))
-        return fault(r, yaml_node_find(n, "direction"), "has the length 0; give a direction such as [1, 0]");
+        return fault_report_at_node(r, yaml_node_find(n, "direction"),
+                                    "has the length 0; give a direction such as [1, 0]");
     for (int d = 0; d < r->dim; d++) g->direction[d] /= length;
     if (!g->probe[0] && yaml_node_find(n, "toughness"))
-        return fault(r, yaml_node_find(n, "toughness"),
-                     "has no effect without the key probe; add probe, the name of a sif probe");
+        return fault_report_at_node(r, yaml_node_find(n, "toughness"),
+                                    "has no effect without the key probe; add probe, the name of a sif probe");
     if (!g->probe[0] && !isnan(g->smoothing))
-        return fault(r, yaml_node_find(n, "smoothing"),
-                     "has no effect without the key probe; add probe, the name of a sif probe");
-    if (growth_speed_is_controlled(g) && !(g->toughness > 0))
-        return fault(r, yaml_node_find(n, "speed"),
-                     "the choice follow needs a sif probe (key probe) and toughness, the value at which K_eq is kept; "
-                     "give both");
-    if (!growth_speed_is_controlled(g) && !isnan(g->fastest))
-        return fault(r, yaml_node_find(n, "fastest"),
-                     "has no effect with a given speed; set speed: follow, or remove it");
+        return fault_report_at_node(r, yaml_node_find(n, "smoothing"),
+                                    "has no effect without the key probe; add probe, the name of a sif probe");
+    if (growth_rule_controls_speed_by_toughness(g) && !(g->toughness > 0))
+        return fault_report_at_node(
+            r, yaml_node_find(n, "speed"),
+            "the choice follow needs a sif probe (key probe) and toughness, the value at which K_eq is kept; "
+            "give both");
+    if (!growth_rule_controls_speed_by_toughness(g) && !isnan(g->fastest))
+        return fault_report_at_node(r, yaml_node_find(n, "fastest"),
+                                    "has no effect with a given speed; set speed: follow, or remove it");
     for (int k = 0; g->probe[0] && k < r->scene->probes; k++)
         if (r->scene->probe[k].kind == PROBE_SIF && strcmp(r->scene->probe[k].name, g->probe) == 0) return OK;
-    return g->probe[0]
-               ? fault(r, yaml_node_find(n, "probe"), "the scene has no sif probe %s; add it to probes", g->probe)
-               : OK;
+    return g->probe[0] ? fault_report_at_node(r, yaml_node_find(n, "probe"),
+                                              "the scene has no sif probe %s; add it to probes", g->probe)
+                       : OK;
 }
 
 /* Returns REFUSED, with a message, if a probe of the input file (scene) names a growth rule that the scene lacks.
@@ -315,15 +327,15 @@ static status check_growth_probes(struct reader *r, const struct yaml_node *root
         bool found = false;
         if (s->probe[k].kind != PROBE_GROWTH) continue;
         if (s->growths == 0)
-            return fault(
+            return fault_report_at_node(
                 r, n,
                 "the scene has no crack with prescribed growth to measure; add the key growth, or remove this probe");
         for (int g = 0; g < s->growths; g++)
             found = found || !s->probe[k].of[0] || strcmp(s->growth[g].name, s->probe[k].of) == 0;
         if (!found)
-            return fault(r, yaml_node_find(n->first, "of"),
-                         "the scene has no growth named %s; give an existing name (the first one: %s)", s->probe[k].of,
-                         s->growth[0].name);
+            return fault_report_at_node(r, yaml_node_find(n->first, "of"),
+                                        "the scene has no growth named %s; give an existing name (the first one: %s)",
+                                        s->probe[k].of, s->growth[0].name);
     }
     return OK;
 }
@@ -335,11 +347,12 @@ status read_crack_growths(struct reader *r, const struct yaml_node *root)
     struct scene *s = r->scene;
     const struct yaml_node *list = yaml_node_find(root, "growth");
     if (!list) return check_growth_probes(r, root);
-    TRY(expect_list_of_valid_length(r, key_find("", "growth"), list));
+    TRY(check_node_is_list_of_valid_length(r, key_find("", "growth"), list));
     if (s->dim != 2)
-        return fault(r, list,
-                     "prescribed crack growth is possible in plane spaces only; set a plane space, or remove growth");
-    if (s->method == METHOD_MPM) return fault(r, list, "method: mpm has no bonds to cut; set method: pd or adaptive");
+        return fault_report_at_node(
+            r, list, "prescribed crack growth is possible in plane spaces only; set a plane space, or remove growth");
+    if (s->method == METHOD_MPM)
+        return fault_report_at_node(r, list, "method: mpm has no bonds to cut; set method: pd or adaptive");
     s->growths = list->n;
     s->growth = NEW("growth", list->n, struct growth_rule);
     const struct yaml_node *n = list->first;
@@ -358,15 +371,16 @@ static status read_frame_region(struct reader *r, const struct yaml_node *n, int
     struct scene_series *one = &s->series[number];
     TRY(read_keys_of_group(r, n, n, "output.regions", one));
     if (strcmp(one->name, "frames") == 0)
-        return fault(r, yaml_node_find(n, "name"),
-                     "frames is the name of the frames of all bodies; choose another name");
+        return fault_report_at_node(r, yaml_node_find(n, "name"),
+                                    "frames is the name of the frames of all bodies; choose another name");
     for (int k = 0; k < number; k++)
         if (strcmp(s->series[k].name, one->name) == 0)
-            return fault(r, yaml_node_find(n, "name"), "%s is already the name of another region; choose another one",
-                         one->name);
+            return fault_report_at_node(r, yaml_node_find(n, "name"),
+                                        "%s is already the name of another region; choose another one", one->name);
     if (s->duration / one->every > FRAMES_MOST)
-        return fault(r, yaml_node_find(n, "every"), "%s makes more than %d frames; use an interval of at least %.3g s",
-                     node_text(r, yaml_node_find(n, "every")), FRAMES_MOST, s->duration / FRAMES_MOST);
+        return fault_report_at_node(
+            r, yaml_node_find(n, "every"), "%s makes more than %d frames; use an interval of at least %.3g s",
+            node_value_to_text_for_message(r, yaml_node_find(n, "every")), FRAMES_MOST, s->duration / FRAMES_MOST);
     return OK;
 }
 
@@ -376,7 +390,7 @@ status read_regions_of_output_frames(struct reader *r, const struct yaml_node *r
     const struct yaml_node *output = yaml_node_find(root, "output"),
                            *list = output ? yaml_node_find(output, "regions") : NULL;
     if (!list) return OK;
-    TRY(expect_list_of_valid_length(r, key_find("output", "regions"), list));
+    TRY(check_node_is_list_of_valid_length(r, key_find("output", "regions"), list));
     s->n_series = list->n;
     s->series = NEW("scene.series", list->n, struct scene_series);
     const struct yaml_node *n = list->first;

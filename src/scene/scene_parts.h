@@ -44,7 +44,7 @@ status read_materials(struct reader *r, const struct yaml_node *root);
 
 /* Returns the node of the key by which a material yields: yield_stress, johnson_cook or hardening. Returns
  * material_node itself, the node of the material, if none of these keys is given. */
-const struct yaml_node *scene_material_yield_key(const struct yaml_node *material_node);
+const struct yaml_node *material_node_find_yield_key(const struct yaml_node *material_node);
 
 /* Reads the flow law (yield stress as a function of plastic strain, rate and temperature), kinematic hardening and
  * heating of `material`. material_node: node of the material. The keys of linear hardening must have been read before.
@@ -58,7 +58,7 @@ status read_bodies(struct reader *r, const struct yaml_node *root);
 
 /* Moves the materials of which no body consists behind the others and counts them in s->unused_materials, no longer in
  * s->materials, so that they have no effect on a run. Must be called after read_bodies. */
-void scene_set_unused_materials_aside(struct scene *s);
+void scene_exclude_unused_materials(struct scene *s);
 
 /* Reads the parts of `body`, the regions of it that have materials of their own, from `parts_node`, the value of key k.
  * parts_node: NULL if the key is not given. r: reader of the input file. Returns REFUSED, with a message, for an
@@ -110,7 +110,7 @@ status read_regions_of_output_frames(struct reader *r, const struct yaml_node *r
 
 /* Sets defaults of keys that depend on several other keys, and checks conditions between keys outside of lists. r,
  * root: reader and tree of the input file. Returns REFUSED, with a message, for keys that contradict each other. */
-status check_scene_keys_and_set_defaults(struct reader *r, const struct yaml_node *root);
+status check_key_combinations_and_set_defaults(struct reader *r, const struct yaml_node *root);
 
 /* Sets the default of the safety factor on the critical time step, which depends on whether bonds can break. Materials
  * must have been read before. r, root: reader and tree of the input file, to see whether the key is given. */
@@ -130,7 +130,7 @@ status read_interfaces(struct reader *r, const struct yaml_node *root);
 
 /* Checks that each boundary condition that applies to one of several bodies joined by interfaces applies to all of
  * them. r: reader of the input file; root: tree of the input file. Returns REFUSED, with a message, if one does not. */
-status check_boundaries_of_joined_bodies(struct reader *r, const struct yaml_node *root);
+status check_boundaries_apply_to_all_joined_bodies(struct reader *r, const struct yaml_node *root);
 
 /* Returns the critical stretch of bonds [1] that follows from the energy release rate of material m, with the model,
  * horizon and space of scene s (the input file). */
@@ -140,7 +140,7 @@ real scene_critical_stretch(const struct scene *s, const struct material *m);
  * *r->spacing_most to `largest_spacing` if that is smaller, the largest spacing with which a material can have its
  * tensile strength [m]. Returns true then. Returns false, and does nothing, if the spacing is not searched for
  * (r->spacing_most is NULL); the caller then refuses a strength that does not suit the present spacing. */
-static inline bool limit_spacing_of_spacing_search(struct reader *r, real largest_spacing)
+static inline bool spacing_search_reduce_upper_bound_if_active(struct reader *r, real largest_spacing)
 {
     if (r->spacing_most) *r->spacing_most = real_min(*r->spacing_most, largest_spacing);
     return r->spacing_most != NULL;
@@ -171,7 +171,8 @@ status check_single_softening_law(struct reader *r, const struct yaml_node *mate
 
 /* Returns the first material of scene s (the input file) for which has(material) returns true; NULL if there is none.
  */
-const struct material *scene_first_material(const struct scene *s, bool (*has)(const struct material *));
+const struct material *scene_find_first_material_that_satisfies(const struct scene *s,
+                                                                bool (*condition)(const struct material *));
 
 /* Returns REFUSED, with a message, if bonds of one material soften while another material yields, and for keys that
  * state-based models do not support with bonds that soften. r, root: reader and tree of the input file. */
@@ -194,12 +195,12 @@ status check_loads_are_supported(struct reader *r, const struct yaml_node *root)
  * is `current` (at the present positions of material points) if a body does not support `reference`, with the reason in
  * body.frame_reason. Otherwise it remains `auto`, and the choice is made when the particles exist. Bodies must have
  * been read before. */
-void resolve_automatic_frames_of_bodies(struct scene *s);
+void scene_resolve_auto_shape_function_frames(struct scene *s);
 
 /* Finds out which particle lists form a lattice, and then sets the default of the correction of bonds near faces (key
  * pd.surface), which depends on it. Bodies must have been read before. r, root: reader and tree of the input file, to
  * see which keys are given. */
-void resolve_lattices_of_particle_lists(struct reader *r, const struct yaml_node *root);
+void detect_lattices_and_resolve_surface_correction(struct reader *r, const struct yaml_node *root);
 
 /* Checks the keys of an input file that requests a static solver. Returns REFUSED, with a message, for keys that static
  * solvers do not support. Materials and probes must have been read before. r, root: reader and tree of the input file.
@@ -216,7 +217,7 @@ bool scene_has_load_steps_with_softening_bonds(const struct scene *s);
 
 /* Returns REFUSED, with a message, if the input file gives settings of load steps (successive static equilibria) but
  * has another solver, unless all of them have their default values. r, root: reader and tree of the input file. */
-status check_load_step_keys_unused(struct reader *r, const struct yaml_node *root);
+status check_no_load_step_keys_with_other_solver(struct reader *r, const struct yaml_node *root);
 
 /* Returns the contents s of an input file as they are run, every key with its value or default, as YAML text. Returns
  * NULL if there is no memory. The caller releases the text with memory_free. */

@@ -108,7 +108,7 @@ static void place_of_name(const struct scene *s, const char *text, char *place)
     if (!*place && sscanf(text, "crack %d", &crack) == 1 && crack > 0) place_of_item(s, "cracks", crack - 1, place);
 }
 
-void scene_find_location_of_message(const void *scene, const char *text, char *place)
+void scene_find_file_location_of_warning(const void *scene, const char *text, char *place)
 {
     *place = 0;
     place_of_name(scene, text, place);
@@ -117,12 +117,12 @@ void scene_find_location_of_message(const void *scene, const char *text, char *p
     if (end) *end = 0;
 }
 
-status scene_prepend_location(const struct scene *s, status result)
+status scene_prepend_location_to_error_message(const struct scene *s, status result)
 {
     char place[PLACE_LENGTH] = "";
     if (result != REFUSED) return result;
     place_of_name(s, status_message(), place);
     if (!*place) place_of_key(s, status_message(), place);
     if (!*place) snprintf(place, sizeof place, "%.500s: ", s->path);
-    return status_prepend_location(place, result);
+    return status_message_prepend_location(place, result);
 }

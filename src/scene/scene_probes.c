@@ -22,10 +22,11 @@ static status kind_of_probe(struct reader *r, const struct yaml_node *n, enum pr
         word.key = n->text, word.next = NULL;
         TRY(check_keys_known(r, &list, "probes"));
     } else {
-        TRY(expect_node_kind(r, n, NODE_MAP, "give a probe, such as tip (of the crack) or point: {at: [..]}"));
+        TRY(check_node_kind(r, n, NODE_MAP, "give a probe, such as tip (of the crack) or point: {at: [..]}"));
         TRY(check_keys_known(r, n, "probes"));
         if (n->n != 1)
-            return fault(r, n, "has %d keys; give one, the kind of the probe, such as point: {at: [..]}", n->n);
+            return fault_report_at_node(r, n, "has %d keys; give one, the kind of the probe, such as point: {at: [..]}",
+                                        n->n);
         if (n->first->kind != NODE_SCALAR || *n->first->text) *map = n->first;
     }
     const char *name = n->kind == NODE_SCALAR ? n->text : n->first->key;
@@ -42,14 +43,16 @@ static status check_probe_boundary(struct reader *r, const struct yaml_node *n, 
     int nearest = 0;
     if (p->kind != PROBE_REACTION) return OK;
     if (s->boundaries == 0)
-        return fault(r, n, "the scene has no boundary condition whose force can be measured; add a list `boundary`");
+        return fault_report_at_node(
+            r, n, "the scene has no boundary condition whose force can be measured; add a list `boundary`");
     for (int k = 0; k < s->boundaries; k++) {
         if (strcmp(s->boundary[k].name, p->boundary) == 0) return OK;
         if (edit_distance(s->boundary[k].name, p->boundary) < edit_distance(s->boundary[nearest].name, p->boundary))
             nearest = k;
     }
-    return fault(r, n, "there is no boundary named %s; give the name of one of the %d in the scene (most similar: %s)",
-                 p->boundary, s->boundaries, s->boundary[nearest].name);
+    return fault_report_at_node(
+        r, n, "there is no boundary named %s; give the name of one of the %d in the scene (most similar: %s)",
+        p->boundary, s->boundaries, s->boundary[nearest].name);
 }
 
 /* Checks a probe p that compares with a closed-form solution; returns OK for other probes. n: YAML node of the probe;
@@ -61,12 +64,13 @@ static status check_exact(struct reader *r, const struct yaml_node *n, const str
     const char *const numbers[] = {"amplitude", "period", "wavelength", "origin"};
     if (p->kind != PROBE_EXACT) return OK;
     if (r->scene->space != SPACE_LINE)
-        return fault(r, map ? map : n,
-                     "compares with the solution of a bar in one dimension; set space: line, or remove this probe");
+        return fault_report_at_node(
+            r, map ? map : n,
+            "compares with the solution of a bar in one dimension; set space: line, or remove this probe");
     for (size_t k = 0; k < COUNT_OF(numbers); k++) {
         const struct yaml_node *given = yaml_node_find(map, numbers[k]);
         if (given && p->form != EXACT_MANUFACTURED)
-            return fault(r, given, "has no effect without form: manufactured; remove it");
+            return fault_report_at_node(r, given, "has no effect without form: manufactured; remove it");
         if (!given && p->form == EXACT_MANUFACTURED)
             return fault_report_missing_key(r, map, key_find("probes.exact", numbers[k]));
     }
@@ -77,7 +81,8 @@ static status check_rigid(struct reader *r, const struct yaml_node *n, const str
                           const struct probe_request *p)
 {
     if (p->kind != PROBE_RIGID || r->dim == 2) return OK;
-    return fault(r, map ? map : n, "the probe rigid works in plane stress and plane strain only; remove it");
+    return fault_report_at_node(r, map ? map : n,
+                                "the probe rigid works in plane stress and plane strain only; remove it");
 }
 
 /* Checks a probe p of stress-intensity factors; returns OK for other probes. Sets its outer radius to its last contour
@@ -89,21 +94,22 @@ static status check_sif(struct reader *r, const struct yaml_node *n, const struc
     enum { CONTOURS_MAX = 16 };
     if (p->kind != PROBE_SIF) return OK;
     if (r->dim != 2)
-        return fault(r, map ? map : n, "the probe sif works in plane stress and plane strain only; remove it");
+        return fault_report_at_node(r, map ? map : n,
+                                    "the probe sif works in plane stress and plane strain only; remove it");
     const struct number_list *c = &p->contours;
     const struct yaml_node *contours = yaml_node_find(map, "contours");
-    if (c->n > CONTOURS_MAX) return fault(r, contours, "has %d items; give 1 to %d", c->n, CONTOURS_MAX);
+    if (c->n > CONTOURS_MAX) return fault_report_at_node(r, contours, "has %d items; give 1 to %d", c->n, CONTOURS_MAX);
     if (isnan(p->outer) && c->n > 0) p->outer = c->value[c->n - 1];
     const real outer = isnan(p->outer) ? 20 * r->scene->spacing : p->outer;
     if (p->inner >= outer)
-        return fault(
+        return fault_report_at_node(
             r, yaml_node_find(map, "inner"),
             "the inner radius %s is not smaller than the outer radius, %.6g m; use about half the outer radius",
-            node_text(r, yaml_node_find(map, "inner")), outer);
+            node_value_to_text_for_message(r, yaml_node_find(map, "inner")), outer);
     const real shares[2] = {p->direction[0], p->direction[1]};
     if (!p->has_direction || dot(shares, shares, 2) > 0) return OK;
-    return fault(r, yaml_node_find(map, "direction"),
-                 "has the length 0; give the direction ahead of the crack tip, such as [1, 0]");
+    return fault_report_at_node(r, yaml_node_find(map, "direction"),
+                                "has the length 0; give the direction ahead of the crack tip, such as [1, 0]");
 }
 
 /* Reads the probe of YAML node n, in any of its forms, into *p. A number that is not given and has no default becomes
@@ -120,14 +126,14 @@ static status read_probe(struct reader *r, const struct yaml_node *n, struct pro
         short_form.kind = NODE_MAP, short_form.n = 1, short_form.first = short_form.last = &form;
         map = &short_form;
     }
-    fault_write_location_of_node(r, n, p->place, sizeof p->place);
+    location_write_text_of_node(r, n, p->place, sizeof p->place);
     p->amplitude = p->period = p->wavelength = p->origin = NAN;
     p->inner = p->outer = p->core = p->experiment = NAN;
     snprintf(group, sizeof group, "probes.%s", probe_names[p->kind]);
     strcpy(p->name, probe_names[p->kind]);
     TRY(read_keys_of_group(r, map ? map : n, map, group, p));
     if (p->kind == PROBE_LINE && memcmp(p->from, p->to, sizeof p->from) == 0)
-        return fault(r, map, "has the length 0; give two different ends, from and to");
+        return fault_report_at_node(r, map, "has the length 0; give two different ends, from and to");
     TRY(check_exact(r, n, map, p));
     TRY(check_sif(r, n, map, p));
     TRY(check_rigid(r, n, map, p));
@@ -139,7 +145,7 @@ status read_probes(struct reader *r, const struct yaml_node *root)
     struct scene *s = r->scene;
     const struct yaml_node *list = yaml_node_find(root, "probes");
     if (!list) return OK;
-    TRY(expect_list_of_valid_length(r, key_find("", "probes"), list));
+    TRY(check_node_is_list_of_valid_length(r, key_find("", "probes"), list));
     s->probes = list->n;
     s->probe = NEW("probes", list->n, struct probe_request);
     const struct yaml_node *n = list->first;
@@ -147,7 +153,8 @@ status read_probes(struct reader *r, const struct yaml_node *root)
         TRY(read_probe(r, n, &s->probe[k]));
         for (int j = 0; j < k; j++)
             if (strcmp(s->probe[j].name, s->probe[k].name) == 0)
-                return fault(r, n, "%s is already the name of another probe; give each its own", s->probe[k].name);
+                return fault_report_at_node(r, n, "%s is already the name of another probe; give each its own",
+                                            s->probe[k].name);
     }
     return OK;
 }

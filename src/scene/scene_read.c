@@ -34,19 +34,20 @@ static const struct yaml_node *auto_method(const struct yaml_node *root)
 /* Parses a scene in a text of `length` bytes, fills r->scene and writes the scene as run to s->text. With `method:
  * auto` fills only *wish, the request for pilot runs. Returns REFUSED, with a message, for an invalid scene, and for
  * `method: auto` if wish is NULL. */
-static status scene_read_all(struct reader *r, const char *text, size_t length, struct pilot_wish *wish)
+static status scene_read_all(struct reader *r, const char *text, size_t length, struct pilot_requirements *wish)
 {
     struct scene *s = r->scene;
     struct yaml_node *root;
-    TRY(scene_parse_tree(r, text, length, &root));
+    TRY(scene_text_parse_with_includes_and_overrides(r, text, length, &root));
     const struct yaml_node *method = auto_method(root);
-    if (method && wish) return pilot_requirements_read(r, root, text, length, wish);
+    if (method && wish) return pilot_run_requirements_read(r, root, text, length, wish);
     if (method)
-        return fault(r, method,
-                     "the method auto works in `cleave run` only, which makes pilot runs; give a method and "
-                     "particles.spacing, or use the scene.yaml that such a run writes");
+        return fault_report_at_node(
+            r, method,
+            "the method auto works in `cleave run` only, which makes pilot runs; give a method and "
+            "particles.spacing, or use the scene.yaml that such a run writes");
     scene_store_key_locations(r, root);
-    TRY(scene_read_keys_of_tree(r, root));
+    TRY(scene_read_values_from_yaml_tree(r, root));
     s->text = scene_to_yaml(s);
     return s->text
                ? OK
@@ -59,7 +60,7 @@ static status scene_read_all(struct reader *r, const char *text, size_t length, 
 /* Reads an input file (scene) from a text of `length` bytes into r->scene, in the C locale. With `method: auto` stores
  * only the request for pilot runs, in *wish, and frees the scene. Returns REFUSED, with a message and the scene freed,
  * for an invalid scene, and for `method: auto` if wish is NULL; FAILED if memory is exhausted. */
-static status read_scene(struct reader *r, const char *text, size_t length, struct pilot_wish *wish)
+static status read_scene(struct reader *r, const char *text, size_t length, struct pilot_requirements *wish)
 {
     struct scene *s = r->scene;
     *s = (struct scene){0};
@@ -88,7 +89,7 @@ status scene_read_text(struct scene *s, const char *text, size_t length, const c
  * `method: auto` stores only the request for pilot runs, in *wish. Returns REFUSED, with a message, for an invalid
  * scene, and for `method: auto` if wish is NULL. */
 static status scene_file_read(struct scene *s, const char *path, const struct scene_override *override, int overrides,
-                              struct pilot_wish *wish)
+                              struct pilot_requirements *wish)
 {
     char *text = NULL;
     size_t length = 0;
@@ -105,9 +106,9 @@ status scene_read(struct scene *s, const char *path, const struct scene_override
     return scene_file_read(s, path, override, overrides, NULL);
 }
 
-status scene_read_or_list_pilot_requirements(struct scene *s, struct pilot_wish *w, const char *path,
-                                             const struct scene_override *override, int overrides)
+status scene_read_unless_pilot_runs_are_needed(struct scene *s, struct pilot_requirements *requirements,
+                                               const char *path, const struct scene_override *override, int overrides)
 {
-    *w = (struct pilot_wish){0};
-    return scene_file_read(s, path, override, overrides, w);
+    *requirements = (struct pilot_requirements){0};
+    return scene_file_read(s, path, override, overrides, requirements);
 }

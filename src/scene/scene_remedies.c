@@ -157,25 +157,27 @@ status refuse_bond_based_poisson_ratio(struct reader *r, const struct yaml_node 
     const unsigned has = scene_has(r) | HAS_RATIO;
     const char *change = changes_that_allow(r, has), *bonds = ratio_of_bonds(r->scene);
     if (change)
-        return fault(
+        return fault_report_at_node(
             r, poisson_node,
             "a Poisson's ratio of %s is impossible with bonds, which have %s in space %s; use %s for any ratio, or "
             "remove this key",
-            node_text(r, poisson_node), bonds, space_names[r->scene->space], change);
-    return fault(r, poisson_node,
-                 "a Poisson's ratio of %s is impossible with bonds, which have %s in space %s; use the ratio of bonds, "
-                 "because no method allows another one together with %s",
-                 node_text(r, poisson_node), bonds, space_names[r->scene->space],
-                 names_of(r, has & ~(unsigned)HAS_RATIO));
+            node_value_to_text_for_message(r, poisson_node), bonds, space_names[r->scene->space], change);
+    return fault_report_at_node(
+        r, poisson_node,
+        "a Poisson's ratio of %s is impossible with bonds, which have %s in space %s; use the ratio of bonds, "
+        "because no method allows another one together with %s",
+        node_value_to_text_for_message(r, poisson_node), bonds, space_names[r->scene->space],
+        names_of(r, has & ~(unsigned)HAS_RATIO));
 }
 
 status refuse_yield_with_state_model(struct reader *r, const struct yaml_node *yield_node)
 {
     const unsigned has = scene_has(r);
     const char *model = r->scene->model == MODEL_OSPD ? "ospd" : "mospd", *change = changes_that_allow(r, has);
-    if (change) return fault(r, yield_node, "the model %s cannot yield; set %s", model, change);
-    return fault(r, yield_node, "the model %s cannot yield, and no method has all of %s; remove one of these", model,
-                 names_of(r, has));
+    if (change) return fault_report_at_node(r, yield_node, "the model %s cannot yield; set %s", model, change);
+    return fault_report_at_node(r, yield_node,
+                                "the model %s cannot yield, and no method has all of %s; remove one of these", model,
+                                names_of(r, has));
 }
 
 status refuse_flow_law_without_mpm(struct reader *r, const struct yaml_node *law_node)
@@ -186,24 +188,26 @@ status refuse_flow_law_without_mpm(struct reader *r, const struct yaml_node *law
     const int bonds = row_of_method(s, s->method, linear & ~(unsigned)HAS_RATIO);
     const bool ratio = has & HAS_RATIO;
     if (bonds < 0)
-        return fault(r, law_node, "works for material points only; use %s",
-                     points ? points : "`method: mpm` without rigid bodies and tensile_strength");
-    return fault(r, law_node,
-                 "works for material points only; use %s%syield_stress with linear hardening by yield_hardening, which "
-                 "bonds%s have%s%s",
-                 points ? points : "", points ? ", or " : "", s->model == MODEL_BOND ? "" : " (`model: bond`)",
-                 ratio ? " at a Poisson's ratio of " : "", ratio ? ratio_of_bonds(s) : "");
+        return fault_report_at_node(r, law_node, "works for material points only; use %s",
+                                    points ? points : "`method: mpm` without rigid bodies and tensile_strength");
+    return fault_report_at_node(
+        r, law_node,
+        "works for material points only; use %s%syield_stress with linear hardening by yield_hardening, which "
+        "bonds%s have%s%s",
+        points ? points : "", points ? ", or " : "", s->model == MODEL_BOND ? "" : " (`model: bond`)",
+        ratio ? " at a Poisson's ratio of " : "", ratio ? ratio_of_bonds(s) : "");
 }
 
 status refuse_unsupported_softening(struct reader *r, const struct yaml_node *strength_node)
 {
     const unsigned has = scene_has(r);
     const char *change = changes_that_allow(r, has);
-    if (change) return fault(r, strength_node, "needs bonds that can soften; set %s", change);
-    return fault(r, strength_node,
-                 "needs bonds that can soften, which cannot be combined with %s; remove this key and softening (bonds "
-                 "are then brittle)",
-                 names_of(r, has & ~(unsigned)HAS_SOFTENING));
+    if (change) return fault_report_at_node(r, strength_node, "needs bonds that can soften; set %s", change);
+    return fault_report_at_node(
+        r, strength_node,
+        "needs bonds that can soften, which cannot be combined with %s; remove this key and softening (bonds "
+        "are then brittle)",
+        names_of(r, has & ~(unsigned)HAS_SOFTENING));
 }
 
 status refuse_unsupported_rigid_bodies(struct reader *r, const struct yaml_node *bodies_node)
@@ -211,18 +215,21 @@ status refuse_unsupported_rigid_bodies(struct reader *r, const struct yaml_node 
     const unsigned has = scene_has(r);
     const char *change = changes_that_allow(r, has);
     if (r->scene->method != METHOD_MPM)
-        return fault(r, bodies_node,
-                     "rigid bodies move in time steps only; set `solver: explicit`; a smooth wall at rest can be a "
-                     "boundary `mirror` instead");
+        return fault_report_at_node(
+            r, bodies_node,
+            "rigid bodies move in time steps only; set `solver: explicit`; a smooth wall at rest can be a "
+            "boundary `mirror` instead");
     if (change)
-        return fault(r, bodies_node,
-                     "rigid bodies have contact with peridynamic particles only: use %s; a smooth wall at rest can be "
-                     "a boundary `mirror` instead",
-                     change);
-    return fault(r, bodies_node,
-                 "rigid bodies have contact with peridynamic particles only, which do not allow %s; use a boundary "
-                 "`mirror` for a smooth wall at rest, or a body of a stiff elastic material",
-                 names_of(r, has & ~(unsigned)HAS_RIGID));
+        return fault_report_at_node(
+            r, bodies_node,
+            "rigid bodies have contact with peridynamic particles only: use %s; a smooth wall at rest can be "
+            "a boundary `mirror` instead",
+            change);
+    return fault_report_at_node(
+        r, bodies_node,
+        "rigid bodies have contact with peridynamic particles only, which do not allow %s; use a boundary "
+        "`mirror` for a smooth wall at rest, or a body of a stiff elastic material",
+        names_of(r, has & ~(unsigned)HAS_RIGID));
 }
 
 status refuse_interfaces_with_adaptive_method(struct reader *r, const struct yaml_node *interfaces_node)
@@ -230,15 +237,17 @@ status refuse_interfaces_with_adaptive_method(struct reader *r, const struct yam
     const unsigned has = scene_has(r);
     const char *change = changes_that_allow(r, has);
     if (change)
-        return fault(r, interfaces_node,
-                     "bodies are joined by bonds (method: pd) or by their grid (method: mpm) only; set %s", change);
-    return fault(r, interfaces_node,
-                 "bodies are joined by bonds (method: pd) or by their grid (method: mpm) only, and no method has all "
-                 "of %s; remove one of these",
-                 names_of(r, has));
+        return fault_report_at_node(
+            r, interfaces_node, "bodies are joined by bonds (method: pd) or by their grid (method: mpm) only; set %s",
+            change);
+    return fault_report_at_node(
+        r, interfaces_node,
+        "bodies are joined by bonds (method: pd) or by their grid (method: mpm) only, and no method has all "
+        "of %s; remove one of these",
+        names_of(r, has));
 }
 
-const char *strength_unit_hint(const struct scene *s, real required_horizon)
+const char *strength_unit_hint_if_required_horizon_is_tiny(const struct scene *s, real required_horizon)
 {
     return required_horizon < 1e-3 * s->horizon * s->spacing
                ? "; check the units of energy_release_rate (J/m^2), tensile_strength (Pa) and spacing (m)"

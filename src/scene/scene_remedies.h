@@ -36,6 +36,6 @@ status refuse_interfaces_with_adaptive_method(struct reader *r, const struct yam
 /* Returns a static text for the end of a message, which advises to check the units of a strength, if that strength
  * requires a horizon `required_horizon` [m] of less than a thousandth of the horizon of scene s (the input file).
  * Otherwise returns "". */
-const char *strength_unit_hint(const struct scene *s, real required_horizon);
+const char *strength_unit_hint_if_required_horizon_is_tiny(const struct scene *s, real required_horizon);
 
 #endif

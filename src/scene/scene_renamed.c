@@ -35,14 +35,14 @@ static void renamed_note(struct scene *s, int k)
     snprintf(s->renamed + used, sizeof s->renamed - used, "%s%s", used ? ", " : "", pair);
 }
 
-const char *key_current_name_of_former_key(const char *former_path)
+const char *former_key_get_current_name(const char *former_path)
 {
     for (int k = 0; k < (int)COUNT_OF(renamed); k++)
         if (!strcmp(former_path, renamed[k].old)) return renamed[k].now;
     return NULL;
 }
 
-const char *key_path_current_name_of_override(struct reader *r, const char *path)
+const char *override_key_get_current_name(struct reader *r, const char *path)
 {
     for (int k = 0; k < (int)COUNT_OF(renamed); k++) {
         if (strcmp(path, renamed[k].old) != 0) continue;
@@ -55,8 +55,8 @@ const char *key_path_current_name_of_override(struct reader *r, const char *path
 status tree_rename_old_keys(struct reader *r, struct yaml_node *root)
 {
     for (int k = 0; k < (int)COUNT_OF(renamed); k++) {
-        struct yaml_node *old = (struct yaml_node *)tree_find(root, renamed[k].old);
-        const struct yaml_node *now = tree_find(root, renamed[k].now);
+        struct yaml_node *old = (struct yaml_node *)tree_find_node_by_path(root, renamed[k].old);
+        const struct yaml_node *now = tree_find_node_by_path(root, renamed[k].now);
         if (!old) continue;
         if (now) return fault_report_exclusive_keys(r, now, old);
         const char *dot = strrchr(renamed[k].now, '.'), *leaf = dot ? dot + 1 : renamed[k].now;
@@ -64,8 +64,8 @@ status tree_rename_old_keys(struct reader *r, struct yaml_node *root)
         renamed_note(r->scene, k);
     }
     for (int k = 0; k < (int)COUNT_OF(removed); k++) {
-        const struct yaml_node *n = tree_find(root, removed[k].path);
-        if (n) return fault(r, n, "%s", removed[k].what);
+        const struct yaml_node *n = tree_find_node_by_path(root, removed[k].path);
+        if (n) return fault_report_at_node(r, n, "%s", removed[k].what);
     }
     return OK;
 }

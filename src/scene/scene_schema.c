@@ -46,10 +46,10 @@ static void write_numbers(FILE *out, const struct key *k, const char *type)
     fprintf(out, "{\"type\": \"%s\"", type);
     if (bounded)
         fprintf(out, ", \"%s\": %s", k->range.open ? "exclusiveMinimum" : "minimum",
-                number_write_shortest(least, k->range.least));
+                number_write_shortest_exact_decimal(least, k->range.least));
     if (k->type == KEY_SEED) fputs(", \"minimum\": 0", out);
     if (bounded && isfinite(k->range.most))
-        fprintf(out, ", \"maximum\": %s", number_write_shortest(most, k->range.most));
+        fprintf(out, ", \"maximum\": %s", number_write_shortest_exact_decimal(most, k->range.most));
     fputs("}, {\"$ref\": \"#/definitions/formula\"}", out);
 }
 
@@ -65,7 +65,7 @@ static void write_required(FILE *out, const char *group, const char *begin)
     const char *between = begin;
     for (int k = 0; k < keys_count; k++) {
         if (!key_is_directly_below(&keys[k], group) || strcmp(keys[k].fallback, "required") != 0) continue;
-        fprintf(out, "%s\"%s\"", between, key_last_part(&keys[k]));
+        fprintf(out, "%s\"%s\"", between, key_get_last_name_of_path(&keys[k]));
         between = ", ";
     }
     if (between != begin) fputc(']', out);
@@ -136,13 +136,13 @@ static void write_list_items(FILE *out, const struct key *k)
     char least[32], most[32];
     fputs("{\"type\": \"array\"", out);
     if (k->range.given && isfinite(k->range.most))
-        fprintf(out, ", \"minItems\": %s, \"maxItems\": %s", number_write_shortest(least, k->range.least),
-                number_write_shortest(most, k->range.most));
+        fprintf(out, ", \"minItems\": %s, \"maxItems\": %s", number_write_shortest_exact_decimal(least, k->range.least),
+                number_write_shortest_exact_decimal(most, k->range.most));
     fputs(", \"items\": ", out);
     if (strcmp(k->path, "probes") == 0)
         write_probe(out);
     else
-        write_object(out, key_group_of_items(k));
+        write_object(out, key_get_group_path_of_list_items(k));
     fputc('}', out);
 }
 
@@ -187,7 +187,7 @@ static bool is_in_merged(const struct key *k)
     snprintf(group, sizeof group, "%s", k->path);
     char *dot = strrchr(group, '.');
     *(dot ? dot : group) = '\0';
-    return key_is_merged_with_included_scene(group);
+    return key_is_mapping_merged_with_included_file(group);
 }
 
 static void write_property(FILE *out, const struct key *k)
@@ -195,7 +195,7 @@ static void write_property(FILE *out, const struct key *k)
     const bool probe = strncmp(k->path, "probes.", 7) == 0;
     char description[1600];
     key_describe_meaning_and_type(k, description, sizeof description);
-    write_string(out, key_last_part(k), strlen(key_last_part(k)));
+    write_string(out, key_get_last_name_of_path(k), strlen(key_get_last_name_of_path(k)));
     fputs(": {\"description\": ", out);
     write_string(out, description, strlen(description));
     fputs(", \"anyOf\": [", out);
@@ -217,7 +217,7 @@ static void write_members(FILE *out, const char *group)
         between = ",";
     }
     fputs("}", out);
-    if (!key_is_merged_with_included_scene(group)) write_required(out, group, ", \"required\": [");
+    if (!key_is_mapping_merged_with_included_file(group)) write_required(out, group, ", \"required\": [");
 }
 
 static void write_object(FILE *out, const char *group)

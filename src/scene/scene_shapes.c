@@ -51,12 +51,12 @@ static status pattern_add(struct reader *r, const struct yaml_node *n, struct sh
     snprintf(pattern, sizeof pattern, "%.*s%s", folder, r->name, n->text);
     if (glob(pattern, 0, NULL, &found) != 0 && glob(n->text, 0, NULL, &found) != 0) {
         globfree(&found);
-        return fault(r, n, "no file matches this name; give the image slices, such as slice_*.png");
+        return fault_report_at_node(r, n, "no file matches this name; give the image slices, such as slice_*.png");
     }
     if (found.gl_pathc > SLICES_MOST)
-        s = fault(r, n, "more than %d files match; use a narrower pattern, or TIFF files of several pages",
-                  SLICES_MOST);
-    array_sort(found.gl_pathv, (int64_t)found.gl_pathc, sizeof *found.gl_pathv, compare_paths);
+        s = fault_report_at_node(
+            r, n, "more than %d files match; use a narrower pattern, or TIFF files of several pages", SLICES_MOST);
+    array_sort(found.gl_pathv, (int64_t)found.gl_pathc, sizeof *found.gl_pathv, compare_file_names_numerically);
     for (size_t k = 0; k < found.gl_pathc && s == OK; k++) {
         struct yaml_node one = *n;
         one.text = found.gl_pathv[k];
@@ -71,7 +71,8 @@ static status paths_read(struct reader *r, const struct yaml_node *n, struct sha
 {
     if (n->kind == NODE_SCALAR && f->kind == SHAPE_IMAGE && strchr(n->text, '*')) return pattern_add(r, n, f);
     if (n->kind != NODE_LIST || f->kind != SHAPE_IMAGE) return shape_path_add(r, n, f);
-    if (n->n == 0 || n->n > SLICES_MOST) return fault(r, n, "gives %d files; give 1 to %d", n->n, SLICES_MOST);
+    if (n->n == 0 || n->n > SLICES_MOST)
+        return fault_report_at_node(r, n, "gives %d files; give 1 to %d", n->n, SLICES_MOST);
     for (const struct yaml_node *item = n->first; item; item = item->next) TRY(shape_path_add(r, item, f));
     return OK;
 }
@@ -83,7 +84,7 @@ static void shape_file_free(struct shape_file *f)
 {
     for (int k = 0; k < f->files; k++) memory_free(f->path[k]);
     for (int k = 0; k < f->parts; k++) {
-        voxel_part_free(f->part[k]);
+        voxel_solid_free(f->part[k]);
         memory_free(f->part[k]);
     }
     memory_free(f->path);
@@ -119,7 +120,7 @@ static status read_spacing(struct reader *r, const struct yaml_node *n, real *sp
 {
     *spacing = NAN;
     while (n->parent) n = n->parent;
-    const struct yaml_node *given = tree_find(n, "particles.spacing");
+    const struct yaml_node *given = tree_find_node_by_path(n, "particles.spacing");
     const struct key *k = key_find("particles", "spacing");
     return given && k ? read_number(r, k, given, spacing) : OK;
 }
@@ -157,10 +158,11 @@ static status check_contents(struct reader *r, const struct yaml_node *n, const 
     char found[NAME_MAX_LENGTH];
     snprintf(found, sizeof found, "%016" PRIx64, contents);
     if (!words->contents[0] || strcmp(words->contents, found) == 0) return OK;
-    return fault(r, yaml_node_find(n, "contents"),
-                 "is %s, but the hash of the file is %s, so the file has changed; restore the earlier file, or remove "
-                 "the key contents",
-                 words->contents, found);
+    return fault_report_at_node(
+        r, yaml_node_find(n, "contents"),
+        "is %s, but the hash of the file is %s, so the file has changed; restore the earlier file, or remove "
+        "the key contents",
+        words->contents, found);
 }
 
 status read_length_unit_of_file(struct reader *r, const struct yaml_node *file_node, bool is_required,
@@ -170,12 +172,14 @@ status read_length_unit_of_file(struct reader *r, const struct yaml_node *file_n
     char text[48], what[256];
     if (unit && scale) return fault_report_exclusive_keys(r, unit, scale);
     if (!unit && !scale && is_required)
-        return fault(r, file_node, "unit is missing, and the file does not state one; add unit: mm, or scale: 25.4 mm");
+        return fault_report_at_node(
+            r, file_node, "unit is missing, and the file does not state one; add unit: mm, or scale: 25.4 mm");
     if (!unit) return OK;
     snprintf(text, sizeof text, "1 %.40s", unit->text);
-    if (unit->kind == NODE_SCALAR && number_read(scale_value, text, UNIT_LENGTH, false, what, sizeof what)) return OK;
-    return fault(r, unit, "%s is not a unit of length; give one such as mm, m or um, or scale: 25.4 mm",
-                 node_text(r, unit));
+    if (unit->kind == NODE_SCALAR && number_parse_with_unit(scale_value, text, UNIT_LENGTH, false, what, sizeof what))
+        return OK;
+    return fault_report_at_node(r, unit, "%s is not a unit of length; give one such as mm, m or um, or scale: 25.4 mm",
+                                node_value_to_text_for_message(r, unit));
 }
 
 /* ---- surfaces and meshes ----------------------------------------------------------------------------------------- */
@@ -187,14 +191,15 @@ static status refuse_set(struct reader *r, const struct yaml_node *n, const char
 {
     char names[120 + LONG_NAME_LENGTH + 4] = "";
     int several = 0;
-    for (int k = 0; k < g->sets; k++) several += geometry_set_has_own_name(&g->set[k], name);
+    for (int k = 0; k < g->sets; k++) several += geometry_set_name_matches_after_instance_prefix(&g->set[k], name);
     for (int k = 0; k < g->sets && strlen(names) < 120; k++) {
-        if (several > 0 && !geometry_set_has_own_name(&g->set[k], name)) continue;
+        if (several > 0 && !geometry_set_name_matches_after_instance_prefix(&g->set[k], name)) continue;
         strcat(names, names[0] ? ", " : "");
         strcat(names, g->set[k].name);
     }
-    if (several > 0) return fault(r, n, "the file has %d sets %s; give one of %s", several, name, names);
-    return fault(r, n, "the file has no set %s; give one of its sets (%s)", name, g->sets ? names : "none");
+    if (several > 0) return fault_report_at_node(r, n, "the file has %d sets %s; give one of %s", several, name, names);
+    return fault_report_at_node(r, n, "the file has no set %s; give one of its sets (%s)", name,
+                                g->sets ? names : "none");
 }
 
 #define AT_NODE 0.01 /* largest distance of a particle from a node of the list in which it was [spacings] */
@@ -208,21 +213,25 @@ static status read_mesh_set(struct reader *r, const struct yaml_node *n, const s
     const struct yaml_node *within = yaml_node_find(n, "within");
     const struct geometry_set *set = words->set[0] ? geometry_find_named_part(g, words->set) : NULL;
     if (words->set[0] && !set) return refuse_set(r, yaml_node_find(n, "set"), words->set, g);
-    if (set && set->fault) return fault(r, yaml_node_find(n, "set"), "%s of the file %s", set->name, set->fault);
+    if (set && set->fault)
+        return fault_report_at_node(r, yaml_node_find(n, "set"), "%s of the file %s", set->name, set->fault);
     if (!set && g->whole.dim == 0)
-        return fault(r, n,
-                     "the file has particles, elements of one node, that fill no volume; a body of them is "
-                     "{particles: {file: .., unit: ..}}, and a region names one of their sets by the key set");
+        return fault_report_at_node(
+            r, n,
+            "the file has particles, elements of one node, that fill no volume; a body of them is "
+            "{particles: {file: .., unit: ..}}, and a region names one of their sets by the key set");
     s->hull = set ? &set->hull : &g->whole;
     if (within && !s->hull->open)
-        return fault(r, within, "is for sets of nodes or faces only, but this solid fills a volume; remove it");
+        return fault_report_at_node(r, within,
+                                    "is for sets of nodes or faces only, but this solid fills a volume; remove it");
     if (!s->hull->open) return OK;
     TRY(read_spacing(r, n, &s->radius));
     if (g->whole.dim == 0) s->radius *= AT_NODE;
     if (within) s->radius = words->within;
     if (s->radius > 0) return OK;
-    return fault(r, n, "set %s contains nodes or faces; give within, the distance up to which particles belong to it",
-                 words->set);
+    return fault_report_at_node(
+        r, n, "set %s contains nodes or faces; give within, the distance up to which particles belong to it",
+        words->set);
 }
 
 static status read_geometry(struct reader *r, const struct yaml_node *n, enum shape_kind kind, struct solid *s)
@@ -234,7 +243,7 @@ static status read_geometry(struct reader *r, const struct yaml_node *n, enum sh
     TRY(read_keys_of_group(r, n, n, group, &words));
     if (!file) return fault_report_missing_key(r, n, key_find(group, "file"));
     TRY(read_length_unit_of_file(r, n, true, &words.scale));
-    if (r->dim == 1) return fault(r, n, "cannot be used in space line; use box");
+    if (r->dim == 1) return fault_report_at_node(r, n, "cannot be used in space line; use box");
     f = NEW("shape files", 1, struct shape_file);
     *f = (struct shape_file){.kind = kind, .dim = r->dim, .scale = words.scale};
     status result = paths_read(r, file, f);
@@ -267,9 +276,10 @@ static status read_voxels(struct reader *r, const struct yaml_node *n, struct sh
     struct shape_words words = {.pixel = NAN, .slice = NAN};
     TRY(read_keys_of_group(r, n, n, "solid.image", &words));
     if (!file) return fault_report_missing_key(r, n, key_find("solid.image", "file"));
-    if (r->dim == 1) return fault(r, n, "cannot be used in space line; use box");
+    if (r->dim == 1) return fault_report_at_node(r, n, "cannot be used in space line; use box");
     if (slice && r->dim == 2)
-        return fault(r, slice, "has no effect in plane spaces, where a solid has a single image; remove it");
+        return fault_report_at_node(r, slice,
+                                    "has no effect in plane spaces, where a solid has a single image; remove it");
     struct shape_file *f = NEW("shape files", 1, struct shape_file);
     *f = (struct shape_file){.kind = SHAPE_IMAGE, .dim = r->dim, .scale = NAN};
     for (int d = 0; d < r->dim; d++)
@@ -285,17 +295,17 @@ static status read_voxels(struct reader *r, const struct yaml_node *n, struct sh
 
 /* Returns the voxels of the image f that have the grey values in `wanted`. They are computed once; solids with the same
  * grey values share them. f owns them. */
-static const struct voxel_part *grey_part_of(struct shape_file *f, const struct voxel_part *wanted)
+static const struct voxel_solid *grey_part_of(struct shape_file *f, const struct voxel_solid *wanted)
 {
     for (int k = 0; k < f->parts; k++)
         if (f->part[k]->ranges == wanted->ranges &&
             arrays_equal(f->part[k]->range, wanted->range, wanted->ranges, sizeof *wanted->range))
             return f->part[k];
     GROW("shape parts", f->part, f->parts + 1);
-    struct voxel_part *part = NEW("shape parts", 1, struct voxel_part);
+    struct voxel_solid *part = NEW("shape parts", 1, struct voxel_solid);
     *part = *wanted;
     part->of = &f->voxels;
-    voxel_part_make_from_grey_value_ranges(part);
+    voxel_solid_make_from_grey_value_ranges(part);
     return f->part[f->parts++] = part;
 }
 
@@ -303,15 +313,16 @@ status read_image_solid(struct reader *r, const struct yaml_node *solid_node, st
 {
     const struct yaml_node *values = yaml_node_find(solid_node, "values"),
                            *materials = yaml_node_find(solid_node, "materials");
-    struct voxel_part wanted = {.ranges = 1, .range = {{1, GREY_MAX}}};
+    struct voxel_solid wanted = {.ranges = 1, .range = {{1, GREY_MAX}}};
     struct shape_file *f = NULL;
     TRY(read_voxels(r, solid_node, &f));
     if (values && materials) return fault_report_exclusive_keys(r, values, materials);
-    if (values) TRY(read_grey_values(r, values, &wanted));
-    if (materials) TRY(read_grey_materials(r, materials, &f->voxels, &wanted));
+    if (values) TRY(read_grey_value_ranges_of_voxel_solid(r, values, &wanted));
+    if (materials) TRY(read_materials_by_grey_value(r, materials, &f->voxels, &wanted));
     solid->kind = SOLID_VOXELS;
     solid->voxels = grey_part_of(f, &wanted);
     if (solid->voxels->voxels > 0) return OK;
-    return fault(r, values ? values : solid_node, "no voxel of the image has one of these grey values; %s",
-                 "give values that occur in the image");
+    return fault_report_at_node(r, values ? values : solid_node,
+                                "no voxel of the image has one of these grey values; %s",
+                                "give values that occur in the image");
 }

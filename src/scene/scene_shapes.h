@@ -22,17 +22,18 @@ status read_length_unit_of_file(struct reader *r, const struct yaml_node *file_n
 
 /* Reads the value of the key `values`, the node `values_node`, into the ranges of grey values of `part`: a grey value,
  * a range, or a list of these. r: reader of the input file. Returns REFUSED, with a message, for an invalid value. */
-status read_grey_values(struct reader *r, const struct yaml_node *values_node, struct voxel_part *part);
+status read_grey_value_ranges_of_voxel_solid(struct reader *r, const struct yaml_node *values_node,
+                                             struct voxel_solid *part);
 
 /* Reads the mapping `materials` of an image, the node `materials_node`, which assigns ranges of grey values to
  * materials or to void. Stores all ranges that are not void in `part`. voxels: voxels of the image. r: reader of the
  * input file. Returns REFUSED, with a message, if the solid is not the shape of a body, or if a grey value of the image
  * is in no range. */
-status read_grey_materials(struct reader *r, const struct yaml_node *materials_node, const struct voxels *voxels,
-                           struct voxel_part *part);
+status read_materials_by_grey_value(struct reader *r, const struct yaml_node *materials_node,
+                                    const struct voxels *voxels, struct voxel_solid *part);
 
 /* Compares two file names, char * at a and b, for array_sort; numbers in the names are compared by value, so that
  * slice_2 precedes slice_10. */
-int compare_paths(const void *a, const void *b);
+int compare_file_names_numerically(const void *a, const void *b);
 
 #endif

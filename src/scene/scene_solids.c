@@ -37,9 +37,9 @@ static status check_box(struct reader *r, const struct yaml_node *n, const struc
 {
     for (int d = 0; d < r->dim; d++)
         if (!(s->from[d] < s->to[d]))
-            return fault(r, n,
-                         "from is not below to along %c; give the smaller coordinates by from, the larger ones by to",
-                         'x' + d);
+            return fault_report_at_node(
+                r, n, "from is not below to along %c; give the smaller coordinates by from, the larger ones by to",
+                'x' + d);
     return OK;
 }
 
@@ -49,16 +49,17 @@ static status check_round(struct reader *r, const struct yaml_node *n, const str
 {
     const bool has_ends = s->kind == SOLID_CYLINDER || s->kind == SOLID_TUBE || s->kind == SOLID_CONE;
     if (has_ends && memcmp(s->from, s->to, sizeof s->from) == 0)
-        return fault(r, n, "has an axis of length 0; give two different ends, from and to");
+        return fault_report_at_node(r, n, "has an axis of length 0; give two different ends, from and to");
     if ((s->kind == SOLID_TUBE || s->kind == SOLID_RING) && !(s->inner < s->radius))
-        return fault(r, yaml_node_find(n, "inner"),
-                     "is not below radius; give the radius of the hole, smaller than radius");
+        return fault_report_at_node(r, yaml_node_find(n, "inner"),
+                                    "is not below radius; give the radius of the hole, smaller than radius");
     if (s->kind == SOLID_CONE && !(s->inner + s->radius > 0))
-        return fault(r, n,
-                     "has two radii of 0; give one above 0 (the other may be 0, for a cone that ends in a point)");
+        return fault_report_at_node(
+            r, n, "has two radii of 0; give one above 0 (the other may be 0, for a cone that ends in a point)");
     if (s->kind == SOLID_TORUS && !(s->inner < s->radius))
-        return fault(r, yaml_node_find(n, "section"),
-                     "is not below radius, so the torus has no hole; give a smaller radius of the section");
+        return fault_report_at_node(
+            r, yaml_node_find(n, "section"),
+            "is not below radius, so the torus has no hole; give a smaller radius of the section");
     return OK;
 }
 
@@ -66,9 +67,11 @@ static status check_solid(struct reader *r, const struct yaml_node *n, const str
 {
     if (s->kind == SOLID_BOX) return check_box(r, n, s);
     if (s->kind == SOLID_HALF_SPACE && !(dot(s->normal, s->normal, r->dim) > 0))
-        return fault(r, n, "has a normal of length 0; give one that points out of the half-space, such as [0, 1]");
+        return fault_report_at_node(
+            r, n, "has a normal of length 0; give one that points out of the half-space, such as [0, 1]");
     if (s->kind == SOLID_TORUS && !(dot(s->normal, s->normal, r->dim) > 0))
-        return fault(r, n, "has an axis of length 0; give the direction through the hole, such as [0, 0, 1]");
+        return fault_report_at_node(r, n,
+                                    "has an axis of length 0; give the direction through the hole, such as [0, 0, 1]");
     return check_round(r, n, s);
 }
 
@@ -84,23 +87,25 @@ static status read_corners(struct reader *r, const struct yaml_node *n, struct s
     s->polygon = NEW("solids.polygon", 1, struct polygon);
     TRY(read_keys_of_group(r, n, n, "solid.polygon", s->polygon));
     if (!list) return fault_report_missing_key(r, n, k);
-    TRY(expect_list_of_valid_length(r, k, list));
+    TRY(check_node_is_list_of_valid_length(r, k, list));
     s->polygon->n = list->n;
     s->polygon->corner = memory_new("solids.corner", list->n, sizeof *s->polygon->corner);
     for (const struct yaml_node *p = list->first; p; p = p->next)
         TRY(read_point(r, &corner, p, s->polygon->corner[at++]));
-    switch (polygon_check_and_complete(s->polygon, &at)) {
+    switch (polygon_check_and_compute_rounded_corners(s->polygon, &at)) {
     case POLYGON_SHORT:
-        return fault(r, list, "corner %d and the next one are at the same position; remove one of them", at);
+        return fault_report_at_node(r, list, "corner %d and the next one are at the same position; remove one of them",
+                                    at);
     case POLYGON_FLAT:
-        return fault(r, list, "enclose no area; give three or more corners that are not on one line");
+        return fault_report_at_node(r, list, "enclose no area; give three or more corners that are not on one line");
     case POLYGON_CROSSED:
-        return fault(
+        return fault_report_at_node(
             r, list,
             "the edge that begins at corner %d touches or crosses another edge; give a polygon without crossings", at);
     case POLYGON_TIGHT:
-        return fault(r, yaml_node_find(n, "round"),
-                     "is too large for the edge from corner %d to the next one; use a smaller radius", at);
+        return fault_report_at_node(r, yaml_node_find(n, "round"),
+                                    "is too large for the edge from corner %d to the next one; use a smaller radius",
+                                    at);
     default:
         return OK;
     }
@@ -115,7 +120,7 @@ static status read_extrusion(struct reader *r, const struct yaml_node *n, struct
     TRY(read_keys_of_group(r, n, n, "solid.extrude", s));
     if (!shape) return fault_report_missing_key(r, n, key_find("solid.extrude", "shape"));
     if (!(s->begin < s->end))
-        return fault(r, n, "from is not below to; give the lower end by from, the upper one by to");
+        return fault_report_at_node(r, n, "from is not below to; give the lower end by from, the upper one by to");
     r->dim = 2;
     const status read = read_region(r, shape, &s->region);
     r->dim = r->scene->dim;
@@ -130,13 +135,14 @@ static status read_shape(struct reader *r, const struct yaml_node *n, const stru
     snprintf(group, sizeof group, "solid.%s", word->name);
     s->kind = word->kind;
     if (word->dim && word->dim != r->dim)
-        return fault(r, n, "cannot be used in %s; use %s", space_name_for_message(r),
-                     r->dim == 1                   ? "box"
-                     : r->dim == 2                 ? "disc, polygon, ellipse, ring or box"
-                     : word->kind == SOLID_POLYGON ? "extrude with a polygon as its shape"
-                                                   : "ball, cylinder, tube, cone, extrude or box");
+        return fault_report_at_node(r, n, "cannot be used in %s; use %s", reader_get_expected_point_space_as_text(r),
+                                    r->dim == 1                   ? "box"
+                                    : r->dim == 2                 ? "disc, polygon, ellipse, ring or box"
+                                    : word->kind == SOLID_POLYGON ? "extrude with a polygon as its shape"
+                                                                  : "ball, cylinder, tube, cone, extrude or box");
     if (r->bounded && !r->cutting && (s->kind == SOLID_ALL || s->kind == SOLID_HALF_SPACE))
-        return fault(r, n, "a body cannot be infinite; use a finite solid, such as box, ball or cylinder");
+        return fault_report_at_node(r, n,
+                                    "a body cannot be infinite; use a finite solid, such as box, ball or cylinder");
     if (s->kind == SOLID_VOXELS) return read_image_solid(r, n, s);
     if (s->kind == SOLID_HULL) return (strcmp(word->name, "stl") == 0 ? read_stl_solid : read_mesh_solid)(r, n, s);
     if (s->kind == SOLID_POLYGON) return read_corners(r, n, s);
@@ -146,7 +152,7 @@ static status read_shape(struct reader *r, const struct yaml_node *n, const stru
         return check_solid(r, n, s);
     }
     if (n->kind == NODE_SCALAR && strcmp(n->text, "true") == 0) return OK;
-    return fault(r, n, "%s is not true; write all: true", node_text(r, n));
+    return fault_report_at_node(r, n, "%s is not true; write all: true", node_value_to_text_for_message(r, n));
 }
 
 /* ---- names ------------------------------------------------------------------------------------------------------- */
@@ -158,17 +164,19 @@ static status region_called(struct reader *r, const struct yaml_node *n, const s
     const struct yaml_node *nearest = NULL, *map = r->dim == r->scene->dim ? r->regions : r->sections;
     const char *word = r->dim == r->scene->dim ? "region" : "section";
     if (n->kind != NODE_SCALAR)
-        return fault(r, n, "%s is not a name; give one of the names defined by the key %ss", node_text(r, n), word);
+        return fault_report_at_node(r, n, "%s is not a name; give one of the names defined by the key %ss",
+                                    node_value_to_text_for_message(r, n), word);
     if (!map)
-        return fault(
+        return fault_report_at_node(
             r, n, "%s is not a kind of solid, and the scene has no %s of this name; define it by %ss: {%s: {box: ..}}",
-            node_text(r, n), word, word, node_text(r, n));
+            node_value_to_text_for_message(r, n), word, word, node_value_to_text_for_message(r, n));
     for (const struct yaml_node *c = map->first; c; c = c->next) {
         *called = c;
         if (strcmp(c->key, n->text) == 0) return OK;
         if (!nearest || edit_distance(c->key, n->text) < edit_distance(nearest->key, n->text)) nearest = c;
     }
-    return fault(r, n, "there is no %s %s; did you mean %s?", word, node_text(r, n), nearest->key);
+    return fault_report_at_node(r, n, "there is no %s %s; did you mean %s?", word, node_value_to_text_for_message(r, n),
+                                nearest->key);
 }
 
 /* Reads the solids of the region whose name is the value of YAML node n into `region`. Returns REFUSED, with a
@@ -179,7 +187,8 @@ static status read_called(struct reader *r, const struct yaml_node *n, struct re
     TRY(region_called(r, n, &here.region));
     for (const struct naming *k = r->naming; k; k = k->outer)
         if (k->region == here.region)
-            return fault(r, n, "region %s is part of itself; remove this reference", node_text(r, n));
+            return fault_report_at_node(r, n, "region %s is part of itself; remove this reference",
+                                        node_value_to_text_for_message(r, n));
     r->naming = &here;
     const status read = read_solids(r, here.region, region, false);
     r->naming = here.outer;
@@ -223,8 +232,10 @@ static status names_find(struct reader *r, const struct yaml_node *root, const c
 {
     *map = yaml_node_find(root, key);
     if (!*map) return OK;
-    TRY(expect_node_kind(r, *map, NODE_MAP, "give a mapping of names to solids, such as {grip: {box: ..}}"));
-    return (*map)->n > 0 ? OK : fault(r, *map, "has no region; give a name and its solids, such as {grip: {box: ..}}");
+    TRY(check_node_kind(r, *map, NODE_MAP, "give a mapping of names to solids, such as {grip: {box: ..}}"));
+    return (*map)->n > 0
+               ? OK
+               : fault_report_at_node(r, *map, "has no region; give a name and its solids, such as {grip: {box: ..}}");
 }
 
 /* Reads all named sections in r->sections and discards them: faults in unused sections are found in this way, and
@@ -233,7 +244,9 @@ static status read_sections(struct reader *r)
 {
     const struct yaml_node *map = r->sections;
     int count = 0;
-    if (r->dim != 3) return fault(r, map, "cannot be used in %s; use the key regions there", space_name_for_message(r));
+    if (r->dim != 3)
+        return fault_report_at_node(r, map, "cannot be used in %s; use the key regions there",
+                                    reader_get_expected_point_space_as_text(r));
     struct named_region *named = NEW("regions", map->n, struct named_region);
     r->dim = 2;
     const status read = read_names(r, map, named, &count);
@@ -289,17 +302,18 @@ static status read_solid(struct reader *r, const struct yaml_node *n, struct sol
     const struct yaml_node *child = NULL;
     const struct solid_word *word = NULL;
     int solids = 0;
-    TRY(expect_node_kind(r, n, NODE_MAP, "give a solid such as box: {from: [..], to: [..]}"));
+    TRY(check_node_kind(r, n, NODE_MAP, "give a solid such as box: {from: [..], to: [..]}"));
     TRY(check_keys_known(r, n, "solid"));
     for (const struct yaml_node *c = n->first; c; c = c->next)
         if (!node_is_motion_key_of_solid(c)) child = c, solids++;
     if (solids != 1)
-        return fault(r, n,
-                     "has %d solids, but needs exactly one: box, disc, ball, cylinder, polygon or another (list: "
-                     "`cleave help solid`)",
-                     solids);
+        return fault_report_at_node(
+            r, n,
+            "has %d solids, but needs exactly one: box, disc, ball, cylinder, polygon or another (list: "
+            "`cleave help solid`)",
+            solids);
     if (r->solids++ > SOLIDS_MOST)
-        return fault(r, n, "has more than %d solids; remove some, or use a mesh", SOLIDS_MOST);
+        return fault_report_at_node(r, n, "has more than %d solids; remove some, or use a mesh", SOLIDS_MOST);
     for (size_t k = 0; k < COUNT_OF(solid_words) && !word; k++)
         if (strcmp(solid_words[k].name, child->key) == 0) word = &solid_words[k];
     if (word)
@@ -307,12 +321,13 @@ static status read_solid(struct reader *r, const struct yaml_node *n, struct sol
     else if (strcmp(child->key, "region") == 0)
         TRY(read_named(r, child, s));
     else if (signed_before)
-        return fault(r, child, "cannot be inside add, subtract or intersect; give a solid such as box there");
+        return fault_report_at_node(r, child,
+                                    "cannot be inside add, subtract or intersect; give a solid such as box there");
     else
         TRY(read_operation(r, n, child, s));
     TRY(read_motions(r, n, s));
     if (solid_query_cost_relative_to_ball(s) <= EFFORT_MOST) return OK;
-    return fault(r, n, "makes more than %g solids with its copies; use fewer copies", EFFORT_MOST);
+    return fault_report_at_node(r, n, "makes more than %g solids with its copies; use fewer copies", EFFORT_MOST);
 }
 
 /* Reads the list of solids of YAML node n into `region`. intersect: true if solids without an operation of their own
@@ -320,7 +335,8 @@ static status read_solid(struct reader *r, const struct yaml_node *n, struct sol
  * first one is subtracted. */
 static status read_solids(struct reader *r, const struct yaml_node *n, struct region *region, bool intersect)
 {
-    if (n->kind == NODE_LIST && n->n == 0) return fault(r, n, "is an empty list; give at least one solid, such as box");
+    if (n->kind == NODE_LIST && n->n == 0)
+        return fault_report_at_node(r, n, "is an empty list; give at least one solid, such as box");
     const struct yaml_node *item = n->kind == NODE_LIST ? n->first : n;
     int count = n->kind == NODE_LIST ? n->n : 1;
     region->solid = NEW("solids", count, struct solid);
@@ -330,8 +346,8 @@ static status read_solids(struct reader *r, const struct yaml_node *n, struct re
         TRY(read_solid(r, item, &region->solid[k], false));
     }
     if (region->solid[0].subtract)
-        return fault(r, n,
-                     "has no solid before it from which to subtract; add one first (in a region perhaps all: true)");
+        return fault_report_at_node(
+            r, n, "has no solid before it from which to subtract; add one first (in a region perhaps all: true)");
     region_build_search_trees(region, r->dim);
     return OK;
 }
@@ -370,16 +386,18 @@ static status check_polygon(struct reader *r, const struct yaml_node *n, const s
         for (int d = 0; d < DIM_MAX; d++) normal[d] += part[d];
     }
     real twice_area = sqrt(dot(normal, normal, DIM_MAX)), size = sqrt(twice_area);
-    if (!(twice_area > 0)) return fault(r, n, "has no area; give three or more corners that are not on one line");
+    if (!(twice_area > 0))
+        return fault_report_at_node(r, n, "has no area; give three or more corners that are not on one line");
     for (int k = 0; k < c->n; k++) {
         for (int j = 0; j < c->n; j++) {
             real away[DIM_MAX];
             for (int d = 0; d < DIM_MAX; d++) away[d] = c->corner[j][d] - c->corner[0][d];
             cross_at(c->corner[k], c->corner[(k + 1) % c->n], c->corner[j], part);
             if (fabs(dot(away, normal, DIM_MAX)) > 1e-6 * size * twice_area)
-                return fault(r, n, "corner %d is not in the plane of the other corners; give a plane polygon", j);
+                return fault_report_at_node(
+                    r, n, "corner %d is not in the plane of the other corners; give a plane polygon", j);
             if (dot(part, normal, DIM_MAX) < -1e-6 * square(twice_area))
-                return fault(r, n, "is not convex at corner %d; give several convex polygons", k);
+                return fault_report_at_node(r, n, "is not convex at corner %d; give several convex polygons", k);
         }
     }
     return OK;
@@ -391,7 +409,7 @@ static status read_polygon(struct reader *r, const struct yaml_node *n, struct c
     struct key corner = *k;
     int at = 0;
     corner.range.given = false;
-    TRY(expect_list_of_valid_length(r, k, n));
+    TRY(check_node_is_list_of_valid_length(r, k, n));
     crack_make(c, n->n);
     for (const struct yaml_node *p = n->first; p; p = p->next) TRY(read_point(r, &corner, p, c->corner[at++]));
     return check_polygon(r, n, c);
@@ -403,12 +421,12 @@ static status read_crack_place(struct reader *r, const struct yaml_node *n, stru
 {
     static const char *const first[] = {"at", "from", "polygon"}, *const form[] = {"at", "from and to", "polygon"};
     const char *word = first[r->dim - 1];
-    TRY(expect_node_kind(r, n, NODE_MAP, "give a crack such as {from: [..], to: [..]}"));
+    TRY(check_node_kind(r, n, NODE_MAP, "give a crack such as {from: [..], to: [..]}"));
     TRY(check_keys_known(r, n, "cracks"));
     for (const struct yaml_node *k = n->first; k; k = k->next)
         if (strcmp(k->key, word) != 0 && strcmp(k->key, "width") != 0 && (r->dim != 2 || strcmp(k->key, "to") != 0))
-            return fault(r, k, "cannot be used in space %s; give the crack by %s", space_names[r->scene->space],
-                         form[r->dim - 1]);
+            return fault_report_at_node(r, k, "cannot be used in space %s; give the crack by %s",
+                                        space_names[r->scene->space], form[r->dim - 1]);
     const struct yaml_node *a = yaml_node_find(n, word), *b = yaml_node_find(n, "to");
     if (!a) return fault_report_missing_key(r, n, key_find("cracks", word));
     if (r->dim == 2 && !b) return fault_report_missing_key(r, n, key_find("cracks", "to"));
@@ -418,7 +436,7 @@ static status read_crack_place(struct reader *r, const struct yaml_node *n, stru
     if (r->dim == 1) return OK;
     TRY(read_point(r, key_find("cracks", "to"), b, c->corner[1]));
     if (c->corner[0][0] != c->corner[1][0] || c->corner[0][1] != c->corner[1][1]) return OK;
-    return fault(r, n, "has the length 0; give two different ends, from and to");
+    return fault_report_at_node(r, n, "has the length 0; give two different ends, from and to");
 }
 
 static status read_crack(struct reader *r, const struct yaml_node *n, struct crack *c)
@@ -439,7 +457,7 @@ static void take_slits(struct scene *s, const struct region *shape)
         for (int m = 0; m < (a->images > 0 ? a->images : 1) && a->kind == SOLID_HULL && !a->subtract; m++) {
             const struct placement *to = a->images > 0 ? &a->image[m] : &there;
             int first = s->cracks;
-            for (geometry_append_slits_as_precracks(a->hull, &s->crack, &s->cracks); first < s->cracks; first++)
+            for (geometry_append_mesh_slits_as_precracks(a->hull, &s->crack, &s->cracks); first < s->cracks; first++)
                 for (int c = 0; c < s->crack[first].n; c++) {
                     real X[DIM_MAX];
                     array_copy(X, s->crack[first].corner[c], DIM_MAX, sizeof *X);
@@ -455,7 +473,7 @@ status read_cracks(struct reader *r, const struct yaml_node *root)
     struct scene *s = r->scene;
     const struct yaml_node *list = yaml_node_find(root, "cracks");
     if (list) {
-        TRY(expect_list_of_valid_length(r, key_find("", "cracks"), list));
+        TRY(check_node_is_list_of_valid_length(r, key_find("", "cracks"), list));
         s->crack = NEW("cracks", list->n, struct crack);
         s->cracks = s->cracks_given = list->n;
         const struct yaml_node *n = list->first;

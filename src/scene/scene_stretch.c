@@ -5,7 +5,7 @@
 #include "scene/scene_softening.h"
 #include "scene_parts.h"
 
-struct family scene_family(const struct scene *s)
+struct family scene_make_complete_lattice_family(const struct scene *s)
 {
     struct family f = {.volume = s->volume,
                        .calibration = s->calibration,
@@ -15,7 +15,7 @@ struct family scene_family(const struct scene *s)
                        .energy = s->model == MODEL_BOND   ? ENERGY_OF_STRETCH
                                  : s->model == MODEL_OSPD ? ENERGY_OF_ELONGATION
                                                           : ENERGY_OF_DISPLACEMENT};
-    family_make_on_lattice(&f, s->space, s->spacing, s->horizon, scene_section_or_thickness(s));
+    family_make_on_lattice(&f, s->space, s->spacing, s->horizon, scene_cross_section_or_thickness(s));
     return f;
 }
 
@@ -30,10 +30,10 @@ real scene_critical_stretch(const struct scene *s, const struct material *m)
                              : s->influence == INFLUENCE_INVERSE && s->model == MODEL_OSPD;
     if (closed)
         return material_critical_stretch(m, s->space, s->horizon * s->spacing, bond ? STRETCH_BOND : STRETCH_OSPD);
-    const struct family f = scene_family(s);
+    const struct family f = scene_make_complete_lattice_family(s);
     struct material unit = *m;
     unit.critical_stretch = 1;
-    if (bond) return sqrt(m->energy_release_rate / family_crack_energy_per_area(&f, &unit));
+    if (bond) return sqrt(m->energy_release_rate / family_energy_release_rate_at_critical_stretch(&f, &unit));
     const bool rotates = s->model == MODEL_MOSPD;
     const struct state_modulus modulus = state_based_moduli_of_material(m, s->space, rotates);
     const real unit_energy = family_fracture_energy_over_stretch_squared(&f, &modulus, rotates, !s->bulk);

@@ -24,8 +24,9 @@ status check_strength_below_tenth_of_modulus(struct reader *r, const struct yaml
                                              const struct material *material, real strength)
 {
     if (!(strength > 0.1 * material->young)) return OK;
-    return fault(r, strength_node, "%s is above a tenth of Young's modulus, %.4g Pa; give a smaller strength",
-                 node_text(r, strength_node), 0.1 * material->young);
+    return fault_report_at_node(r, strength_node,
+                                "%s is above a tenth of Young's modulus, %.4g Pa; give a smaller strength",
+                                node_value_to_text_for_message(r, strength_node), 0.1 * material->young);
 }
 
 /* Returns OK if low sigma_t < value <= high sigma_t, else REFUSED with a message, with the tensile strength sigma_t of
@@ -35,9 +36,9 @@ static status check_fraction(struct reader *r, const struct yaml_node *n, const 
 {
     if (value > low * m->tensile_strength && value <= high * m->tensile_strength) return OK;
     if (isinf(high))
-        return fault(r, n, "is too small; give more than %.4g Pa, %s of tensile_strength", low * m->tensile_strength,
-                     low < 0.4 ? "a third" : "a half");
-    return fault(
+        return fault_report_at_node(r, n, "is too small; give more than %.4g Pa, %s of tensile_strength",
+                                    low * m->tensile_strength, low < 0.4 ? "a third" : "a half");
+    return fault_report_at_node(
         r, n,
         "is out of range; give more than %.4g Pa (half of tensile_strength) and at most %.4g Pa (tensile_strength)",
         low * m->tensile_strength, high * m->tensile_strength);
@@ -54,15 +55,17 @@ static status surface_from(struct reader *r, const struct yaml_node *n, const ch
     if (key[0] == 'c') {
         TRY(check_strength_below_tenth_of_modulus(r, n, m, m->compressive_strength));
         if (m->compressive_strength < tension)
-            return fault(r, n, "is below tensile_strength; give at least %.4g Pa", tension);
-        material_set_strength_surface(m, space, strength_surface_from_compression(tension, m->compressive_strength));
+            return fault_report_at_node(r, n, "is below tensile_strength; give at least %.4g Pa", tension);
+        material_set_strength_surface(m, space,
+                                      strength_surface_from_compressive_strength(tension, m->compressive_strength));
     } else if (key[0] == 'h') {
         TRY(check_strength_below_tenth_of_modulus(r, n, m, m->hydrostatic_strength));
         TRY(check_fraction(r, n, m, m->hydrostatic_strength, 1.0 / 3, INFINITY));
-        material_set_strength_surface(m, space, strength_surface_from_hydrostatic(tension, m->hydrostatic_strength));
+        material_set_strength_surface(m, space,
+                                      strength_surface_from_hydrostatic_strength(tension, m->hydrostatic_strength));
     } else {
         TRY(check_fraction(r, n, m, m->biaxial_strength, 0.5, 1));
-        material_set_strength_surface(m, space, strength_surface_from_biaxial(tension, m->biaxial_strength));
+        material_set_strength_surface(m, space, strength_surface_from_biaxial_strength(tension, m->biaxial_strength));
     }
     return OK;
 }
@@ -79,14 +82,14 @@ static real characteristic_length(const struct scene *s, const struct material *
     return m->young * release_rate / square(m->tensile_strength);
 }
 
-real scene_strength_surface_radius(const struct scene *s, const struct material *m)
+real scene_strength_surface_averaging_radius(const struct scene *s, const struct material *m)
 {
     return s->horizon * s->spacing * sqrt(m->surface_means + MEANS_OF_FAMILY);
 }
 
-real scene_strength_surface_largest_horizon(const struct scene *s, const struct material *m)
+real scene_largest_horizon_for_strength_surface(const struct scene *s, const struct material *m)
 {
-    const struct surface_strengths surface = material_strength_surface_strengths(m, s->space);
+    const struct surface_strengths surface = material_strengths_from_strength_surface(m, s->space);
     const real strain = real_max(surface.tension / material_uniaxial_tension_modulus(m, s->space),
                                  surface.shear * (1 + m->poisson) / m->young);
     return s->horizon * s->spacing * square(m->onset_stretch / strain);
@@ -99,16 +102,19 @@ static status check_first(struct reader *r, const struct yaml_node *n, const str
     const struct scene *s = r->scene;
     const struct softening_curve curve = softening_curve_of_law(m->softening);
     const real own = material_uniaxial_tension_modulus(m, s->space) * m->onset_stretch *
-                     softening_curve_normalised_strengths(&curve, s->space, OWN_RATIO).tension;
-    const real most = s->horizon * s->spacing * square(own / material_strength_surface_strengths(m, s->space).tension);
+                     softening_curve_normalised_peak_stresses(&curve, s->space, OWN_RATIO).tension;
+    const real most =
+        s->horizon * s->spacing * square(own / material_strengths_from_strength_surface(m, s->space).tension);
     const bool spacing_counts = !isnan(m->energy_release_rate);
-    if (spacing_counts && limit_spacing_of_spacing_search(r, scene_strength_surface_largest_horizon(s, m) / s->horizon))
+    if (spacing_counts &&
+        spacing_search_reduce_upper_bound_if_active(r, scene_largest_horizon_for_strength_surface(s, m) / s->horizon))
         return OK;
     if (most >= s->horizon * s->spacing) return OK;
-    return fault(r, n,
-                 "with a horizon of %.4g m bonds soften at %.4g Pa, before the strength surface is reached; use a "
-                 "horizon below %.4g m, which needs particles.spacing below %.4g m%s",
-                 s->horizon * s->spacing, own, most, most / s->horizon, strength_unit_hint(s, most));
+    return fault_report_at_node(
+        r, n,
+        "with a horizon of %.4g m bonds soften at %.4g Pa, before the strength surface is reached; use a "
+        "horizon below %.4g m, which needs particles.spacing below %.4g m%s",
+        s->horizon * s->spacing, own, most, most / s->horizon, strength_unit_hint_if_required_horizon_is_tiny(s, most));
 }
 
 status read_strength_surface(struct reader *r, const struct yaml_node *material_node, struct material *material)
@@ -123,24 +129,25 @@ status read_strength_surface(struct reader *r, const struct yaml_node *material_
         if (next) given = next, key = names[k];
     }
     if (!given && radius)
-        return fault(
+        return fault_report_at_node(
             r, radius,
             "belongs to a strength surface; add compressive_strength, hydrostatic_strength or biaxial_strength");
     if (!given) return OK;
     if (s->model != MODEL_BOND)
-        return fault(r, given,
-                     "a strength surface (a strength that depends on the stress state) needs model: bond; set it, or "
-                     "remove this key");
+        return fault_report_at_node(
+            r, given,
+            "a strength surface (a strength that depends on the stress state) needs model: bond; set it, or "
+            "remove this key");
     if (s->space == SPACE_LINE)
-        return fault(
+        return fault_report_at_node(
             r, given,
             "belongs to a strength surface, which space line does not have; remove it, and keep tensile_strength");
     TRY(surface_from(r, given, key, material));
     const real share = s->space == SPACE_PLANE_STRESS ? RADIUS_PLANE_STRESS : RADIUS_ELSE;
     const real reach = radius ? material->strength_radius : share * characteristic_length(s, material);
     if (radius && reach > FARTHEST * s->horizon * s->spacing)
-        return fault(r, radius, "%.4g m is more than %d horizons; give at most %.4g m", reach, FARTHEST,
-                     FARTHEST * s->horizon * s->spacing);
+        return fault_report_at_node(r, radius, "%.4g m is more than %d horizons; give at most %.4g m", reach, FARTHEST,
+                                    FARTHEST * s->horizon * s->spacing);
     material->surface_means =
         (int)real_min(1e4, real_max(0, ceil(square(reach / (s->horizon * s->spacing)) - MEANS_OF_FAMILY)));
     material->onset_stretch = material->critical_stretch / sqrt(OWN_RATIO);

@@ -17,18 +17,20 @@ static status read_table(struct reader *r, const struct yaml_node *n, struct tim
     struct key time = *k, factor = *k;
     time.range.given = factor.range.given = false;
     factor.unit = UNIT_NONE;
-    TRY(expect_list_of_valid_length(r, k, n));
+    TRY(check_node_is_list_of_valid_length(r, k, n));
     f->kind = TIME_TABLE;
     f->t = NEW("time table", n->n, real);
     f->value = NEW("time table", n->n, real);
     for (const struct yaml_node *row = n->first; row; row = row->next) {
         if (row->kind != NODE_LIST || row->n != 2)
-            return fault(r, row, "%s is not a pair of time and factor; give one such as [5 us, 1]", node_text(r, row));
+            return fault_report_at_node(r, row, "%s is not a pair of time and factor; give one such as [5 us, 1]",
+                                        node_value_to_text_for_message(r, row));
         TRY(read_number(r, &time, row->first, &f->t[f->n]));
         TRY(read_number(r, &factor, row->last, &f->value[f->n]));
         if (f->n > 0 && !(f->t[f->n] > f->t[f->n - 1]))
-            return fault(r, row->first, "time %s is not later than the previous one; give times in ascending order",
-                         node_text(r, row->first));
+            return fault_report_at_node(r, row->first,
+                                        "time %s is not later than the previous one; give times in ascending order",
+                                        node_value_to_text_for_message(r, row->first));
         f->n++;
     }
     return OK;
@@ -81,7 +83,7 @@ static status column_take(struct time_columns *c, int k, char *name, const char 
         return OK;
     }
     snprintf(number, sizeof number, "1 %s", unit);
-    if (!number_read(&one, number, time ? UNIT_TIME : *unit ? c->unit : UNIT_NONE, false, what, sizeof what))
+    if (!number_parse_with_unit(&one, number, time ? UNIT_TIME : *unit ? c->unit : UNIT_NONE, false, what, sizeof what))
         return csv_report_fault(&c->in, unit, "column %.40s: [%s] %s", name, unit, what);
     snprintf(time ? c->time_unit : c->value_unit, UNIT_LONGEST_NAME, "%s", unit);
     *(time ? &c->time : &c->value) = k;
@@ -101,7 +103,8 @@ static status time_columns_find(struct time_columns *c, const char *wanted)
     if (!more)
         return status_set(REFUSED, "%s: the file is empty; begin with a header such as time [us], value", c->in.path);
     csv_detect_separator(&c->in);
-    for (char *name; (name = csv_cut_field(&c->in, &rest)) != NULL; k++) TRY(column_take(c, k, name, wanted));
+    for (char *name; (name = csv_split_off_next_field(&c->in, &rest)) != NULL; k++)
+        TRY(column_take(c, k, name, wanted));
     c->all = k;
     if (c->time < 0)
         return csv_report_fault(&c->in, c->in.text,
@@ -123,7 +126,7 @@ static status time_number(const struct time_columns *c, const char *field, const
     if (strlen(field) > 50)
         return csv_report_fault(&c->in, field, "'%.20s..' is not a number; correct this line", field);
     snprintf(text, sizeof text, *unit_text ? "%s %s" : "%s", field, unit_text);
-    if (number_read(value, text, unit, false, what, sizeof what)) return OK;
+    if (number_parse_with_unit(value, text, unit, false, what, sizeof what)) return OK;
     return csv_report_fault(&c->in, field, "'%s' %s", field, what);
 }
 
@@ -134,7 +137,7 @@ static status time_entry(const struct time_columns *c, char *line, struct time_f
 {
     int k = 0, found = 0;
     char *rest = line, *time = line;
-    for (char *field; (field = csv_cut_field(&c->in, &rest)) != NULL; k++) {
+    for (char *field; (field = csv_split_off_next_field(&c->in, &rest)) != NULL; k++) {
         if (k == c->all)
             return csv_report_fault(&c->in, field,
                                     "this line has more values than the %d columns of the header; write numbers with a "
@@ -183,10 +186,11 @@ static status read_time_file(struct reader *r, const struct yaml_node *map, stru
     struct time_columns c = {.unit = unit_of_boundary(b)};
     const struct yaml_node *n = yaml_node_find(map, "file");
     const struct yaml_node *column = yaml_node_find(map, "column");
-    if (!n) return fault(r, column, "has no effect without the key file; add file: NAME.csv");
+    if (!n) return fault_report_at_node(r, column, "has no effect without the key file; add file: NAME.csv");
     if (column && (column->kind != NODE_SCALAR || !*column->text || strlen(column->text) >= sizeof b->time_column))
-        return fault(r, column, "%s is not the name of a column; give a name from the header of the file",
-                     node_text(r, column));
+        return fault_report_at_node(r, column,
+                                    "%s is not the name of a column; give a name from the header of the file",
+                                    node_value_to_text_for_message(r, column));
     if (column) snprintf(b->time_column, sizeof b->time_column, "%s", column->text);
     b->time.kind = TIME_TABLE;
     TRY(read_input_file_path(r, n, "a CSV file of time and value", &b->time_file, &b->time_contents));
@@ -210,20 +214,23 @@ status read_time_function(struct reader *r, const struct yaml_node *function_nod
     if (!function_node || (function_node->kind == NODE_SCALAR && strcmp(function_node->text, "constant") == 0))
         return OK;
     if (function_node->kind != NODE_MAP)
-        return fault(r, function_node, "%s is not a function of time; give %s", node_text(r, function_node), forms);
+        return fault_report_at_node(r, function_node, "%s is not a function of time; give %s",
+                                    node_value_to_text_for_message(r, function_node), forms);
     TRY(check_keys_known(r, function_node, "boundary.time"));
     if (yaml_node_find(function_node, "file") || yaml_node_find(function_node, "column")) {
         for (const struct yaml_node *other = function_node->first; other; other = other->next)
             if (word_index_in_list("file|column", other->key) < 0)
-                return fault(r, other, "is given together with file; remove one of %s", forms);
+                return fault_report_at_node(r, other, "is given together with file; remove one of %s", forms);
         return read_time_file(r, function_node, boundary);
     }
-    if (function_node->n != 1) return fault(r, function_node, "has %d keys; give one: %s", function_node->n, forms);
+    if (function_node->n != 1)
+        return fault_report_at_node(r, function_node, "has %d keys; give one: %s", function_node->n, forms);
     const struct yaml_node *form = function_node->first;
     int kind = word_index_in_list("step|pulse|ramp", form->key);
     if (kind < 0) return read_table(r, form, f);
     f->kind = kind == 0 ? TIME_STEP : kind == 1 ? TIME_PULSE : TIME_RAMP;
     TRY(read_keys_of_group(r, form, form, groups[kind], f));
-    return f->from < f->until ? OK
-                              : fault(r, form, "from is not earlier than until; exchange or correct the two times");
+    return f->from < f->until
+               ? OK
+               : fault_report_at_node(r, form, "from is not earlier than until; exchange or correct the two times");
 }

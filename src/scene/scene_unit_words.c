@@ -43,7 +43,7 @@ static const struct {
     {"km/h", "1 km/h is 0.2778 m/s"},
 };
 
-const char *unit_meant_by_word(const char *unknown_name)
+const char *unknown_unit_name_suggest_known_unit(const char *unknown_name)
 {
     for (size_t k = 0; k < COUNT_OF(unit_words); k++) {
         const size_t length = strlen(unit_words[k].word);
@@ -53,7 +53,7 @@ const char *unit_meant_by_word(const char *unknown_name)
     return NULL;
 }
 
-const char *unit_without_kelvin(const char *text, enum unit kind_of_unit, char *shortened, size_t capacity)
+const char *unit_text_remove_kelvin(const char *text, enum unit kind_of_unit, char *shortened, size_t capacity)
 {
     const size_t length = strlen(text);
     const char *bracket = strstr(text, "/(");

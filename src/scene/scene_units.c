@@ -188,27 +188,28 @@ static size_t unit_length(struct measure *sum, const char *text)
     return (size_t)(end - text);
 }
 
-void unit_describe(const int twice[3], char *text, size_t capacity)
+void unit_exponents_describe_kind_of_unit(const int doubled_exponents[3], char *text, size_t capacity)
 {
     static const char *const symbol[] = {"m", "kg", "s"};
-    const struct unit_row *row = unit_of(twice);
+    const struct unit_row *row = unit_of(doubled_exponents);
     size_t used = (size_t)snprintf(text, capacity, "%s", row ? row->name : "in");
     for (int k = 0; k < 3 && !row; k++)
-        if (twice[k] && used < capacity)
-            used += (size_t)snprintf(text + used, capacity - used, " %s^%g", symbol[k], twice[k] / 2.0);
+        if (doubled_exponents[k] && used < capacity)
+            used += (size_t)snprintf(text + used, capacity - used, " %s^%g", symbol[k], doubled_exponents[k] / 2.0);
 }
 
-void unit_write_text(const int twice[3], char *text, size_t capacity)
+void unit_exponents_write_as_text(const int doubled_exponents[3], char *text, size_t capacity)
 {
     static const char *const symbol[] = {"m", "kg", "s"};
     size_t used = 0;
     *text = '\0';
     for (int k = 0; k < 3; k++) {
-        const int whole = twice[k] / 2, sign = whole < 0 ? -1 : 1;
+        const int whole = doubled_exponents[k] / 2, sign = whole < 0 ? -1 : 1;
         for (int left = whole * sign; left > 0 && used < capacity; left -= 9)
             used += (size_t)snprintf(text + used, capacity - used, " %s^%d", symbol[k], sign * (left < 9 ? left : 9));
-        if (twice[k] % 2 && used < capacity)
-            used += (size_t)snprintf(text + used, capacity - used, " %s^%s0.5", symbol[k], twice[k] < 0 ? "-" : "");
+        if (doubled_exponents[k] % 2 && used < capacity)
+            used += (size_t)snprintf(text + used, capacity - used, " %s^%s0.5", symbol[k],
+                                     doubled_exponents[k] < 0 ? "-" : "");
     }
 }
 
@@ -308,10 +309,10 @@ static bool unit_fits(struct complaint c, const char *unit_text, enum unit unit,
 {
     struct measure m;
     char wrong[64], other[UNIT_LONGEST + 1];
-    unit_text = unit_without_kelvin(unit_text, unit, wrong, sizeof wrong), *ten = 0;
+    unit_text = unit_text_remove_kelvin(unit_text, unit, wrong, sizeof wrong), *ten = 0;
     if (*unit_text == '\0') return true;
     if (!unit_read(&m, unit_text)) {
-        const char *meant = unit_meant_by_word(unit_text);
+        const char *meant = unknown_unit_name_suggest_known_unit(unit_text);
         if (!meant && (strlen(unit_text) > UNIT_LONGEST || !unit_in_other_case(unit_text, other, sizeof other)))
             return complain(c, "has an unknown unit", unit);
         snprintf(wrong, sizeof wrong, "has an unknown unit (%s%s)", meant ? meant : other, meant ? "" : "?");
@@ -353,8 +354,8 @@ static bool infinite_read(real *value, const char *text)
     return true;
 }
 
-/* Reads `/ number` at the beginning of c into *divisor and returns its length. Returns 0 and sets *divisor to 1 if
- * there is no divisor. */
+/* Reads `/ number` at the beginning of c into *divisor and returns its length. Without a divisor returns 0, *divisor 1.
+ */
 static size_t divisor_read(const char *c, real *divisor)
 {
     const char *start = c;
@@ -387,7 +388,8 @@ static real number_scaled(const char *text, size_t length, int ten, int clock, r
     return clock ? clock * number_value(text, length, 0) / divisor : number_value(text, length, ten) / divisor;
 }
 
-bool number_read(real *value, const char *text, enum unit unit, bool allow_infinity, char *message, size_t capacity)
+bool number_parse_with_unit(real *value, const char *text, enum unit unit, bool allow_infinity, char *message,
+                            size_t capacity)
 {
     struct complaint c = {message, capacity};
     real divisor;
@@ -477,14 +479,15 @@ size_t quantity_read_at_start_of_text(struct quantity *q, const char *text, bool
     return letters ? (size_t)(unit - text) + letters : length;
 }
 
-bool quantity_has_unit(const struct quantity *q, enum unit kind_of_unit, char *message, size_t capacity)
+bool quantity_unit_is_of_kind_or_absent(const struct quantity *q, enum unit kind_of_unit, char *message,
+                                        size_t capacity)
 {
     const struct complaint c = {message, capacity};
     const signed char *twice = unit_rows[kind_of_unit].twice;
     const bool same = q->twice[0] == twice[0] && q->twice[1] == twice[1] && q->twice[2] == twice[2];
     char name[64], wrong[80];
     if (same || q->bare) return true;
-    unit_describe(q->twice, name, sizeof name);
+    unit_exponents_describe_kind_of_unit(q->twice, name, sizeof name);
     snprintf(wrong, sizeof wrong, "is %s", name);
     return complain(c, wrong, kind_of_unit);
 }
@@ -494,7 +497,7 @@ bool value_is_in_unit_bounds(real value, enum unit kind_of_unit, char *message, 
     return in_bounds((struct complaint){message, capacity}, value, kind_of_unit);
 }
 
-const char *number_write_shortest(char text[32], real value)
+const char *number_write_shortest_exact_decimal(char text[32], real value)
 {
     for (int digits = 15; digits <= 17; digits++) {
         snprintf(text, 32, "%.*g", digits, value);
@@ -506,7 +509,7 @@ const char *number_write_shortest(char text[32], real value)
 /* ---- cleave help units ------------------------------------------------------------------------------------------- */
 
 /* Prints the page `cleave help units`, the units that numbers in scenes may have, to `out`. */
-void scene_print_units(FILE *out)
+void scene_print_allowed_units(FILE *out)
 {
     fputs(
         "A number without a unit is SI. A unit follows it, with or without a blank: 0.5 mm, 190GPa, 1/3.\n\nsymbols   ",

@@ -8,7 +8,7 @@
  * of the list. Returns NULL if the value is no such mapping, or a mapping of names. */
 static const char *group_of_values(const struct key *k)
 {
-    const char *words = k->words ? k->words : "", *group = key_group_of_items(k);
+    const char *words = k->words ? k->words : "", *group = key_get_group_path_of_list_items(k);
     if (k->type == KEY_REGION || (k->type == KEY_HAND && strncmp(words, "solid", 5) == 0)) return "solid";
     for (int i = 0; i < keys_count; i++)
         if (key_is_directly_below(&keys[i], group)) return group;
@@ -43,7 +43,7 @@ static void describe_unknown_key(const struct yaml_node *n, const char *group, c
 {
     char instead[400];
     const struct key *nearest = key_find_most_similar(group, n->key);
-    const char *leaf = nearest ? key_last_part(nearest) : "";
+    const char *leaf = nearest ? key_get_last_name_of_path(nearest) : "";
     int others;
     const struct key *other = key_find_in_any_group(n->key, &others);
     const struct yaml_node *owner = owner_beside(n, group);
@@ -51,9 +51,9 @@ static void describe_unknown_key(const struct yaml_node *n, const char *group, c
     if (list)
         snprintf(text, capacity, "unknown key; names of entries stand inside a list: %s: [{name: %s, ..}]", list,
                  n->key);
-    else if (foreign_word_advice(n->key, group, instead, sizeof instead))
+    else if (other_program_keyword_write_advice(n->key, group, instead, sizeof instead))
         snprintf(text, capacity, "unknown key; %s", instead);
-    else if (nearest && words_are_similar(leaf, n->key))
+    else if (nearest && word_is_probable_misspelling_of(leaf, n->key))
         snprintf(text, capacity, "unknown key; did you mean %s?", leaf);
     else if (owner && others > 1)
         snprintf(text, capacity, "this key belongs inside %s; write %s: {%s: ..}", owner->key, owner->key, n->key);
@@ -74,7 +74,7 @@ status check_keys_known(struct reader *r, const struct yaml_node *mapping, const
     for (const struct yaml_node *n = mapping->first; n; n = n->next) {
         if (!key_find(group_path, n->key)) {
             describe_unknown_key(n, group_path, text, sizeof text);
-            return fault(r, n, "%s", text);
+            return fault_report_at_node(r, n, "%s", text);
         }
         TRY(check_key_given_once(r, mapping, n));
     }
@@ -92,11 +92,11 @@ static void report_unknown_key(const struct reader *r, const struct yaml_node *n
     char place[PLACE_LENGTH], text[500];
     if ((*found)++ >= SHOWN_MOST) return;
     describe_unknown_key(n, group, text, sizeof text);
-    fault_write_location_of_node(r, n, place, sizeof place);
+    location_write_text_of_node(r, n, place, sizeof place);
     if (*found == 1)
         status_set(REFUSED, "%s%s", place, text);
     else
-        status_add_line("%s%s", place, text);
+        status_message_append_line("%s%s", place, text);
 }
 
 /* Reports the unknown keys of `node`, a mapping or a list of mappings with keys of `group`, and of all nodes below it.
@@ -120,6 +120,6 @@ status check_all_keys_known(const struct reader *r, const struct yaml_node *root
 {
     int found = 0;
     report_unknown_keys(r, root, "", &found);
-    if (found > SHOWN_MOST) status_add_line("%s: and %d more unknown keys", r->name, found - SHOWN_MOST);
+    if (found > SHOWN_MOST) status_message_append_line("%s: and %d more unknown keys", r->name, found - SHOWN_MOST);
     return found > 0 ? REFUSED : OK;
 }

@@ -21,35 +21,38 @@ static status check_range(struct reader *r, const struct key *k, const struct ya
     if (!range->given) return OK;
     bool low = range->open ? !(value > range->least) : !(value >= range->least);
     if (!low && value <= range->most) return OK;
-    if (low && k->low) return fault(r, n, "%s %s", node_text(r, n), k->low);
+    if (low && k->low) return fault_report_at_node(r, n, "%s %s", node_value_to_text_for_message(r, n), k->low);
     const struct unit_row *unit = &unit_rows[k->unit];
     const char *name = k->type == KEY_INT ? "a whole number" : unit->name;
     bool bounded = isfinite(range->most);
-    const char *advice = foreign_value_advice(k->path, n->text);
-    return fault(r, n, "%s is out of range; give %s %s %s%s%s%s%s%s%s", node_text(r, n), name,
-                 range->open ? "above" : "from", number_write_shortest(least, range->least),
-                 bounded       ? (range->open ? " up to " : " to ")
-                 : range->open ? ""
-                               : " on",
-                 bounded ? number_write_shortest(most, range->most) : "", k->unit ? ", such as " : "",
-                 k->unit ? unit->example : "", advice ? "; " : "", advice ? advice : "");
+    const char *advice = other_program_value_get_advice(k->path, n->text);
+    return fault_report_at_node(
+        r, n, "%s is out of range; give %s %s %s%s%s%s%s%s%s", node_value_to_text_for_message(r, n), name,
+        range->open ? "above" : "from", number_write_shortest_exact_decimal(least, range->least),
+        bounded       ? (range->open ? " up to " : " to ")
+        : range->open ? ""
+                      : " on",
+        bounded ? number_write_shortest_exact_decimal(most, range->most) : "", k->unit ? ", such as " : "",
+        k->unit ? unit->example : "", advice ? "; " : "", advice ? advice : "");
 }
 
 status read_number(struct reader *r, const struct key *k, const struct yaml_node *n, real *value)
 {
     char what[256];
     if (n->kind != NODE_SCALAR)
-        return fault(r, n, "%s is not a number; give %s, such as %s", node_text(r, n), unit_rows[k->unit].name,
-                     unit_rows[k->unit].example);
+        return fault_report_at_node(r, n, "%s is not a number; give %s, such as %s",
+                                    node_value_to_text_for_message(r, n), unit_rows[k->unit].name,
+                                    unit_rows[k->unit].example);
     if (k->type == KEY_REAL && k->words && strcmp(n->text, k->words) == 0) {
         *value = k->word_value;
         return OK;
     }
     bool infinite = k->infinite && !(k->type == KEY_POINT && r->bounded);
     if (!number_evaluate_text(r, value, n->text, k->unit, infinite, what, sizeof what)) {
-        const char *advice = foreign_value_advice(k->path, n->text);
-        advise_length_in_spacings(r, k, n->text, what, sizeof what);
-        return fault(r, n, "%s %s%s%s", node_text(r, n), what, advice ? "; " : "", advice ? advice : "");
+        const char *advice = other_program_value_get_advice(k->path, n->text);
+        message_suggest_length_as_number_of_spacings(r, k, n->text, what, sizeof what);
+        return fault_report_at_node(r, n, "%s %s%s%s", node_value_to_text_for_message(r, n), what, advice ? "; " : "",
+                                    advice ? advice : "");
     }
     return check_range(r, k, n, *value);
 }
@@ -61,10 +64,10 @@ static status read_whole(struct reader *r, const struct yaml_node *n, real *valu
     char what[256];
     real number;
     if (!number_evaluate_text(r, &number, n->text, UNIT_NONE, false, what, sizeof what))
-        return fault(r, n, "%s %s", node_text(r, n), what);
+        return fault_report_at_node(r, n, "%s %s", node_value_to_text_for_message(r, n), what);
     *value = round(number);
     if (fabs(number - *value) <= 1e-9 * (1 + fabs(number))) return OK;
-    return fault(r, n, "%s is %g; give a whole number", node_text(r, n), number);
+    return fault_report_at_node(r, n, "%s is %g; give a whole number", node_value_to_text_for_message(r, n), number);
 }
 
 /* Reads a whole number from YAML node n into *value: digits, or an expression or fraction whose value is whole. Returns
@@ -72,7 +75,7 @@ static status read_whole(struct reader *r, const struct yaml_node *n, real *valu
 static status read_int(struct reader *r, const struct key *k, const struct yaml_node *n, int *value)
 {
     const char *c = n->text + (*n->text == '-');
-    if (n->kind == NODE_SCALAR && (strchr(n->text, '/') || looks_like_expression(r, n->text))) {
+    if (n->kind == NODE_SCALAR && (strchr(n->text, '/') || text_looks_like_expression(r, n->text))) {
         real whole;
         TRY(read_whole(r, n, &whole));
         *value = (int)real_max(INT32_MIN, real_min(INT32_MAX, whole));
@@ -80,7 +83,8 @@ static status read_int(struct reader *r, const struct key *k, const struct yaml_
     }
     size_t digits = strspn(c, "0123456789");
     if (n->kind != NODE_SCALAR || digits == 0 || c[digits] != '\0' || (*c == '0' && digits > 1))
-        return fault(r, n, "%s is not a whole number; write digits only, such as 20", node_text(r, n));
+        return fault_report_at_node(r, n, "%s is not a whole number; write digits only, such as 20",
+                                    node_value_to_text_for_message(r, n));
     errno = 0;
     long long number = strtoll(n->text, NULL, 10);
     if (errno || number > INT32_MAX || number < INT32_MIN) number = *n->text == '-' ? INT32_MIN : INT32_MAX;
@@ -92,7 +96,7 @@ static status read_seed(struct reader *r, const struct yaml_node *n, uint64_t *v
 {
     size_t digits = strspn(n->text, "0123456789");
     real whole = -1;
-    if (n->kind == NODE_SCALAR && looks_like_expression(r, n->text)) TRY(read_whole(r, n, &whole));
+    if (n->kind == NODE_SCALAR && text_looks_like_expression(r, n->text)) TRY(read_whole(r, n, &whole));
     errno = 0;
     if (whole >= 0 && whole < 9e15)
         *value = (uint64_t)whole;
@@ -101,38 +105,42 @@ static status read_seed(struct reader *r, const struct yaml_node *n, uint64_t *v
     else
         errno = EINVAL;
     if (errno == 0) return OK;
-    return fault(r, n, "%s is not a seed; give a whole number from 0 to 18446744073709551615", node_text(r, n));
+    return fault_report_at_node(r, n, "%s is not a seed; give a whole number from 0 to 18446744073709551615",
+                                node_value_to_text_for_message(r, n));
 }
 
 static status read_flag(struct reader *r, const struct yaml_node *n, bool *value)
 {
     int word = n->kind == NODE_SCALAR ? word_index_in_list("false|true", n->text) : -1;
-    if (word < 0) return fault(r, n, "%s is neither true nor false; write true or false", node_text(r, n));
+    if (word < 0)
+        return fault_report_at_node(r, n, "%s is neither true nor false; write true or false",
+                                    node_value_to_text_for_message(r, n));
     *value = word == 1;
     return OK;
 }
 
 static status read_choice(struct reader *r, const struct key *k, const struct yaml_node *n, void *place)
 {
-    const char *words = words_for_message(r, k->words);
+    const char *words = allowed_words_join_for_message(r, k->words);
     int word = n->kind == NODE_SCALAR ? word_index_in_list(k->words, n->text) : -1;
-    const char *advice = foreign_value_advice(k->path, n->text);
+    const char *advice = other_program_value_get_advice(k->path, n->text);
     if (word < 0)
-        return fault(r, n, "%s is unknown; give %s%s%s", node_text(r, n), words, advice ? "; " : "",
-                     advice ? advice : "");
+        return fault_report_at_node(r, n, "%s is unknown; give %s%s%s", node_value_to_text_for_message(r, n), words,
+                                    advice ? "; " : "", advice ? advice : "");
     if (k->size == sizeof(int)) memcpy(place, &word, sizeof word);
     if (k->size == 1) *(bool *)place = word == 1;
     return OK;
 }
 
 /* Returns the word of `words`, a text a|b|c, most similar to `text`, in the arena of the reader r; NULL if none is
- * similar (words_are_similar). */
+ * similar (word_is_probable_misspelling_of). */
 static const char *word_near(struct reader *r, const char *words, const char *text)
 {
     const char *nearest = NULL;
     for (const char *c = words; c; c = strchr(c, '|') ? strchr(c, '|') + 1 : NULL) {
         const char *word = arena_copy_text(r, c, strcspn(c, "|"));
-        if (words_are_similar(word, text) && (!nearest || edit_distance(word, text) < edit_distance(nearest, text)))
+        if (word_is_probable_misspelling_of(word, text) &&
+            (!nearest || edit_distance(word, text) < edit_distance(nearest, text)))
             nearest = word;
     }
     return nearest;
@@ -142,20 +150,21 @@ static const char *word_near(struct reader *r, const char *words, const char *te
  * REFUSED, with a message, for other texts. */
 static status read_set(struct reader *r, const struct key *k, const struct yaml_node *n, unsigned *bits)
 {
-    const char *words = words_for_message(r, k->words);
+    const char *words = allowed_words_join_for_message(r, k->words);
     *bits = 0;
     if (n->kind == NODE_SCALAR && strcmp(n->text, "none") == 0) return OK;
     for (const char *c = k->words; c && n->kind == NODE_SCALAR && strcmp(n->text, "all") == 0; c = strchr(c + 1, '|'))
         *bits = *bits << 1 | 1;
     if (*bits) return OK;
     if (n->kind != NODE_LIST || n->n == 0)
-        return fault(r, n, "%s is unknown; give none, all or a list of %s", node_text(r, n), words);
+        return fault_report_at_node(r, n, "%s is unknown; give none, all or a list of %s",
+                                    node_value_to_text_for_message(r, n), words);
     for (const struct yaml_node *c = n->first; c; c = c->next) {
         int word = c->kind == NODE_SCALAR ? word_index_in_list(k->words, c->text) : -1;
         if (word < 0) {
             const char *near = word_near(r, k->words, c->text);
-            return fault(r, c, "%s is unknown%s%s; give %s", node_text(r, c), near ? "; the most similar is " : "",
-                         near ? near : "", words);
+            return fault_report_at_node(r, c, "%s is unknown%s%s; give %s", node_value_to_text_for_message(r, c),
+                                        near ? "; the most similar is " : "", near ? near : "", words);
         }
         *bits |= 1u << word;
     }
@@ -167,9 +176,11 @@ static status read_any_text(struct reader *r, const struct yaml_node *n, char *t
 {
     const size_t length = strlen(n->text);
     if (n->kind != NODE_SCALAR || length == 0)
-        return fault(r, n, "%s is not a text; give one line of text", node_text(r, n));
+        return fault_report_at_node(r, n, "%s is not a text; give one line of text",
+                                    node_value_to_text_for_message(r, n));
     if (length >= capacity)
-        return fault(r, n, "%s is too long; give at most %d characters", node_text(r, n), (int)capacity - 1);
+        return fault_report_at_node(r, n, "%s is too long; give at most %d characters",
+                                    node_value_to_text_for_message(r, n), (int)capacity - 1);
     memset(text, 0, capacity);
     memcpy(text, n->text, length);
     return OK;
@@ -183,7 +194,8 @@ static status read_name(struct reader *r, const struct yaml_node *n, char *name)
     while (isalnum((unsigned char)n->text[fine]) || n->text[fine] == '_' || n->text[fine] == '-') fine++;
     if (n->kind == NODE_SCALAR && length > 0 && fine == length && n->text[0] != '-')
         return read_any_text(r, n, name, NAME_MAX_LENGTH);
-    return fault(r, n, "%s is not a name; use letters, digits, _ and -, and do not begin with -", node_text(r, n));
+    return fault_report_at_node(r, n, "%s is not a name; use letters, digits, _ and -, and do not begin with -",
+                                node_value_to_text_for_message(r, n));
 }
 
 /* ---- lists of numbers -------------------------------------------------------------------------------------------- */
@@ -191,7 +203,7 @@ static status read_name(struct reader *r, const struct yaml_node *n, char *name)
 /* Names of spaces, by enum space. */
 const char *const space_names[] = {"line", "plane stress", "plane strain", "solid"};
 
-const char *space_name_for_message(const struct reader *r)
+const char *reader_get_expected_point_space_as_text(const struct reader *r)
 {
     static const char *const shown_as[] = {"space line", "space plane stress", "space plane strain", "space solid"};
     return r->dim == r->scene->dim ? shown_as[r->scene->space] : "the plane of extrude";
@@ -201,18 +213,19 @@ status read_point(struct reader *r, const struct key *k, const struct yaml_node 
 {
     int d = 0;
     if (r->dim == 1 && n->kind == NODE_SCALAR) return read_number(r, k, n, point);
-    const char *space = space_name_for_message(r);
+    const char *space = reader_get_expected_point_space_as_text(r);
     if (n->kind != NODE_LIST) {
         char example[200], what[256];
         real number;
         const bool plain = n->kind == NODE_SCALAR && strlen(n->text) < 40 && strchr(n->text, ' ') &&
                            number_evaluate_text(r, &number, n->text, k->unit, false, what, sizeof what);
-        const char *advice = foreign_value_advice(k->path, n->text);
+        const char *advice = other_program_value_get_advice(k->path, n->text);
         key_write_example_vector(k, r->dim, plain ? n->text : NULL, example, sizeof example);
-        return fault(r, n, "%s is not a list; give %d components in %s, such as %s%s%s", node_text(r, n), r->dim, space,
-                     example, advice ? "; " : "", advice ? advice : "");
+        return fault_report_at_node(r, n, "%s is not a list; give %d components in %s, such as %s%s%s",
+                                    node_value_to_text_for_message(r, n), r->dim, space, example, advice ? "; " : "",
+                                    advice ? advice : "");
     }
-    if (n->n != r->dim) return fault(r, n, "has %d components; give %d in %s", n->n, r->dim, space);
+    if (n->n != r->dim) return fault_report_at_node(r, n, "has %d components; give %d in %s", n->n, r->dim, space);
     for (const struct yaml_node *c = n->first; c; c = c->next) TRY(read_number(r, k, c, &point[d++]));
     return OK;
 }
@@ -225,7 +238,8 @@ static status read_matrix(struct reader *r, const struct key *k, const struct ya
     if (dim == 1 && n->kind == NODE_SCALAR) return read_number(r, k, n, matrix);
     bool rows = n->kind == NODE_LIST && n->n == dim && n->first->kind == NODE_LIST;
     if (!rows && (n->kind != NODE_LIST || n->n != dim * dim))
-        return fault(r, n, "%s is not a matrix; give %d rows of %d numbers", node_text(r, n), dim, dim);
+        return fault_report_at_node(r, n, "%s is not a matrix; give %d rows of %d numbers",
+                                    node_value_to_text_for_message(r, n), dim, dim);
     for (const struct yaml_node *c = n->first; c; c = c->next) {
         TRY(rows ? read_point(r, k, c, &matrix[entry]) : read_number(r, k, c, &matrix[entry]));
         entry += rows ? dim : 1;
@@ -239,14 +253,16 @@ enum { SERIES_MOST = 100000 }; /* largest number of values of a series */
  * *series, which the scene frees. Returns REFUSED, with a message, for another form. */
 static status read_series(struct reader *r, const struct key *k, const struct yaml_node *n, struct number_list *series)
 {
-    TRY(expect_list(r, k, n));
-    if (n->n < 1 || n->n > SERIES_MOST) return fault(r, n, "has %d items; give 1 to %d", n->n, SERIES_MOST);
+    TRY(check_node_is_list(r, k, n));
+    if (n->n < 1 || n->n > SERIES_MOST)
+        return fault_report_at_node(r, n, "has %d items; give 1 to %d", n->n, SERIES_MOST);
     series->value = NEW("scene series", n->n, real);
     for (const struct yaml_node *c = n->first; c; c = c->next) {
         TRY(read_number(r, k, c, &series->value[series->n]));
         if (series->n > 0 && !(series->value[series->n] > series->value[series->n - 1]))
-            return fault(r, c, "%s is not larger than the previous value; give values in ascending order",
-                         node_text(r, c));
+            return fault_report_at_node(r, c,
+                                        "%s is not larger than the previous value; give values in ascending order",
+                                        node_value_to_text_for_message(r, c));
         series->n++;
     }
     return OK;
@@ -258,7 +274,8 @@ static status read_series(struct reader *r, const struct key *k, const struct ya
  * name, `nearest`. */
 static status fault_reference(struct reader *r, const struct yaml_node *n, const char *what, const char *nearest)
 {
-    return fault(r, n, "there is no %s %s; did you mean %s?", what, node_text(r, n), nearest);
+    return fault_report_at_node(r, n, "there is no %s %s; did you mean %s?", what, node_value_to_text_for_message(r, n),
+                                nearest);
 }
 
 /* Stores the index of the material that YAML node n names in *index. Returns REFUSED, with the most similar name in
@@ -290,9 +307,9 @@ static status scene_value_read_body(struct reader *r, const struct yaml_node *n,
     }
     for (int k = s->bodies; k < s->bodies + s->rigids; k++)
         if (strcmp(b[k].name, n->text) == 0)
-            return fault(
+            return fault_report_at_node(
                 r, n, "%s is rigid; name a body with particles (rigid bodies have their own velocity, mass and force)",
-                node_text(r, n));
+                node_value_to_text_for_message(r, n));
     return fault_reference(r, n, "body", b[nearest].name);
 }
 
@@ -343,7 +360,7 @@ static status read_fallback(struct reader *r, const struct yaml_node *where, con
     struct yaml_node n = {.kind = NODE_SCALAR, .origin = -1, .line = where->line, .column = where->column};
     if (k->type >= KEY_MAP || *k->fallback == '-' || *k->fallback == '(') return OK;
     if (strcmp(k->fallback, "required") == 0) return fault_report_missing_key(r, where, k);
-    n.key = (char *)key_last_part(k);
+    n.key = (char *)key_get_last_name_of_path(k);
     n.text = (char *)k->fallback;
     return read_value_of_key(r, k, &n, base);
 }
@@ -351,12 +368,12 @@ static status read_fallback(struct reader *r, const struct yaml_node *where, con
 status read_keys_of_group(struct reader *r, const struct yaml_node *location_node, const struct yaml_node *mapping,
                           const char *group_path, void *group_values)
 {
-    if (mapping) TRY(expect_mapping(r, mapping, group_path));
+    if (mapping) TRY(check_node_is_mapping(r, mapping, group_path));
     if (mapping) TRY(check_keys_known(r, mapping, group_path));
     for (int i = 0; i < keys_count; i++) {
         const struct key *k = &keys[i];
         if (!key_is_directly_below(k, group_path)) continue;
-        const struct yaml_node *n = yaml_node_find(mapping, key_last_part(k));
+        const struct yaml_node *n = yaml_node_find(mapping, key_get_last_name_of_path(k));
         if (k->type == KEY_MAP)
             TRY(read_keys_of_group(r, n ? n : location_node, n, k->path, group_values));
         else if (n)

@@ -19,8 +19,9 @@
 static status figure_read(struct reader *r, const struct yaml_node *of, char *figure, size_t capacity)
 {
     if (of->kind != NODE_SCALAR || !*of->text || strlen(of->text) >= capacity || strpbrk(of->text, " ,/"))
-        return fault(r, of, "%s is not a figure of summary.json; join its names by points, such as crack.start_time",
-                     node_text(r, of));
+        return fault_report_at_node(
+            r, of, "%s is not a figure of summary.json; join its names by points, such as crack.start_time",
+            node_value_to_text_for_message(r, of));
     snprintf(figure, capacity, "%s", of->text);
     return OK;
 }
@@ -28,9 +29,9 @@ static status figure_read(struct reader *r, const struct yaml_node *of, char *fi
 /* Reads the key `accuracy`, a number or a mapping {of, within, budget}, into figure, within and budget of w; missing
  * entries get defaults. root: YAML tree of the input file (scene). Returns REFUSED, with a message, for invalid
  * entries. */
-static status accuracy_read(struct reader *r, const struct yaml_node *root, struct pilot_wish *w)
+static status accuracy_read(struct reader *r, const struct yaml_node *root, struct pilot_requirements *w)
 {
-    const struct yaml_node *n = tree_find(root, "accuracy");
+    const struct yaml_node *n = tree_find_node_by_path(root, "accuracy");
     w->within = WITHIN_USUAL, w->budget = BUDGET_USUAL, w->figure[0] = '\0';
     if (!n) return OK;
     if (n->kind != NODE_MAP) return read_number(r, key_find("accuracy", "within"), n, &w->within);
@@ -63,21 +64,22 @@ static status provisional_read(struct reader *r, const char *text, size_t length
     struct yaml_node *root;
     char number[32];
     own.scene = s;
-    status read = scene_parse_tree(&own, text, length, &root);
+    status read = scene_text_parse_with_includes_and_overrides(&own, text, length, &root);
     for (size_t k = 0; k < COUNT_OF(dropped) && read == OK; k++)
-        if (tree_find(root, dropped[k])) read = tree_apply_override(&own, root, dropped[k], "");
-    const struct yaml_node *space = read == OK ? tree_find(root, "space") : NULL;
+        if (tree_find_node_by_path(root, dropped[k])) read = tree_apply_override(&own, root, dropped[k], "");
+    const struct yaml_node *space = read == OK ? tree_find_node_by_path(root, "space") : NULL;
     const bool line = space && strcmp(space->text, "line") == 0,
                soft = read == OK && scene_has_material_with_key(root, "tensile_strength"),
                bonds =
                    read == OK && ((soft && !with->soft_states) || scene_has_material_with_key(root, "yield_stress") ||
                                   scene_has_material_with_key(root, "viscosity"));
-    if (read == OK && !tree_find(root, "particles.spacing"))
-        read = tree_apply_override(&own, root, "particles.spacing", number_write_shortest(number, spacing));
+    if (read == OK && !tree_find_node_by_path(root, "particles.spacing"))
+        read =
+            tree_apply_override(&own, root, "particles.spacing", number_write_shortest_exact_decimal(number, spacing));
     if (read == OK) read = tree_apply_override(&own, root, "method", with->method);
     if (read == OK) read = tree_apply_override(&own, root, "solver", "explicit");
     if (read == OK && !line && !bonds) read = tree_apply_override(&own, root, "model", "mospd");
-    if (read == OK) read = scene_read_keys_of_tree(&own, root);
+    if (read == OK) read = scene_read_values_from_yaml_tree(&own, root);
     r->arena = own.arena;
     if (read != OK) scene_free(s);
     return read;
@@ -126,20 +128,22 @@ static status provisional_scene(struct reader *r, const char *text, size_t lengt
 /* Reads into *requirements what a scene with `method: auto` requires of its pilot runs (runs that choose method and
  * spacing). root: YAML tree of the input file (scene); text[length]: its text. Returns REFUSED, with a message, for an
  * invalid scene, and for one with load steps. */
-status pilot_requirements_read(struct reader *r, const struct yaml_node *root, const char *text, size_t length,
-                               struct pilot_wish *requirements)
+status pilot_run_requirements_read(struct reader *r, const struct yaml_node *root, const char *text, size_t length,
+                                   struct pilot_requirements *requirements)
 {
-    const struct yaml_node *model = tree_find(root, "model"), *solver = tree_find(root, "solver");
-    const bool given = tree_find(root, "particles.spacing");
-    if (tree_find(root, "steps"))
-        return fault(r, tree_find(root, "method"),
-                     "the method auto cannot be combined with load steps (steps); set method: pd or adaptive");
+    const struct yaml_node *model = tree_find_node_by_path(root, "model"),
+                           *solver = tree_find_node_by_path(root, "solver");
+    const bool given = tree_find_node_by_path(root, "particles.spacing");
+    if (tree_find_node_by_path(root, "steps"))
+        return fault_report_at_node(
+            r, tree_find_node_by_path(root, "method"),
+            "the method auto cannot be combined with load steps (steps); set method: pd or adaptive");
     TRY(accuracy_read(r, root, requirements));
     TRY(provisional_scene(r, text, length, &requirements->provisional, given, &requirements->spacing_most));
     if (given) requirements->spacing = requirements->provisional.spacing;
     if (model) snprintf(requirements->model, sizeof requirements->model, "%s", model->text);
     requirements->at_rest = solver && strcmp(solver->text, "explicit") != 0;
-    requirements->has_accuracy = tree_find(root, "accuracy") != NULL;
+    requirements->has_accuracy = tree_find_node_by_path(root, "accuracy") != NULL;
     requirements->wanted = true;
     return OK;
 }

@@ -22,7 +22,7 @@ struct parse {
 
 static status fault_at(struct parse *p, yaml_mark_t mark, const char *what)
 {
-    return fault_at_location(p->r, p->origin, (int)mark.line + 1, (int)mark.column + 1, "%s", what);
+    return fault_report_at_location(p->r, p->origin, (int)mark.line + 1, (int)mark.column + 1, "%s", what);
 }
 
 /* Returns line and column, both from 0, of the byte at `offset` in the text of p. For faults of the encoding libyaml
@@ -44,7 +44,7 @@ static status yaml_fault(struct parse *p)
     if (yaml->error == YAML_MEMORY_ERROR)
         return status_set(FAILED, "%s: out of memory while the scene is read; free memory and try again", p->r->name);
     yaml_mark_t mark = yaml->error == YAML_READER_ERROR ? mark_of_offset(p, yaml->problem_offset) : yaml->problem_mark;
-    return fault_at_location(
+    return fault_report_at_location(
         p->r, p->origin, (int)mark.line + 1, (int)mark.column + 1,
         "not YAML: %s; indent by spaces (not tabs), write `: ` after each key, and close all brackets",
         yaml->problem ? yaml->problem : "it cannot be read");
@@ -88,7 +88,7 @@ static const char *key_refusal(const yaml_event_t *e)
 
 static struct yaml_node *node_new(struct parse *p, const yaml_event_t *e, enum node_kind kind)
 {
-    struct yaml_node *n = arena_new(p->r, sizeof *n);
+    struct yaml_node *n = arena_allocate_zeroed(p->r, sizeof *n);
     *n = (struct yaml_node){.kind = kind,
                             .line = (int)e->start_mark.line + 1,
                             .column = (int)e->start_mark.column + 1,

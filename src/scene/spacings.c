@@ -21,7 +21,7 @@ struct lengths {
 static real box_extent(const struct scene *s, int body, int axis)
 {
     const struct region *shape = &s->body[body].shape;
-    if (shape->n == 0 || !solid_is_of_kind_and_not_moved(&shape->solid[0], SOLID_BOX)) return 0;
+    if (shape->n == 0 || !solid_is_untransformed_and_of_kind(&shape->solid[0], SOLID_BOX)) return 0;
     return shape->solid[0].to[axis] - shape->solid[0].from[axis];
 }
 
@@ -57,7 +57,7 @@ static void lengths_collect(struct lengths *l, const struct scene *s)
         for (int d = 0; d < s->dim; d++) length_add(l, box_extent(s, b, d));
         for (int k = 1; k < s->body[b].shape.n; k++) {
             const struct solid *gap = &s->body[b].shape.solid[k];
-            for (int d = 0; d < s->dim && gap->subtract && solid_is_of_kind_and_not_moved(gap, SOLID_BOX); d++)
+            for (int d = 0; d < s->dim && gap->subtract && solid_is_untransformed_and_of_kind(gap, SOLID_BOX); d++)
                 length_add_inside(l, box, d, gap->from[d]), length_add_inside(l, box, d, gap->to[d]);
         }
         lengths_add_cracks(l, s, box);

@@ -88,7 +88,7 @@ static const char *names(bool running, char *text, size_t size)
     return text;
 }
 
-status simd_select_kernels(void)
+status simd_select_kernels_for_processor(void)
 {
     const char *asked = getenv("CLEAVE_SIMD");
     const struct simd_set *widest = NULL, *wanted = NULL;
@@ -112,4 +112,4 @@ status simd_select_kernels(void)
 
 /* Selects the set of kernels before main starts, without a check of the result: main selects the kernels again and
  * reports a failure. */
-__attribute__((constructor)) static void simd_start_set(void) { (void)simd_select_kernels(); }
+__attribute__((constructor)) static void simd_start_set(void) { (void)simd_select_kernels_for_processor(); }

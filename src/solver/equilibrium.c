@@ -173,7 +173,7 @@ static real difference_step(const struct newton_solver *q, const struct field *i
  * Overwrites the vector q->at. */
 static void stiffness(struct newton_solver *q, const struct field *in, struct field *out)
 {
-    const real most = field_largest_component(in, q->dim, q->n);
+    const real most = field_largest_absolute_component(in, q->dim, q->n);
     const real step = most > 0 ? difference_step(q, in, most) : 0;
     combine(q, &q->at, 1, &q->u, step, in);
     forces_at(q, &q->at, out);
@@ -188,7 +188,7 @@ static void stiffness(struct newton_solver *q, const struct field *in, struct fi
  * nothing unless it is positive. */
 static void strain_note(struct newton_solver *q, const struct field *d, real curvature)
 {
-    const real most = field_largest_component(d, q->dim, q->n);
+    const real most = field_largest_absolute_component(d, q->dim, q->n);
     if (curvature > 0 && most > 0) q->strain_ratio = sqrt(curvature / q->unit_energy) / most;
 }
 
@@ -216,7 +216,7 @@ static void equilibrium_measure(struct newton_solver *q)
  * displacement. */
 static void residual_of_guess(struct newton_solver *q)
 {
-    if (field_largest_component(&q->x, q->dim, q->n) == 0) {
+    if (field_largest_absolute_component(&q->x, q->dim, q->n) == 0) {
         combine(q, &q->r, 1, &q->f, 0, &q->f);
     } else {
         stiffness(q, &q->x, &q->q);
@@ -272,7 +272,7 @@ static void advance_block(const void *context, int64_t first, int64_t end, real 
  * factor of q->d is such that bonds rotate by about TURN_MOST [rad]. */
 static void follow_negative(struct newton_solver *q)
 {
-    const real most = field_largest_component(&q->d, q->dim, q->n);
+    const real most = field_largest_absolute_component(&q->d, q->dim, q->n);
     if (most > 0) combine(q, &q->x, 1, &q->x, TURN_MOST * turning_width(q, &q->d, most) / most, &q->d);
 }
 
@@ -324,7 +324,7 @@ static void forces_along(struct newton_solver *q, real share)
  * that the increment is made in full. Stores the displacements at the factor in q->z and the forces there in q->q. */
 static real line_search(struct newton_solver *q, real left, bool prescribed)
 {
-    const real push = dot_free(q, &q->f, &q->x), most = field_largest_component(&q->x, q->dim, q->n);
+    const real push = dot_free(q, &q->f, &q->x), most = field_largest_absolute_component(&q->x, q->dim, q->n);
     real share = q->reach > 0 && !prescribed && most > q->reach ? q->reach / most : 1, low = 0, high = 0, at_low = push;
     for (int k = 0; k < EVALUATIONS_MOST; k++) {
         forces_along(q, share);
@@ -422,7 +422,7 @@ static bool laws_settle(struct newton_solver *q)
 
 status newton_solver_find_equilibrium(struct newton_solver *q, const struct field *increment, bool loads_changed)
 {
-    bool prescribed = loads_changed && field_largest_component(increment, q->dim, q->n) > 0;
+    bool prescribed = loads_changed && field_largest_absolute_component(increment, q->dim, q->n) > 0;
     combine(q, &q->x, prescribed, increment, 0, increment);
     combine(q, &q->before, 1, &q->f, 0, &q->f);
     real supports = prescribed ? 0.5 * dot_held(q, increment) : 0;

@@ -132,9 +132,9 @@ static bool coarsen(struct multigrid *m)
     multigrid_aggregate_nodes(l);
     if (l->coarse == 0 || l->coarse > 0.7 * (real)l->n) return false;
     *next = (struct multigrid_level){0};
-    multigrid_make_coarse_rigid_motions(l, next);
-    multigrid_make_prolongation_and_restriction(l);
-    multigrid_make_coarse_matrix(l, next);
+    multigrid_compute_coarse_rigid_motions(l, next);
+    multigrid_compute_prolongation_and_restriction(l);
+    multigrid_compute_coarse_matrix(l, next);
     multigrid_find_unconstrained_coarse_nodes(l, next);
     coarse_diagonal(next);
     level_vectors(next);
@@ -163,7 +163,7 @@ status multigrid_make(struct multigrid **out, const struct block_matrix *matrix,
         if (!coarsen(m)) break;
     }
     const struct multigrid_level *last = &m->level[m->levels - 1];
-    if (m->levels > 1 && last->n * last->width <= 4 * DENSE) dense_factorise(&m->dense, last);
+    if (m->levels > 1 && last->n * last->width <= 4 * DENSE) multigrid_factorise_coarsest_matrix(&m->dense, last);
     return OK;
 }
 
@@ -184,7 +184,7 @@ void multigrid_free(struct multigrid *m)
 {
     if (m == NULL) return;
     for (int k = 0; k < m->levels; k++) level_free(&m->level[k]);
-    dense_free(&m->dense);
+    multigrid_free_coarsest_factorisation(&m->dense);
     memory_free(m);
 }
 
@@ -198,10 +198,10 @@ static void level_smooth(struct multigrid_level *l, int degree, bool zero)
     const real theta = 0.5 * l->largest * (1 + 1 / RANGE), delta = 0.5 * l->largest * (1 - 1 / RANGE);
     const real sigma = theta / delta;
     real rho = 1 / sigma;
-    multigrid_smooth(l, 0, 1 / theta, zero);
+    multigrid_apply_polynomial_smoother_step(l, 0, 1 / theta, zero);
     for (int k = 1; k < degree; k++) {
         const real next = 1 / (2 * sigma - rho);
-        multigrid_smooth(l, next * rho, 2 * next / delta, false);
+        multigrid_apply_polynomial_smoother_step(l, next * rho, 2 * next / delta, false);
         rho = next;
     }
 }
@@ -212,7 +212,7 @@ static void cycle(struct multigrid *m, int k)
 {
     struct multigrid_level *l = &m->level[k];
     if (k == m->levels - 1 && m->dense.n > 0) {
-        dense_solve(&m->dense, l->b, l->x);
+        multigrid_solve_coarsest_level(&m->dense, l->b, l->x);
         return;
     }
     const int degree = k == 0 ? DEGREE : DEGREE_COARSE;

@@ -172,7 +172,7 @@ static void members_list(const struct multigrid_level *l, int64_t *first, int32_
     memory_free(at);
 }
 
-void multigrid_make_coarse_rigid_motions(struct multigrid_level *l, struct multigrid_level *coarser_level)
+void multigrid_compute_coarse_rigid_motions(struct multigrid_level *l, struct multigrid_level *coarser_level)
 {
     const int w = l->width, m = l->modes;
     int64_t *first = NEW("multigrid.members", l->coarse + 1, int64_t);

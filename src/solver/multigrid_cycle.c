@@ -172,8 +172,8 @@ static ALWAYS_INLINE void row_prolong(struct multigrid_level *l, const struct mu
 
 void multigrid_compute_residual(struct multigrid_level *l) { BY_WIDTH(l->n, row_residual, l, i); }
 
-void multigrid_smooth(struct multigrid_level *l, real previous_correction_factor, real residual_factor,
-                      bool start_from_zero)
+void multigrid_apply_polynomial_smoother_step(struct multigrid_level *l, real previous_correction_factor,
+                                              real residual_factor, bool start_from_zero)
 {
     BY_WIDTH(l->n, row_relax, l, i, previous_correction_factor, residual_factor, start_from_zero);
     real *x = l->x;

@@ -15,11 +15,11 @@ static void dense_eliminate(real *u, int64_t n, int64_t j, real inverse)
     }
 }
 
-void dense_factorise(struct dense *d, const struct multigrid_level *l)
+void multigrid_factorise_coarsest_matrix(struct dense_factorisation *d, const struct multigrid_level *l)
 {
     const int w = l->width;
     const int64_t n = l->n * w;
-    *d = (struct dense){n, NEW("multigrid.dense", n * n, real), NEW("multigrid.dense", n, real)};
+    *d = (struct dense_factorisation){n, NEW("multigrid.dense", n * n, real), NEW("multigrid.dense", n, real)};
     for (int64_t i = 0; i < l->n; i++)
         for (int64_t q = l->first[i]; q < l->first[i + 1]; q++)
             for (int k = 0; k < w * w; k++)
@@ -27,14 +27,15 @@ void dense_factorise(struct dense *d, const struct multigrid_level *l)
                     l->column[q] == i ? l->diagonal[i * w * w + k] : l->block[q * w * w + k];
     for (int64_t j = 0; j < n; j++) {
         const real pivot = d->upper[j * n + j], scale = l->scale[j / w];
-        d->inverse[j] = scale <= 0 ? 0 : 1 / (pivot > multigrid_smallest_pivot_ratio(l, j / w) * scale ? pivot : scale);
+        d->inverse[j] =
+            scale <= 0 ? 0 : 1 / (pivot > multigrid_relative_zero_pivot_tolerance(l, j / w) * scale ? pivot : scale);
         dense_eliminate(d->upper, n, j, d->inverse[j]);
     }
     for (int64_t j = 0; j < n; j++)
         for (int64_t k = j + 1; k < n; k++) d->upper[j * n + k] *= d->inverse[j];
 }
 
-void dense_solve(const struct dense *d, const real *load, real *solution)
+void multigrid_solve_coarsest_level(const struct dense_factorisation *d, const real *load, real *solution)
 {
     const int64_t n = d->n;
     array_copy(solution, load, n, sizeof *solution);
@@ -56,7 +57,7 @@ void dense_solve(const struct dense *d, const real *load, real *solution)
     }
 }
 
-void dense_free(struct dense *d)
+void multigrid_free_coarsest_factorisation(struct dense_factorisation *d)
 {
     memory_free(d->upper);
     memory_free(d->inverse);

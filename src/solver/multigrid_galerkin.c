@@ -197,7 +197,7 @@ static int64_t slab_largest(const struct product *p)
     return most;
 }
 
-void multigrid_make_coarse_matrix(const struct multigrid_level *l, struct multigrid_level *coarser_level)
+void multigrid_compute_coarse_matrix(const struct multigrid_level *l, struct multigrid_level *coarser_level)
 {
     struct product p = {.l = l, .next = coarser_level};
     struct pattern coarse;

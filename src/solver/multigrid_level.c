@@ -44,7 +44,7 @@ void multigrid_invert_diagonal_blocks(struct multigrid_level *l)
     for (int64_t i = 0; i < l->n; i++)
         if (l->scale[i] > 0)
             block_invert(l->diagonal + i * size, l->inverse + i * size, l->width, l->held ? l->held[i] : 0,
-                         multigrid_smallest_pivot_ratio(l, i), l->scale[i]);
+                         multigrid_relative_zero_pivot_tolerance(l, i), l->scale[i]);
 }
 
 /* ---- pieces ------------------------------------------------------------------------------------------------------ */

@@ -42,7 +42,7 @@ struct multigrid_level {
 
 /* The matrix of the coarsest level, factorised as U'DU with the unit upper triangle U and the diagonal D; n is 0 if the
  * level has no matrix. */
-struct dense {
+struct dense_factorisation {
     int64_t n;     /* number of unknowns */
     real *upper;   /* [n][n] unit upper triangle, row major [1] */
     real *inverse; /* [n] reciprocal pivots [m/N] */
@@ -52,7 +52,7 @@ struct dense {
 struct multigrid {
     int levels;
     struct multigrid_level level[MULTIGRID_LEVELS_MOST];
-    struct dense dense;
+    struct dense_factorisation dense;
 };
 
 typedef real pair __attribute__((vector_size(16)));
@@ -110,13 +110,13 @@ enum { ROWS_MANY = 200 };
  * as zero, i.e. as a motion without stiffness. The fraction is larger on the finest level, whose stiffnesses are
  * rounded to floats, and in unconstrained fragments (parts of the body that no support holds): rounding to floats gives
  * their rotations a spurious stiffness of 6e-8 of the entries. */
-static inline real multigrid_smallest_pivot_ratio(const struct multigrid_level *l, int64_t node)
+static inline real multigrid_relative_zero_pivot_tolerance(const struct multigrid_level *l, int64_t node)
 {
     return l->unconstrained[node] || l->single ? 1e-6 : 1e-13;
 }
 
 /* Computes l->inverse, the inverse of the diagonal block of each node of a level. Pivots without stiffness
- * (multigrid_smallest_pivot_ratio) are replaced by the mean stiffness l->scale. */
+ * (multigrid_relative_zero_pivot_tolerance) are replaced by the mean stiffness l->scale. */
 void multigrid_invert_diagonal_blocks(struct multigrid_level *l);
 
 /* Finds the nodes of the next coarser level, `coarser_level`, that belong to fragments without constrained nodes, from
@@ -133,28 +133,29 @@ void multigrid_aggregate_nodes(struct multigrid_level *l);
 
 /* Makes the rigid motions of the nodes of level l orthonormal within each aggregate (l->tentative), and sets number,
  * width, scale and rigid motions of the nodes of the next coarser level, `coarser_level`. */
-void multigrid_make_coarse_rigid_motions(struct multigrid_level *l, struct multigrid_level *coarser_level);
+void multigrid_compute_coarse_rigid_motions(struct multigrid_level *l, struct multigrid_level *coarser_level);
 
 /* Computes the prolongation l->down from the next coarser level to level l, and its transpose l->up, the restriction.
  * The prolongation is P - step D^-1 K P: the orthonormal rigid motions P of the aggregates of nodes, smoothed by one
  * step with the matrix K of the level and its diagonal blocks D. multigrid_free releases both. */
-void multigrid_make_prolongation_and_restriction(struct multigrid_level *l);
+void multigrid_compute_prolongation_and_restriction(struct multigrid_level *l);
 
 /* Computes the matrix of the next coarser level, `coarser_level`, by the Galerkin product: l->up times the matrix of
  * level l times l->down. multigrid_free releases it. */
-void multigrid_make_coarse_matrix(const struct multigrid_level *l, struct multigrid_level *coarser_level);
+void multigrid_compute_coarse_matrix(const struct multigrid_level *l, struct multigrid_level *coarser_level);
 
 /* Factorises the matrix K of level l, the coarsest one, as K = U^T D U, with the upper triangular matrix U and the
  * diagonal matrix D, and stores U and D^-1 in *d. Pivots without stiffness are replaced by the mean stiffness l->scale.
- * Release with dense_free. */
-void dense_factorise(struct dense *d, const struct multigrid_level *l);
+ * Release with multigrid_free_coarsest_factorisation. */
+void multigrid_factorise_coarsest_matrix(struct dense_factorisation *d, const struct multigrid_level *l);
 
-/* Solves K x = b with the factorisation `d` of the matrix K by dense_factorise. load: b, d->n values; solution:
- * receives x, d->n values. */
-void dense_solve(const struct dense *d, const real *load, real *solution);
+/* Solves K x = b with the factorisation `d` of the matrix K by multigrid_factorise_coarsest_matrix. load: b, d->n
+ * values; solution: receives x, d->n values. */
+void multigrid_solve_coarsest_level(const struct dense_factorisation *d, const real *load, real *solution);
 
-/* Frees the arrays of *d, the factorisation that dense_factorise has made of the matrix of the coarsest level. */
-void dense_free(struct dense *d);
+/* Frees the arrays of *d, the factorisation that multigrid_factorise_coarsest_matrix has made of the matrix of the
+ * coarsest level. */
+void multigrid_free_coarsest_factorisation(struct dense_factorisation *d);
 
 /* Computes the residual l->t = l->b - K l->x of level l from the load l->b, the solution l->x and the matrix K of the
  * level. */
@@ -163,8 +164,8 @@ void multigrid_compute_residual(struct multigrid_level *l);
 /* Does one step of a polynomial smoother on level l: d = previous_correction_factor d + residual_factor D^-1 (b - K x)
  * and x = x + d, with the load b = l->b, the solution x = l->x, the correction d = l->d, the matrix K of the level and
  * its diagonal blocks D. start_from_zero: true if x and d are 0 on entry, which saves the product K x. */
-void multigrid_smooth(struct multigrid_level *l, real previous_correction_factor, real residual_factor,
-                      bool start_from_zero);
+void multigrid_apply_polynomial_smoother_step(struct multigrid_level *l, real previous_correction_factor,
+                                              real residual_factor, bool start_from_zero);
 
 /* Computes the load of the next coarser level from the residual of level l: coarser_level->b = l->up l->t, with the
  * restriction matrix l->up. */

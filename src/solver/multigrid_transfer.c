@@ -117,7 +117,7 @@ static void transfer_transpose(const struct multigrid_level *l, const struct tra
     memory_free(from);
 }
 
-void multigrid_make_prolongation_and_restriction(struct multigrid_level *l)
+void multigrid_compute_prolongation_and_restriction(struct multigrid_level *l)
 {
     const real step = 4 / (3 * l->largest);
     down_pattern(l);

@@ -11,7 +11,7 @@ void static_body_compute_bond_forces(const struct static_body *body)
     bond_forces(body->force, body->bonds, body->part, &bond_limit_never, NULL);
 }
 
-real field_largest_component(const struct field *vectors, int dim, int64_t vector_count)
+real field_largest_absolute_component(const struct field *vectors, int dim, int64_t vector_count)
 {
     real most = 0;
     for (int d = 0; d < dim; d++) {
@@ -27,12 +27,12 @@ real field_largest_component(const struct field *vectors, int dim, int64_t vecto
  * differences is below 1e-10. */
 #define TANGENT_STRAIN 3e-6
 
-void static_body_compute_tangent_product(const struct static_body *body, const struct field *displacement,
-                                         struct field *force, real strain_ratio)
+void static_body_compute_tangent_stiffness_product(const struct static_body *body, const struct field *displacement,
+                                                   struct field *force, real strain_per_displacement)
 {
     struct particles *p = body->part;
-    const real most = field_largest_component(displacement, p->dim, p->n);
-    const real s = most > 0 ? TANGENT_STRAIN / (strain_ratio * most) : 0;
+    const real most = field_largest_absolute_component(displacement, p->dim, p->n);
+    const real s = most > 0 ? TANGENT_STRAIN / (strain_per_displacement * most) : 0;
     for (int sign = 1; sign >= -1; sign -= 2) {
 #pragma omp parallel for schedule(static)
         for (int64_t i = 0; i < p->n; i++)
@@ -62,13 +62,14 @@ static void solver_force_block(const void *context, int64_t first, int64_t end, 
         for (int64_t i = first; i < end; i++) sum[f->held[i] >> d & 1] += square(f->part->f[d][i]);
 }
 
-void static_solver_compute_force_norms(const struct static_solver *s, const struct particles *p, real *norm)
+void static_solver_compute_free_and_fixed_force_norms(const struct static_solver *s, const struct particles *p,
+                                                      real *norm)
 {
     reproducible_sums(p->n, 2, solver_force_block, &(struct constrained_forces){p, s->held}, norm);
     norm[0] = sqrt(norm[0]), norm[1] = sqrt(norm[1]);
 }
 
-void static_solver_set_residual(struct static_solver *s, real reaction_norm, real unbalanced_norm)
+void static_solver_compute_relative_residual(struct static_solver *s, real reaction_norm, real unbalanced_norm)
 {
     s->scale = real_max(s->applied, reaction_norm);
     /* without loads the scale is the initial residual */
@@ -80,6 +81,6 @@ void static_solver_set_residual(struct static_solver *s, real reaction_norm, rea
 void static_solver_compute_residual(struct static_solver *s, const struct particles *p)
 {
     real norm[2];
-    static_solver_compute_force_norms(s, p, norm);
-    static_solver_set_residual(s, norm[1], norm[0]);
+    static_solver_compute_free_and_fixed_force_norms(s, p, norm);
+    static_solver_compute_relative_residual(s, norm[1], norm[0]);
 }

@@ -69,14 +69,15 @@ static void true_residual(struct static_solver *s, const struct static_body *bod
 {
     struct particles *p = body->part;
     real energy;
-    static_body_compute_tangent_product(body, &s->u, &s->q, s->u_ratio);
+    static_body_compute_tangent_stiffness_product(body, &s->u, &s->q, s->u_ratio);
     reproducible_sums(s->n, 1, energy_block, s, &energy);
-    if (energy > 0) s->u_ratio = sqrt(energy / unit_energy(body)) / field_largest_component(&s->u, s->dim, s->n);
+    if (energy > 0)
+        s->u_ratio = sqrt(energy / unit_energy(body)) / field_largest_absolute_component(&s->u, s->dim, s->n);
     for (int d = 0; d < p->dim; d++)
         for (int64_t i = 0; i < p->n; i++) p->f[d][i] = -s->q.of[d][i];
     loads_add_static_forces(body->loads, p);
     static_solver_compute_residual(s, p);
-    loads_collect_static_reactions(body->loads, p);
+    loads_extract_static_reactions_from_forces(body->loads, p);
 }
 
 /* Sets the residual s->r to the forces p->f, 0 on constrained components, and restarts the search directions from this
@@ -160,7 +161,7 @@ static status check(struct static_solver *s, const struct static_body *body, int
         "use a larger solver_tolerance (round-off limits it to 1e-8 for compact bodies, 1e-6 for slender "
         "ones), or check that the moments of the loads are balanced and every part has stiffness: a "
         "single row of particles has no bending stiffness%s",
-        (long long)step, s->best, body->tolerance, particles_far_from_origin_text(body->part).text);
+        (long long)step, s->best, body->tolerance, particles_warning_text_if_far_from_origin(body->part).text);
 }
 
 status cg_step(struct static_solver *s, const struct static_body *body, int64_t step, bool *done)
@@ -170,14 +171,14 @@ status cg_step(struct static_solver *s, const struct static_body *body, int64_t 
         solver_cg_start(s, body);
         if (s->rz == 0) return check(s, body, step, 0, done);
     }
-    static_body_compute_tangent_product(body, &s->d, &s->q, s->strain_ratio);
+    static_body_compute_tangent_stiffness_product(body, &s->d, &s->q, s->strain_ratio);
     reproducible_sums(s->n, 1, curvature_block, s, &curvature);
     if (!(curvature > 0))
         return status_set(FAILED,
                           "conjugate gradients at step %lld: a part of the body can move without resistance; hold "
                           "every part by a boundary `fixed`, or join it by bonds to a part that is held",
                           (long long)step);
-    s->strain_ratio = sqrt(curvature / unit_energy(body)) / field_largest_component(&s->d, s->dim, s->n);
+    s->strain_ratio = sqrt(curvature / unit_energy(body)) / field_largest_absolute_component(&s->d, s->dim, s->n);
     const real left = sqrt(solver_cg_advance(s, s->rz / curvature));
     s->residual = left / s->scale;
     const bool claimed = left <= 0.9 * body->tolerance * s->scale;

@@ -41,7 +41,7 @@ static void solver_scaled_stiffness(void *context, const real *x, real *y)
     const int64_t n = p->n;
     for (int d = 0; d < s->dim; d++)
         for (int64_t i = 0; i < n; i++) s->before.of[d][i] = x[d * n + i] / sqrt(s->diagonal[i]);
-    static_body_compute_tangent_product(scaled->body, &s->before, &out, 1 / scaled->body->spacing);
+    static_body_compute_tangent_stiffness_product(scaled->body, &s->before, &out, 1 / scaled->body->spacing);
     for (int d = 0; d < s->dim; d++)
         for (int64_t i = 0; i < n; i++) y[d * n + i] = out.of[d][i] / sqrt(s->diagonal[i]);
 }
@@ -59,7 +59,7 @@ static void make_diagonal(struct static_solver *s, const struct static_body *bod
     real most = 0;
     struct field kept = {{0}};
     for (int64_t r = 0; r < b->rows; r++) {
-        s->diagonal[b->particle[r]] = 0.25 * bonds_row_stiffness_eigenvalue_bound(b, p, r);
+        s->diagonal[b->particle[r]] = 0.25 * bonds_row_stiffness_eigenvalue_upper_bound(b, p, r);
         most = real_max(most, s->diagonal[b->particle[r]]);
     }
     for (int64_t i = 0; i < p->n; i++)
@@ -100,7 +100,7 @@ static void make_weights(struct static_solver *s, const struct static_body *body
  * spacing at most, so that supports that move faster would strain the bonds next to them more than the body. */
 static int64_t supports_ramp(const struct static_solver *s, const struct static_body *body)
 {
-    const real most = field_largest_component(&s->driven, s->dim, s->n);
+    const real most = field_largest_absolute_component(&s->driven, s->dim, s->n);
     return most > 0 ? 1 + (int64_t)(particles_bounding_box_longest_edge(body->part) / body->spacing) : 0;
 }
 
@@ -112,7 +112,7 @@ static void make_applied(struct static_solver *s, const struct static_body *body
     real norm[2];
     for (int d = 0; d < p->dim; d++) array_fill_bytes(p->f[d], 0, p->n, sizeof(real));
     loads_add_static_forces(body->loads, p);
-    static_solver_compute_force_norms(s, p, norm);
+    static_solver_compute_free_and_fixed_force_norms(s, p, norm);
     s->applied = norm[0];
     for (int d = 0; d < p->dim; d++) array_fill_bytes(p->f[d], 0, p->n, sizeof(real));
 }
@@ -183,7 +183,7 @@ status static_solver_make(struct static_solver *s, const struct static_body *bod
     s->held = NEW("solver.held", s->n, uint8_t);
     for (int d = 0; d < s->dim; d++) array_fill_bytes(p->v[d], 0, s->n, sizeof(real));
     field_make(&s->driven, s->dim, s->n);
-    loads_compute_static_displacements(body->loads, p, s->ramp_time, s->driven.of, s->held);
+    loads_compute_prescribed_static_displacements(body->loads, p, s->ramp_time, s->driven.of, s->held);
     TRY(loads_balanced(body));
     make_applied(s, body);
     return OK;

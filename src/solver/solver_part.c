@@ -10,12 +10,12 @@ static void put_solver(const struct run *e, struct json *j)
 {
     static const char *const name[] = {[SOLVER_RELAXATION] = "relaxation", [SOLVER_CG] = "cg"};
     if (!scene_is_single_equilibrium(e->scene)) return;
-    json_open(j, "solver", '{');
+    json_begin_object_or_list(j, "solver", '{');
     json_write_text(j, "name", name[e->scene->solver]);
     json_write_integer(j, "steps", e->clock.step);
     json_write_real(j, "residual", e->solver->residual);
     json_write_integer(j, "bonds_past_limit", e->solver->past_limit);
-    json_close(j, '}');
+    json_end_object_or_list(j, '}');
 }
 
 static status solver_state(struct run *e, struct archive *a) { return static_solver_save_or_load(e->solver, a); }

@@ -78,7 +78,7 @@ status relaxation_step(struct static_solver *s, const struct static_body *body, 
     static_body_compute_bond_forces(body);
     loads_add_static_forces(body->loads, p);
     static_solver_compute_residual(s, p);
-    loads_collect_static_reactions(body->loads, p);
+    loads_extract_static_reactions_from_forces(body->loads, p);
     reproducible_sums(p->n, 3, damping_block, &(struct relaxing){s, p}, sum);
     /* forces are also small when a body oscillates through its equilibrium: the speed must be small, too */
     s->farthest = real_max(s->farthest, sqrt(sum[1]));

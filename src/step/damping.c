@@ -72,10 +72,10 @@ static real capped(real decay) { return real_min(decay, EXPONENT_MOST); }
 
 real damping_velocity_increment_factor(real rate_times_dt) { return exp(-0.5 * capped(rate_times_dt)); }
 
-struct damping_shares damping_shares_of_step(real rate_times_dt, bool first_step)
+struct undamped_velocity_excess damping_undamped_velocity_excess(real rate_times_dt, bool first_step)
 {
     const real half = expm1(0.5 * capped(rate_times_dt));
-    return (struct damping_shares){first_step ? half : expm1(capped(rate_times_dt)), half};
+    return (struct undamped_velocity_excess){first_step ? half : expm1(capped(rate_times_dt)), half};
 }
 
 /* Stores what bulk damping acts on in all[2]: in all[0] the particles, in all[1] the nodes of the mesh. factor: factor
@@ -138,7 +138,8 @@ real damping_energy_loss_since_previous_step(const struct damping_state *s, cons
     return loss / damping_velocity_increment_factor(rate_times_dt);
 }
 
-real damping_last_update_energy_loss(real rate_times_dt, real kinetic_energy_before, real leapfrog_kinetic_energy)
+real damping_energy_loss_in_last_velocity_update(real rate_times_dt, real kinetic_energy_before,
+                                                 real leapfrog_kinetic_energy)
 {
     const real grown = exp(capped(rate_times_dt));
     return (grown - 1) * (grown * kinetic_energy_before + leapfrog_kinetic_energy) /

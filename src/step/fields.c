@@ -62,7 +62,7 @@ static void gradient_fit(struct gradient_sum *s, int dim, int64_t i, real *const
 static void gradient_of_bonds(const struct bonds *bonds, const struct particles *part, int64_t i, real *const *H)
 {
     struct gradient_sum sum = {{{0}}, {{0}}};
-    for (struct bond_iterator it = bond_iterator_of_row(bonds, bonds->row_of[i]); bond_next(&it);)
+    for (struct bond_iterator it = bond_iterator_of_row(bonds, bonds->row_of[i]); bond_iterator_advance(&it);)
         if (it.bond.w != 0) gradient_add(&sum, part, i, it.bond.nbr);
     gradient_fit(&sum, part->dim, i, H);
 }
@@ -86,7 +86,7 @@ static void gradient_of_points(const struct particles *p, const struct bond_sour
 }
 
 /* Returns true if particle i is a point of the mesh of the reference frame, with a cell. */
-static bool in_mesh(const struct reference_frame *frame, int64_t i)
+static bool in_mesh(const struct lagrangian_mesh *frame, int64_t i)
 {
     return frame->mesh.points > 0 && frame->mesh.place[i] >= 0;
 }
@@ -186,7 +186,7 @@ static real *point_shares_make(const struct particles *shown, const struct scene
 
 /* Returns the coarsening level (0: finest) of the cell in the mesh of `frame` of every particle, an array [part->n]; 0
  * for particles outside meshes. The caller frees it with memory_free. */
-static uint8_t *cell_levels_make(const struct reference_frame *frame, const struct particles *part)
+static uint8_t *cell_levels_make(const struct lagrangian_mesh *frame, const struct particles *part)
 {
     const struct mesh *mesh = &frame->mesh;
     uint8_t *level = NEW("report.level", part->n, uint8_t);
@@ -198,7 +198,7 @@ static uint8_t *cell_levels_make(const struct reference_frame *frame, const stru
 /* Returns the coarsening level of every point that represents a coarse cell of `frame` in output, one entry per point.
  * The spacing doubles from level to level; level 0 has the spacing that the input file (scene) gives. The caller frees
  * the array with memory_free. */
-static uint8_t *point_levels_make(const struct reference_frame *frame, const struct scene *scene)
+static uint8_t *point_levels_make(const struct lagrangian_mesh *frame, const struct scene *scene)
 {
     uint8_t *level = NEW("report.level", frame->shown.part.n, uint8_t);
     for (int64_t i = 0; i < frame->shown.part.n; i++)

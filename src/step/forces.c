@@ -6,9 +6,9 @@
 void run_compute_internal_forces(struct run *e)
 {
     const bool has_mesh = e->frame->mesh.points > 0;
-    if (has_mesh) reference_frame_move_bonded_or_loaded_points(e->frame, &e->part);
+    if (has_mesh) lagrangian_mesh_move_bonded_or_loaded_points(e->frame, &e->part);
     loads_update_mirror_images(&e->loads, &e->part);
     loads_clear_forces_of_loaded_particles(&e->loads, &e->part);
     bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &e->source.limit, NULL);
-    if (has_mesh) reference_frame_compute_forces(e->frame, &e->part, e->clock.step);
+    if (has_mesh) lagrangian_mesh_compute_nodal_forces(e->frame, &e->part, e->clock.step);
 }

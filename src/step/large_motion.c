@@ -72,13 +72,13 @@ static int64_t count_passing_particles(const struct particles *p, const struct s
     return count;
 }
 
-void large_motion_warn_of_passing_parts(struct large_motion *m, const struct particles *p, const struct scene *s,
-                                        real horizon, real t, struct warnings *warning_list)
+void large_motion_warn_of_self_penetration(struct large_motion *m, const struct particles *p, const struct scene *s,
+                                           real horizon, real t, struct warnings *warning_list)
 {
     const real reach = INSIDE * s->spacing, held = real_max(horizon, APART * s->spacing);
-    const int part = scene_part_of_duration(s, t, PARTS_OF_DURATION);
+    const int part = scene_duration_interval_index_at_time(s, t, PARTS_OF_DURATION);
     int64_t first = 0;
-    char text[420];
+    char text[480];
     if (m->passed || part == m->checked || !scene_is_dynamic(s) || p->n == 0 || p->n < p->n_body) return;
     if (s->contact_between == CONTACT_ALL || scene_silences_warning(s, ACCEPT_CONTACT)) return;
     m->checked = part;
@@ -121,8 +121,8 @@ static real rotation_of_loaded_particles(const struct load *l, const struct part
     return most;
 }
 
-void large_motion_warn_of_turned_pressure(struct large_motion *m, const struct particles *p, const struct loads *l,
-                                          real t, struct warnings *warning_list)
+void large_motion_warn_of_non_follower_pressure(struct large_motion *m, const struct particles *p,
+                                                const struct loads *l, real t, struct warnings *warning_list)
 {
     char text[400];
     for (int k = 0; k < l->n && !m->turned; k++) {

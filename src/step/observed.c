@@ -10,7 +10,7 @@
 #include "run/say.h"
 #include "step/sample.h"
 
-struct observed_run observed_run_view_of(const struct run *e)
+struct observed_run observed_run_make_read_only_view(const struct run *e)
 {
     const struct scene *s = e->scene;
     return (struct observed_run){.part = &e->part,
@@ -37,16 +37,16 @@ struct observed_run observed_run_view_of(const struct run *e)
                                  .horizon = e->source.family.horizon,
                                  .crack = s->crack,
                                  .cracks = s->cracks,
-                                 .energy_change = diagnostics_relative_energy_change(e->diagnostics),
+                                 .energy_change = diagnostics_relative_energy_balance_error(e->diagnostics),
                                  .growth = e->fracture->growth,
                                  .growths = s->growths,
                                  .baseline = e->probing->has_baseline ? &e->probing->baseline : NULL};
 }
 
-void sample_update_probes_of_every_step(struct run *e)
+void run_update_break_and_reaction_probes(struct run *e)
 {
-    struct observed_run o = observed_run_view_of(e);
-    probes_update_every_step(&e->probing->probes, &o);
+    struct observed_run o = observed_run_make_read_only_view(e);
+    probes_update_break_spall_and_reaction_probes(&e->probing->probes, &o);
 }
 
 /* Adds the warning to `to` that the first bonds of particles with prescribed motion break, with the first of `loads`
@@ -72,12 +72,12 @@ static void say_torn(struct warnings *to, const struct loads *loads, const struc
     warnings_add_and_print(to, text);
 }
 
-void sample_record_broken_bonds(struct run *e, int64_t broken_bond_count)
+void run_record_broken_bonds_of_step(struct run *e, int64_t broken_bond_count)
 {
     /* a load step breaks bonds before its end, but is recorded at its end */
     const bool in_steps = scene_has_load_steps(e->scene);
     const real t = in_steps ? e->scene->duration / (real)e->scene->steps.number * (real)e->clock.load_step : e->clock.t;
-    struct observed_run o = observed_run_view_of(e);
+    struct observed_run o = observed_run_make_read_only_view(e);
     char when[48];
     if (in_steps)
         snprintf(when, sizeof when, "in load step %lld", (long long)e->clock.load_step);
@@ -85,7 +85,7 @@ void sample_record_broken_bonds(struct run *e, int64_t broken_bond_count)
         snprintf(when, sizeof when, "at %.4g s", t);
     if (diagnostics_record_broken_bonds(e->diagnostics, &e->part, e->source.family.horizon, broken_bond_count, t))
         say_torn(&e->warnings, &e->loads, &e->part, when);
-    if (scene_is_dynamic(e->scene)) sample_update_probes_of_every_step(e);
+    if (scene_is_dynamic(e->scene)) run_update_break_and_reaction_probes(e);
     o.t = t;
-    if (in_steps && broken_bond_count > 0) probes_update_broken_bonds(&e->probing->probes, &o);
+    if (in_steps && broken_bond_count > 0) probes_update_break_and_spall_probes(&e->probing->probes, &o);
 }

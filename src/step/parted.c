@@ -18,10 +18,10 @@
 enum { PARTS_OF_DURATION = 50 }; /* number of comparisons per run: a delay of a fiftieth does not matter */
 
 /* Shape functions with which bodies separate under tension, with their limits. */
-static const struct weak_shape weak_shapes[] = {{SHAPE_LINEAR, 1.02, 1.25, 0.01, "linear", "12 to 45"},
-                                                {SHAPE_GIMP, 1.4, 1.4, 0.08, "gimp", "6 to 10"}};
+static const struct weak_shape_function weak_shapes[] = {{SHAPE_LINEAR, 1.02, 1.25, 0.01, "linear", "12 to 45"},
+                                                         {SHAPE_GIMP, 1.4, 1.4, 0.08, "gimp", "6 to 10"}};
 
-const struct weak_shape *shape_properties_if_weak_in_tension(enum shape shape)
+const struct weak_shape_function *shape_function_properties_if_weak_in_tension(enum shape shape)
 {
     for (size_t k = 0; k < COUNT_OF(weak_shapes); k++)
         if (weak_shapes[k].shape == shape) return &weak_shapes[k];
@@ -128,7 +128,7 @@ static bool pair_is_stretched(const struct particles *p, const struct point_pair
 static bool pair_shares_few_nodes(const struct particles *p, const struct point_pair *pair, int axis,
                                   const struct scene *s)
 {
-    const real cell = s->cell * s->spacing, reach = grid_shape_reach_beyond_cell(s);
+    const real cell = s->cell * s->spacing, reach = grid_shape_function_reach_beyond_cell(s);
     real shared = cell;
     for (int side = 0; side < 2; side++)
         shared += p->stretch[axis] ? real_min(reach * p->stretch[axis][side ? pair->b : pair->a], cell) : reach;
@@ -194,7 +194,7 @@ static struct pair_counts pairs_count(const struct point_pairs *pairs, const str
  * current time [s]. */
 static void warn_of_parted(const struct scene *s, const struct pair_counts *c, int64_t n, real t, struct warnings *to)
 {
-    const struct weak_shape *w = c->parted > 0 ? NULL : shape_properties_if_weak_in_tension(s->shape);
+    const struct weak_shape_function *w = c->parted > 0 ? NULL : shape_function_properties_if_weak_in_tension(s->shape);
     const struct position_text at = position_text(c->farthest.middle, s->dim, 4);
     char text[640], what[400];
     if (w)
@@ -218,19 +218,19 @@ static void warn_of_parted(const struct scene *s, const struct pair_counts *c, i
     warnings_add_and_print(to, text);
 }
 
-bool parted_points_warn_if_separated(struct point_pairs *pairs, const struct particles *p, const struct cells *cells,
-                                     const struct grid_method *grid, const struct scene *s, real t,
-                                     struct warnings *warning_list)
+bool material_points_warn_of_numerical_fracture(struct point_pairs *pairs, const struct particles *p,
+                                                const struct cells *cells, const struct grid_method *grid,
+                                                const struct scene *s, real t, struct warnings *warning_list)
 {
     real most = 0;
-    const int part = 1 + scene_part_of_duration(s, t, PARTS_OF_DURATION);
+    const int part = 1 + scene_duration_interval_index_at_time(s, t, PARTS_OF_DURATION);
     if (p->n_free == 0 || !p->plastic_strain || scene_silences_warning(s, ACCEPT_STRAIN)) return false;
     if (part == pairs->compared) return false;
     pairs->compared = part;
     for (int64_t i = 0; i < p->n; i++) most = real_max(most, p->plastic_strain[i]);
     if (!(most > FLOWED_LEAST)) return false;
     if (!pairs->made) pairs_make(pairs, cells, p, s);
-    const struct weak_shape *w = shape_properties_if_weak_in_tension(s->shape);
+    const struct weak_shape_function *w = shape_function_properties_if_weak_in_tension(s->shape);
     const struct pair_counts c = pairs_count(pairs, p, &grid->field[0].grid, s, w ? w->pulled : INFINITY);
     const bool weak = !pairs->pulled && w && (real)c.pulled > w->share * (real)pairs->n;
     if (c.parted == 0 && !weak) return false;

@@ -64,7 +64,7 @@ int64_t report_step_number_of_frame(const struct scene *s, const struct run_cloc
     return common_step(clock, step < k ? k : step > last ? last : step);
 }
 
-bool report_sample_is_due(const struct scene *s, const struct run_clock *clock)
+bool report_history_sample_is_due(const struct scene *s, const struct run_clock *clock)
 {
     const int64_t most = clock->steps / clock->stride, n = s->samples < most ? s->samples : most;
     if (!scene_is_dynamic(s)) return clock->step == 0; /* the start; the equilibrium is a sample of its own */
@@ -82,7 +82,7 @@ static status frame_sound(const struct run_clock *clock, const struct particles 
 #pragma omp parallel for schedule(static) reduction(min : first)
     for (int64_t i = 0; i < p->n; i++) {
         real sum = 0;
-        for (int k = 0; k < symmetric_component_count(p->dim); k++) sum += 0 * p->stress[k][i];
+        for (int k = 0; k < symmetric_tensor_component_count(p->dim); k++) sum += 0 * p->stress[k][i];
         for (int d = 0; d < p->dim; d++) sum += 0 * (p->x[d][i] + p->v[d][i]);
         if (!(sum == 0) && i < first) first = i;
     }
@@ -120,8 +120,8 @@ static bool region_frame_due(const struct run_clock *clock, real every, real dur
     return step >= (due < clock->steps ? common_step(clock, due) : clock->steps);
 }
 
-unsigned report_bits_of_frame_series_due(const struct output *out, const struct scene *s, const struct run_clock *clock,
-                                         int64_t step)
+unsigned report_bitmask_of_frame_series_due(const struct output *out, const struct scene *s,
+                                            const struct run_clock *clock, int64_t step)
 {
     const bool at_rest = scene_is_single_equilibrium(s);
     unsigned due = 0;
@@ -146,12 +146,13 @@ static unsigned asked_of(const struct scene *scene, int k)
  * cannot be written. */
 static status write_frames(struct run *e, unsigned due)
 {
-    const bool parts = e->scene->method == METHOD_PD && scene_can_crack(e->scene);
+    const bool parts = e->scene->method == METHOD_PD && scene_can_have_cracks(e->scene);
     struct output *out = e->report->out;
     struct fragments fragments = {0};
     unsigned asked = 0;
     status s = OK;
-    if (e->frame->shown.part.n > 0) TRY(output_wait_for_frame(out)); /* the writer may still read the points */
+    if (e->frame->shown.part.n > 0)
+        TRY(output_wait_until_frame_is_written(out)); /* the writer may still read the points */
     run_update_particle_motion_and_stress(e);
     TRY(frame_sound(&e->clock, &e->part));
     if (parts) fragments_find_by_intact_bonds(&fragments, &e->bonds, &e->part);
@@ -160,8 +161,8 @@ static status write_frames(struct run *e, unsigned due)
     struct frame_extra extra = {.push = e->contact->push[0] ? e->contact->push : NULL,
                                 .fragment = fragments.of,
                                 .material_number = e->scene->material_number};
-    if (coarse_cell_points_make_for_output(e->frame, &e->part, e->scene->material,
-                                           asked & (ASK_STRAIN | ASK_DENSITY))) {
+    if (coarse_cell_points_interpolate_for_output(e->frame, &e->part, e->scene->material,
+                                                  asked & (ASK_STRAIN | ASK_DENSITY))) {
         extra.more = &e->frame->shown.part, extra.more_spacing = e->frame->shown.spacing;
         extra.spacing = e->scene->spacing;
     }
@@ -169,11 +170,11 @@ static status write_frames(struct run *e, unsigned due)
     for (int k = 0; k <= out->n_series && s == OK; k++) {
         if (!(due >> k & 1)) continue;
         extra.asked = asked_of(e->scene, k);
-        s = output_frame_begin(out, k, &e->part, &extra, e->clock.t, e->clock.step, e->scene->text);
+        s = output_begin_writing_frame_in_thread(out, k, &e->part, &extra, e->clock.t, e->clock.step, e->scene->text);
     }
     frame_fields_free(&extra);
     fragments_free(&fragments);
-    const struct observed_run seen = observed_run_view_of(e);
+    const struct observed_run seen = observed_run_make_read_only_view(e);
     if (s == OK && due & 1) s = rigids_write_surfaces_of_frame(e->rigid, out, &e->part);
     return s == OK && due & 1 ? profiles_write_csv_files(&e->probing->probes, out, &seen) : s;
 }
@@ -183,9 +184,9 @@ static status write_frames(struct run *e, unsigned due)
 static status write_checkpoint(struct run *e)
 {
     struct run_report *r = e->report;
-    reference_frame_update_motion_and_stress(e->frame, &e->part, &e->loads);
+    lagrangian_mesh_update_point_motion_and_stress(e->frame, &e->part, &e->loads);
     r->last_checkpoint = wall_clock_seconds();
-    TRY(output_wait_for_frame(r->out));
+    TRY(output_wait_until_frame_is_written(r->out));
     const double begun = wall_clock_seconds();
     TRY(checkpoint_write(r->out, e->scene->text, e->save, e));
     const double now = wall_clock_seconds();
@@ -222,27 +223,27 @@ static status say_lost(struct output *out, const struct probes *probes, struct w
 {
     char text[2 * PATH_NAME_ROOM + 300];
     int lost;
-    TRY(output_remove_lost_frames_from_index(out, &lost, text, sizeof text));
+    TRY(output_remove_missing_frames_from_index(out, &lost, text, sizeof text));
     if (lost > 0) warnings_add_and_print(to, text);
     profiles_warn_of_missing_files(probes, out, to);
     return OK;
 }
 
-status report_start_before_first_step(struct run *e)
+status report_open_history_and_write_first_frame(struct run *e)
 {
     struct run_report *r = e->report;
     r->started = r->last_progress = r->last_checkpoint = wall_clock_seconds();
     r->step_started = e->clock.step;
     /* the checkpoint of step 0 counts frame 0 */
     const bool resumed = r->out && r->out->series[0].frames > 0;
-    status s = sample_open_history(e, resumed);
-    if (s == OK && r->out) contact_allocate_force_record(e->contact, &e->part);
+    status s = history_sample_open_csv_file(e, resumed);
+    if (s == OK && r->out) contact_allocate_particle_forces(e->contact, &e->part);
     r->setup_seconds += wall_clock_seconds() - r->started;
     if (s == OK && r->out && resumed) s = say_lost(r->out, &e->probing->probes, &e->warnings);
     if (s == OK && r->out && !resumed) {
         profiles_remove_files_of_earlier_run(&e->probing->probes, r->out);
         /* frame 0 of the body is always written */
-        s = write_frames(e, report_bits_of_frame_series_due(r->out, e->scene, &e->clock, 0) | 1);
+        s = write_frames(e, report_bitmask_of_frame_series_due(r->out, e->scene, &e->clock, 0) | 1);
         if (s == OK) s = write_checkpoint(e);
         r->checkpoints_spent = 0;
     }
@@ -305,7 +306,7 @@ real particles_at_rest_fraction(const struct bonds *b, const struct mesh *mesh, 
 static void say_struts(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                        struct warnings *to)
 {
-    if (!bonds_act_as_struts(b, p, limit)) return;
+    if (!bonds_any_softened_crack_carries_compression(b, p, limit)) return;
     warnings_add_and_print(
         to,
         "beside bonds that have softened and ended, others press with more than five times the tensile strength: bonds "
@@ -313,7 +314,7 @@ static void say_struts(const struct bonds *b, const struct particles *p, const s
         "cracks do not crush; do not trust larger loads at later times (inputs/strength_surface.md)");
 }
 
-status report_finished_step(struct run *e)
+status report_write_outputs_due_after_step(struct run *e)
 {
     struct run_report *r = e->report;
     const bool last = e->clock.step == e->clock.steps, in_steps = scene_has_load_steps(e->scene);
@@ -323,15 +324,15 @@ status report_finished_step(struct run *e)
     r->inactive += particles_at_rest_fraction(&e->bonds, &e->frame->mesh, &e->part);
     timer_add_elapsed_to_section(&e->timers, TIMER_SAMPLE);
     /* before the checkpoint, so that a finished run is complete */
-    if (last && !in_steps) sample_take_after_last_step(e);
+    if (last && !in_steps) history_sample_write_after_last_step(e);
     TRY(r->history_status);
-    TRY(energy_check_last_sample(e));
-    if (last) warn_of_unconserved_quantities(e);
+    TRY(run_check_last_sample_for_energy_divergence(e));
+    if (last) run_warn_of_unconserved_energy_and_momentum(e);
     if (last) warn_of_tips_above_rayleigh_speed(&e->fracture->tips, e->scene, &e->warnings);
-    if (last || in_steps) warn_of_bond_yielding(r, &e->bonds, e->scene, &e->warnings);
+    if (last || in_steps) warn_when_bonds_first_yield(r, &e->bonds, e->scene, &e->warnings);
     if (last || in_steps || r->sampling.due) say_struts(&e->bonds, &e->part, &e->source.limit, &e->warnings);
     if (r->out) {
-        const unsigned due = report_bits_of_frame_series_due(r->out, e->scene, &e->clock, e->clock.step);
+        const unsigned due = report_bitmask_of_frame_series_due(r->out, e->scene, &e->clock, e->clock.step);
         if (due) TRY(write_frames(e, due));
         const bool late = wall_is_over(e->scene, r), stop = late || (r->stop && *r->stop);
         if (stop || checkpoint_due(r, e->scene)) TRY(write_checkpoint(e));
@@ -345,12 +346,12 @@ status report_finished_step(struct run *e)
     return OK;
 }
 
-status report_finish_after_last_step(struct run *e)
+status report_write_last_checkpoint_and_finish(struct run *e)
 {
     struct run_report *r = e->report;
     progress(e, true);
     if (!r->out) return OK;
-    TRY(output_wait_for_frame(r->out));
+    TRY(output_wait_until_frame_is_written(r->out));
     if (e->clock.step > r->step_started) TRY(write_checkpoint(e));
     return OK;
 }

@@ -58,7 +58,7 @@ static real inactive_since_sample(const struct run_clock *clock, struct run_repo
 /* Returns true if angular momentum must be conserved: no boundary, rigid body or damping of scene s acts on the bodies.
  * Returns false also in 1D, for a static solver, and with coarse cells in `frame`, which
  * diagnostics_update_angular_momentum does not read. */
-static bool is_free(const struct scene *s, const struct reference_frame *frame)
+static bool is_free(const struct scene *s, const struct lagrangian_mesh *frame)
 {
     return s->dim > 1 && scene_is_dynamic(s) && s->boundaries == 0 && s->rigids == 0 && s->damping == 0 &&
            frame->levels.n == 0;
@@ -67,7 +67,7 @@ static bool is_free(const struct scene *s, const struct reference_frame *frame)
 /* Stores names and units of the history columns of angular momentum of scene s in column[], unless it is NULL. Returns
  * the number of columns, which is 0 if a load acts on the bodies, so that angular momentum need not be conserved.
  * frame: mesh of the run. */
-static int spin_columns(const struct scene *s, const struct reference_frame *frame, struct column *column)
+static int spin_columns(const struct scene *s, const struct lagrangian_mesh *frame, struct column *column)
 {
     static const char *const name[] = {"angular_momentum_x", "angular_momentum_y", "angular_momentum_z"};
     int n = 0;
@@ -127,7 +127,7 @@ static int own_columns(const struct run *e, struct column *column)
     return n + spin_columns(e->scene, e->frame, column ? column + n : NULL);
 }
 
-status sample_open_history(struct run *e, bool resume)
+status history_sample_open_csv_file(struct run *e, bool resume)
 {
     struct run_report *report = e->report;
     const int columns = RECORD_FIXED + own_columns(e, NULL);
@@ -161,7 +161,7 @@ static bool wants_stress(const struct scene *s)
 
 void run_update_particle_motion_and_stress(struct run *e)
 {
-    reference_frame_update_motion_and_stress(e->frame, &e->part, &e->loads);
+    lagrangian_mesh_update_point_motion_and_stress(e->frame, &e->part, &e->loads);
     bonds_compute_particle_stress(&e->bonds, &e->part, &e->source, &e->kernels);
 }
 
@@ -178,14 +178,14 @@ static bool wants_motion(const struct scene *s)
 }
 
 /* Returns the present kinetic energy of particles and of mesh nodes of `reference` [J]. p: all particles. */
-static real kinetic_now(const struct particles *p, const struct reference_frame *reference)
+static real kinetic_now(const struct particles *p, const struct lagrangian_mesh *reference)
 {
-    return particles_kinetic_energy(p) + reference_frame_kinetic_energy(reference);
+    return particles_kinetic_energy(p) + lagrangian_mesh_kinetic_energy(reference);
 }
 
 /* Stores the meshes of the undeformed body, whose nodes carry momentum, in nodes[]: the grid of the finest cells, then
  * those of the coarse cells. frame: the meshes. Returns the number of grids. */
-static int meshes(const struct reference_frame *frame, const struct grid *nodes[LEVELS_MAX + 1])
+static int meshes(const struct lagrangian_mesh *frame, const struct grid *nodes[LEVELS_MAX + 1])
 {
     const struct mesh_levels *levels = &frame->levels;
     nodes[0] = &frame->mesh.grid;
@@ -195,7 +195,7 @@ static int meshes(const struct reference_frame *frame, const struct grid *nodes[
 
 /* Computes the present momentum of all particles and of mesh nodes of `frame`, momentum[dim] [kg m/s]. p: all
  * particles. */
-static void momentum_now(const struct particles *p, const struct reference_frame *frame, real *momentum)
+static void momentum_now(const struct particles *p, const struct lagrangian_mesh *frame, real *momentum)
 {
     const struct grid *nodes[LEVELS_MAX + 1];
     const int grids = meshes(frame, nodes);
@@ -218,22 +218,22 @@ static void sample_state(struct run *e)
     const struct grid *nodes[LEVELS_MAX + 1];
     const int grids = meshes(e->frame, nodes);
     if (wants_stress(e->scene)) bonds_compute_particle_stress(&e->bonds, &e->part, &e->source, &e->kernels);
-    rigids_store_motion_for_sample(e->rigid, e->clock.t);
+    rigids_store_motion_before_step(e->rigid, e->clock.t);
     diagnostics_update_momentum(e->diagnostics, &e->part, nodes, grids, e->loads.impulse);
     if (is_free(e->scene, e->frame))
         diagnostics_update_angular_momentum(e->diagnostics, &e->part,
                                             e->frame->mesh.points > 0 ? &e->frame->mesh : NULL, e->scene->bodies);
     tips_update_from_damage(&e->fracture->tips, &e->part, &e->cells, e->clock.t);
-    tips_place_on_mirror_planes(&e->fracture->tips, e->source.mirror, e->source.mirrors);
-    struct observed_run o = observed_run_view_of(e);
-    probes_begin_sample_before_step(&e->probing->probes, &o);
+    tips_snap_onto_mirror_planes_they_grow_along(&e->fracture->tips, e->source.mirror, e->source.mirrors);
+    struct observed_run o = observed_run_make_read_only_view(e);
+    probes_sample_position_dependent_values(&e->probing->probes, &o);
 }
 
-real sample_current_elastic_energy(struct run *e)
+real run_compute_elastic_energy(struct run *e)
 {
     return e->kernels.bond_energy(&e->bonds, &e->part, NULL) +
            points_strain_energy(&e->part, e->scene->material, &e->coupling->partial) +
-           reference_frame_strain_energy(e->frame, &e->part);
+           lagrangian_mesh_strain_energy(e->frame, &e->part);
 }
 
 /* Computes the energies of a sample (a line of history.csv) of run e at the present positions, except the kinetic
@@ -243,7 +243,7 @@ static void sample_energies(struct run *e)
     const struct material *m = e->scene->material;
     e->report->sampling.pd = e->part.n_of[KIND_PD], e->report->sampling.bonds = e->bonds.n;
     e->report->sampling.energy = (struct energy){
-        .strain = sample_current_elastic_energy(e),
+        .strain = run_compute_elastic_energy(e),
         .plastic = bond_plastic_work(&e->bonds) + points_plastic_work(&e->part, m, &e->coupling->partial),
         .fracture = bonds_fracture_energy(&e->bonds),
         .contact = contact_elastic_energy(e->contact, &e->part),
@@ -251,7 +251,7 @@ static void sample_energies(struct run *e)
         .absorbed = e->loads.absorbing.energy,
         .viscous = e->viscosity->taken,
     };
-    const struct observed_run o = observed_run_view_of(e);
+    const struct observed_run o = observed_run_make_read_only_view(e);
     probes_sample_energies(&e->probing->probes, &o);
 }
 
@@ -261,9 +261,9 @@ static void sample_energies(struct run *e)
 static void sample_write(struct run *e, const struct velocity_time *now, real kinetic, real work)
 {
     struct sampling *sampling = &e->report->sampling;
-    if (wants_motion(e->scene)) reference_frame_update_motion_and_stress(e->frame, &e->part, &e->loads);
-    struct observed_run o = observed_run_view_of(e);
-    probes_complete_sample_after_step(&e->probing->probes, &o, now);
+    if (wants_motion(e->scene)) lagrangian_mesh_update_point_motion_and_stress(e->frame, &e->part, &e->loads);
+    struct observed_run o = observed_run_make_read_only_view(e);
+    probes_sample_velocity_dependent_values(&e->probing->probes, &o, now);
     probes_warn_of_meaningless_sif(&e->probing->probes, scene_is_single_equilibrium(e->scene), o.t, &e->warnings);
     if (scene_is_dynamic(e->scene)) {
         momentum_now(&e->part, e->frame, e->diagnostics->now.momentum);
@@ -271,7 +271,8 @@ static void sample_write(struct run *e, const struct velocity_time *now, real ki
     }
     sampling->energy.kinetic = kinetic;
     e->stability->lost = !isfinite(energy_sum(&sampling->energy) + work);
-    if (e->stability->lost) return; /* no line is written; energy_check_last_sample reports the failure */
+    if (e->stability->lost)
+        return; /* no line is written; run_check_last_sample_for_energy_divergence reports the failure */
     diagnostics_update_energy_balance(e->diagnostics, e->clock.t, &sampling->energy, work);
     fill_record(e);
     if (e->report->out && e->report->history_status == OK)
@@ -282,7 +283,7 @@ static void sample_write(struct run *e, const struct velocity_time *now, real ki
  * samples need them, since the grid changes velocities without forces on particles. kind: coupling method. */
 static void keep_velocities(struct sampling *sampling, const struct particles *p, enum coupling kind)
 {
-    if (p->n_free == 0 && !coupling_moves_by_grid(kind)) return;
+    if (p->n_free == 0 && !coupling_moves_pd_particles_by_grid(kind)) return;
     for (int d = 0; d < p->dim; d++) {
         if (!sampling->before[d]) sampling->before[d] = BARE("report.before", p->n, real);
         array_copy(sampling->before[d], p->v[d], p->n, sizeof(real));
@@ -294,26 +295,27 @@ static void keep_velocities(struct sampling *sampling, const struct particles *p
  * dashpots, which act during the update, are left out. */
 static real kick_now(const struct run *e)
 {
-    const bool grid = e->part.n_free > 0 || coupling_moves_by_grid(e->coupling_kind);
+    const bool grid = e->part.n_free > 0 || coupling_moves_pd_particles_by_grid(e->coupling_kind);
     const real dt = e->grid->transfer.dt_velocity;
-    return particles_leapfrog_energy_gap(&e->part, grid ? e->report->sampling.before : NULL, dt) +
-           mesh_kick(&e->frame->mesh, dt) + levels_leapfrog_energy_gap(&e->frame->levels, dt) - e->loads.absorbing.kick;
+    return particles_mean_minus_leapfrog_kinetic_energy(&e->part, grid ? e->report->sampling.before : NULL, dt) +
+           mesh_kick(&e->frame->mesh, dt) + mesh_levels_leapfrog_kinetic_energy_correction(&e->frame->levels, dt) -
+           e->loads.absorbing.kick;
 }
 
-void sample_begin_before_step(struct run *e)
+void history_sample_begin_before_step(struct run *e)
 {
     struct sampling *sampling = &e->report->sampling;
-    sampling->due = report_sample_is_due(e->scene, &e->clock);
+    sampling->due = report_history_sample_is_due(e->scene, &e->clock);
     sampling->work = e->loads.work;
     sampling->constraint_work = e->loads.constraint_work;
     sampling->absorbed = e->loads.absorbing.energy;
     if (!sampling->due && e->clock.step < e->clock.steps - 1) return;
-    if (wants_motion(e->scene)) reference_frame_update_motion_and_stress(e->frame, &e->part, &e->loads);
+    if (wants_motion(e->scene)) lagrangian_mesh_update_point_motion_and_stress(e->frame, &e->part, &e->loads);
     if (sampling->due)
         sample_state(e), rigids_warn_of_overlap(e->rigid, e->scene->spacing, e->clock.t, &e->warnings);
     else if (wants_stress(e->scene))
         bonds_compute_particle_stress(&e->bonds, &e->part, &e->source, &e->kernels);
-    struct observed_run o = observed_run_view_of(e);
+    struct observed_run o = observed_run_make_read_only_view(e);
     probes_store_motion_before_step(&e->probing->probes, &o);
     keep_velocities(sampling, &e->part, e->coupling_kind);
     sampling->t_velocity = o.t_velocity;
@@ -325,7 +327,7 @@ void sample_begin_before_step(struct run *e)
     sampling->rigid = rigids_compute_energy(e->rigid, e->clock.dt).before;
 }
 
-void sample_compute_energies(struct run *e)
+void history_sample_compute_energies(struct run *e)
 {
     if (!e->report->sampling.due) return;
     sample_energies(e);
@@ -350,7 +352,7 @@ static bool start_separable(const struct scene *s, const struct particles *p, co
     return p->n_free == 0 || (s->transfer == TRANSFER_FLIP && !velocity_jumps(s) && grid->contact.touching == 0);
 }
 
-void sample_complete_after_step(struct run *e)
+void history_sample_complete_after_step(struct run *e)
 {
     struct sampling *sampling = &e->report->sampling;
     const bool first = e->clock.step == 0;
@@ -368,12 +370,12 @@ void sample_complete_after_step(struct run *e)
     sampling->energy.damped += e->grid->contact.begun;
     sampling->energy.absorbed = 0.5 * (sampling->absorbed + e->loads.absorbing.energy);
     const struct rigid_energy rigid = rigids_compute_energy(e->rigid, e->clock.dt);
-    rigids_average_velocities_for_sample(e->rigid);
+    rigids_average_stored_and_current_velocities(e->rigid);
     sample_write(e, &now, kinetic / share + rigid.step,
                  sampling->work + sampling->rigid_work + 0.5 * (sampling->constraint_work + e->loads.constraint_work));
 }
 
-void sample_take_in_equilibrium(struct run *e)
+void history_sample_write_in_equilibrium(struct run *e)
 {
     sample_state(e);
     sample_energies(e);
@@ -383,22 +385,23 @@ void sample_take_in_equilibrium(struct run *e)
 
 /* Returns the power v . f [W] of the forces on those particles p that bonds move, and on the nodes of the mesh of the
  * undeformed body in `reference`, coarse cells included. */
-static real power_now(const struct particles *p, const struct reference_frame *reference)
+static real power_now(const struct particles *p, const struct lagrangian_mesh *reference)
 {
     const struct grid *g = &reference->mesh.grid;
     real power = 0;
     for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
         const int32_t i = p->list[KIND_PD][k];
-        for (int d = 0; d < p->dim && !particle_moves_with_nodes(p, i); d++) power += p->v[d][i] * p->f[d][i];
+        for (int d = 0; d < p->dim && !particle_is_moved_by_grid_or_mesh_nodes(p, i); d++)
+            power += p->v[d][i] * p->f[d][i];
     }
     for (int64_t I = 0; I < g->n && reference->mesh.points > 0; I++)
         for (int d = 0; d < p->dim; d++) power += g->velocity[d][I] * g->force[d][I];
-    return power + levels_power_of_coarse_nodal_forces(&reference->levels);
+    return power + mesh_levels_power_of_coarse_nodal_forces(&reference->levels);
 }
 
 /* Returns the power v . f [W] of the forces on nodes of the mesh `reference` whose motion loads prescribe (walls).
  * power_now includes this power, which is work of the loads. */
-static real power_of_walls(const struct reference_frame *reference)
+static real power_of_walls(const struct lagrangian_mesh *reference)
 {
     const struct mesh_levels *levels = &reference->levels;
     real power = 0;
@@ -423,13 +426,13 @@ static void reactions_add(struct loads *l, const struct grid *g)
 /* Adds the forces on nodes with prescribed motion at the end of the run to the reactions of their loads in l [N],
  * after those on particles. grid: grids of the current frame (background grid of material points), or NULL if no
  * particle is on them; frame: mesh of the reference frame; clock: time step and its number. */
-static void reactions_at_end(struct loads *l, const struct grid_method *grid, const struct reference_frame *frame,
+static void reactions_at_end(struct loads *l, const struct grid_method *grid, const struct lagrangian_mesh *frame,
                              const struct run_clock *clock)
 {
     for (int k = 0; grid && k < grid->fields; k++) loads_add_grid_reactions(l, &grid->field[k].grid, clock->dt);
     if (frame->mesh.points == 0) return;
     reactions_add(l, &frame->mesh.grid);
-    for (int level = 1; level <= levels_highest_level_due_in_step(&frame->levels, clock->step); level++)
+    for (int level = 1; level <= mesh_levels_coarsest_level_integrated_in_step(&frame->levels, clock->step); level++)
         reactions_add(l, &frame->levels.at[level].mesh.grid);
 }
 
@@ -442,15 +445,17 @@ static real power_last(struct run *e, real *held)
     struct memory_archive accounts;
     const real before = e->loads.constraint_work, kick = e->loads.absorbing.kick;
     const real dt_velocity = e->clock.dt * damping_velocity_increment_factor(e->scene->damping * e->clock.dt);
-    memory_archive_make(&accounts, ARCHIVE_ACCOUNTS);
+    memory_archive_open_for_saving(&accounts, ARCHIVE_ACCOUNTS);
     INVARIANT(loads_save_or_load(&e->loads, &accounts.archive) == OK);
     e->loads.absorbing.idle = e->loads.ended = true;
     loads_clear_forces_of_loaded_particles(&e->loads, &e->part);
     bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &bond_limit_never, NULL);
     contact_compute_forces(e->contact, &e->part, 0);
-    loads_apply_to_particle_forces(&e->loads, &e->part, e->clock.t + 0.5 * e->clock.dt, e->clock.dt, dt_velocity);
-    if (e->frame->mesh.points > 0) reference_frame_compute_forces(e->frame, &e->part, e->clock.step);
-    const real power = power_now(&e->part, e->frame) + grid_power_of_forces(e, e->clock.t + 0.5 * e->clock.dt);
+    loads_apply_forces_and_motion_constraints(&e->loads, &e->part, e->clock.t + 0.5 * e->clock.dt, e->clock.dt,
+                                              dt_velocity);
+    if (e->frame->mesh.points > 0) lagrangian_mesh_compute_nodal_forces(e->frame, &e->part, e->clock.step);
+    const real power =
+        power_now(&e->part, e->frame) + grid_power_of_forces_on_material_points(e, e->clock.t + 0.5 * e->clock.dt);
     const real walls = power_of_walls(e->frame);
     *held = e->loads.constraint_work - before - e->clock.dt * walls;
     const bool on_grid = e->part.n_free + e->part.n_grid_coupled > 0;
@@ -466,23 +471,24 @@ static real power_last(struct run *e, real *held)
 /* Writes the last line of history.csv (a sample of energies, probes and crack tips) of run e after the last step. As
  * in all lines, the kinetic energy is m v- . v+/2, with the velocities v- and v+ before and after a velocity update,
  * here by the last forces. */
-void sample_take_after_last_step(struct run *e)
+void history_sample_write_after_last_step(struct run *e)
 {
     real held = 0;
-    family_states_precompute(&e->bonds, &e->part, &e->source);
+    families_compute_pressure_stiffness_and_rotation(&e->bonds, &e->part, &e->source);
     if (e->source.limit.softening && !e->source.modulus) bonds_update_softening(&e->bonds, &e->part);
-    reference_frame_update_motion_and_stress(e->frame, &e->part, &e->loads);
+    lagrangian_mesh_update_point_motion_and_stress(e->frame, &e->part, &e->loads);
     sample_state(e);
     sample_energies(e);
     real kinetic = kinetic_now(&e->part, e->frame), before = kinetic;
     const real decay = e->scene->damping * e->clock.dt, share = damping_velocity_increment_factor(decay),
                kick = e->clock.dt * share;
     if (scene_is_dynamic(e->scene)) kinetic += 0.5 * kick * power_last(e, &held);
-    if (e->clock.step > 0) e->report->sampling.energy.damped += damping_last_update_energy_loss(decay, before, kinetic);
+    if (e->clock.step > 0)
+        e->report->sampling.energy.damped += damping_energy_loss_in_last_velocity_update(decay, before, kinetic);
     e->report->sampling.energy.damped += e->grid->contact.begun;
     const struct rigid_energy rigid = rigids_compute_energy(e->rigid, e->clock.dt);
     const struct velocity_time now = {e->clock.t - 0.5 * e->clock.dt, 1 / square(share)};
-    rigids_extrapolate_velocities_for_sample(e->rigid, e->clock.t, e->clock.dt);
+    rigids_extrapolate_stored_velocities_to_time(e->rigid, e->clock.t, e->clock.dt);
     sample_write(e, &now, kinetic / share + rigid.last,
                  e->loads.work + e->loads.constraint_work + rigid.work + 0.5 * held);
 }

@@ -30,7 +30,7 @@
 static void say_released(const struct scene *s, const struct diagnostics *w, struct warnings *to)
 {
     char text[320];
-    const real released = diagnostics_energy_released_beyond_stored(w);
+    const real released = diagnostics_excess_energy_released_by_bonds(w);
     if (scene_is_single_equilibrium(s) || released <= ENERGY_DOUBTFUL * w->energy_scale) return;
     snprintf(
         text, sizeof text,
@@ -43,7 +43,7 @@ static void say_released(const struct scene *s, const struct diagnostics *w, str
 bool fracture_energy_warn_if_negative(const struct scene *s, const struct diagnostics *w, struct warnings *to)
 {
     char text[480];
-    const real released = diagnostics_energy_released_beyond_stored(w);
+    const real released = diagnostics_excess_energy_released_by_bonds(w);
     const bool states = s->model == MODEL_OSPD || s->model == MODEL_MOSPD;
     if (!(released > RELEASED_NOTICED * w->energy_scale)) return false;
     snprintf(
@@ -202,7 +202,7 @@ static void say_work_error(real error, struct warnings *to)
     warnings_add_and_print(to, text);
 }
 
-void warn_of_unconserved_quantities(struct run *e)
+void run_warn_of_unconserved_energy_and_momentum(struct run *e)
 {
     const struct diagnostics *w = e->diagnostics;
     const bool apic = e->scene->transfer == TRANSFER_APIC && e->part.n_free > 0;
@@ -227,7 +227,7 @@ void warn_of_unconserved_quantities(struct run *e)
         "trust later results",
         100 * fabs(error), error < 0 ? "is lost" : "has been gained without work of loads", error,
         error < 0 && apic
-            ? scene_why_reference_frame_is_no_remedy(e->scene)
+            ? scene_reason_not_to_advise_total_lagrangian_mpm(e->scene)
                   ? ": APIC damps motion that its grid does not resolve; use mpm.transfer: flip to keep it"
                   : ": APIC damps motion that its grid does not resolve; use mpm.transfer: flip or mpm.frame: "
                     "reference to keep it"
@@ -235,8 +235,8 @@ void warn_of_unconserved_quantities(struct run *e)
     warnings_add_and_print(&e->warnings, text);
 }
 
-void warn_of_bond_yielding(struct run_report *r, const struct bonds *b, const struct scene *s,
-                           struct warnings *warning_list)
+void warn_when_bonds_first_yield(struct run_report *r, const struct bonds *b, const struct scene *s,
+                                 struct warnings *warning_list)
 {
     bool yields = false;
     if (r->yield_said || !b->plastic_path) return;
@@ -244,6 +244,6 @@ void warn_of_bond_yielding(struct run_report *r, const struct bonds *b, const st
     if (!yields) return;
     const int known = warning_list->n;
     r->yield_said = true;
-    warn_of_bond_plasticity(s, warning_list);
+    warn_that_bond_plasticity_is_not_von_mises(s, warning_list);
     warnings_print_to_stderr(warning_list, known);
 }

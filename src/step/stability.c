@@ -34,17 +34,17 @@ enum { MOMENTS = 256 };        /* number of times at which a function of time is
 /* Returns the largest present speed of peridynamic particles and of material points on the grid [m/s]. For nodes of
  * the reference frame (mesh of the undeformed body), the largest magnitude of a velocity component is used instead of
  * the speed. p: all particles. */
-static real fastest_now(const struct particles *p, const struct reference_frame *reference)
+static real fastest_now(const struct particles *p, const struct lagrangian_mesh *reference)
 {
     const real moving = real_max(particles_largest_speed_of_list(p, p->list[KIND_PD], p->n_of[KIND_PD]),
                                  particles_largest_speed_of_list(p, p->list_free, p->n_free));
     return reference->mesh.points > 0 ? real_max(moving, reference->speed) : moving;
 }
 
-void stability_store_start_speed(struct stability *s, const struct particles *p)
+void stability_store_largest_initial_speed(struct stability *s, const struct particles *p)
 {
     s->start_speed = particles_largest_speed_of_all(p);
-    growth_samples_add(&s->speed, 0, square(s->start_speed));
+    quantity_samples_add_value(&s->speed, 0, square(s->start_speed));
 }
 
 /* ---- loads ------------------------------------------------------------------------------------------------------- */
@@ -72,7 +72,7 @@ static real load_speed(const struct run_clock *clock, const struct particles *p,
     real most, mean, fast2 = 0;
     if (b->kind == BOUNDARY_MIRROR || b->kind == BOUNDARY_ABSORBING) return 0;
     factors(&b->time, from, clock->t, &most, &mean);
-    if (b->displaces) return load_largest_displacement_speed(load, p, clock->t + clock->dt);
+    if (b->displaces) return load_largest_speed_of_prescribed_displacement(load, p, clock->t + clock->dt);
     if (drives) return most * sqrt(dot(b->value, b->value, p->dim));
     for (int64_t k = 0; k < load->n; k++) {
         real a2 = 0;
@@ -85,9 +85,9 @@ static real load_speed(const struct run_clock *clock, const struct particles *p,
 /* Returns true if the loads explain the motion of the particles p in a run that has diverged, so that no instability
  * has to be assumed: if `given`, the energy at the start plus the work of the loads [J], is at least LOAD_SHARE_LEAST
  * times the kinetic energy, or if this is not finite. frame: mesh whose nodes move, too. */
-static bool loads_explain_motion(const struct particles *p, const struct reference_frame *frame, real given)
+static bool loads_explain_motion(const struct particles *p, const struct lagrangian_mesh *frame, real given)
 {
-    const real kinetic = particles_kinetic_energy(p) + reference_frame_kinetic_energy(frame);
+    const real kinetic = particles_kinetic_energy(p) + lagrangian_mesh_kinetic_energy(frame);
     return !isfinite(kinetic) || given >= LOAD_SHARE_LEAST * kinetic;
 }
 
@@ -175,7 +175,7 @@ static bool holds_images(const struct scene *s)
 
 /* Writes alternatives for a scene s that gains energy to text[capacity]: for each option that the scene can do without,
  * another choice such as `method: pd`. reference: mesh of the run; coupling: coupling method. */
-static void say_others(const struct scene *s, const struct reference_frame *reference, enum coupling coupling,
+static void say_others(const struct scene *s, const struct lagrangian_mesh *reference, enum coupling coupling,
                        char *text, size_t capacity)
 {
     const char *other[8];
@@ -183,7 +183,7 @@ static void say_others(const struct scene *s, const struct reference_frame *refe
     if (s->method == METHOD_ADAPTIVE) other[n++] = "method: pd";
     if (s->method != METHOD_PD && reference->mesh.points > 0)
         other[n++] = "mpm.frame: current";
-    else if (!scene_why_reference_frame_is_no_remedy(s))
+    else if (!scene_reason_not_to_advise_total_lagrangian_mpm(s))
         other[n++] = "mpm.frame: reference";
     if (coupling != COUPLING_PARTIAL_STRESS && s->method == METHOD_ADAPTIVE) other[n++] = "coupling: partial stress";
     if (s->method != METHOD_PD && reference->mesh.points == 0 && s->transfer == TRANSFER_FLIP)
@@ -207,7 +207,7 @@ static real shortest_bond(const struct bonds *b, const struct particles *p)
 {
     real least2 = 1;
     for (int64_t row = 0; row < b->rows; row++)
-        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
+        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_iterator_advance(&it);) {
             real length2 = 0;
             for (int d = 0; d < p->dim; d++) length2 += square(p->x[d][it.bond.nbr] - p->x[d][b->particle[row]]);
             if (it.bond.w != 0) least2 = real_min(least2, length2 * square(it.bond.inverse_length));
@@ -231,12 +231,13 @@ static bool squeeze_explanation(const struct bonds *b, const struct particles *p
     return true;
 }
 
-void stability_describe_remedy(const struct run *e, const struct growth_samples *earlier, real growing_value,
-                               char *text, size_t capacity)
+void run_describe_remedy_for_divergence(const struct run *e, const struct quantity_samples *earlier_samples,
+                                        real growing_value, char *text, size_t capacity)
 {
     real steps;
     char others[256];
-    const enum growth_rate rate = growth_samples_classify(earlier, e->clock.step, growing_value, &steps);
+    const enum growth_rate rate =
+        quantity_samples_classify_growth_rate(earlier_samples, e->clock.step, growing_value, &steps);
     if (scene_has_load_steps(e->scene)) { /* load steps have no time step */
         snprintf(text, capacity,
                  "this occurred in a static equilibrium; use more load steps (steps.number) or a smaller "
@@ -278,15 +279,15 @@ void stability_describe_remedy(const struct run *e, const struct growth_samples 
  * position or velocity that is not finite. Material points on the grid are always checked. check_peridynamic: true to
  * check the peridynamic particles too; check_mesh_points: true to check the material points of a mesh too. e: the run.
  */
-status divergence_check_particles(const struct run *e, bool check_peridynamic, bool check_mesh_points)
+status run_check_particles_for_divergence(const struct run *e, bool check_peridynamic, bool check_mesh_points)
 {
     char remedy[REMEDY_LENGTH];
-    const status s = diagnostics_check_divergence(&e->part, check_peridynamic, check_mesh_points, e->tables.wave_speed,
-                                                  e->clock.step, e->clock.t);
+    const status s = diagnostics_check_particles_for_divergence(&e->part, check_peridynamic, check_mesh_points,
+                                                                e->tables.wave_speed, e->clock.step, e->clock.t);
     if (s == OK) return OK;
     const real speed = fastest_now(&e->part, e->frame), limit = e->tables.wave_speed;
-    stability_describe_remedy(e, &e->stability->speed, square(isfinite(speed) && speed > limit ? speed : limit), remedy,
-                              sizeof remedy);
+    run_describe_remedy_for_divergence(e, &e->stability->speed,
+                                       square(isfinite(speed) && speed > limit ? speed : limit), remedy, sizeof remedy);
     return status_set(s, "%s; %s", status_message(), remedy);
 }
 
@@ -294,13 +295,13 @@ status divergence_check_particles(const struct run *e, bool check_peridynamic, b
  * INVERSION_STEPS steps (of `clock`) and at the end. An inverted cell resists deformation like an intact one, so that
  * neither energy nor speed reveals it. */
 static status inversion_check(const struct run_clock *clock, const struct particles *p,
-                              const struct reference_frame *reference)
+                              const struct lagrangian_mesh *reference)
 {
     if (reference->mesh.points == 0 || (clock->step % INVERSION_STEPS != 0 && clock->step < clock->steps)) return OK;
     char what[48] = "a coarse cell";
     real X[DIM_MAX] = {0};
     const int64_t i = mesh_first_particle_in_inverted_cell(&reference->mesh, p);
-    if (i == p->n && !levels_contain_inverted_cell(&reference->levels, X)) return OK;
+    if (i == p->n && !mesh_levels_find_inverted_coarse_cell(&reference->levels, X)) return OK;
     if (i < p->n) {
         particle_reference_position(p, i, X);
         snprintf(what, sizeof what, "particle %d", (int)p->id[i]);
@@ -325,17 +326,17 @@ static status formula_check(const struct loads *l, const struct particles *p, co
     return clock->step == clock->steps ? loads_check_formulas_are_finite(l, p, clock->t) : OK;
 }
 
-status stability_check_after_step(struct run *e)
+status run_check_stability_after_step(struct run *e)
 {
     const bool diverged = e->frame->mesh.points > 0 && !(e->frame->speed <= e->tables.wave_speed / sqrt(e->part.dim));
     TRY(formula_check(&e->loads, &e->part, &e->clock));
-    if (diverged) reference_frame_update_point_motion(e->frame, &e->part, &e->loads);
-    TRY(divergence_check_particles(e, e->stability->diverged || e->part.n_grid_coupled > 0, diverged));
+    if (diverged) lagrangian_mesh_update_point_motion(e->frame, &e->part, &e->loads);
+    TRY(run_check_particles_for_divergence(e, e->stability->diverged || e->part.n_grid_coupled > 0, diverged));
     TRY(inversion_check(&e->clock, &e->part, e->frame));
     TRY(contact_check_largest_overlap(e));
-    TRY(rigids_check_speed(e->rigid, e->scene, &e->clock));
+    TRY(rigids_check_motion_per_step_is_small(e->rigid, e->scene, &e->clock));
     if (e->clock.step % RISE_STRIDE == 0)
-        growth_samples_add(&e->stability->speed, e->clock.step, square(fastest_now(&e->part, e->frame)));
+        quantity_samples_add_value(&e->stability->speed, e->clock.step, square(fastest_now(&e->part, e->frame)));
     return OK;
 }
 
@@ -362,7 +363,7 @@ static bool gains(const struct run_clock *clock, const struct diagnostics *w)
 {
     const bool counts = clock->step >= ENERGY_STEPS || clock->dt > clock->dt_critical;
     return (counts && w->now.balance_error > ENERGY_FROM_NOWHERE) ||
-           diagnostics_energy_released_beyond_stored(w) > RELEASED_FROM_NOWHERE * w->energy_scale;
+           diagnostics_excess_energy_released_by_bonds(w) > RELEASED_FROM_NOWHERE * w->energy_scale;
 }
 
 /* Returns true if the time step of `clock` is above the critical one and velocities change sign in every step: kinetic
@@ -392,7 +393,7 @@ static status unstable(const struct particles *p, const struct run_clock *clock,
 static void warn_of_stretched(const struct scene *s, real strain, real t, const char *x, struct warnings *to)
 {
     char text[560], remedy[200] = "use mpm.frame: reference";
-    const char *why = scene_why_reference_frame_is_no_remedy(s);
+    const char *why = scene_reason_not_to_advise_total_lagrangian_mpm(s);
     if (why)
         snprintf(remedy, sizeof remedy,
                  "use method: pd, or smaller loads and speeds (mpm.frame: reference is no remedy: %s)", why);
@@ -409,7 +410,7 @@ static void warn_of_stretched(const struct scene *s, real strain, real t, const 
  * if there is such a point. */
 static bool say_stretched(const struct particles *p, const struct scene *s, real t, struct warnings *to)
 {
-    const int n = symmetric_component_count(p->dim);
+    const int n = symmetric_tensor_component_count(p->dim);
     for (int64_t i = 0; i < p->n && p->n_free > 0 && !scene_silences_warning(s, ACCEPT_STRAIN); i++) {
         const struct material *m = &s->material[p->material[i]];
         real stress[SYM_MAX], x[DIM_MAX], sum = 0;
@@ -477,7 +478,7 @@ static bool say_turned(const struct particles *p, const struct scene *s, real t,
  * faster than waves: a body that gains energy, e.g. by breaking all its bonds, or whose velocities change sign in every
  * step; also if an energy is not finite. Warns of large strains, of parted material points and of large motions. Tested
  * at samples and at the end. Bodies whose energy is round-off are not tested. */
-status energy_check_last_sample(struct run *e)
+status run_check_last_sample_for_energy_divergence(struct run *e)
 {
     if (e->stability->lost)
         return status_set(FAILED,
@@ -485,22 +486,23 @@ status energy_check_last_sample(struct run *e)
                           "supports and initial state (`cleave check`)",
                           (long long)e->clock.step, e->clock.t);
     const struct diagnostics *w = e->diagnostics;
-    const real excess = w->now.balance_error * w->energy_scale + diagnostics_energy_released_beyond_stored(w);
+    const real excess = w->now.balance_error * w->energy_scale + diagnostics_excess_energy_released_by_bonds(w);
     const bool last = e->clock.step == e->clock.steps && !scene_is_single_equilibrium(e->scene);
     char what[96], remedy[REMEDY_LENGTH];
     if (!e->report->sampling.due && !last) return OK;
-    growth_samples_add(&e->stability->excess, e->clock.step, excess);
+    quantity_samples_add_value(&e->stability->excess, e->clock.step, excess);
     if (!e->stability->stretched)
         e->stability->stretched = say_stretched(&e->part, e->scene, e->clock.t, &e->warnings) ||
                                   (scene_is_dynamic(e->scene) && say_flowed(&e->part, e->clock.t, &e->warnings)) ||
                                   say_turned(&e->part, e->scene, e->clock.t, &e->warnings);
     if (!e->stability->parted)
-        e->stability->parted = parted_points_warn_if_separated(&e->stability->pairs, &e->part, &e->cells, e->grid,
-                                                               e->scene, e->clock.t, &e->warnings);
-    large_motion_warn_of_passing_parts(&e->stability->motion, &e->part, e->scene, e->source.family.horizon, e->clock.t,
-                                       &e->warnings);
+        e->stability->parted = material_points_warn_of_numerical_fracture(&e->stability->pairs, &e->part, &e->cells,
+                                                                          e->grid, e->scene, e->clock.t, &e->warnings);
+    large_motion_warn_of_self_penetration(&e->stability->motion, &e->part, e->scene, e->source.family.horizon,
+                                          e->clock.t, &e->warnings);
     if (scene_is_dynamic(e->scene))
-        large_motion_warn_of_turned_pressure(&e->stability->motion, &e->part, &e->loads, e->clock.t, &e->warnings);
+        large_motion_warn_of_non_follower_pressure(&e->stability->motion, &e->part, &e->loads, e->clock.t,
+                                                   &e->warnings);
     if (diagnostics_energy_is_round_off(w, e->mass, e->tables.wave_speed)) return OK;
     if (!e->stability->released) e->stability->released = fracture_energy_warn_if_negative(e->scene, w, &e->warnings);
     if (swings(&e->clock, &w->now.energy)) {
@@ -510,6 +512,6 @@ status energy_check_last_sample(struct run *e)
     if (!gains(&e->clock, w)) return OK;
     snprintf(what, sizeof what, "with %.0f %% of its energy gained without work of loads",
              100 * excess / w->energy_scale);
-    stability_describe_remedy(e, &e->stability->excess, excess, remedy, sizeof remedy);
+    run_describe_remedy_for_divergence(e, &e->stability->excess, excess, remedy, sizeof remedy);
     return unstable(&e->part, &e->clock, what, remedy);
 }

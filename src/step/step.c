@@ -42,10 +42,10 @@ static struct step step_begin(const struct run_clock *clock, real damping, struc
  * now->broken: number of these bonds; now->converted: receives the number of points. */
 static void conversion(struct run *e, struct step *now)
 {
-    const bool marked = conversion_flag_points_near_bodies_or_faces(e);
-    sample_record_broken_bonds(e, now->broken);
-    now->converted = conversion_convert_points_and_update_run(e, now->broken, marked,
-                                                              cracks_have_gradually_weakening_bonds(e->fracture));
+    const bool marked = conversion_flag_points_near_contact(e);
+    run_record_broken_bonds_of_step(e, now->broken);
+    now->converted = run_convert_flagged_points_to_peridynamic(e, now->broken, marked,
+                                                               any_growing_crack_weakens_bonds_gradually(e->fracture));
     timer_add_elapsed_to_section(&e->timers, TIMER_CONVERT);
 }
 
@@ -67,7 +67,7 @@ static status sort(struct run *e)
 {
     bool lost;
     TRY(grid_sort_points_into_cells(e, &lost));
-    return lost ? divergence_check_particles(e, true, false) : OK;
+    return lost ? run_check_particles_for_divergence(e, true, false) : OK;
 }
 
 /* Damps the velocities of points of run e in the interface zone (material points near peridynamic particles), before
@@ -78,7 +78,8 @@ static void zone_damp(struct run *e, struct step *now)
 {
     now->damps = e->coupling->zone.points > 0 && e->coupling->damping_share > 0;
     if (!now->damps) return;
-    e->damped += interface_zone_damp_and_return_half_energy(&e->coupling->zone, &e->part, e->coupling->damping_share);
+    e->damped +=
+        interface_zone_damp_return_loss_by_old_velocity(&e->coupling->zone, &e->part, e->coupling->damping_share);
     loads_update_mirror_images(&e->loads, &e->part); /* breaking bonds read the velocities of mirror images */
 }
 
@@ -88,7 +89,7 @@ static void zone_damp(struct run *e, struct step *now)
 static void damping_begin(struct run *e, const struct step *now)
 {
     real *const *before = e->report->sampling.before;
-    e->loads.damped = damping_shares_of_step(now->decay, e->clock.step == 0);
+    e->loads.damped = damping_undamped_velocity_excess(now->decay, e->clock.step == 0);
     if (!(now->decay > 0)) return;
     if (e->clock.step == 0) {
         e->damped += damping_apply_first_half_return_energy_loss(&e->part, &e->frame->mesh, &e->loads, now->decay);
@@ -133,7 +134,7 @@ static void push_bonds(struct run *e, struct step *now)
 static void push_contact(struct contact *c, struct particles *p, const struct run_report *report, const struct scene *s,
                          const struct run_clock *clock)
 {
-    c->recorded = c->push[0] && report_bits_of_frame_series_due(report->out, s, clock, clock->step + 1) != 0;
+    c->recorded = c->push[0] && report_bitmask_of_frame_series_due(report->out, s, clock, clock->step + 1) != 0;
     contact_compute_forces(c, p, clock->step > 0 ? clock->dt : 0);
     contact_record_first_and_last_contact_time(c, clock->t);
 }
@@ -164,7 +165,7 @@ static status move_grid(struct run *e, const struct step *now)
     if (any && e->part.end_strain)
         bonded_points_compute_strain_from_stress(&e->coupling->partial, &e->part, e->scene->material);
     if (any) timer_add_elapsed_to_section(&e->timers, TIMER_GATHER);
-    if (now->damps) e->damped += interface_zone_second_half_of_damped_energy(&e->coupling->zone, &e->part);
+    if (now->damps) e->damped += interface_zone_damping_loss_by_new_velocity(&e->coupling->zone, &e->part);
     return OK;
 }
 
@@ -173,10 +174,10 @@ static status move_grid(struct run *e, const struct step *now)
 static void move_frame(struct run *e, const struct step *now)
 {
     if (e->frame->mesh.points == 0) return;
-    reference_frame_compute_forces(e->frame, &e->part, e->clock.step);
+    lagrangian_mesh_compute_nodal_forces(e->frame, &e->part, e->clock.step);
     viscosity_add_nodal_forces(e);
     if (e->clock.step == 0) patch_test_include_mesh_residual_force(e->probing, e->scene, &e->frame->mesh);
-    reference_frame_move_nodes(e->frame, &e->part, &e->loads, &e->clock, now->middle, now->dt_velocity);
+    lagrangian_mesh_move_nodes(e->frame, &e->part, &e->loads, &e->clock, now->middle, now->dt_velocity);
 }
 
 /* Adds the reactions at nodes of run e with prescribed velocity to their supports. Then sets velocities and positions
@@ -200,23 +201,23 @@ static void finish(struct run *e, const struct step *now)
                           : 0;
     e->damped += loss;
     e->report->sampling.energy.damped += loss;
-    sample_complete_after_step(e);
+    history_sample_complete_after_step(e);
     if (damps) damping_apply_full_step(&e->part, &e->frame->mesh, &e->loads, now->decay);
     e->clock.t = (real)(e->clock.step + 1) * e->clock.dt;
     e->clock.step++;
     timer_add_elapsed_to_section(&e->timers, TIMER_SAMPLE);
 }
 
-bool step_flag_points_before_rigid_bodies_move(struct run *e, real present, real t)
+bool load_step_flag_points_near_rigid_bodies(struct run *e, real present_pseudo_time, real t)
 {
     if (!e->coupling->approaches || e->rigid->n == 0) return false;
     rigids_move_to_prescribed_positions(e->rigid, t);
-    conversion_flag_points_near_bodies_or_faces(e);
-    rigids_move_to_prescribed_positions(e->rigid, present);
+    conversion_flag_points_near_contact(e);
+    rigids_move_to_prescribed_positions(e->rigid, present_pseudo_time);
     return true;
 }
 
-bool step_convert_points_at_broken_bonds(struct run *e, int64_t broken_bond_count)
+bool load_step_convert_points_near_breaks_to_pd(struct run *e, int64_t broken_bond_count)
 {
     struct step now = {.broken = broken_bond_count};
     if (e->frame->mesh.points > 0 && e->scene->method == METHOD_ADAPTIVE)
@@ -245,7 +246,7 @@ status step(struct run *e)
     if (e->coupling->approaches && e->clock.step == 0) conversion(e, &now); /* bodies that touch at the start */
     reversion_convert_relaxed_particles_to_mpm(e);
     motion_begin(e, &now);
-    sample_begin_before_step(e);
+    history_sample_begin_before_step(e);
     TRY(sort(e));
     zone_damp(e, &now);
     damping_begin(e, &now);
@@ -253,10 +254,10 @@ status step(struct run *e)
     push_bonds(e, &now); /* 2, 5 */
     viscosity_add_bond_forces_and_pressure(e);
     push_contact(e->contact, &e->part, e->report, e->scene, &e->clock);
-    rigids_subtract_impulse_and_update_work(e->rigid, now.dt_velocity, e->loads.impulse);
-    loads_apply_to_particle_forces(&e->loads, &e->part, now.middle, e->clock.dt, now.dt_velocity);
+    rigids_update_work_and_particle_impulse(e->rigid, now.dt_velocity, e->loads.impulse);
+    loads_apply_forces_and_motion_constraints(&e->loads, &e->part, now.middle, e->clock.dt, now.dt_velocity);
     timer_add_elapsed_to_section(&e->timers, TIMER_BONDS);
-    sample_compute_energies(e);
+    history_sample_compute_energies(e);
     now.broken += cracks_grow_one_step_and_count_cut_bonds(e);
     timer_add_elapsed_to_section(&e->timers, TIMER_SAMPLE);
 

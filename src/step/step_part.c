@@ -46,8 +46,8 @@ static void put_figure(void *context, const char *probe, const char *quantity, r
     struct probe_sink *sink = context;
     if (!isfinite(value)) return;
     if (!sink->open || strcmp(sink->name, probe) != 0) {
-        if (sink->open) json_close(sink->json, '}');
-        json_open(sink->json, probe, '{');
+        if (sink->open) json_end_object_or_list(sink->json, '}');
+        json_begin_object_or_list(sink->json, probe, '{');
         snprintf(sink->name, sizeof sink->name, "%s", probe);
         sink->open = true;
     }
@@ -57,10 +57,10 @@ static void put_figure(void *context, const char *probe, const char *quantity, r
 static void put_probes(struct json *j, const struct probes *s, const struct observed_run *o)
 {
     struct probe_sink sink = {.json = j};
-    json_open(j, "probes", '{');
+    json_begin_object_or_list(j, "probes", '{');
     probes_visit_results(s, o, put_figure, &sink);
-    if (sink.open) json_close(j, '}');
-    json_close(j, '}');
+    if (sink.open) json_end_object_or_list(j, '}');
+    json_end_object_or_list(j, '}');
 }
 
 /* Writes the JSON object `uncertainty` with the half-widths of the error bars of scalar results to j, if a study of
@@ -68,14 +68,14 @@ static void put_probes(struct json *j, const struct probes *s, const struct obse
 static void put_error_bars(struct json *j, const struct run_report *r)
 {
     if (r->bars == 0) return;
-    json_open(j, "uncertainty", '{');
+    json_begin_object_or_list(j, "uncertainty", '{');
     for (int k = 0; k < r->bars; k++) json_write_rounded(j, r->bar[k].figure, r->bar[k].half_width, 3);
-    json_close(j, '}');
+    json_end_object_or_list(j, '}');
 }
 
 static void put_figures(const struct run *e, struct json *j)
 {
-    const struct observed_run o = observed_run_view_of(e);
+    const struct observed_run o = observed_run_make_read_only_view(e);
     put_probes(j, &e->probing->probes, &o);
     put_error_bars(j, e->report);
 }

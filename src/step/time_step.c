@@ -60,7 +60,7 @@ static real fastest_driven(const struct scene *s, const struct loads *l, const s
 {
     for (int b = 0; b < s->boundaries; b++)
         if (s->boundary[b].displaces && s->solver == SOLVER_EXPLICIT)
-            speed = real_max(speed, load_largest_displacement_speed(&l->load[b], p, s->duration));
+            speed = real_max(speed, load_largest_speed_of_prescribed_displacement(&l->load[b], p, s->duration));
         else if (s->boundary[b].kind == BOUNDARY_VELOCITY && !s->boundary[b].displaces)
             speed = real_max(speed, sqrt(dot(s->boundary[b].value, s->boundary[b].value, s->dim)));
     return speed;
@@ -90,8 +90,8 @@ static const real met_by_grid[2][DIM_MAX + 1] = {{1, 1, 1, 0.62}, {1, 0.86, 0.81
 static real share_of_coupling(const struct scene *s, enum coupling coupling)
 {
     const bool two = s->cell >= 2;
-    if (coupling_has_one_grid(coupling)) return moved_by_grid[two][s->dim];
-    return coupling_moves_by_grid(coupling) && s->transfer == TRANSFER_FLIP ? met_by_grid[two][s->dim] : 1;
+    if (coupling_moves_all_particles_by_one_grid(coupling)) return moved_by_grid[two][s->dim];
+    return coupling_moves_pd_particles_by_grid(coupling) && s->transfer == TRANSFER_FLIP ? met_by_grid[two][s->dim] : 1;
 }
 
 /* Returns the force function of elastic bonds, with which the critical time step of the bonds of the scene s is
@@ -182,7 +182,7 @@ static status make_steps(const struct scene *s, struct run_clock *clock, real dt
  * their value is 0.7, or INFINITY (no limit) if the safety factor of the scene s is above 1. */
 static real contact_safety(const struct scene *s)
 {
-    if (!scene_bodies_can_meet(s)) return s->safety > 1 ? INFINITY : 0.7;
+    if (!scene_bodies_can_come_into_contact(s)) return s->safety > 1 ? INFINITY : 0.7;
     return real_min(s->safety, s->dim == 1 ? 0.35 : 0.5);
 }
 
@@ -215,7 +215,7 @@ static real lightest_share(const struct scene *s, const struct particles *p)
  * their number is that of the scene. The limits of all methods of the scene apply from the start, because particles
  * convert later. Returns REFUSED, with a message, if the prescribed step is too large for coarse cells, or the steps
  * are too many. */
-status time_step_choose_and_count_steps(struct run *e)
+status run_choose_time_step_and_step_count(struct run *e)
 {
     const struct scene *s = e->scene;
     const bool on_grid = e->part.n_free + e->part.n_grid_coupled > 0;
@@ -224,7 +224,7 @@ status time_step_choose_and_count_steps(struct run *e)
         points = critical_of_points(s, &e->tables, e->grid->field[0].grid.h,
                                     fastest_driven(s, &e->loads, &e->part, e->stability->start_speed));
     e->clock.dt_critical = real_min(real_min(critical_of_bonds(e), points),
-                                    reference_frame_critical_time_step(e->frame, s, e->coupling_kind)) *
+                                    lagrangian_mesh_critical_time_step(e->frame, s, e->coupling_kind)) *
                            sqrt(lightest_share(s, &e->part)) *
                            viscosity_time_step_factor(s, &e->loads, &e->part, e->stability->start_speed);
     const real contact = contact_critical_time_step(e->contact, &e->part, s->material, e->clock.dt_critical);

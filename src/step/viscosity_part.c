@@ -75,7 +75,7 @@ static void bonds_push(struct viscosity *v, const struct bonds *b, struct partic
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < p->n; i++) {
         real f[DIM_MAX] = {0};
-        for (struct bond_iterator it = bond_iterator_of_row(b, b->row_of[i]); bond_next(&it);)
+        for (struct bond_iterator it = bond_iterator_of_row(b, b->row_of[i]); bond_iterator_advance(&it);)
             if (it.bond.w != 0) bond_push(v->material, p, i, &it.bond, b->stiffness, f);
         v->work[i] = 0;
         for (int d = 0; d < p->dim; d++) {
@@ -271,7 +271,7 @@ static real speed_of_load(const struct load *l, const struct particles *p, real 
     const struct boundary *b = l->boundary;
     const real size = sqrt(dot(b->value, b->value, p->dim));
     if (b->kind == BOUNDARY_VELOCITY) {
-        const real speed = real_max(load_largest_driven_speed(l, p, duration), b->displaces ? 0 : size);
+        const real speed = real_max(load_largest_prescribed_speed(l, p, duration), b->displaces ? 0 : size);
         return isfinite(speed) ? speed : 0;
     }
     real most = b->time.n > 0 ? 0 : 1;

@@ -29,10 +29,10 @@ double student_t_quantile_975(int degrees_of_freedom)
  * spacing and number. k: the level, 0 the finest; n: number of all runs. Run i has the spacing spacing[i] [m] (NULL:
  * not summarised), the level level[i] (NULL: all runs count) and the value value[i]. Runs whose value is not finite
  * are left out. The deviation is NAN for a single run. */
-static void level_find(struct level_figures *l, const double *spacing, const double *value, const int *level, int n,
-                       int k)
+static void level_find(struct spacing_level_statistics *l, const double *spacing, const double *value, const int *level,
+                       int n, int k)
 {
-    *l = (struct level_figures){0};
+    *l = (struct spacing_level_statistics){0};
     for (int r = 0; r < n; r++)
         if ((!level || level[r] == k) && isfinite(value[r])) {
             l->spacing += spacing ? spacing[r] : 0, l->mean += value[r];
@@ -53,7 +53,7 @@ static double error_of_mean(double deviation, int freedom, int runs)
     return freedom > 0 ? student_t_quantile_975(freedom) * deviation / sqrt(runs) : 0;
 }
 
-void convergence_summarise_runs(struct level_figures *l, const double *value, int run_count)
+void convergence_compute_mean_over_runs(struct spacing_level_statistics *l, const double *value, int run_count)
 {
     level_find(l, NULL, value, NULL, run_count, 0);
     l->error = error_of_mean(l->deviation, l->runs - 1, l->runs);
@@ -73,7 +73,7 @@ static void errors_find(struct convergence *c, const double *resolution)
             freedom += c->level[k].runs - 1;
         }
     for (int k = 0; k < c->levels; k++) {
-        struct level_figures *l = &c->level[k];
+        struct spacing_level_statistics *l = &c->level[k];
         const bool alone = l->runs == 1;
         if (alone) l->deviation = freedom > 0 ? sqrt(sum / freedom) : 0;
         const int own = alone ? freedom : l->runs - 1;
@@ -87,7 +87,7 @@ static void errors_find(struct convergence *c, const double *resolution)
 /* Returns the ratio (m2 - m1)/(m1 - m0) of the means m0, m1, m2 of a scalar result at the three finest spacing levels
  * l[3] (runs with one particle spacing each; l[0] the finest) that would result if the error were proportional to h^p,
  * with the spacing h. */
-static double ratio_at(const struct level_figures *l, double p)
+static double ratio_at(const struct spacing_level_statistics *l, double p)
 {
     const double h0 = l[0].spacing, h1 = l[1].spacing / h0, h2 = l[2].spacing / h0;
     if (fabs(p) < 1e-9) return log(h2 / h1) / log(h1);
@@ -97,7 +97,7 @@ static double ratio_at(const struct level_figures *l, double p)
 /* Returns the order p for which the means m of a result at the three finest spacing levels l[3] (runs with one
  * particle spacing each; l[0] the finest) are linear in h^p, with the spacing h. It is found by bisection between -10
  * and 20. ratio: measured (m2 - m1)/(m1 - m0). */
-static double order_find(const struct level_figures *l, double ratio)
+static double order_find(const struct spacing_level_statistics *l, double ratio)
 {
     double low = -10, high = 20;
     for (int k = 0; k < 80; k++) {
@@ -119,7 +119,7 @@ struct orders {
 /* Computes the observed order of convergence of a scalar result from its means at the three finest spacing levels l[3]
  * (runs with one particle spacing each; l[0] the finest), and the range of orders that the errors of the means allow,
  * into *o. Returns false if the means oscillate by more than their errors. */
-static bool orders_find(struct orders *o, const struct level_figures *l)
+static bool orders_find(struct orders *o, const struct spacing_level_statistics *l)
 {
     const double sign =
         fabs(l[2].mean - l[1].mean) > fabs(l[1].mean - l[0].mean) ? l[2].mean - l[1].mean : l[1].mean - l[0].mean;
@@ -139,7 +139,7 @@ static bool orders_find(struct orders *o, const struct level_figures *l)
  * is NAN or below 1/2. */
 static void convergence_judge(struct convergence *c)
 {
-    const struct level_figures *l = c->level;
+    const struct spacing_level_statistics *l = c->level;
     const double near = fabs(l[1].mean - l[0].mean), far = fabs(l[2].mean - l[1].mean);
     struct orders o;
     c->order = c->index = NAN;
@@ -174,6 +174,6 @@ bool convergence_evaluate_scalar_result(struct convergence *c, const double *spa
     }
     errors_find(c, resolution);
     convergence_judge(c);
-    convergence_compute_intervals(c);
+    convergence_fit_order_and_uncertainty_intervals(c);
     return true;
 }

@@ -20,11 +20,11 @@ enum { SHOWN_MOST = 6, SHOWN_WIDE = 3, TIPS_MOST = 16, TICS_MOST = 7 };
 #define FLICKER 3.0 /* largest apparent motion of a tip that does not grow [spacings] */
 
 /* Returns the path FOLDER/pictures/KEY.png of a picture of the study in `folder`, with KEY = key (the name of the
- * picture), or with the ending of another format that picture_size_set has set. */
+ * picture), or with the ending of another format that picture_size_set_process_wide has set. */
 static struct path convergence_picture(const char *folder, const char *key)
 {
     char name[PICTURE_NAME_ROOM];
-    study_picture_name(name, key);
+    study_picture_write_file_name(name, key);
     return path_join(path_join(folder, "pictures").text, name);
 }
 
@@ -55,8 +55,9 @@ static double interval_begin(const struct scalar_result_study *f, int k)
  * and the extrapolated result. */
 static void send_figure(FILE *to, const struct convergence_study *s, const struct scalar_result_study *f, int panel)
 {
-    const int at = study_index_of_result(&s->table, f->name);
-    const double factor = scalar_result_unit(f).factor, metre = convergence_spacing_unit(s).factor;
+    const int at = study_table_index_of_result(&s->table, f->name);
+    const double factor = scalar_result_study_choose_unit(f).factor,
+                 metre = convergence_study_choose_spacing_unit(s).factor;
     fprintf(to, "$r%d << EOD\n", panel);
     for (int k = 0; k < s->study.n; k++)
         if (s->point[k].level >= 0 && isfinite(s->table.value[at][k]))
@@ -81,9 +82,9 @@ static bool is_extrapolated(const struct convergence *c)
 static void plot_figure(FILE *to, const struct scalar_result_study *f, int panel, double metre)
 {
     const struct convergence *c = &f->c;
-    const struct unit unit = scalar_result_unit(f);
+    const struct unit unit = scalar_result_study_choose_unit(f);
     char title[256];
-    study_figure_title(title, sizeof title, f->name, *f->unit ? unit.name : "");
+    study_write_panel_title(title, sizeof title, f->name, *f->unit ? unit.name : "");
     fputs("set title ", to);
     gnuplot_write_quoted_string(to, title);
     fputs("\nplot ", to);
@@ -105,8 +106,8 @@ static void plot_figure(FILE *to, const struct scalar_result_study *f, int panel
 static void send_tics_of_panel(FILE *to, const struct convergence_study *s, const struct scalar_result_study *f,
                                double coarsest, double wide, double high)
 {
-    const bool narrow = picture_is_too_narrow_for_key();
-    const double *value = s->table.value[study_index_of_result(&s->table, f->name)];
+    const bool narrow = picture_size_is_too_narrow_for_side_legend();
+    const double *value = s->table.value[study_table_index_of_result(&s->table, f->name)];
     double low = INFINITY, end = -INFINITY;
     for (int k = 0; k < f->c.levels; k++) {
         low = fmin(low, interval_begin(f, k));
@@ -114,12 +115,12 @@ static void send_tics_of_panel(FILE *to, const struct convergence_study *s, cons
     }
     for (int k = 0; k < s->study.n; k++)
         if (s->point[k].level >= 0 && isfinite(value[k])) low = fmin(low, value[k]), end = fmax(end, value[k]);
-    const double factor = scalar_result_unit(f).factor;
+    const double factor = scalar_result_study_choose_unit(f).factor;
     const struct study_axis axis = {low / factor, isfinite(end - low) ? end / factor : low / factor, false};
     const int across = (int)fmin(fmax(wide / (narrow ? 46 : 60), 1), TICS_MOST),
               up = (int)fmax(high / (narrow ? 26 : 34), 2);
     fprintf(to, "set xtics %g\n", axis_tick_distance(1.1 * coarsest, across));
-    study_axis_send(to, "y", &axis, up);
+    study_axis_write_to_gnuplot(to, "y", &axis, up);
 }
 
 /* Layout of the panels of a picture of scalar results [pixel]. width, height: size of the picture; columns, rows:
@@ -138,7 +139,7 @@ enum { KEY_WIDE = 250, KEY_HIGH = 52, CELL_WIDE = 420, CELL_HIGH = 360 };
  * g: gnuplot process with the size of the picture, or NULL for a size that follows from the number of panels. */
 static struct figures_layout figures_layout_make(int shown, const struct gnuplot *g)
 {
-    const bool narrow = picture_is_too_narrow_for_key();
+    const bool narrow = picture_size_is_too_narrow_for_side_legend();
     const int wide = shown < SHOWN_WIDE ? shown : SHOWN_WIDE, rows = (shown + SHOWN_WIDE - 1) / SHOWN_WIDE;
     struct figures_layout best = {.width = g ? g->width : KEY_WIDE + CELL_WIDE * wide, .columns = wide};
     double largest = 0;
@@ -146,7 +147,7 @@ static struct figures_layout figures_layout_make(int shown, const struct gnuplot
     best.left = narrow ? 76 : 106, best.right = narrow ? 20 : 24, best.title = narrow ? 40 : 44,
     best.below = narrow ? 56 : 68;
     if (narrow && !g) {
-        best.width = picture_size_get().width, best.columns = 1 + (shown > 2);
+        best.width = picture_size_get_process_wide().width, best.columns = 1 + (shown > 2);
         best.rows = (shown + best.columns - 1) / best.columns;
         const double panel = (double)best.width / best.columns - best.left - best.right;
         best.height = (int)(KEY_HIGH + best.rows * (best.title + 0.6 * panel + best.below));
@@ -185,7 +186,7 @@ static void draw_figures_key(FILE *to, const struct figures_layout *l, bool extr
     fputs("unset border\nunset tics\nunset title\nunset xlabel\nunset grid\nset offsets\nset lmargin at screen 0\n"
           "set rmargin at screen 1\nset bmargin at screen 0\nset tmargin at screen 1\n",
           to);
-    if (picture_is_too_narrow_for_key())
+    if (picture_size_is_too_narrow_for_side_legend())
         fprintf(to, "set key at screen %.5f,%.5f left top horizontal maxcols 2 maxrows 2\n", 8.0 / l->width,
                 (KEY_HIGH - 4.0) / l->height);
     else
@@ -207,9 +208,9 @@ static status draw_figures(const struct convergence_study *s, const struct scala
     const struct figures_layout usual = figures_layout_make(shown, NULL);
     struct gnuplot g;
     const struct path picture = convergence_picture(s->study.folder, "convergence");
-    const struct unit metre = convergence_spacing_unit(s);
+    const struct unit metre = convergence_study_choose_spacing_unit(s);
     const double coarsest = s->spacings.at[s->spacings.levels - 1][0] / metre.factor;
-    TRY(gnuplot_open(&g, picture.text, picture_size_get().format, usual.width, usual.height));
+    TRY(gnuplot_open(&g, picture.text, picture_size_get_process_wide().format, usual.width, usual.height));
     const struct figures_layout l = figures_layout_make(shown, &g);
     for (int k = 0; k < shown; k++) send_figure(g.to, s, &figure[k], k);
     fprintf(g.to,
@@ -371,10 +372,10 @@ struct paths_layout {
  * (legend). */
 static struct paths_layout paths_layout_make(int levels)
 {
-    if (!picture_is_too_narrow_for_key())
+    if (!picture_size_is_too_narrow_for_side_legend())
         return (struct paths_layout){PATHS_LEFT, PATHS_RIGHT, PATHS_ABOVE, PATHS_BELOW, 1, levels};
     struct paths_layout l = {PATHS_LEFT_NARROW, PATHS_RIGHT_NARROW, PATHS_ABOVE_NARROW, PATHS_BELOW_NARROW, 1, 1};
-    l.key_columns = (int)fmax((picture_size_get().width - l.left - l.right) / PATHS_ENTRY, 1);
+    l.key_columns = (int)fmax((picture_size_get_process_wide().width - l.left - l.right) / PATHS_ENTRY, 1);
     l.key_lines = (levels + l.key_columns - 1) / l.key_columns;
     l.below += PATHS_KEY_ROW * l.key_lines;
     return l;
@@ -412,7 +413,7 @@ struct path_plots {
 static void paths_send(FILE *to, const struct convergence_study *s, struct extent *e, struct path_plots *p)
 {
     bool named[LEVELS_MOST] = {false};
-    const struct unit metre = convergence_spacing_unit(s);
+    const struct unit metre = convergence_study_choose_spacing_unit(s);
     for (int k = 0; k < s->study.n; k++) {
         const int level = s->point[k].level;
         if (level < 0 || !send_path(to, s, k, e)) continue;
@@ -435,7 +436,7 @@ static void paths_send(FILE *to, const struct convergence_study *s, struct exten
  * of the key (legend). */
 static void paths_write_axes(const struct gnuplot *g, const struct extent *e, const struct paths_layout *l)
 {
-    const bool narrow = picture_is_too_narrow_for_key();
+    const bool narrow = picture_size_is_too_narrow_for_side_legend();
     const double range[2] = {e->high[0] - e->low[0], e->high[1] - e->low[1]};
     const double wide = g->width - l->left - l->right, high = g->height - l->above - l->below;
     const double scale = fmin(wide / range[0], high / range[1]);
@@ -478,8 +479,10 @@ static status draw_paths(const struct convergence_study *s)
     }
     if (plots.drawn > 0) extent_widen(&e);
     const struct paths_layout l = paths_layout_make(s->spacings.levels);
-    const int width = picture_is_too_narrow_for_key() ? picture_size_get().width : paths_width(&e, &l);
-    status done = gnuplot_open(&g, picture.text, picture_size_get().format, width, paths_height(&e, &l, width));
+    const int width =
+        picture_size_is_too_narrow_for_side_legend() ? picture_size_get_process_wide().width : paths_width(&e, &l);
+    status done =
+        gnuplot_open(&g, picture.text, picture_size_get_process_wide().format, width, paths_height(&e, &l, width));
     if (done == OK) {
         fputs(data, g.to);
         if (plots.drawn > 0) {
@@ -494,9 +497,10 @@ static status draw_paths(const struct convergence_study *s)
     return done;
 }
 
-status scalar_results_draw(const struct convergence_study *s, const struct scalar_result_study *figure, int figures)
+status scalar_results_draw_over_spacing(const struct convergence_study *s, const struct scalar_result_study *results,
+                                        int result_count)
 {
-    TRY(folder_make(path_join(s->study.folder, "pictures").text));
-    TRY(draw_figures(s, figure, figures));
-    return s->scene.dim > 1 && study_index_of_result(&s->table, "crack.length_end") >= 0 ? draw_paths(s) : OK;
+    TRY(folder_create_with_parents(path_join(s->study.folder, "pictures").text));
+    TRY(draw_figures(s, results, result_count));
+    return s->scene.dim > 1 && study_table_index_of_result(&s->table, "crack.length_end") >= 0 ? draw_paths(s) : OK;
 }

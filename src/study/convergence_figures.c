@@ -67,7 +67,7 @@ static double horizon_moves(const struct convergence_study *s, const double *val
 static bool resolution_find(double *resolution, const struct convergence_study *s, const char *name)
 {
     const char *dot = strrchr(name, '.'), *own = dot ? dot + 1 : name;
-    const int length = study_index_of_result(&s->table, "crack.length_end");
+    const int length = study_table_index_of_result(&s->table, "crack.length_end");
     const bool tip = !strncmp(name, "crack.", 6) || !strncmp(name, "probes.tip", 10);
     const bool is_angle = !strcmp(own, "angle_deg") && length >= 0;
     const bool is_place = !strcmp(own, "length_end") || !strcmp(own, "x") || !strcmp(own, "y") || !strcmp(own, "z");
@@ -102,7 +102,7 @@ static bool figure_make(struct scalar_result_study *f, const struct convergence_
     f->horizon_moves = horizon_moves(s, s->table.value[at]);
     if (s->scene.irregularity > 0 && isfinite(f->horizon_moves)) {
         f->c.bias = HORIZON_REST * fabs(f->horizon_moves);
-        convergence_compute_intervals(&f->c);
+        convergence_fit_order_and_uncertainty_intervals(&f->c);
     }
     f->spacing_moves = f->c.level[0].mean - f->c.level[1].mean;
     return true;
@@ -128,7 +128,8 @@ static bool is_of_interest(const struct convergence_study *s, const char *name)
 {
     const char *dot = strrchr(name, '.');
     if (s->scene.dim == 1 && dot && !strcmp(dot, ".angle_deg")) return false;
-    return !study_result_is_technical(name) && strncmp(name, "crack.tips.", 11) != 0 && !(dot && !strcmp(dot, ".tied"));
+    return !result_describes_computation_instead_of_body(name) && strncmp(name, "crack.tips.", 11) != 0 &&
+           !(dot && !strcmp(dot, ".tied"));
 }
 
 /* Returns true if the number of summary.json called `name` is a coordinate of an event that occurred at several
@@ -140,7 +141,7 @@ static bool is_one_of_several(const struct convergence_study *s, const char *nam
     char tied[NAME_MAX_LENGTH * 2];
     if (!dot || (strcmp(dot, ".x") && strcmp(dot, ".y") && strcmp(dot, ".z"))) return false;
     snprintf(tied, sizeof tied, "%.*s.tied", (int)(dot - name), name);
-    const int count = study_index_of_result(&s->table, tied);
+    const int count = study_table_index_of_result(&s->table, tied);
     for (int k = 0; k < s->study.n && count >= 0; k++)
         if (s->table.value[count][k] > 1) return true;
     return false;
@@ -170,7 +171,7 @@ status scalar_results_determine_convergence(const struct convergence_study *s, c
                                             int wanted_count, struct scalar_result_study **figure, int *figure_count)
 {
     for (int k = 0; k < wanted_count; k++)
-        if (study_index_of_result(&s->table, wanted_names[k]) < 0)
+        if (study_table_index_of_result(&s->table, wanted_names[k]) < 0)
             return status_set(REFUSED,
                               "%s: summary.json has no number of this name; join the names that lead to the number by "
                               "dots, as in crack.angle_deg",
@@ -241,13 +242,14 @@ static void figures_table(FILE *to, const struct convergence_study *s, const str
     }
 }
 
-status scalar_results_write(const struct convergence_study *s, const struct scalar_result_study *figure, int figures)
+status scalar_results_write(const struct convergence_study *s, const struct scalar_result_study *results,
+                            int result_count)
 {
     char *text = NULL;
     size_t length = 0;
     FILE *to = memory_stream_open(&text, &length);
-    if (to) figures_table(to, s, figure, figures);
-    TRY(study_write_stream_to_file(&s->study, "converge.csv", to, &text, &length));
+    if (to) figures_table(to, s, results, result_count);
+    TRY(study_write_memory_stream_to_file(&s->study, "converge.csv", to, &text, &length));
     return study_write_scene_and_options(s->study.folder, s->scene.text, s->study.options);
 }
 
@@ -309,11 +311,11 @@ static void order_print(const struct scalar_result_study *f)
 /* Returns a copy of the result f (scalar result) with all values converted to the unit in which it is printed. */
 static struct scalar_result_study figure_in_printed_unit(const struct scalar_result_study *f)
 {
-    const struct unit unit = scalar_result_unit(f);
+    const struct unit unit = scalar_result_study_choose_unit(f);
     struct scalar_result_study p = *f;
     snprintf(p.unit, sizeof p.unit, "%.15s", unit.name);
     for (int k = 0; k < p.c.levels; k++) {
-        struct level_figures *level = &p.c.level[k];
+        struct spacing_level_statistics *level = &p.c.level[k];
         level->mean /= unit.factor, level->error /= unit.factor, level->deviation /= unit.factor;
         p.c.uncertainty[k] /= unit.factor, p.c.discretisation[k] /= unit.factor;
     }
@@ -354,7 +356,7 @@ static void figure_print(const struct scalar_result_study *figure, int own, cons
 void scalar_results_print(const struct convergence_study *s, const struct scalar_result_study *figure, int figures)
 {
     const int shown = figures < PRINTED_MOST ? figures : PRINTED_MOST;
-    const struct unit metre = convergence_spacing_unit(s);
+    const struct unit metre = convergence_study_choose_spacing_unit(s);
     int lost = 0;
     printf("for each figure of summary.json: its mean at each spacing and its convergence with the spacing; below, its "
            "value at %.4g %s +- the error bar within which the true value is with 95 %% probability\n",

@@ -56,7 +56,7 @@ static double part_fit(const struct convergence *c, double scale, double p, doub
     const double trend = pow(c->level[c->levels - 1].spacing / c->level[0].spacing, p) - 1;
     double vv = 1 / square(VAGUE), va = 0, aa = square(trend), v = 0, a = 0, misfit = 0, spread = -2 * log(trend);
     for (int k = 0; k < c->levels; k++) {
-        const struct level_figures *l = &c->level[k];
+        const struct spacing_level_statistics *l = &c->level[k];
         const double x = pow(l->spacing / c->level[0].spacing, p), y = (l->mean - c->level[0].mean) / scale;
         const double variance = square(0.5 * l->error / scale) + square(t);
         vv += 1 / variance, va += x / variance, aa += x * x / variance;
@@ -141,7 +141,7 @@ static double normal_half_width(double share)
     return high;
 }
 
-double convergence_interval_half_width(const struct convergence *c, double centre, double probability)
+double convergence_confidence_interval_half_width(const struct convergence *c, double centre, double probability)
 {
     struct mixture m;
     const double scale = range_scale(c), rest = c->bias > 0 ? c->bias * normal_half_width(probability) : 0;
@@ -149,7 +149,7 @@ double convergence_interval_half_width(const struct convergence *c, double centr
     return hypot(scale * mixture_half_width(&m, (centre - c->level[0].mean) / scale, probability), rest);
 }
 
-void convergence_compute_intervals(struct convergence *c)
+void convergence_fit_order_and_uncertainty_intervals(struct convergence *c)
 {
     struct mixture m;
     const double scale = range_scale(c);
@@ -168,7 +168,7 @@ void convergence_compute_intervals(struct convergence *c)
     c->extrapolated += scale * value;
     for (int k = 0; k < c->levels; k++) {
         const double error = c->level[k].error;
-        c->uncertainty[k] = convergence_interval_half_width(c, c->level[k].mean, 0.95);
+        c->uncertainty[k] = convergence_confidence_interval_half_width(c, c->level[k].mean, 0.95);
         c->discretisation[k] = sqrt(fmax(square(c->uncertainty[k]) - square(error), 0));
     }
 }

@@ -52,7 +52,7 @@ static void places_find(struct places *p, const struct scene *s)
         for (int d = 0; d < s->dim; d++) {
             place_add(p, high[d] - low[d], s->spacing);
             for (int k = 0; k < shape->n; k++) {
-                if (!solid_is_of_kind_and_not_moved(&shape->solid[k], SOLID_BOX)) continue;
+                if (!solid_is_untransformed_and_of_kind(&shape->solid[k], SOLID_BOX)) continue;
                 place_add(p, shape->solid[k].from[d] - low[d], s->spacing);
                 place_add(p, shape->solid[k].to[d] - low[d], s->spacing);
             }

@@ -177,12 +177,12 @@ static status first_run(struct convergence_study *s, const struct convergence_re
     options.quiet = true;
     options.until = s->begun + s->budget;
     level_run_add(s, s->spacings.levels - 1, 0, w->runs);
-    TRY(study_determine_case_states(&s->study, false));
+    TRY(study_find_completed_failed_and_equal_cases(&s->study, false));
     TRY(study_execute_waiting_runs(&s->study, options));
     const struct study_case *run = &s->study.at[s->first];
     *refused = run->state == CASE_FAILED && run->ended == REFUSED;
     const double coarsest = s->point[s->first].spacing;
-    const struct unit metre = unit_for_spacings(coarsest);
+    const struct unit metre = unit_choose_for_particle_spacings(coarsest);
     if (run->state == CASE_STOPPED || run->state == CASE_WAITING)
         return status_set(REFUSED,
                           "--budget %.3g s is too small: one run at %.4g %s, the coarsest spacing, takes longer; give "
@@ -231,7 +231,7 @@ static status first_run_sound(struct convergence_study *s, const struct converge
  * The finest level has the spacing that the input file (scene) gives times 2^(shift/2), so that the scene's own
  * spacing is among the levels if shift is at most 0. Omits levels at which the scene is invalid. Returns false if no
  * valid plan results. */
-static bool levels_plan(struct convergence_study *s, const struct convergence_request *w, int shift)
+static bool mesh_levels_plan(struct convergence_study *s, const struct convergence_request *w, int shift)
 {
     int levels = w->levels - (shift < 0 ? shift : 0);
     if (levels > LEVELS_MOST) return false;
@@ -254,7 +254,7 @@ static status plan_fit(struct convergence_study *s, const struct convergence_req
     bool planned = false;
     for (size_t k = 0; k < COUNT_OF(own_first); k++) {
         const int shift = w->finer ? finer_first[k] : own_first[k];
-        if (!levels_plan(s, w, shift) || (shift < 0 && !w->finer && !isfinite(s->refused))) continue;
+        if (!mesh_levels_plan(s, w, shift) || (shift < 0 && !w->finer && !isfinite(s->refused))) continue;
         const bool fits = runs_fit(s, w->runs, jobs, left) && horizon_at(s, s->spacings.at[0][0]) <= HORIZON_MOST;
         if (shift <= 0) need = s->expected, planned = true;
         if (!fits) continue;
@@ -294,7 +294,7 @@ static void runs_add_all(struct convergence_study *s)
 
 static void plan_print(const struct convergence_study *s)
 {
-    const struct unit metre = convergence_spacing_unit(s);
+    const struct unit metre = convergence_study_choose_spacing_unit(s);
     fprintf(stderr, "spacings");
     for (int k = s->spacings.levels - 1; k >= 0; k--)
         fprintf(stderr, " %.4g %s (%d runs)%s", s->spacings.at[k][0] / metre.factor, metre.name, s->runs[k],
@@ -331,7 +331,7 @@ static status study_go(struct convergence_study *s, const struct convergence_req
     runs_add_all(s);
     if (!options.quiet)
         fprintf(stderr, "[1/%d] %s: done in %.3g s\n", s->study.n, s->study.at[s->first].name, s->spent);
-    TRY(study_determine_case_states(&s->study, false));
+    TRY(study_find_completed_failed_and_equal_cases(&s->study, false));
     options.until = s->begun + s->budget;
     TRY(study_execute_waiting_runs(&s->study, options));
     int failed = 0;

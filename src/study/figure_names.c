@@ -13,10 +13,13 @@
 enum { LEAF_ROOM = 40, NAME_ROOM = 160 };
 
 /* Returns true if summary.json of runs of the scene s contains numbers on contact. */
-static bool of_contact(const struct scene *s) { return s->contact_between != CONTACT_NONE || scene_bodies_can_meet(s); }
+static bool of_contact(const struct scene *s)
+{
+    return s->contact_between != CONTACT_NONE || scene_bodies_can_come_into_contact(s);
+}
 
 /* Returns true if summary.json of runs of the scene s contains numbers on fragments. */
-static bool of_fragments(const struct scene *s) { return scene_is_dynamic(s) && scene_can_crack(s); }
+static bool of_fragments(const struct scene *s) { return scene_is_dynamic(s) && scene_can_have_cracks(s); }
 
 /* Names of the numbers in summary.json, grouped by the part of the name before the last point. group: this part, with
  * # in place of whole numbers; "" for names without a point; leaves: possible parts after the last point, separated by
@@ -44,11 +47,11 @@ static const struct figure_group {
     {"crack",
      "start_time start_step driven_start_time driven_start_step driven_bonds tip_start_time tip_start_step "
      "arrest_time arrest_step length_end angle_deg tied tip_speed_max tip_speed_mean",
-     scene_can_crack, "cracks or bonds that break"},
+     scene_can_have_cracks, "cracks or bonds that break"},
     {"crack.tips.#",
      "body origin_x origin_y origin_z x y z growth angle_deg start_time start_step arrest_time "
      "arrest_step speed_max speed_mean",
-     scene_can_crack, "cracks or bonds that break"},
+     scene_can_have_cracks, "cracks or bonds that break"},
     {"conversion",
      "first_time x y z pd_share_start pd_share_end pd_share_max converted reverted reversions_most "
      "reversion_energy",
@@ -190,7 +193,7 @@ static const char *figure_lacks(const struct scene *s, const char *group, const 
 
 status result_name_check_is_known(const struct scene *s, const char *name)
 {
-    const char *now = result_current_name(name);
+    const char *now = renamed_result_find_current_name(name);
     if (now) fprintf(stderr, "warning: the figure %s has been renamed; use %s\n", name, now), name = now;
     char hidden[NAME_ROOM], group[NAME_ROOM];
     struct nearest n = {.to = name, .distance = 1000};

@@ -25,7 +25,7 @@ enum { REFUSED_MOST = 4 }; /* largest number of refinements after spacings at wh
 /* Appends a key and its value that pilot runs (short runs that choose method and spacing for `method: auto`) have
  * chosen to the lists to->key and to->value, which have *n entries (at most CHOSEN_MOST), and increments *n. Texts too
  * long are truncated. */
-static void chosen_put(struct pilot *to, int *n, const char *key, const char *value)
+static void chosen_put(struct pilot_choice *to, int *n, const char *key, const char *value)
 {
     INVARIANT(*n < CHOSEN_MOST);
     snprintf(to->key[*n], CHOSEN_ROOM, "%s", key);
@@ -36,7 +36,7 @@ static void chosen_put(struct pilot *to, int *n, const char *key, const char *va
 /* Sets to->override to the overrides of the user, followed by those that select the method c, a candidate of `method:
  * auto`: method, model, solver, and the particle spacing `spacing` [m]. p: input file (scene) and overrides of the
  * user. Free with pilot_free. */
-static void candidate_write(struct pilot *to, const struct pilot_search *p, const struct pilot_candidate *c,
+static void candidate_write(struct pilot_choice *to, const struct pilot_search *p, const struct pilot_candidate *c,
                             double spacing)
 {
     char number[CHOSEN_ROOM];
@@ -47,13 +47,13 @@ static void candidate_write(struct pilot *to, const struct pilot_search *p, cons
     if (p->wish.at_rest) chosen_put(to, &n, "solver", "cg");
     snprintf(number, sizeof number, "%.15g", spacing);
     chosen_put(to, &n, "particles.spacing", number);
-    pilot_combine_overrides(to, p->override, p->overrides, n);
+    pilot_runs_combine_user_and_chosen_overrides(to, p->override, p->overrides, n);
 }
 
 static status candidate_study(struct pilot_search *p, struct pilot_candidate *c, double spacing, double budget,
                               bool finer)
 {
-    struct pilot own = {0};
+    struct pilot_choice own = {0};
     struct convergence_study s;
     const struct path folder = path_join(p->folder, c->name);
     if (!(budget > 0)) {
@@ -73,7 +73,7 @@ static status candidate_study(struct pilot_search *p, struct pilot_candidate *c,
         .options = {.threads = 1, .quiet = true, .overwrite = true, .stop = p->options.stop}};
     status done = convergence_study_run(&s, &w);
     if (done == OK) {
-        done = pilot_determine_required_spacing(p, c, &s);
+        done = pilot_runs_determine_required_spacing(p, c, &s);
         c->unknown = done == REFUSED;
         convergence_study_free(&s);
     }
@@ -121,7 +121,7 @@ static status search_first(struct pilot_search *p)
             if (fixed > 0) break;
         }
         if (done == INTERRUPTED || p->at[k].unknown) return done;
-        if (!p->options.quiet) pilot_print(p, &p->at[k]);
+        if (!p->options.quiet) pilot_runs_print_results_of_method(p, &p->at[k]);
     }
     return OK;
 }
@@ -145,7 +145,7 @@ static bool candidate_finer(struct pilot_search *p, struct pilot_candidate *c, s
         return false;
     }
     *c = again;
-    if (!p->options.quiet) pilot_print(p, c);
+    if (!p->options.quiet) pilot_runs_print_results_of_method(p, c);
     return true;
 }
 
@@ -208,7 +208,7 @@ static status search_failed(const struct pilot_search *p)
  * overrides for them in *to. best: NULL if no method has a prediction. Returns REFUSED, with a message, if `best` is
  * NULL, if its run would take longer than PILOT_LONGEST times the budget or need a spacing less than 1/FARTHEST of the
  * finest one tried, or if two methods converge to different values. */
-static status search_end(struct pilot *to, const struct pilot_search *p, const struct pilot_candidate *best)
+static status search_end(struct pilot_choice *to, const struct pilot_search *p, const struct pilot_candidate *best)
 {
     if (!best || best->seconds > PILOT_LONGEST * p->wish.budget || best->finest > FARTHEST * best->spacing)
         return search_failed(p);
@@ -229,16 +229,16 @@ static status search_end(struct pilot *to, const struct pilot_search *p, const s
     return OK;
 }
 
-static status pilot_search_all(struct pilot *to, struct pilot_search *p)
+static status pilot_search_all(struct pilot_choice *to, struct pilot_search *p)
 {
-    TRY(folder_make(p->folder));
+    TRY(folder_create_with_parents(p->folder));
     TRY(study_folder_mark_as_study(p->folder));
     TRY(scalar_results_check_replaceable(p->folder));
     if (!p->options.quiet)
         fprintf(stderr,
                 "pilot          pilot runs at coarse spacings choose the method and the spacing for an error of %s "
                 "within %.3g %%; they take at most %.3g s (accuracy.budget), and their results are in %s\n",
-                pilot_name_of_requested_result(p), 100 * p->wish.within, p->wish.budget,
+                pilot_runs_get_requested_result_name(p), 100 * p->wish.within, p->wish.budget,
                 printable_name(p->folder).text);
     if (!p->options.quiet && p->wish.at_rest)
         fprintf(stderr, "pilot          the solver of this scene finds one equilibrium, in which no bond breaks; for a "
@@ -247,34 +247,34 @@ static status pilot_search_all(struct pilot *to, struct pilot_search *p)
     TRY(search_finer(p));
     const struct pilot_candidate *best = cheapest(p);
     TRY(search_end(to, p, best));
-    return pilot_store_choice(to, p, best);
+    return pilot_runs_store_chosen_method_and_spacing(to, p, best);
 }
 
 /* Chooses the overrides *to of a scene with `method: auto`. Reads a stored choice for the same scene if there is one,
  * else makes pilot runs in a folder beside `folder`, the folder of the run (NULL for the default). p: scene, request
  * and state of the choice. Returns REFUSED, with a message, if no method is suitable, or the error of a pilot run. */
-static status pilot_choose(struct pilot *to, struct pilot_search *p, const char *folder)
+static status pilot_choose(struct pilot_choice *to, struct pilot_search *p, const char *folder)
 {
     char run[NAME_MAX_LENGTH + sizeof "results/"];
     snprintf(run, sizeof run, "results/%s", p->wish.provisional.name);
     snprintf(p->folder, sizeof p->folder, "%s", pilot_folder_of_run(folder ? folder : run).text);
     if (strlen(p->folder) + CASE_NAME_ROOM + 2 * PATH_NAME_ROOM >= PATH_ROOM)
         return status_set(REFUSED, "-o: the folder's name is too long; choose a shorter one");
-    TRY(pilot_list_applicable_methods(p));
-    return pilot_read_stored_choice(to, p) ? OK : pilot_search_all(to, p);
+    TRY(pilot_runs_list_applicable_methods(p));
+    return pilot_runs_read_stored_method_and_spacing(to, p) ? OK : pilot_search_all(to, p);
 }
 
-status pilot_scene_read_or_choose_method(struct scene *s, struct pilot *to, const char *scene,
-                                         const struct scene_override *override, int overrides, const char *folder,
-                                         struct study_options options)
+status scene_read_and_choose_method_by_pilot_runs(struct scene *s, struct pilot_choice *to, const char *scene,
+                                                  const struct scene_override *override, int overrides,
+                                                  const char *folder, struct study_options options)
 {
     struct pilot_search p = {.scene = scene,
                              .override = override,
                              .overrides = overrides,
                              .options = options,
                              .begun = wall_clock_seconds()};
-    *to = (struct pilot){0};
-    TRY(scene_read_or_list_pilot_requirements(s, &p.wish, scene, override, overrides));
+    *to = (struct pilot_choice){0};
+    TRY(scene_read_unless_pilot_runs_are_needed(s, &p.wish, scene, override, overrides));
     if (!p.wish.wanted) return OK;
     status done = pilot_choose(to, &p, folder);
     scene_free(&p.wish.provisional);

@@ -40,7 +40,7 @@ static int level_run(const struct convergence_study *s, int level)
 
 static double pilot_run_figure(const struct convergence_study *s, const char *name, int run)
 {
-    const int figure = study_index_of_result(&s->table, name);
+    const int figure = study_table_index_of_result(&s->table, name);
     return figure >= 0 && run >= 0 ? s->table.value[figure][run] : NAN;
 }
 
@@ -58,7 +58,7 @@ static void spacing_find(struct pilot_search *p, struct pilot_candidate *c, cons
         const double value = pilot_run_figure(s, f->name, run), seconds = pilot_run_figure(s, "wall_seconds", run);
         if (!isfinite(value) || !isfinite(seconds)) continue;
         c->finest = s->point[run].spacing, c->finest_seconds = seconds;
-        c->width = convergence_interval_half_width(&f->c, value, 0.95);
+        c->width = convergence_confidence_interval_half_width(&f->c, value, 0.95);
         c->value = value, c->reached = c->width / size;
         const bool fixed = p->wish.spacing > 0 && level != s->own;
         if (!(c->reached <= p->wish.within) || fixed || c->finest > p->wish.spacing_most) continue;
@@ -85,8 +85,8 @@ static void spacing_find(struct pilot_search *p, struct pilot_candidate *c, cons
     c->expected = p->wish.within;
 }
 
-status pilot_determine_required_spacing(struct pilot_search *search, struct pilot_candidate *c,
-                                        const struct convergence_study *study)
+status pilot_runs_determine_required_spacing(struct pilot_search *search, struct pilot_candidate *c,
+                                             const struct convergence_study *study)
 {
     struct scalar_result_study *figure = NULL;
     int figures = 0;
@@ -109,7 +109,7 @@ status pilot_determine_required_spacing(struct pilot_search *search, struct pilo
     return done;
 }
 
-void pilot_print(const struct pilot_search *search, const struct pilot_candidate *c)
+void pilot_runs_print_results_of_method(const struct pilot_search *search, const struct pilot_candidate *c)
 {
     if (c->failed[0])
         fprintf(stderr, "pilot          %s: %s\n", c->name, c->failed);

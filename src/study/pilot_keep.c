@@ -13,8 +13,9 @@
 #define ASKED "asked.yaml"  /* text of the scene's file, with the overrides as comments */
 #define CHOSEN "chosen.txt" /* one KEY=VALUE per line */
 
-void pilot_combine_overrides(struct pilot *choice, const struct scene_override *user_override, int user_override_count,
-                             int chosen_key_count)
+void pilot_runs_combine_user_and_chosen_overrides(struct pilot_choice *choice,
+                                                  const struct scene_override *user_override, int user_override_count,
+                                                  int chosen_key_count)
 {
     memory_free(choice->override);
     choice->override = NEW("pilot.override", user_override_count + chosen_key_count + 1, struct scene_override);
@@ -24,10 +25,10 @@ void pilot_combine_overrides(struct pilot *choice, const struct scene_override *
         choice->override[user_override_count + k] = (struct scene_override){choice->key[k], choice->value[k]};
 }
 
-void pilot_free(struct pilot *to)
+void pilot_free(struct pilot_choice *to)
 {
     memory_free(to->override);
-    *to = (struct pilot){0};
+    *to = (struct pilot_choice){0};
 }
 
 /* ---- the question ------------------------------------------------------------------------------------------------ */
@@ -67,7 +68,7 @@ static status file_copy(const char *folder, const char *from, const char *name)
 /* Stores two files in the folder of the pilot runs (p->folder): the scene with the chosen overrides *to, and the table
  * converge.csv with the error bars of the chosen method *best. Returns FAILED, with a message, if a file cannot be read
  * or written. */
-static status bars_keep(const struct pilot *to, const struct pilot_search *p, const struct pilot_candidate *best)
+static status bars_keep(const struct pilot_choice *to, const struct pilot_search *p, const struct pilot_candidate *best)
 {
     struct scene s;
     char table[CASE_NAME_ROOM];
@@ -79,8 +80,8 @@ static status bars_keep(const struct pilot *to, const struct pilot_search *p, co
     return file_copy(p->folder, table, "converge.csv");
 }
 
-status pilot_store_choice(const struct pilot *choice, const struct pilot_search *p,
-                          const struct pilot_candidate *chosen_method)
+status pilot_runs_store_chosen_method_and_spacing(const struct pilot_choice *choice, const struct pilot_search *p,
+                                                  const struct pilot_candidate *chosen_method)
 {
     char *asked = question_text(p), *text = NULL;
     size_t length = 0;
@@ -104,7 +105,7 @@ status pilot_store_choice(const struct pilot *choice, const struct pilot_search 
 
 /* Reads the lines KEY=VALUE of a stored choice from `text`, which is modified, and copies the keys to to->key and the
  * values to to->value, at most CHOSEN_MOST of each. Lines without = are skipped. Returns the number of keys. */
-static int answer_read(struct pilot *to, char *text)
+static int answer_read(struct pilot_choice *to, char *text)
 {
     int n = 0;
     char *rest;
@@ -118,7 +119,7 @@ static int answer_read(struct pilot *to, char *text)
     return n;
 }
 
-bool pilot_read_stored_choice(struct pilot *choice, const struct pilot_search *p)
+bool pilot_runs_read_stored_method_and_spacing(struct pilot_choice *choice, const struct pilot_search *p)
 {
     char *asked = question_text(p), *before = NULL, *text = NULL;
     size_t length;
@@ -126,7 +127,7 @@ bool pilot_read_stored_choice(struct pilot *choice, const struct pilot_search *p
                       strcmp(asked, before) == 0 &&
                       file_read_whole(path_join(p->folder, CHOSEN).text, &text, &length) == OK;
     if (same) {
-        pilot_combine_overrides(choice, p->override, p->overrides, answer_read(choice, text));
+        pilot_runs_combine_user_and_chosen_overrides(choice, p->override, p->overrides, answer_read(choice, text));
         if (!p->options.quiet)
             fprintf(stderr, "pilot          as chosen before: %s\n",
                     printable_name(path_join(p->folder, CHOSEN).text).text);

@@ -36,7 +36,7 @@ struct pilot_search {
     const struct scene_override *override; /* [overrides] of the user; borrowed */
     int overrides;
     struct study_options options;        /* options of the studies */
-    struct pilot_wish wish;              /* wanted accuracy and time */
+    struct pilot_requirements wish;      /* wanted accuracy and time */
     char folder[PATH_ROOM], figure[128]; /* folder of the pilot runs; name of the result */
     double begun;                        /* start time on wall_clock_seconds [s] */
     struct pilot_candidate at[4];        /* [n] applicable methods */
@@ -46,39 +46,40 @@ struct pilot_search {
 /* Lists the methods (peridynamics, material points, ..) that are applicable to the input file of `search` in
  * search->at[] and stores their number in search->n. Returns REFUSED, with a message, if no method is applicable, if
  * the particle spacing of the input file cannot be varied, or if no run of the input file has the requested result. */
-status pilot_list_applicable_methods(struct pilot_search *search);
+status pilot_runs_list_applicable_methods(struct pilot_search *search);
 
 /* Returns the name of the scalar result whose accuracy the input file requests, or a description of the default result
  * if it names none. The text belongs to *search or is static. */
-const char *pilot_name_of_requested_result(const struct pilot_search *search);
+const char *pilot_runs_get_requested_result_name(const struct pilot_search *search);
 
 /* Allocates the array choice->override, after releasing an earlier one, and fills it. The first entries are the
  * overrides of the user, user_override[user_override_count]. They are followed by `chosen_key_count` keys that pilot
  * runs (short runs before the real one) have chosen, with the texts choice->key[k] and choice->value[k]. */
-void pilot_combine_overrides(struct pilot *choice, const struct scene_override *user_override, int user_override_count,
-                             int chosen_key_count);
+void pilot_runs_combine_user_and_chosen_overrides(struct pilot_choice *choice,
+                                                  const struct scene_override *user_override, int user_override_count,
+                                                  int chosen_key_count);
 
 /* Determines, from `study`, the pilot runs (short runs at several spacings) of the method `candidate`, the particle
  * spacing that the method requires for the accuracy requested in `search`, and stores it with its cost in *candidate
  * (pilot_judge.c). Returns REFUSED, with a message, if no accuracy can be attributed to the result (it is missing or
  * zero), FAILED if no result has values at every spacing. */
-status pilot_determine_required_spacing(struct pilot_search *search, struct pilot_candidate *candidate,
-                                        const struct convergence_study *study);
+status pilot_runs_determine_required_spacing(struct pilot_search *search, struct pilot_candidate *candidate,
+                                             const struct convergence_study *study);
 
 /* Prints the results of the pilot runs (short runs before the real one) of the method `candidate` to standard output:
  * spacing, accuracy, and expected time of the run. search: the input file and the requested accuracy. */
-void pilot_print(const struct pilot_search *search, const struct pilot_candidate *candidate);
+void pilot_runs_print_results_of_method(const struct pilot_search *search, const struct pilot_candidate *candidate);
 
 /* Stores *choice, the method and spacing that pilot runs (short runs before the real one) have chosen, as files in
  * their folder, with the input file and the overrides for which it was made and the error bars of the chosen method
  * *chosen_method. search: state of the choice. Returns FAILED if the input file cannot be read or a file cannot be
  * written. */
-status pilot_store_choice(const struct pilot *choice, const struct pilot_search *search,
-                          const struct pilot_candidate *chosen_method);
+status pilot_runs_store_chosen_method_and_spacing(const struct pilot_choice *choice, const struct pilot_search *search,
+                                                  const struct pilot_candidate *chosen_method);
 
 /* Reads the choice of method and spacing that earlier pilot runs (short runs before the real one) of the same input
  * file with the same overrides have stored, into *choice. search: the input file, its overrides and the folder of the
  * pilot runs. Returns false if there is none. */
-bool pilot_read_stored_choice(struct pilot *choice, const struct pilot_search *search);
+bool pilot_runs_read_stored_method_and_spacing(struct pilot_choice *choice, const struct pilot_search *search);
 
 #endif

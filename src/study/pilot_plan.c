@@ -19,7 +19,7 @@ static bool bonds_fit(const struct scene *s)
 
 static bool needs_bonds(const struct scene *s)
 {
-    return scene_can_crack(s) || s->has_pd_region || scene_probes_broken_bonds(s);
+    return scene_can_have_cracks(s) || s->has_pd_region || scene_has_probe_of_broken_bonds(s);
 }
 
 static void candidate_add(struct pilot_search *p, const char *name, const char *method, const char *model)
@@ -29,7 +29,7 @@ static void candidate_add(struct pilot_search *p, const char *name, const char *
 }
 
 /* Returns true if bonds of the scene s may break or if it prescribes growing cracks. */
-static bool may_crack(const struct scene *s) { return scene_bonds_break(s) || s->growths > 0; }
+static bool may_crack(const struct scene *s) { return scene_bonds_can_break(s) || s->growths > 0; }
 
 /* Lists in p->at the methods that are applicable to the scene: material points unless bonds are required, peridynamics
  * with bonds or with state-based neighbourhoods, and adaptive runs if bonds can break or the input file (scene) has a
@@ -73,7 +73,7 @@ static bool scene_acts(const struct scene *s)
 /* Lists the methods that are applicable to the scene in search->at. Returns REFUSED, with a message, if there is none,
  * or if pilot runs are not possible: particles from a list, no length to choose a spacing from, an unknown result,
  * nothing that moves or loads the bodies. */
-status pilot_list_applicable_methods(struct pilot_search *search)
+status pilot_runs_list_applicable_methods(struct pilot_search *search)
 {
     const struct scene *s = &search->wish.provisional;
     for (int b = 0; b < s->bodies; b++)
@@ -102,7 +102,7 @@ status pilot_list_applicable_methods(struct pilot_search *search)
                             search->scene);
 }
 
-const char *pilot_name_of_requested_result(const struct pilot_search *search)
+const char *pilot_runs_get_requested_result_name(const struct pilot_search *search)
 {
     if (search->wish.figure[0]) return search->wish.figure;
     if (search->wish.provisional.probes > 0) return "the first result of its probes that is not zero";
@@ -111,33 +111,33 @@ const char *pilot_name_of_requested_result(const struct pilot_search *search)
     return "the largest of its energies";
 }
 
-status pilot_plan_print(const struct pilot_wish *wish, const char *scene, FILE *out)
+status pilot_runs_print_plan(const struct pilot_requirements *requirements, const char *scene, FILE *out)
 {
-    struct pilot_search p = {.scene = scene, .wish = *wish};
-    TRY(pilot_list_applicable_methods(&p));
-    const double spacing = 1e3 * wish->provisional.spacing;
+    struct pilot_search p = {.scene = scene, .wish = *requirements};
+    TRY(pilot_runs_list_applicable_methods(&p));
+    const double spacing = 1e3 * requirements->provisional.spacing;
     fprintf(out, "%s can be read\n", printable_name(scene).text);
     fprintf(out, "auto           cleave run chooses method and spacing by pilot runs; check can read the scene.yaml "
                  "that the run writes\n");
     fprintf(out, "auto           pilot runs estimate the error of %s; %.3g %% is allowed\n",
-            pilot_name_of_requested_result(&p), 100 * wish->within);
+            pilot_runs_get_requested_result_name(&p), 100 * requirements->within);
     fprintf(out, "auto           pilot runs vary the method (");
     for (int k = 0; k < p.n; k++) fprintf(out, "%s%s", k > 0 ? ", " : "", p.at[k].name);
-    if (wish->spacing > 0)
+    if (requirements->spacing > 0)
         fprintf(out, "), the spacing (%.4g mm as given, and coarser)", spacing);
     else
         fprintf(out, "), the spacing (it starts at %.4g mm; coarser and finer ones are run as well", spacing);
-    if (isfinite(wish->spacing_most))
-        fprintf(out, ", at most %.4g mm is chosen, by tensile_strength", 1e3 * wish->spacing_most);
-    if (!(wish->spacing > 0)) fprintf(out, ")");
-    fprintf(out, "%s\n", wish->at_rest ? "" : " and the time step (0.9 to 1.1 of its own)");
-    if (wish->at_rest)
+    if (isfinite(requirements->spacing_most))
+        fprintf(out, ", at most %.4g mm is chosen, by tensile_strength", 1e3 * requirements->spacing_most);
+    if (!(requirements->spacing > 0)) fprintf(out, ")");
+    fprintf(out, "%s\n", requirements->at_rest ? "" : " and the time step (0.9 to 1.1 of its own)");
+    if (requirements->at_rest)
         fprintf(out, "auto           the solver of this scene finds one equilibrium, in which no bond breaks; for a "
                      "crack that grows under rising loads use method: pd or adaptive with solver: static\n");
     fprintf(out,
             "auto           pilot runs take at most %.4g s (accuracy.budget), of which %.4g s are for the first %d "
             "runs of each method; the run that is chosen takes at most %.4g s\n",
-            wish->budget, PILOT_FIRST_SHARE * wish->budget, PILOT_RUNS_FIRST * PILOT_LEVELS_FIRST,
-            PILOT_LONGEST * wish->budget);
+            requirements->budget, PILOT_FIRST_SHARE * requirements->budget, PILOT_RUNS_FIRST * PILOT_LEVELS_FIRST,
+            PILOT_LONGEST * requirements->budget);
     return OK;
 }

@@ -135,15 +135,15 @@ static bool is_scene_of_study(const char *path, const char *scene_text)
     return text != NULL;
 }
 
-bool study_folder_is_of_scene(const char *folder, const char *text)
+bool study_folder_contains_study_of_scene(const char *folder, const char *scene_text)
 {
     char *own = study_scene_read(path_join(folder, STUDY_SCENE).text);
-    const bool same = own && scene_texts_are_equal(own, text);
+    const bool same = own && scene_texts_describe_same_scene(own, scene_text);
     memory_free(own);
     return same;
 }
 
-status study_write_scene_and_options(const char *folder, const char *text, const char *options)
+status study_write_scene_and_options(const char *folder, const char *scene_text, const char *options)
 {
     char *all = NULL;
     size_t length = 0;
@@ -152,7 +152,7 @@ status study_write_scene_and_options(const char *folder, const char *text, const
     if (!to) return status_set(FAILED, "%s: out of memory", path.text);
     fputs(study_mark, to);
     if (options) fprintf(to, "%s%s\n", STUDY_OPTIONS_MARK, options);
-    fputs(text, to);
+    fputs(scene_text, to);
     status put = fclose(to) == 0 ? OK : status_set(FAILED, "%s: out of memory", path.text);
     if (put == OK) put = file_write_whole(path.text, all, length);
     free(all);
@@ -187,10 +187,10 @@ status study_folder_mark_as_study(const char *folder)
     return there ? OK : study_write_scene_and_options(folder, "", NULL);
 }
 
-status study_folder_check_is_usable_for_scene(const char *folder, const char *text)
+status study_folder_check_is_usable_for_scene(const char *folder, const char *scene_text)
 {
     char *own = study_scene_read(path_join(folder, STUDY_SCENE).text);
-    const bool fits = !own || !*own || scene_texts_are_equal(own, text);
+    const bool fits = !own || !*own || scene_texts_describe_same_scene(own, scene_text);
     memory_free(own);
     if (fits) return study_folder_check_is_usable(folder);
     return status_set(
@@ -217,14 +217,14 @@ void study_free(struct study *s)
     *s = (struct study){.lock.fd = -1};
 }
 
-const struct study_case *study_case_with_results(const struct study *s, const struct study_case *c)
+const struct study_case *study_case_whose_results_are_used(const struct study *s, const struct study_case *c)
 {
     return c->state == CASE_SAME ? &s->at[c->same] : c;
 }
 
 struct path study_case_folder(const struct study *s, const struct study_case *c)
 {
-    return path_join(s->folder, study_case_with_results(s, c)->name);
+    return path_join(s->folder, study_case_whose_results_are_used(s, c)->name);
 }
 
 /* ---- cases ------------------------------------------------------------------------------------------------------- */
@@ -243,7 +243,7 @@ struct study_case *study_add_case(struct study *s, const char *name, const struc
                                   int overrides)
 {
     GROW("study.cases", s->at, s->n + 1);
-    study_grow_name_table(s);
+    study_enlarge_run_name_table_if_full(s);
     struct study_case *c = &s->at[s->n];
     study_choose_case_name(s, c->name, name, override, overrides);
     c->override = NEW("study.overrides", overrides, struct scene_override);
@@ -253,7 +253,7 @@ struct study_case *study_add_case(struct study *s, const char *name, const struc
     return c;
 }
 
-status study_add_combinations(struct study *s, const struct varied_key *key, int keys)
+status study_add_cases_of_all_value_combinations(struct study *s, const struct varied_key *key, int keys)
 {
     double all = 1;
     for (int k = 0; k < keys; k++) all *= key[k].values;
@@ -262,7 +262,7 @@ status study_add_combinations(struct study *s, const struct varied_key *key, int
                           "the study would have %.0f runs, more than the limit of %d; give fewer values of a key", all,
                           CASES_MOST);
     int *at = NEW("study.at", keys, int), *order = NEW("study.order", keys, int);
-    const int varied = study_list_keys_in_run_names(order, key, keys);
+    const int varied = study_list_multivalued_keys_in_name_order(order, key, keys);
     struct scene_override *override = NEW("study.override", keys, struct scene_override);
     for (int left = (int)all; left > 0; left--) {
         char name[CASE_NAME_ROOM];
@@ -285,7 +285,7 @@ static void ended_as(char *ended, size_t capacity, const char *folder, const cha
 {
     if (!path_is_file(path_join(folder, "summary.json").text) ||
         summary_read_string(folder, "status", ended, capacity) != OK ||
-        !scene_file_has_text(path_join(folder, "scene.yaml").text, scene_text))
+        !scene_file_describes_same_scene(path_join(folder, "scene.yaml").text, scene_text))
         ended[0] = '\0';
 }
 
@@ -303,7 +303,7 @@ static status case_same(bool *same, const struct study *s, const struct study_ca
 {
     struct scene scene;
     TRY(scene_read(&scene, s->scene, other->override, other->overrides));
-    *same = scene_texts_are_equal(scene.text, text);
+    *same = scene_texts_describe_same_scene(scene.text, text);
     scene_free(&scene);
     return OK;
 }
@@ -352,7 +352,7 @@ static status case_check(struct study *s, int number, bool collect, struct scene
     return looked;
 }
 
-status study_determine_case_states(struct study *s, bool keep_failed)
+status study_find_completed_failed_and_equal_cases(struct study *s, bool keep_failed)
 {
     const int room = 2 * s->n + 1;
     struct scenes_seen seen = {NEW("study.seen", room, int), room, NEW("study.hashes", room, uint64_t)};
@@ -363,7 +363,7 @@ status study_determine_case_states(struct study *s, bool keep_failed)
     return checked;
 }
 
-void study_print_equal_scene_count(const struct study *s, FILE *out)
+void study_print_count_of_duplicate_scenes(const struct study *s, FILE *out)
 {
     int same = 0;
     const struct study_case *one = NULL;
@@ -383,8 +383,8 @@ const char *study_case_value_of_key(const struct study_case *c, const char *key)
     return "";
 }
 
-status study_write_stream_to_file(const struct study *s, const char *name, FILE *stream, char **text,
-                                  const size_t *length)
+status study_write_memory_stream_to_file(const struct study *s, const char *name, FILE *stream, char **text,
+                                         const size_t *length)
 {
     const bool whole = stream && fclose(stream) == 0;
     const status written = whole ? file_write_whole(path_join(s->folder, name).text, *text, *length)

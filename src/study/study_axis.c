@@ -19,10 +19,11 @@ static const double EVEN = 1e-6;
 /* Margin of an axis at either end, as a share of the length of the axis [1]. */
 static const double MARGIN = 0.06;
 
-double study_value_across(const struct study_picture *p, int value_index)
+double study_picture_horizontal_position_of_value(const struct study_picture *p, int value_index)
 {
     const char *unit;
-    return p->numbers ? value_read_number_and_unit(p->key[p->across].shown.value[value_index], &unit) : value_index;
+    return p->numbers ? value_text_split_number_and_unit(p->key[p->across].shown.value[value_index], &unit)
+                      : value_index;
 }
 
 /* Returns true if panel number `panel` of the picture p has a point at value v (from 0) of the key along the horizontal
@@ -47,7 +48,7 @@ static struct study_axis axis_of_values(const struct study_picture *p, int panel
     bool even = true;
     for (int v = 0; v < p->key[p->across].shown.values; v++) {
         if (!all && !value_is_drawn(p, panel, v)) continue;
-        const double here = study_value_across(p, v), step = here - before;
+        const double here = study_picture_horizontal_position_of_value(p, v), step = here - before;
         if (!isnan(step) && !isnan(distance)) even = even && fabs(step - distance) <= EVEN * fabs(distance);
         distance = step, before = here;
         axis.low = fmin(axis.low, here), axis.high = fmax(axis.high, here);
@@ -56,16 +57,16 @@ static struct study_axis axis_of_values(const struct study_picture *p, int panel
     return axis;
 }
 
-struct study_axis study_axis_across(const struct study_picture *p, int panel)
+struct study_axis study_panel_get_horizontal_axis(const struct study_picture *p, int panel)
 {
     const struct study_axis all = axis_of_values(p, panel, true);
     return all.logarithmic ? all : axis_of_values(p, panel, false);
 }
 
-struct study_axis study_axis_of_figure(const struct study_picture *p, int panel)
+struct study_axis study_panel_get_vertical_axis(const struct study_picture *p, int panel)
 {
     struct study_axis axis = {INFINITY, -INFINITY, false};
-    study_points_range(p, panel, &axis.low, &axis.high);
+    study_panel_find_value_range(p, panel, &axis.low, &axis.high);
     axis.logarithmic = over_decades(axis.low, axis.high);
     return axis;
 }
@@ -90,12 +91,12 @@ static int digits_of(const struct study_axis *axis, int most)
     return (int)fmin(fmax(1 + floor(log10(largest) + EVEN) - floor(log10(step) + EVEN), DIGITS_LEAST), DIGITS_MOST);
 }
 
-int study_axis_number_length(const struct study_axis *axis, int most)
+int study_axis_longest_tick_label_length(const struct study_axis *axis, int max_intervals)
 {
-    const int digits = digits_of(axis, most);
-    const double step = tic_step(axis, most);
+    const int digits = digits_of(axis, max_intervals);
+    const double step = tic_step(axis, max_intervals);
     int longest = 0;
-    for (int k = 0; k <= most && axis->high >= axis->low; k++) {
+    for (int k = 0; k <= max_intervals && axis->high >= axis->low; k++) {
         const double at = axis->logarithmic ? first_power_of_ten(axis) * pow(step, k)
                           : step > 0        ? (ceil(axis->low / step) + k) * step
                                             : axis->low;
@@ -104,12 +105,15 @@ int study_axis_number_length(const struct study_axis *axis, int most)
     return longest;
 }
 
-int study_intervals_up(const struct study_picture *p) { return (int)fmax(p->high / TICS_UP, 2); }
+int study_panel_max_vertical_axis_intervals(const struct study_picture *p) { return (int)fmax(p->high / TICS_UP, 2); }
 
-int study_intervals_across(const struct study_picture *p, const struct study_axis *axis)
+int study_panel_max_horizontal_axis_intervals(const struct study_picture *p, const struct study_axis *axis)
 {
     int most = STEPS_MOST;
-    while (most > 1 && most * (study_axis_number_length(axis, most) + 2) * study_character_width() > p->wide) most--;
+    while (most > 1 &&
+           most * (study_axis_longest_tick_label_length(axis, most) + 2) * study_picture_character_width_in_pixels() >
+               p->wide)
+        most--;
     return most;
 }
 
@@ -131,13 +135,13 @@ static void range_send(FILE *gnuplot, const char *name, const struct study_axis 
         fprintf(gnuplot, "set %srange [*:*]\n", name);
 }
 
-void study_axis_send(FILE *gnuplot, const char *name, const struct study_axis *axis, int most)
+void study_axis_write_to_gnuplot(FILE *gnuplot, const char *name, const struct study_axis *axis, int max_intervals)
 {
-    const double step = tic_step(axis, most);
+    const double step = tic_step(axis, max_intervals);
     fprintf(gnuplot, "unset logscale %s\n", name);
     range_send(gnuplot, name, axis);
     if (axis->logarithmic) fprintf(gnuplot, "set logscale %s\n", name);
-    fprintf(gnuplot, "set format %s '%%.%dg'\nset %stics norotate ", name, digits_of(axis, most), name);
+    fprintf(gnuplot, "set format %s '%%.%dg'\nset %stics norotate ", name, digits_of(axis, max_intervals), name);
     if (axis->logarithmic)
         fprintf(gnuplot, "%.10g,%.10g\n", first_power_of_ten(axis), step);
     else if (step > 0)

@@ -13,12 +13,12 @@ struct study_axis {
 };
 
 /* Returns the number of characters of the longest number that is written at the tics of `axis`, if the tics divide the
- * axis into at most `most` intervals. */
-int study_axis_number_length(const struct study_axis *axis, int most);
+ * axis into at most `max_intervals` intervals. */
+int study_axis_longest_tick_label_length(const struct study_axis *axis, int max_intervals);
 
 /* Sends kind (linear or logarithmic), range, tics and format of the numbers of an axis to gnuplot, with so many digits
- * that the numbers are distinct. name: `x`, `y`, or `cb` for the colour bar of a map; most: largest number of intervals
- * between tics. */
-void study_axis_send(FILE *gnuplot, const char *name, const struct study_axis *axis, int most);
+ * that the numbers are distinct. name: `x`, `y`, or `cb` for the colour bar of a map; max_intervals: largest number of
+ * intervals between tics. */
+void study_axis_write_to_gnuplot(FILE *gnuplot, const char *name, const struct study_axis *axis, int max_intervals);
 
 #endif

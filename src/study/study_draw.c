@@ -36,7 +36,7 @@ static void send_tics(FILE *to, const char *axis, const struct varied_key *key, 
     fprintf(to, "set %stics %s (", axis, rotated ? "rotate by 40 right" : "norotate");
     for (int v = 0; v < key->values; v += each) {
         char text[LABEL_ROOM];
-        study_value_label(text, key, v);
+        varied_key_write_value_label(text, key, v);
         if (v > 0) putc(',', to);
         gnuplot_write_quoted_string(to, text);
         fprintf(to, " %d", v);
@@ -52,13 +52,15 @@ static void send_tics(FILE *to, const char *axis, const struct varied_key *key, 
 static status picture_open(struct gnuplot *g, const struct study_picture *p, const char *name)
 {
     const struct path folder = path_join(p->study->folder, "pictures");
-    TRY(folder_make(folder.text));
-    TRY(gnuplot_open(g, path_join(folder.text, name).text, picture_size_get().format, p->width, p->height));
+    TRY(folder_create_with_parents(folder.text));
+    TRY(gnuplot_open(g, path_join(folder.text, name).text, picture_size_get_process_wide().format, p->width,
+                     p->height));
     fputs("set multiplot\nset autoscale fix\n"
           "set offsets graph 0.04, graph 0.04, graph 0.08, graph 0.08\n",
           g->to);
     for (int k = 0; k < p->notes; k++)
-        screen_label(g->to, p, p->note[k], study_character_width(), (p->notes - k - 0.4) * STUDY_ROW, "left");
+        screen_label(g->to, p, p->note[k], study_picture_character_width_in_pixels(), (p->notes - k - 0.4) * STUDY_ROW,
+                     "left");
     return OK;
 }
 
@@ -77,13 +79,13 @@ static void panel_begin(FILE *to, const struct study_picture *p, int panel, cons
             (double)(x + p->wide) / p->width);
     fprintf(to, "set tmargin at screen %.5f\nset bmargin at screen %.5f\n", (double)y / p->height,
             (double)(y - p->high) / p->height);
-    study_figure_title(text, sizeof text, figure, unit.name);
-    const double room = p->left + p->wide + p->right - study_character_width(),
-                 wide = 0.95 * study_character_width() * (double)strlen(text);
+    study_write_panel_title(text, sizeof text, figure, unit.name);
+    const double room = p->left + p->wide + p->right - study_picture_character_width_in_pixels(),
+                 wide = 0.95 * study_picture_character_width_in_pixels() * (double)strlen(text);
     fputs("set title ", to);
     gnuplot_write_quoted_string(to, text);
     fprintf(to, " font ',%.3g'\n", fmax(13 * fmin(1, room / wide), 7));
-    study_key_text(text, sizeof text, &p->key[p->across]);
+    plotted_key_write_label_with_unit(text, sizeof text, &p->key[p->across]);
     screen_label(to, p, text, x + 0.5 * p->wide, y - p->high - p->below + 0.9 * STUDY_ROW, "center");
     if (!up) return;
     screen_label(to, p, up, x - p->left + 0.8 * STUDY_ROW, y - 0.5 * p->high, "center rotate by 90");
@@ -104,8 +106,8 @@ static void send_points(FILE *to, const struct study_picture *p, int panel)
         fprintf(to, "$p%d_%d << EOD\n", panel, l);
         for (int v = 0; v < across->values; v++) {
             const struct figure_statistics *at = &point[l * across->values + v];
-            fprintf(to, at->runs > 0 ? "%.15g %.15g %.10g\n" : "%.15g NaN NaN\n", study_value_across(p, v), at->mean,
-                    at->scatter);
+            fprintf(to, at->runs > 0 ? "%.15g %.15g %.10g\n" : "%.15g NaN NaN\n",
+                    study_picture_horizontal_position_of_value(p, v), at->mean, at->scatter);
         }
         fputs("NaN NaN NaN\nEOD\n", to); /* gnuplot refuses a block without points */
     }
@@ -117,8 +119,8 @@ static void send_points(FILE *to, const struct study_picture *p, int panel)
 static void plot_mean_of_seeds(FILE *to, const struct study_picture *p, int panel)
 {
     const double factor = p->unit_of_figure[panel].factor;
-    struct level_figures all;
-    convergence_summarise_runs(&all, p->table->value[p->figure[panel]], p->table->cases);
+    struct spacing_level_statistics all;
+    convergence_compute_mean_over_runs(&all, p->table->value[p->figure[panel]], p->table->cases);
     for (int k = -1; k <= 1 && all.runs > 1; k++)
         fprintf(to, ", %.10g with lines lw 1.2 dt %d lc rgb '#333333' notitle", (all.mean + k * all.deviation) / factor,
                 k == 0 ? 1 : 2);
@@ -151,9 +153,10 @@ static void draw_key(FILE *to, const struct study_picture *p)
 {
     char text[256];
     const bool below = p->strip > 0;
-    const int x = below ? study_character_width() : p->width - p->legend + study_character_width();
+    const int x = below ? study_picture_character_width_in_pixels()
+                        : p->width - p->legend + study_picture_character_width_in_pixels();
     const int y = below ? p->notes * STUDY_ROW + p->strip : p->height - STUDY_TITLE + STUDY_ROW;
-    study_keys_text(text, sizeof text, p, ROLE_LINES, false);
+    study_picture_write_labels_of_keys_with_role(text, sizeof text, p, ROLE_LINES, false);
     fputs("unset border\nunset tics\nunset title\nunset grid\nunset logscale\nset offsets\nset lmargin at screen 0\n"
           "set rmargin at screen 1\nset bmargin at screen 0\nset tmargin at screen 1\n",
           to);
@@ -162,7 +165,7 @@ static void draw_key(FILE *to, const struct study_picture *p)
             (double)x / p->width, (double)(y - STUDY_ROW) / p->height, p->key_columns,
             (p->lines + p->key_columns - 1) / p->key_columns);
     for (int l = 0; l < p->lines; l++) {
-        study_line_title(text, sizeof text, p, l);
+        study_picture_write_line_title(text, sizeof text, p, l);
         fprintf(to, "%sNaN with %s pt 7 ps 0.9 lc rgb '%s' title ", l ? ", " : "",
                 p->numbers ? "linespoints lw 1.6" : "points", curve_colour[l]);
         gnuplot_write_quoted_string(to, text);
@@ -174,30 +177,31 @@ static void draw_key(FILE *to, const struct study_picture *p)
  * `to`. name: `y`, or `cb` for the colour bar of a map. */
 static void send_figure_axis(FILE *to, const struct study_picture *p, int panel, const char *name)
 {
-    struct study_axis axis = study_axis_of_figure(p, panel);
-    int most = study_intervals_up(p);
+    struct study_axis axis = study_panel_get_vertical_axis(p, panel);
+    int most = study_panel_max_vertical_axis_intervals(p);
     if (*name == 'c') {
         if (axis.low > 0 && axis.low < ZERO_NEAR * axis.high && !axis.logarithmic) axis.low = 0;
         most = most < STUDY_COLOUR_STEPS ? most : STUDY_COLOUR_STEPS;
     }
-    study_axis_send(to, name, &axis, most);
+    study_axis_write_to_gnuplot(to, name, &axis, most);
 }
 
 static status draw_lines(struct study_picture *p)
 {
     char name[PICTURE_NAME_ROOM];
     struct gnuplot g;
-    roles_assign_to_keys(p, LINES_MOST);
-    study_points_compute(p);
-    study_layout_find(p, NULL);
-    study_picture_name(name, p->key[p->across].given.key);
+    study_picture_assign_roles_to_varied_keys(p, LINES_MOST);
+    study_picture_compute_points(p);
+    study_picture_compute_layout(p, NULL);
+    study_picture_write_file_name(name, p->key[p->across].given.key);
     TRY(picture_open(&g, p, name));
     for (int panel = 0; panel < p->panels; panel++) send_points(g.to, p, panel);
     if (!p->numbers) send_tics(g.to, "x", &p->key[p->across].shown, p->slanted);
     for (int panel = 0; panel < p->panels; panel++) {
-        const struct study_axis across = study_axis_across(p, panel);
+        const struct study_axis across = study_panel_get_horizontal_axis(p, panel);
         panel_begin(g.to, p, panel, NULL);
-        if (p->numbers) study_axis_send(g.to, "x", &across, study_intervals_across(p, &across));
+        if (p->numbers)
+            study_axis_write_to_gnuplot(g.to, "x", &across, study_panel_max_horizontal_axis_intervals(p, &across));
         send_figure_axis(g.to, p, panel, "y");
         plot_panel(g.to, p, panel);
         fputs("unset label\n", g.to);
@@ -217,13 +221,13 @@ static status draw_study_map(struct study_picture *p, int up)
     const struct varied_key *across = &p->key[p->across].shown, *key_up = &p->key[up].shown;
     struct gnuplot g;
     char name[NOTE_ROOM];
-    study_key_text(name, sizeof name, &p->key[up]);
-    roles_assign_to_keys(p, across->values * key_up->values);
+    plotted_key_write_label_with_unit(name, sizeof name, &p->key[up]);
+    study_picture_assign_roles_to_varied_keys(p, across->values * key_up->values);
     if (p->role[up] == ROLE_CHANCE) p->role[up] = ROLE_LINES, p->lines = key_up->values, p->chance = false;
-    study_points_compute(p);
-    study_layout_find(p, key_up);
+    study_picture_compute_points(p);
+    study_picture_compute_layout(p, key_up);
     char picture[PICTURE_NAME_ROOM];
-    study_picture_name(picture, "map");
+    study_picture_write_file_name(picture, "map");
     TRY(picture_open(&g, p, picture));
     send_tics(g.to, "x", across, p->slanted);
     send_tics(g.to, "y", key_up, false);
@@ -281,19 +285,19 @@ status study_draw_results_over_keys(const struct study_table *t, const struct st
 {
     char header[HEADER_ROOM];
     struct study_picture p = {.table = t, .study = s, .keys = keys, .header = header};
-    p.seeds = study_varies_seed_alone(key, keys);
-    TRY(panels_show_named_figures(&p, result, results));
-    if (results == 0) panels_choose_figures(&p);
+    p.seeds = study_varies_only_random_seed(key, keys);
+    TRY(study_picture_set_results_of_panels_by_name(&p, result, results));
+    if (results == 0) study_picture_choose_results_of_panels(&p);
     if (p.panels == 0) return OK;
     study_read_history_header(header, sizeof header, s);
-    p.key = shown_keys_make(s, key, keys);
+    p.key = plotted_keys_create_from_varied_keys(s, key, keys);
     p.value_at = NEW("study.value_at", keys, int *);
     p.role = NEW("study.roles", keys, enum key_role);
-    values_find_indices_in_runs(p.value_at, s, p.key, keys);
+    study_find_value_indices_of_keys_in_runs(p.value_at, s, p.key, keys);
     const status drawn = draw_all(&p);
     for (int k = 0; k < keys; k++) memory_free(p.value_at[k]);
-    study_points_free(&p);
-    shown_keys_free(p.key, keys);
+    study_picture_free_points(&p);
+    plotted_keys_free(p.key, keys);
     memory_free(p.value_at);
     memory_free(p.role);
     return drawn;

@@ -15,7 +15,7 @@
 uint64_t study_hash_add_text(uint64_t hash, const char *next_text);
 
 /* Enlarges the hash table of the names of the runs of the study s if the table has no space for one more name. */
-void study_grow_name_table(struct study *s);
+void study_enlarge_run_name_table_if_full(struct study *s);
 
 /* Chooses a name for a run that no other run of s has and writes it to name[CASE_NAME_ROOM]. It is the text
  * `wanted_name`, restricted to characters that every file system accepts. If that is too long, reserved or taken, it is
@@ -29,7 +29,7 @@ void study_register_case_name(struct study *s, int case_number);
 /* Finds which of the keys key[key_count] of a study appear in the names of its runs: those with several values. Stores
  * their indices in key_order[], which has space for `key_count` entries, in the order of the names. Returns the number
  * of these keys. */
-int study_list_keys_in_run_names(int *key_order, const struct varied_key *key, int key_count);
+int study_list_multivalued_keys_in_name_order(int *key_order, const struct varied_key *key, int key_count);
 
 /* Composes the name of a run from its values, for example `spacing=0.5mm,speed=20`, and writes it to
  * name[CASE_NAME_ROOM]. key[key_count]: all keys of the study; key_order[named_key_count]: indices of those in the
@@ -44,24 +44,25 @@ enum { LABEL_ROOM = 40 };
 
 /* Writes the label of value number `value_index` of a varied key, as in pictures, to text[LABEL_ROOM]. If the values of
  * the key are too long, the label omits their common beginning and end. */
-void study_value_label(char *text, const struct varied_key *key, int value_index);
+void varied_key_write_value_label(char *text, const struct varied_key *key, int value_index);
 
-/* Returns the number of characters of the longest label (study_value_label) of the values of a varied key. */
-int study_longest_label_length(const struct varied_key *key);
+/* Returns the number of characters of the longest label (varied_key_write_value_label) of the values of a varied key.
+ */
+int varied_key_longest_value_label_length(const struct varied_key *key);
 
-/* Writes the title of a panel that shows the result `name` of summary.json in `unit` ("" for none) to text[capacity]:
- * in words, such as `tip: speed max [m/s]` for probes.tip.speed_max. */
-void study_figure_title(char *text, size_t capacity, const char *name, const char *unit);
+/* Writes the title of a panel that shows the result `result_name` of summary.json in `unit` ("" for none) to
+ * text[capacity]: in words, such as `tip: speed max [m/s]` for probes.tip.speed_max. */
+void study_write_panel_title(char *text, size_t capacity, const char *result_name, const char *unit);
 
 /* Capacity of the name of a picture [byte]. */
 enum { PICTURE_NAME_ROOM = CASE_NAME_ROOM + 8 };
 
 /* Writes the file name of the picture of a varied key to name[PICTURE_NAME_ROOM]: KEY.png with KEY = key, or with the
- * ending of another picture format that picture_size_set has set. */
-void study_picture_name(char *name, const char *key);
+ * ending of another picture format that picture_size_set_process_wide has set. */
+void study_picture_write_file_name(char *name, const char *key);
 
 /* Returns the width [pixel] of a character in the pictures of a study. */
-int study_character_width(void);
+int study_picture_character_width_in_pixels(void);
 
 /* Returns a distance between tics, 1, 2 or 5 times a power of ten, that divides an axis of length `range` > 0 into at
  * most `max_intervals` intervals. */
@@ -69,6 +70,6 @@ double axis_tick_distance(double range, int max_intervals);
 
 /* Returns true if all values of the varied key are numbers with the same unit, and then stores a pointer to the text of
  * this unit in *unit. */
-bool varied_key_values_are_numbers(const struct varied_key *key, const char **unit);
+bool varied_key_values_are_numbers_of_one_unit(const struct varied_key *key, const char **unit);
 
 #endif

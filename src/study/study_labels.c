@@ -44,7 +44,7 @@ static void common_keep(size_t *begin, size_t *end, size_t longest)
     *end -= *end < spare - before ? *end : spare - before;
 }
 
-void study_value_label(char *text, const struct varied_key *key, int value_index)
+void varied_key_write_value_label(char *text, const struct varied_key *key, int value_index)
 {
     size_t longest = 0, begin, end;
     for (int k = 0; k < key->values; k++) longest = strlen(key->value[k]) > longest ? strlen(key->value[k]) : longest;
@@ -64,25 +64,25 @@ void study_value_label(char *text, const struct varied_key *key, int value_index
         snprintf(text, LABEL_ROOM, "%d: %.*s..", value_index + 1, CUT_SHOWN, key->value[value_index] + begin);
 }
 
-int study_longest_label_length(const struct varied_key *key)
+int varied_key_longest_value_label_length(const struct varied_key *key)
 {
     int longest = 0;
     for (int v = 0; v < key->values; v++) {
         char text[LABEL_ROOM];
-        study_value_label(text, key, v);
+        varied_key_write_value_label(text, key, v);
         longest = (int)strlen(text) > longest ? (int)strlen(text) : longest;
     }
     return longest;
 }
 
-void study_figure_title(char *text, size_t capacity, const char *name, const char *unit)
+void study_write_panel_title(char *text, size_t capacity, const char *result_name, const char *unit)
 {
     static const char of_probe[] = "probes.", degrees[] = "_deg", seconds[] = "_seconds";
     char words[LABEL_ROOM + 216];
-    if (strncmp(name, of_probe, sizeof of_probe - 1) == 0) name += sizeof of_probe - 1;
-    const char *dot = strrchr(name, '.'), *last = dot ? dot + 1 : name;
-    snprintf(words, sizeof words, "%.*s%s%.100s", dot ? (int)fmin((double)(dot - name), 100) : 0, name, dot ? ": " : "",
-             last);
+    if (strncmp(result_name, of_probe, sizeof of_probe - 1) == 0) result_name += sizeof of_probe - 1;
+    const char *dot = strrchr(result_name, '.'), *last = dot ? dot + 1 : result_name;
+    snprintf(words, sizeof words, "%.*s%s%.100s", dot ? (int)fmin((double)(dot - result_name), 100) : 0, result_name,
+             dot ? ": " : "", last);
     const size_t length = strlen(words), begin = dot ? length - strnlen(last, 100) : 0;
     if (length - begin > strlen(degrees) && strcmp(words + length - strlen(degrees), degrees) == 0)
         words[length - strlen(degrees)] = '\0';
@@ -93,7 +93,7 @@ void study_figure_title(char *text, size_t capacity, const char *name, const cha
     snprintf(text, capacity, *unit ? "%s [%s]" : "%s%s", words, unit);
 }
 
-int study_character_width(void) { return picture_is_too_narrow_for_key() ? 7 : 9; }
+int study_picture_character_width_in_pixels(void) { return picture_size_is_too_narrow_for_side_legend() ? 7 : 9; }
 
 double axis_tick_distance(double range, int max_intervals)
 {
@@ -104,18 +104,20 @@ double axis_tick_distance(double range, int max_intervals)
     return lead[k] * decade;
 }
 
-void study_picture_name(char *name, const char *key)
+void study_picture_write_file_name(char *name, const char *key)
 {
-    snprintf(name, PICTURE_NAME_ROOM, "%.*s.%s", CASE_NAME_ROOM, key, picture_ending[picture_size_get().format]);
+    snprintf(name, PICTURE_NAME_ROOM, "%.*s.%s", CASE_NAME_ROOM, key,
+             picture_ending[picture_size_get_process_wide().format]);
     for (char *c = name; *c; c++)
         if (*c == '/') *c = '_';
 }
 
-bool varied_key_values_are_numbers(const struct varied_key *key, const char **unit)
+bool varied_key_values_are_numbers_of_one_unit(const struct varied_key *key, const char **unit)
 {
     for (int v = 0; v < key->values; v++) {
         const char *own;
-        if (isnan(value_read_number_and_unit(key->value[v], &own)) || (v > 0 && strcmp(own, *unit) != 0)) return false;
+        if (isnan(value_text_split_number_and_unit(key->value[v], &own)) || (v > 0 && strcmp(own, *unit) != 0))
+            return false;
         *unit = own;
     }
     return true;

@@ -19,7 +19,7 @@ static const double PROPORTION = 0.7; /* height of a panel divided by its width 
 /* Writes the title of line number `line` (from 0) of the picture p to text[capacity]: the values of the varied keys
  * (keys of the input file that a study varies) that distinguish lines, separated by commas. Truncates a title that is
  * too long. */
-void study_line_title(char *text, size_t capacity, const struct study_picture *p, int line)
+void study_picture_write_line_title(char *text, size_t capacity, const struct study_picture *p, int line)
 {
     size_t used = 0;
     int rest = p->lines;
@@ -29,26 +29,27 @@ void study_line_title(char *text, size_t capacity, const struct study_picture *p
         if (p->role[k] != ROLE_LINES) continue;
         const struct varied_key *key = &p->key[k].shown;
         rest /= key->values;
-        study_value_label(value, key, line / rest % key->values);
+        varied_key_write_value_label(value, key, line / rest % key->values);
         if (used < capacity)
             used += (size_t)snprintf(text + used, capacity - used, "%s%s", used > 0 ? ", " : "", value);
     }
 }
 
-void study_key_text(char *text, size_t capacity, const struct shown_key *key)
+void plotted_key_write_label_with_unit(char *text, size_t capacity, const struct plotted_key *key)
 {
     snprintf(text, capacity, *key->unit ? "%s [%s]" : "%s%s", key->shown.key, key->unit);
 }
 
-void study_keys_text(char *text, size_t capacity, const struct study_picture *p, enum key_role role, bool with_value)
+void study_picture_write_labels_of_keys_with_role(char *text, size_t capacity, const struct study_picture *p,
+                                                  enum key_role role, bool with_value)
 {
     size_t used = 0;
     *text = '\0';
     for (int k = 0; k < p->keys; k++) {
         char value[LABEL_ROOM], name[NOTE_ROOM];
         if (p->role[k] != role) continue;
-        study_value_label(value, &p->key[k].shown, 0);
-        study_key_text(name, sizeof name, &p->key[k]);
+        varied_key_write_value_label(value, &p->key[k].shown, 0);
+        plotted_key_write_label_with_unit(name, sizeof name, &p->key[k]);
         if (used < capacity)
             used += (size_t)snprintf(text + used, capacity - used, "%s%s%s%s", used > 0 ? ", " : "", name,
                                      with_value ? " = " : "", with_value ? value : "");
@@ -62,16 +63,16 @@ static void notes_find(struct study_picture *p, bool map)
 {
     char keys[NOTE_ROOM - 64];
     p->notes = 0;
-    study_keys_text(keys, sizeof keys, p, ROLE_HELD, true);
+    study_picture_write_labels_of_keys_with_role(keys, sizeof keys, p, ROLE_HELD, true);
     if (*keys) snprintf(p->note[p->notes++], NOTE_ROOM, "at %s alone", keys);
-    study_keys_text(keys, sizeof keys, p, ROLE_CHANCE, false);
+    study_picture_write_labels_of_keys_with_role(keys, sizeof keys, p, ROLE_CHANCE, false);
     if (*keys)
         snprintf(p->note[p->notes++], NOTE_ROOM,
                  map ? "means over %s" : "points and bars: mean and standard deviation over %s", keys);
     if (p->seeds)
         snprintf(p->note[p->notes++], NOTE_ROOM,
                  "full line: mean; dashed lines: mean plus and minus the standard deviation");
-    if (map && !study_points_complete(p)) snprintf(p->note[p->notes++], NOTE_ROOM, "white: no value");
+    if (map && !study_picture_every_point_has_value(p)) snprintf(p->note[p->notes++], NOTE_ROOM, "white: no value");
 }
 
 static int tics_shown(const struct varied_key *key)
@@ -83,7 +84,9 @@ static int tics_shown(const struct varied_key *key)
  * when written along the horizontal axis of a panel of p. */
 static bool words_touch(const struct study_picture *p, const struct varied_key *key)
 {
-    return tics_shown(key) * (study_longest_label_length(key) + 2) * study_character_width() > p->wide;
+    return tics_shown(key) * (varied_key_longest_value_label_length(key) + 2) *
+               study_picture_character_width_in_pixels() >
+           p->wide;
 }
 
 /* ---- layout ------------------------------------------------------------------------------------------------------ */
@@ -97,8 +100,10 @@ static int numbers_length(const struct study_picture *p, bool across, int most)
 {
     int longest = 0;
     for (int panel = 0; panel < p->panels; panel++) {
-        const struct study_axis axis = across ? study_axis_across(p, panel) : study_axis_of_figure(p, panel);
-        const int length = study_axis_number_length(&axis, across ? study_intervals_across(p, &axis) : most);
+        const struct study_axis axis =
+            across ? study_panel_get_horizontal_axis(p, panel) : study_panel_get_vertical_axis(p, panel);
+        const int length = study_axis_longest_tick_label_length(
+            &axis, across ? study_panel_max_horizontal_axis_intervals(p, &axis) : most);
         longest = length > longest ? length : longest;
     }
     return longest;
@@ -108,7 +113,7 @@ static int numbers_length(const struct study_picture *p, bool across, int most)
  * size of the picture, computes the size of a panel from the size of the picture instead. */
 static void size_settle(struct study_picture *p)
 {
-    const struct picture_size given = picture_size_get();
+    const struct picture_size given = picture_size_get_process_wide();
     const int around = STUDY_TITLE + p->below, rows = panel_rows(p);
     const int under = p->notes * STUDY_ROW + p->strip;
     p->width = p->columns * (p->left + p->wide + p->right) + p->legend;
@@ -120,7 +125,7 @@ static void size_settle(struct study_picture *p)
     }
     p->height = given.height ? given.height : rows * (around + p->high) + under;
     for (int k = 0; k < p->notes && !given.width; k++) {
-        const int wide = ((int)strlen(p->note[k]) + 2) * study_character_width();
+        const int wide = ((int)strlen(p->note[k]) + 2) * study_picture_character_width_in_pixels();
         p->width = wide > p->width ? wide : p->width;
     }
 }
@@ -130,10 +135,12 @@ static void size_settle(struct study_picture *p)
 static void margins_find(struct study_picture *p, const struct varied_key *up)
 {
     const double slope = 0.64, run = 0.77; /* sine and cosine of 40 degrees */
-    const bool narrow = picture_is_too_narrow_for_key();
-    const int letter = study_character_width(), along = study_longest_label_length(&p->key[p->across].shown) * letter;
-    const int numbers = (numbers_length(p, false, study_intervals_up(p)) + 3) * letter;
-    p->left = up ? (study_longest_label_length(up) + 6) * letter : (int)fmax(numbers, narrow ? 9 * letter : NUMBERS);
+    const bool narrow = picture_size_is_too_narrow_for_side_legend();
+    const int letter = study_picture_character_width_in_pixels(),
+              along = varied_key_longest_value_label_length(&p->key[p->across].shown) * letter;
+    const int numbers = (numbers_length(p, false, study_panel_max_vertical_axis_intervals(p)) + 3) * letter;
+    p->left = up ? (varied_key_longest_value_label_length(up) + 6) * letter
+                 : (int)fmax(numbers, narrow ? 9 * letter : NUMBERS);
     p->right = up           ? 2 * STUDY_COLOUR_BAR + (numbers_length(p, false, STUDY_COLOUR_STEPS) + 3) * letter
                : p->numbers ? (int)fmax(3, 2 + 0.5 * numbers_length(p, true, 0)) * letter
                : p->slanted ? 2 * letter
@@ -147,21 +154,21 @@ static void margins_find(struct study_picture *p, const struct varied_key *up)
 static void key_space_find(struct study_picture *p)
 {
     char text[256];
-    study_keys_text(text, sizeof text, p, ROLE_LINES, false);
+    study_picture_write_labels_of_keys_with_role(text, sizeof text, p, ROLE_LINES, false);
     int longest = 0;
     const int title = (int)strlen(text);
     for (int l = 0; l < p->lines; l++) {
-        study_line_title(text, sizeof text, p, l);
+        study_picture_write_line_title(text, sizeof text, p, l);
         longest = (int)strlen(text) > longest ? (int)strlen(text) : longest;
     }
-    if (picture_is_too_narrow_for_key()) {
-        const int columns =
-            (picture_size_get().width - 2 * study_character_width()) / (SAMPLE + longest * study_character_width());
+    if (picture_size_is_too_narrow_for_side_legend()) {
+        const int columns = (picture_size_get_process_wide().width - 2 * study_picture_character_width_in_pixels()) /
+                            (SAMPLE + longest * study_picture_character_width_in_pixels());
         p->key_columns = columns < 1 ? 1 : columns < p->lines ? columns : p->lines;
         p->strip = (1 + (p->lines + p->key_columns - 1) / p->key_columns) * STUDY_ROW;
     } else {
         p->key_columns = 1;
-        p->legend = ((longest + 5 > title ? longest + 5 : title) + 2) * study_character_width();
+        p->legend = ((longest + 5 > title ? longest + 5 : title) + 2) * study_picture_character_width_in_pixels();
     }
 }
 
@@ -179,20 +186,20 @@ static void columns_try(struct study_picture *p, const struct varied_key *up)
     size_settle(p);
 }
 
-void study_layout_find(struct study_picture *p, const struct varied_key *up)
+void study_picture_compute_layout(struct study_picture *p, const struct varied_key *vertical_key)
 {
-    const struct picture_size given = picture_size_get();
+    const struct picture_size given = picture_size_get_process_wide();
     const int most = p->panels < COLUMNS_MOST ? p->panels : COLUMNS_MOST;
     double largest = 0;
     int best = most;
     p->legend = p->strip = 0;
-    if (!up && p->lines > 1) key_space_find(p);
-    notes_find(p, up != NULL);
+    if (!vertical_key && p->lines > 1) key_space_find(p);
+    notes_find(p, vertical_key != NULL);
     for (p->columns = most; p->columns >= 1; p->columns--) {
-        columns_try(p, up);
+        columns_try(p, vertical_key);
         const double size = given.height ? fmin(p->wide, p->high / PROPORTION) : fmin(p->wide, NARROW_PANEL);
         if (size > largest) largest = size, best = p->columns;
     }
     p->columns = best;
-    columns_try(p, up);
+    columns_try(p, vertical_key);
 }

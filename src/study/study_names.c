@@ -45,7 +45,7 @@ void study_register_case_name(struct study *s, int case_number)
     s->slot[name_slot(s, s->at[case_number].name)] = case_number + 1;
 }
 
-void study_grow_name_table(struct study *s)
+void study_enlarge_run_name_table_if_full(struct study *s)
 {
     if (2 * (s->n + 1) <= s->slots) return;
     memory_free(s->slot);
@@ -113,7 +113,7 @@ static int label_order(const void *a, const void *b)
     return order != 0 ? order : strcmp(x->key, y->key);
 }
 
-int study_list_keys_in_run_names(int *key_order, const struct varied_key *key, int key_count)
+int study_list_multivalued_keys_in_name_order(int *key_order, const struct varied_key *key, int key_count)
 {
     struct labelled *l = NEW("study.labels", key_count, struct labelled);
     int n = 0;

@@ -57,7 +57,7 @@ char *study_options_compose_from_arguments(int argc, char *const *argv, const ch
         const int words = word_listed(argv[k], taking) && k + 1 < argc ? 2 : 1;
         for (int w = 0; w < words; w++) {
             if (printed++) putc(' ', to);
-            study_print_shell_word(to, argv[k + w]);
+            study_print_word_quoted_for_shell(to, argv[k + w]);
         }
         k += words - 1;
     }

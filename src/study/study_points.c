@@ -52,19 +52,19 @@ static struct unit figure_unit(const struct study_picture *p, int figure)
     for (int c = 0; c < p->table->cases; c++)
         if (isfinite(value[c])) largest = fmax(largest, fabs(value[c]));
     study_write_unit_of_result(unit, sizeof unit, p->header, p->table->figure[figure]);
-    return unit_for_largest_value_if_prefixable(unit, largest);
+    return unit_with_si_prefix_if_unit_allows_it(unit, largest);
 }
 
-void study_points_compute(struct study_picture *p)
+void study_picture_compute_points(struct study_picture *p)
 {
-    study_points_free(p);
+    study_picture_free_points(p);
     for (int panel = 0; panel < p->panels; panel++) {
         p->unit_of_figure[panel] = figure_unit(p, p->figure[panel]);
         p->point[panel] = means_find(p, p->table->value[p->figure[panel]], p->unit_of_figure[panel].factor);
     }
 }
 
-void study_points_free(struct study_picture *p)
+void study_picture_free_points(struct study_picture *p)
 {
     for (int panel = 0; panel < p->panels; panel++) {
         memory_free(p->point[panel]);
@@ -72,7 +72,7 @@ void study_points_free(struct study_picture *p)
     }
 }
 
-void study_points_range(const struct study_picture *p, int panel, double *low, double *high)
+void study_panel_find_value_range(const struct study_picture *p, int panel, double *low, double *high)
 {
     *low = INFINITY, *high = -INFINITY;
     for (int k = 0; k < p->lines * p->key[p->across].shown.values; k++) {
@@ -82,7 +82,7 @@ void study_points_range(const struct study_picture *p, int panel, double *low, d
     }
 }
 
-bool study_points_complete(const struct study_picture *p)
+bool study_picture_every_point_has_value(const struct study_picture *p)
 {
     for (int panel = 0; panel < p->panels; panel++)
         for (int k = 0; k < p->lines * p->key[p->across].shown.values; k++)

@@ -27,10 +27,10 @@ enum { WORDS_FIXED = 12 };
 struct runner {
     struct study *study;
     struct study_options how;
-    struct core_shares *shares; /* shares of the processor cores, one for each process */
-    int running, ended;         /* number of processes that run; that have ended */
-    bool stopped;               /* the running processes have received a signal to stop */
-    double since;               /* time of this signal on wall_clock_seconds [s] */
+    struct cpu_core_partition *shares; /* shares of the processor cores, one for each process */
+    int running, ended;                /* number of processes that run; that have ended */
+    bool stopped;                      /* the running processes have received a signal to stop */
+    double since;                      /* time of this signal on wall_clock_seconds [s] */
 };
 
 /* ---- the command ------------------------------------------------------------------------------------------------- */
@@ -70,7 +70,7 @@ static void print_quoted(FILE *out, char c, bool harmful)
         putc(c, out);
 }
 
-void study_print_shell_word(FILE *out, const char *word)
+void study_print_word_quoted_for_shell(FILE *out, const char *word)
 {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:%@";
     const size_t length = strlen(word);
@@ -100,7 +100,8 @@ static struct path path_whole(const char *path)
     return whole;
 }
 
-void study_print_command(const struct study *s, const struct study_case *c, struct study_options options, FILE *out)
+void study_print_command_of_case(const struct study *s, const struct study_case *c, struct study_options options,
+                                 FILE *out)
 {
     char team[16], *pairs;
     const char *name = program_invocation_name;
@@ -110,10 +111,10 @@ void study_print_command(const struct study *s, const struct study_case *c, stru
     snprintf(team, sizeof team, "%d", options.threads);
     char **word = command_words(scene.text, c, options.threads > 0 ? team : NULL, folder.text,
                                 options.overwrite ? "--overwrite" : "--resume", &pairs);
-    study_print_shell_word(out, *program.text ? program.text : name);
+    study_print_word_quoted_for_shell(out, *program.text ? program.text : name);
     for (int k = 1; word[k]; k++) {
         putc(' ', out);
-        study_print_shell_word(out, word[k]);
+        study_print_word_quoted_for_shell(out, word[k]);
     }
     putc('\n', out);
     memory_free(pairs);
@@ -191,12 +192,12 @@ static status case_start(struct runner *r, struct study_case *c, int slot)
                                                  : NULL,
                                 &pairs);
     c->seconds = -wall_clock_seconds();
-    core_share_bind_calling_thread(r->shares, slot); /* inherited by the child */
+    cpu_core_partition_bind_calling_thread(r->shares, slot); /* inherited by the child */
     fflush(NULL);
     c->process = (int)fork();
     if (c->process == 0) become_run(word, fd);
     const int fault = errno;
-    core_share_bind_calling_thread(r->shares, -1);
+    cpu_core_partition_bind_calling_thread(r->shares, -1);
     close(fd);
     memory_free(pairs);
     memory_free(word);
@@ -361,7 +362,7 @@ status study_lock_folder(struct study *s, bool overwrite)
 status study_execute_waiting_runs(struct study *s, struct study_options options)
 {
     struct runner r = {.study = s};
-    TRY(folder_make(s->folder));
+    TRY(folder_create_with_parents(s->folder));
     TRY(study_lock_folder(s, options.overwrite));
     for (int k = 0; k < s->n; k++) {
         struct study_case *c = &s->at[k];
@@ -370,11 +371,11 @@ status study_execute_waiting_runs(struct study *s, struct study_options options)
     }
     for (int k = 0; k < s->n; k++)
         if (s->at[k].state == CASE_WAITING) TRY(case_guard(s, &s->at[k]));
-    TRY(folder_make(path_join(s->folder, "logs").text));
+    TRY(folder_create_with_parents(path_join(s->folder, "logs").text));
     r.how = options_filled(options, s);
-    r.shares = core_shares_make(r.how.jobs);
+    r.shares = cpu_core_partition_make(r.how.jobs);
     const status ran = cases_run(&r);
-    core_shares_free(r.shares);
+    cpu_core_partition_free(r.shares);
     rmdir(path_join(s->folder, "logs").text); /* succeeds only if the folder is empty */
     return ran;
 }

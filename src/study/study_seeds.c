@@ -13,11 +13,11 @@
 static void mean_print(FILE *to, const char *header, const char *name, const double *value, int cases)
 {
     char text[UNIT_ROOM];
-    struct level_figures all;
-    convergence_summarise_runs(&all, value, cases);
+    struct spacing_level_statistics all;
+    convergence_compute_mean_over_runs(&all, value, cases);
     if (all.runs < 2) return;
     study_write_unit_of_result(text, sizeof text, header, name);
-    const struct unit unit = unit_for_largest_value_if_prefixable(text, fabs(all.mean));
+    const struct unit unit = unit_with_si_prefix_if_unit_allows_it(text, fabs(all.mean));
     fprintf(to, "%s: mean %.4g +- %.2g%s%s (95 %% interval), standard deviation %.2g%s%s, %d runs\n", name,
             all.mean / unit.factor, all.error / unit.factor, *unit.name ? " " : "", unit.name,
             all.deviation / unit.factor, *unit.name ? " " : "", unit.name, all.runs);
@@ -28,13 +28,13 @@ status study_print_means_over_seeds(FILE *to, const struct study_table *t, const
 {
     char header[HEADER_ROOM];
     struct study_picture p = {.table = t, .study = s};
-    if (!study_varies_seed_alone(key, keys)) return OK;
-    TRY(panels_show_named_figures(&p, result, results));
-    if (results == 0) panels_choose_figures(&p);
+    if (!study_varies_only_random_seed(key, keys)) return OK;
+    TRY(study_picture_set_results_of_panels_by_name(&p, result, results));
+    if (results == 0) study_picture_choose_results_of_panels(&p);
     study_read_history_header(header, sizeof header, s);
     for (int k = 0; k < p.panels; k++) {
         const char *name = t->figure[p.figure[k]];
-        if (results > 0 || !study_result_is_technical(name))
+        if (results > 0 || !result_describes_computation_instead_of_body(name))
             mean_print(to, header, name, t->value[p.figure[k]], t->cases);
     }
     return OK;

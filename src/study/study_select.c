@@ -28,25 +28,27 @@ static void panel_add(struct study_picture *p, int f)
     p->figure[p->panels++] = f;
 }
 
-void panels_choose_figures(struct study_picture *picture)
+void study_picture_choose_results_of_panels(struct study_picture *picture)
 {
     static const char *const first[] = {"crack.start_time", "crack.length_end", "crack.angle_deg",
                                         "crack.tip_speed_mean"};
     const struct study_table *t = picture->table;
-    for (size_t k = 0; k < COUNT_OF(first); k++) panel_add(picture, study_index_of_result(t, first[k]));
+    for (size_t k = 0; k < COUNT_OF(first); k++) panel_add(picture, study_table_index_of_result(t, first[k]));
     if (picture->panels == PANELS_MOST) return;
     for (int f = 0; f < t->figures && picture->panels < PANELS_MOST - 1; f++)
         if (strncmp(t->figure[f], "probes.", 7) == 0) panel_add(picture, f);
     for (int f = 0; f < t->figures && picture->panels < PANELS_MOST - 1; f++)
-        if (strncmp(t->figure[f], "energy.", 7) == 0 && !study_result_is_technical(t->figure[f])) panel_add(picture, f);
-    panel_add(picture, study_index_of_result(t, "loop_seconds"));
+        if (strncmp(t->figure[f], "energy.", 7) == 0 && !result_describes_computation_instead_of_body(t->figure[f]))
+            panel_add(picture, f);
+    panel_add(picture, study_table_index_of_result(t, "loop_seconds"));
 }
 
-status panels_show_named_figures(struct study_picture *picture, const char *const *figure_name, int figure_count)
+status study_picture_set_results_of_panels_by_name(struct study_picture *picture, const char *const *figure_name,
+                                                   int figure_count)
 {
     const struct study_table *t = picture->table;
     for (int k = 0; k < figure_count && k < PANELS_MOST; k++) {
-        const int f = study_index_of_result(t, figure_name[k]);
+        const int f = study_table_index_of_result(t, figure_name[k]);
         if (f < 0)
             return status_set(REFUSED,
                               "sweep: --of %s: sweep.csv has no such figure%s its first line names all figures",
@@ -57,7 +59,7 @@ status panels_show_named_figures(struct study_picture *picture, const char *cons
     return OK;
 }
 
-bool key_is_seed(const char *key)
+bool key_is_random_seed(const char *key)
 {
     const char *dot = strrchr(key, '.');
     return dot && strcmp(dot, ".seed") == 0;
@@ -65,18 +67,19 @@ bool key_is_seed(const char *key)
 
 bool key_has_no_physical_meaning(const char *key)
 {
-    return key_is_seed(key) || !strcmp(key, "time.step") || !strcmp(key, "time.safety");
+    return key_is_random_seed(key) || !strcmp(key, "time.step") || !strcmp(key, "time.safety");
 }
 
-bool study_varies_seed_alone(const struct varied_key *key, int key_count)
+bool study_varies_only_random_seed(const struct varied_key *key, int key_count)
 {
     int varied = 0, at = 0;
     for (int k = 0; k < key_count; k++)
         if (key[k].values > 1) varied++, at = k;
-    return varied == 1 && key_is_seed(key[at].key);
+    return varied == 1 && key_is_random_seed(key[at].key);
 }
 
-void values_find_indices_in_runs(int **value_at, const struct study *study, const struct shown_key *key, int key_count)
+void study_find_value_indices_of_keys_in_runs(int **value_at, const struct study *study, const struct plotted_key *key,
+                                              int key_count)
 {
     for (int k = 0; k < key_count; k++) {
         value_at[k] = NEW("study.value_at", study->n, int);
@@ -94,7 +97,7 @@ void values_find_indices_in_runs(int **value_at, const struct study *study, cons
     }
 }
 
-void roles_assign_to_keys(struct study_picture *picture, int max_lines)
+void study_picture_assign_roles_to_varied_keys(struct study_picture *picture, int max_lines)
 {
     picture->lines = 1;
     picture->chance = false;

@@ -69,15 +69,15 @@ static int component_that_varies(const struct varied_key *key, int dim)
 /* Removes the unit from all shown values of the varied key k, and stores it in k->unit, if they are numbers with one
  * common unit; stores the SI unit of the key if they are numbers without unit. Otherwise leaves the values unchanged.
  */
-static void unit_part(struct shown_key *k)
+static void unit_part(struct plotted_key *k)
 {
     const char *unit;
-    k->numbers = varied_key_values_are_numbers(&k->shown, &unit);
+    k->numbers = varied_key_values_are_numbers_of_one_unit(&k->shown, &unit);
     if (!k->numbers) return;
     snprintf(k->unit, sizeof k->unit, "%s", *unit ? unit : scene_key_unit(k->given.key));
     for (int v = 0; v < k->shown.values; v++) {
         char *text = k->shown.value[v];
-        value_read_number_and_unit(text, &unit);
+        value_text_split_number_and_unit(text, &unit);
         size_t length = (size_t)(unit - text);
         while (length > 0 && text[length - 1] == ' ') length--;
         text[length] = '\0';
@@ -91,12 +91,12 @@ static void text_swap(char **a, char **b)
 }
 
 /* Sorts the values of the key k, which must be numbers, in ascending order: both the given and the shown values. */
-static void values_sort(struct shown_key *k)
+static void values_sort(struct plotted_key *k)
 {
     const char *unit;
     for (int v = 1; v < k->shown.values; v++)
-        for (int w = v; w > 0 && value_read_number_and_unit(k->shown.value[w], &unit) <
-                                     value_read_number_and_unit(k->shown.value[w - 1], &unit);
+        for (int w = v; w > 0 && value_text_split_number_and_unit(k->shown.value[w], &unit) <
+                                     value_text_split_number_and_unit(k->shown.value[w - 1], &unit);
              w--) {
             text_swap(&k->shown.value[w], &k->shown.value[w - 1]);
             text_swap(&k->given.value[w], &k->given.value[w - 1]);
@@ -184,11 +184,11 @@ static void key_words(char *text, size_t capacity, const char *key, int componen
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
 /* Initialises *k, the varied key `key` (a key of the input file that a study varies) as pictures show it: its words and
- * its values without common parts. shown_keys_free releases it. s: scene of the study, NULL if it cannot be read. */
-static void shown_key_make(struct shown_key *k, const struct varied_key *key, const struct scene *s)
+ * its values without common parts. plotted_keys_free releases it. s: scene of the study, NULL if it cannot be read. */
+static void shown_key_make(struct plotted_key *k, const struct varied_key *key, const struct scene *s)
 {
     const int n = key->values;
-    *k = (struct shown_key){.given = *key, .shown.values = n};
+    *k = (struct plotted_key){.given = *key, .shown.values = n};
     k->given.value = NEW("study.given", n, char *);
     k->shown.value = NEW("study.values", n, char *);
     k->shown.key = NEW("study.words", NOTE_ROOM, char);
@@ -206,7 +206,7 @@ static void shown_key_make(struct shown_key *k, const struct varied_key *key, co
 
 /* Replaces the words of those of the shown keys k[keys] that have the same words as another key by their full names, as
  * in the option -s, so that all are distinct. */
-static void words_part(struct shown_key *k, int keys)
+static void words_part(struct plotted_key *k, int keys)
 {
     for (int a = 0; a < keys; a++)
         for (int b = a + 1; b < keys; b++) {
@@ -216,9 +216,10 @@ static void words_part(struct shown_key *k, int keys)
         }
 }
 
-struct shown_key *shown_keys_make(const struct study *study, const struct varied_key *key, int key_count)
+struct plotted_key *plotted_keys_create_from_varied_keys(const struct study *study, const struct varied_key *key,
+                                                         int key_count)
 {
-    struct shown_key *shown = NEW("study.shown", key_count, struct shown_key);
+    struct plotted_key *shown = NEW("study.shown", key_count, struct plotted_key);
     struct scene_override *first = NEW("study.first", key_count, struct scene_override);
     struct scene scene;
     for (int k = 0; k < key_count; k++) first[k] = (struct scene_override){key[k].key, key[k].value[0]};
@@ -230,7 +231,7 @@ struct shown_key *shown_keys_make(const struct study *study, const struct varied
     return shown;
 }
 
-void shown_keys_free(struct shown_key *shown, int key_count)
+void plotted_keys_free(struct plotted_key *shown, int key_count)
 {
     for (int k = 0; k < key_count; k++) {
         for (int v = 0; v < shown[k].shown.values; v++) memory_free(shown[k].shown.value[v]);

@@ -41,7 +41,7 @@ static void number_take(void *context, const char *key, double value)
     struct filled *f = context;
     int at = f->next < f->table->figures && !strcmp(f->table->figure[f->next], key)
                  ? f->next
-                 : study_index_of_result(f->table, key);
+                 : study_table_index_of_result(f->table, key);
     if (at < 0) at = figure_add(f->table, key);
     f->table->value[at][f->row] = value;
     f->next = at + 1;
@@ -75,15 +75,15 @@ void study_table_free(struct study_table *t)
     *t = (struct study_table){0};
 }
 
-int study_index_of_result(const struct study_table *t, const char *name)
+int study_table_index_of_result(const struct study_table *t, const char *name)
 {
     for (int f = 0; f < t->figures; f++)
         if (strcmp(t->figure[f], name) == 0) return f;
-    const char *now = result_current_name(name);
-    return now ? study_index_of_result(t, now) : -1;
+    const char *now = renamed_result_find_current_name(name);
+    return now ? study_table_index_of_result(t, now) : -1;
 }
 
-bool study_result_is_technical(const char *name)
+bool result_describes_computation_instead_of_body(const char *name)
 {
     static const char *const begin[] = {"steps",          "time_step",      "time_end",
                                         "particles",      "bonds_",         "levels.",
@@ -119,7 +119,7 @@ static const char *state_of(const struct study *s, const struct study_case *c, c
 {
     const struct path folder = study_case_folder(s, c);
     if (!path_is_file(path_join(folder.text, "summary.json").text))
-        return study_case_with_results(s, c)->state == CASE_FAILED ? "failed" : "missing";
+        return study_case_whose_results_are_used(s, c)->state == CASE_FAILED ? "failed" : "missing";
     return summary_read_string(folder.text, "status", text, capacity) == OK ? text : "unknown";
 }
 
@@ -133,7 +133,7 @@ static void table_print(FILE *to, const struct study_table *t, const struct stud
     putc('\n', to);
     for (int c = 0; c < s->n; c++) {
         char state[NAME_MAX_LENGTH];
-        cell_print(to, study_case_with_results(s, &s->at[c])->name);
+        cell_print(to, study_case_whose_results_are_used(s, &s->at[c])->name);
         putc(',', to);
         cell_print(to, state_of(s, &s->at[c], state, sizeof state));
         for (int k = 0; k < keys; k++)
@@ -153,7 +153,7 @@ status study_write_table(const struct study_table *t, const struct study *s, con
     size_t length = 0;
     FILE *to = memory_stream_open(&text, &length);
     if (to) table_print(to, t, s, key, keys);
-    return study_write_stream_to_file(s, "sweep.csv", to, &text, &length);
+    return study_write_memory_stream_to_file(s, "sweep.csv", to, &text, &length);
 }
 
 /* ---- guard ------------------------------------------------------------------------------------------------------- */
@@ -168,10 +168,10 @@ status study_check_output_files_replaceable(const struct study *s, const struct 
     if (study_folder_check_is_usable(s->folder) != OK) return OK; /* study_lock_folder reports the fault */
     TRY(file_check_is_from_cleave(path_join(s->folder, "sweep.csv").text, begin, COUNT_OF(begin)));
     char name[PICTURE_NAME_ROOM];
-    study_picture_name(name, "map");
+    study_picture_write_file_name(name, "map");
     TRY(picture_check_replaceable(path_join(pictures.text, name).text));
     for (int k = 0; k < keys; k++) {
-        study_picture_name(name, key[k].key);
+        study_picture_write_file_name(name, key[k].key);
         if (key[k].values > 1) TRY(picture_check_replaceable(path_join(pictures.text, name).text));
     }
     return OK;

@@ -76,19 +76,19 @@ void study_write_unit_of_result(char *unit, size_t capacity, const char *header,
         }
 }
 
-struct unit unit_for_spacings(double coarsest)
+struct unit unit_choose_for_particle_spacings(double coarsest_spacing)
 {
     static const double SPACINGS = 10; /* of a small body */
-    return unit_for_length(SPACINGS * coarsest);
+    return unit_for_length(SPACINGS * coarsest_spacing);
 }
 
-struct unit convergence_spacing_unit(const struct convergence_study *s)
+struct unit convergence_study_choose_spacing_unit(const struct convergence_study *s)
 {
-    return unit_for_spacings(s->spacings.at[s->spacings.levels - 1][0]);
+    return unit_choose_for_particle_spacings(s->spacings.at[s->spacings.levels - 1][0]);
 }
 
-struct unit scalar_result_unit(const struct scalar_result_study *f)
+struct unit scalar_result_study_choose_unit(const struct scalar_result_study *f)
 {
-    return unit_for_largest_value_if_prefixable(f->unit,
-                                                fmax(fabs(f->c.level[0].mean), fabs(f->c.level[f->c.levels - 1].mean)));
+    return unit_with_si_prefix_if_unit_allows_it(
+        f->unit, fmax(fabs(f->c.level[0].mean), fabs(f->c.level[f->c.levels - 1].mean)));
 }

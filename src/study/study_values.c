@@ -11,7 +11,7 @@
 /* Largest number of values of a key in a study; longest value [characters]. */
 enum { VALUES_MOST = 10000, VALUE_LONGEST = 1000 };
 
-double value_read_number_and_unit(const char *value, const char **unit)
+double value_text_split_number_and_unit(const char *value, const char **unit)
 {
     char *end;
     const double number = strtod(value, &end);
@@ -96,7 +96,7 @@ static bool row_read(struct row *r, const struct varied_key *k, const char *text
         const char *end = value_end(at, ':'), *unit;
         if ((*end == '\0') != (part == 2)) return false;
         char *piece = trimmed(at, end);
-        r->number[part] = value_read_number_and_unit(piece, &unit);
+        r->number[part] = value_text_split_number_and_unit(piece, &unit);
         const bool fits = !isnan(r->number[part]) && strlen(unit) < sizeof r->unit;
         const bool other = fits && *unit && *r->unit && strcmp(unit, r->unit) != 0;
         if (fits && *unit && !other) strcpy(r->unit, unit);

@@ -101,9 +101,9 @@ int error_bars_read_from_convergence_study(struct error_bar *error_bars, int cap
     char *text, *rest;
     size_t length;
     int n = 0;
-    if (!study_folder_is_of_scene(study.text, s->text)) {
+    if (!study_folder_contains_study_of_scene(study.text, s->text)) {
         study = pilot_folder_of_run(folder);
-        if (!study_folder_is_of_scene(study.text, s->text)) return 0;
+        if (!study_folder_contains_study_of_scene(study.text, s->text)) return 0;
     }
     if (file_read_whole(path_join(study.text, "converge.csv").text, &text, &length) != OK) return 0;
     char *line = strtok_r(text, "\n", &rest);

@@ -41,11 +41,12 @@ static struct band band_of(const char *spacing, const char *method)
     struct scene s;
     struct run e = {0};
     if (scene_read(&s, SCENE, override, COUNT_OF(override)) != OK) fail_msg("%s", status_message());
-    if (engine_set_up_run(&e, &s, NULL) != OK || engine_run_to_end(&e) != OK) fail_msg("%s", status_message());
+    if (run_set_up_from_scene(&e, &s, NULL) != OK || run_advance_to_end_time(&e) != OK)
+        fail_msg("%s", status_message());
     const struct crack_tip *tip = tips_find_tip_with_largest_growth(&e.fracture->tips);
     assert_non_null(tip);
     struct band b = {band_width(&e, tip->growth), tip->growth, e.diagnostics->now.energy.fracture};
-    engine_free_run(&e);
+    run_free_memory(&e);
     scene_free(&s);
     return b;
 }
@@ -90,6 +91,6 @@ static void test_adaptive(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_pd), cmocka_unit_test(test_adaptive)};
-    team_set_thread_count(0);
+    threads_set_count_and_bind_to_cores(0);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -86,7 +86,7 @@ static void at_rest(struct held_run *r, const struct places *was)
         for (int64_t i = 0; i < p->n; i++) p->x[d][i] = was->x[d][i], p->v[d][i] = 0;
     for (int d = 0; d < p->dim && p->stretch[d]; d++)
         for (int64_t i = 0; i < p->n; i++) p->stretch[d][i] = 1;
-    for (int c = 0; c < symmetric_component_count(p->dim); c++)
+    for (int c = 0; c < symmetric_tensor_component_count(p->dim); c++)
         for (int64_t i = 0; i < p->n; i++) p->stress[c][i] = 0;
     r->e.grid->sort_needed = true;
 }
@@ -115,12 +115,12 @@ static void column(struct held_run *r, const struct places *was, int k, real sig
         at_rest(r, was);
         p->v[k % p->dim][k / p->dim] = unit;
         r->e.coupling->damping_share = damped ? share : 0;
-        assert_ok(engine_adapt_refinement_and_step(&r->e));
+        assert_ok(run_adapt_mesh_and_advance_one_step(&r->e));
         add_column(p, damped ? o->Q : o->W, o->n, k, 2 * unit);
     }
-    assert_ok(engine_adapt_refinement_and_step(&r->e));
+    assert_ok(run_adapt_mesh_and_advance_one_step(&r->e));
     add_column(p, o->W, o->n, k, -2 * unit);
-    assert_ok(engine_adapt_refinement_and_step(&r->e));
+    assert_ok(run_adapt_mesh_and_advance_one_step(&r->e));
     add_column(p, o->third, o->n, k, 2 * unit);
     r->e.coupling->damping_share = share;
 }
@@ -279,7 +279,7 @@ static real shaken(struct held_run *r, int steps)
     const real start = particles_kinetic_energy(p);
     real most = 0;
     for (int k = 0; k < steps; k++) {
-        if (engine_adapt_refinement_and_step(&r->e) != OK) return INFINITY;
+        if (run_adapt_mesh_and_advance_one_step(&r->e) != OK) return INFINITY;
         if (k % 8 == 0) most = real_max(most, particles_kinetic_energy(p) / start);
     }
     return most;
@@ -331,7 +331,7 @@ static void test_plate(void **state)
     const real start = particles_kinetic_energy(&r->e.part);
     assert_ok(bench_engine_run(&r->e, 1, NULL)); /* creates the record of samples */
     while (r->e.clock.step < 10000) {
-        assert_ok(engine_adapt_refinement_and_step(&r->e));
+        assert_ok(run_adapt_mesh_and_advance_one_step(&r->e));
         if (r->e.clock.step < 1000) continue; /* the first step of the record is extrapolated */
         if (!(fabs(r->e.diagnostics->now.balance_error) < 1e-5))
             print_message("step %d: %g\n", (int)r->e.clock.step, r->e.diagnostics->now.balance_error);
@@ -376,7 +376,7 @@ static void test_turning(void **state)
                  "output: {frames: 0, samples: 40}\n%s",
                  ball[k].model, ball[k].coupling, ball[k].text);
         assert_ok(bench_engine_make(&r->e, &r->s, "disc", text, NULL, 0));
-        assert_ok(engine_run_to_end(&r->e));
+        assert_ok(run_advance_to_end_time(&r->e));
         const real off = r->e.diagnostics->now.balance_error;
         if (!(fabs(off) < 3e-4)) fail_msg("%s, %s, %dD: balance %.2e", ball[k].model, ball[k].coupling, r->s.dim, off);
         bench_engine_free(&r->e, &r->s);

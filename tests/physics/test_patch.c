@@ -66,7 +66,7 @@ static void lattice_stress(const struct cloud_plan *plan, const real strain[DIM_
     cloud_bonds(&c);
     cloud_strain(&c, strain);
     bond_stress_table[c.p.dim][PD_BOND](&c.bonds, &c.p);
-    for (int s = 0; s < symmetric_component_count(c.p.dim); s++) stress[s] = c.p.stress[s][c.p.n / 2];
+    for (int s = 0; s < symmetric_tensor_component_count(c.p.dim); s++) stress[s] = c.p.stress[s][c.p.n / 2];
     particle_cloud_free(&c);
 }
 
@@ -176,7 +176,7 @@ static void test_mpm_rest(void **state)
                 &(struct cloud_plan){.space = space, .count = {12, 12, 12}, .horizon = 3, .optional = WITH_STRETCH});
             for (int64_t i = 0; i < s.c.p.n; i++) {
                 s.c.p.kind[i] = KIND_MPM;
-                for (int c = 0; c < symmetric_component_count(dim); c++) s.c.p.stress[c][i] = 1e6 * (c + 1);
+                for (int c = 0; c < symmetric_tensor_component_count(dim); c++) s.c.p.stress[c][i] = 1e6 * (c + 1);
             }
             particles_rebuild_lists_by_kind(&s.c.p);
             patch_grid(&s, 2, 0);
@@ -243,6 +243,6 @@ int main(void)
         cmocka_unit_test(test_pd_rest),         cmocka_unit_test(test_pd_lattice), cmocka_unit_test(test_pd_isotropic),
         cmocka_unit_test(test_pd_calibrations), cmocka_unit_test(test_mpm_rest),   cmocka_unit_test(test_mpm_crossing),
     };
-    team_set_thread_count(2);
+    threads_set_count_and_bind_to_cores(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -71,15 +71,15 @@ static void run(struct ran *r, const char *text, const struct scene_override *ke
     assert_int_equal(system("rm -rf " FOLDER), 0); /* left by a failed test */
     while (keys < ROW_KEYS && key && key[keys].key) keys++;
     if (scene_read_text(&r->s, text, strlen(text), "test.yaml", key, keys) != OK) fail_msg("%s", status_message());
-    assert_ok(engine_set_up_run(&r->e, &r->s, &r->o));
+    assert_ok(run_set_up_from_scene(&r->e, &r->s, &r->o));
     assert_ok(output_open(&r->o, FOLDER, r->s.text, OUTPUT_OVERWRITE, false));
     r->e.report->quiet = true;
-    assert_ok(engine_run_to_end(&r->e));
+    assert_ok(run_advance_to_end_time(&r->e));
 }
 
 static void done(struct ran *r)
 {
-    engine_free_run(&r->e);
+    run_free_memory(&r->e);
     output_close(&r->o);
     scene_free(&r->s);
     assert_int_equal(system("rm -rf " FOLDER), 0);
@@ -210,7 +210,7 @@ static char folder[] = "/tmp/cleave_plane_strain_XXXXXX";
 static int enter(void **state)
 {
     (void)state;
-    output_configure();
+    output_install_signal_handling_for_file_writes();
     return mkdtemp(folder) == NULL || chdir(folder) != 0;
 }
 

@@ -27,7 +27,8 @@ static struct outcome outcome_of(const char *scene, struct bench_overrides *o, c
     struct scene s;
     struct bench_figure peak = {"reaction", "force_max", NAN};
     bench_overrides_append(o, "output.frames", "0");
-    if (bench_engine_make(&e, &s, scene, NULL, bench_overrides_as_array(o), o->n) != OK || engine_run_to_end(&e) != OK)
+    if (bench_engine_make(&e, &s, scene, NULL, bench_overrides_as_array(o), o->n) != OK ||
+        run_advance_to_end_time(&e) != OK)
         fail_msg("%s: %s", scene, status_message());
     bench_figures_read_from_probes(&e, &peak, 1);
     const struct steps_record *record = &e.statics->record;

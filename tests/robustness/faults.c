@@ -254,11 +254,11 @@ WRAP(int, close, (int fd), (fd), hit_file(OWN_CLOSE, fd) && (close(fd), errno = 
     }
 
 PLACE(status, output_write_history, (struct output *o, const real *value), (o, value), AT_SAMPLE)
-PLACE(int64_t, convert_flagged_points,
+PLACE(int64_t, convert_flagged_points_to_peridynamic,
       (struct conversion *c, const struct conversion_rule *rule, struct particles *p, struct bonds *b,
        const struct bond_source *source, struct partial_stress *partial, const struct conversion_sync *look, real t),
       (c, rule, p, b, source, partial, look, t), AT_CONVERSION)
-PLACE(void, partial_stress_make,
+PLACE(void, partial_stress_compute_from_bonds,
       (struct partial_stress *partial, const struct particles *p, const struct bonds *b,
        const struct bond_source *source, const int32_t *changed, int64_t n),
       (partial, p, b, source, changed, n), AT_COUPLING)

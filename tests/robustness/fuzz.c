@@ -210,8 +210,8 @@ int main(int argc, char **argv)
     const size_t most = targets[target].most;
     const time_t end = time(NULL) + atol(argv[2]);
     state = strtoull(argv[3], NULL, 10) * 2 + 1;
-    output_configure();
-    team_set_thread_count(1);
+    output_install_signal_handling_for_file_writes();
+    threads_set_count_and_bind_to_cores(1);
     atexit(leave);
     read_words(argv[4]);
     for (int k = 5; k < argc; k++) pool_file(argv[k]);

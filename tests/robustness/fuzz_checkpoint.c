@@ -30,7 +30,7 @@ static void begin(struct run *e)
     if (!scene.text && scene_read_text(&scene, text, strlen(text), "fuzz", NULL, 0) != OK)
         fuzz_fail("the scene", status_message());
     *e = (struct run){0};
-    if (engine_set_up_run(e, &scene, &out) != OK) fuzz_fail("the engine", status_message());
+    if (run_set_up_from_scene(e, &scene, &out) != OK) fuzz_fail("the engine", status_message());
     e->report->quiet = true;
     if (!out.folder && output_open(&out, "fuzz_run", scene.text, OUTPUT_OVERWRITE, false) != OK)
         fuzz_fail("the folder", status_message());
@@ -41,9 +41,9 @@ uint8_t *fuzz_checkpoint_seed(size_t *n)
     struct run e;
     char *bytes = NULL;
     begin(&e);
-    if (engine_run_to_end(&e) != OK || file_read_whole("fuzz_run/checkpoint.previous.h5", &bytes, n) != OK)
+    if (run_advance_to_end_time(&e) != OK || file_read_whole("fuzz_run/checkpoint.previous.h5", &bytes, n) != OK)
         fuzz_fail("the run", status_message());
-    engine_free_run(&e);
+    run_free_memory(&e);
     uint8_t *seed = malloc(*n);
     if (seed) memcpy(seed, bytes, *n -= FOOTER_BYTES);
     memory_free(bytes);
@@ -68,14 +68,14 @@ void fuzz_checkpoint(const uint8_t *bytes, size_t n)
     begin(&e);
     put_checkpoint(bytes, n);
     status_set(OK, "%s", "");
-    status s = checkpoint_read(&out, scene.text, engine_load_checkpoint, &e);
+    status s = checkpoint_read(&out, scene.text, run_load_checkpoint, &e);
     if (s == OK) {
         e.report->out = NULL;
         if (e.clock.steps > e.clock.step && e.clock.step >= 0)
             e.clock.steps = e.clock.step + STEPS < e.clock.steps ? e.clock.step + STEPS : e.clock.steps;
-        s = engine_run_to_end(&e);
+        s = run_advance_to_end_time(&e);
     }
     if (s != OK && (!status_message()[0] || strchr(status_message(), '\n')))
         fuzz_fail("refused without a line", status_message());
-    engine_free_run(&e);
+    run_free_memory(&e);
 }

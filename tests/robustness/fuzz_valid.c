@@ -162,7 +162,7 @@ static void judge(const struct run *e, const char *when)
         for (int d = 0; d < p->dim; d++)
             if (!isfinite(p->x[d][i]) || !isfinite(p->v[d][i]))
                 fuzz_fail("a place or a velocity that is no number", when);
-        for (int k = 0; k < symmetric_component_count(p->dim); k++)
+        for (int k = 0; k < symmetric_tensor_component_count(p->dim); k++)
             if (!isfinite(p->stress[k][i])) fuzz_fail("a stress that is no number", when);
         if (!(p->damage[i] >= -1e-9 && p->damage[i] <= 1 + 1e-9)) fuzz_fail("damage is not within 0 and 1", when);
     }
@@ -177,12 +177,12 @@ static void run(const char *text)
     status_set(OK, "%s", "");
     status done = scene_read_text(&s, text, strlen(text), "valid", NULL, 0);
     if (done == OK) {
-        done = engine_set_up_run(&e, &s, NULL);
+        done = run_set_up_from_scene(&e, &s, NULL);
         e.report->quiet = true;
         if (done == OK) judge(&e, "at the start");
         if (e.clock.steps > STEPS) e.clock.steps = STEPS;
-        if (done == OK && (done = engine_run_to_end(&e)) == OK) judge(&e, "at the end");
-        engine_free_run(&e);
+        if (done == OK && (done = run_advance_to_end_time(&e)) == OK) judge(&e, "at the end");
+        run_free_memory(&e);
         scene_free(&s);
     }
     if (done != OK && (!status_message()[0] || strchr(status_message(), '\n')))

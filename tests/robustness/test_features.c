@@ -157,7 +157,7 @@ static void scene_note(const struct small_scene *small)
         .name = small->file, .override = small->setting, .overrides = small->n, .scene = &s, .files = true};
     memset(here, 0, sizeof here);
     if (file_read_bytes(small->file, &text, &length) != OK || tree_parse_yaml(&r, text, length, -1, &plain) != OK ||
-        scene_parse_tree(&r, text, length, &root) != OK)
+        scene_text_parse_with_includes_and_overrides(&r, text, length, &root) != OK)
         fail_msg("%s: %s", small->name, status_message());
     const struct key *include = key_find("", "include");
     if (yaml_node_find(plain, "include")) seen[include - keys][0] = true;

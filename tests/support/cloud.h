@@ -43,7 +43,7 @@ struct particle_cloud {
     struct bond_source source;
     struct bonds bonds;
     real *neighbour_volume;
-    struct surface_weights surface;
+    struct surface_correction surface;
 };
 
 /* Returns a pseudo-random number, uniform in [0, 1) and equal on all machines, from a linear congruential generator,
@@ -126,7 +126,7 @@ static inline void cloud_exact(struct particle_cloud *c)
 static inline void cloud_unfold(struct bonds *b)
 {
     for (int64_t g = 0; g < b->row_blocks; g++)
-        if (b->implicit[g]) bond_row_block_write_columns_from_stencil(b, g);
+        if (b->implicit[g]) bond_row_block_copy_bonds_from_stencil(b, g);
 }
 
 /* Creates the cells of the body c and fills c->source, the argument from which bonds_make makes bonds: materials,
@@ -144,7 +144,7 @@ static inline void cloud_source(struct particle_cloud *c)
         (struct bond_limit){.critical_stretch = c->limit, .materials = CLOUD_MATERIALS, .last_force = LAST_FORCE_HALF};
     s->yield = (struct bond_yield){c->yield, c->hardening, CLOUD_MATERIALS};
     if (s->family.surface == SURFACE_MOMENTS &&
-        surface_weights_fit_bond_weight_factors(&c->surface, &c->p, s, s->rotates) == OK)
+        surface_correction_fit_bond_weight_factors(&c->surface, &c->p, s, s->rotates) == OK)
         s->surface = &c->surface;
     if (s->family.surface != SURFACE_VOLUME) return;
     c->neighbour_volume = NEW("cloud.volume", c->p.n_all, real);
@@ -178,7 +178,7 @@ static inline void particle_cloud_free(struct particle_cloud *c)
     if (c->bonds.column) bonds_free(&c->bonds);
     if (c->cells.start) cells_free(&c->cells);
     memory_free(c->neighbour_volume);
-    surface_weights_free(&c->surface);
+    surface_correction_free(&c->surface);
     particles_free(&c->p);
     memset(c, 0, sizeof *c);
 }

@@ -12,7 +12,7 @@
 static inline real law_step(const struct law *law, enum space space, const real *before, real *stress, real *a,
                             real *work, real *zz)
 {
-    const int dim = space_dim(space), n = symmetric_component_count(dim);
+    const int dim = space_dim(space), n = symmetric_tensor_component_count(dim);
     const real start = *a, nu = law->poisson;
     struct law_points p = {.active = lanes_mask_from_bits(8)};
     for (int c = 0; c < SYM_MAX; c++) p.s[c] = p.before[c] = p.back[c] = lanes_broadcast(0);

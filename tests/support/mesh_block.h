@@ -93,7 +93,7 @@ static void shake(struct block *b, real by, uint64_t seed)
 static real node_place(const struct mesh *mesh, int64_t I, int d)
 {
     return grid_node_position(&mesh->grid, d,
-                              mesh_regular_node_of_doubled_node(mesh, I) / mesh->grid.stride[d] % mesh->grid.count[d]);
+                              mesh_original_node_of_doubled_node(mesh, I) / mesh->grid.stride[d] % mesh->grid.count[d]);
 }
 
 /* Displaces all nodes with mass as a body that is first extended along x by `stretch` [1] and then rotated about z by
@@ -217,7 +217,7 @@ static real largest_force(const struct block *b)
 static inline void partial_of(struct partial_stress *partial, const struct particles *p,
                               const struct material *material, real most)
 {
-    const int n = symmetric_component_count(p->dim);
+    const int n = symmetric_tensor_component_count(p->dim);
     uint64_t seed = 17;
     real compliance[SYM_MAX * SYM_MAX];
     memset(partial, 0, sizeof *partial);

@@ -133,7 +133,7 @@ static inline void operator_forces(struct operator* o, real *f)
         for (int d = 0; d < g->dim; d++)
             e->frame->mesh.displacement[d][g->mirror_node[k].node] =
                 g->mirror_node[k].sign[d] * e->frame->mesh.displacement[d][g->mirror_node[k].image];
-    if (getenv("OPERATOR_SHOW")) reference_frame_update_motion_and_stress(e->frame, &e->part, &e->loads);
+    if (getenv("OPERATOR_SHOW")) lagrangian_mesh_update_point_motion_and_stress(e->frame, &e->part, &e->loads);
     run_compute_internal_forces(e);
     for (int64_t k = 0; k < mirror_nodes; k++)
         for (int d = 0; d < g->dim; d++)

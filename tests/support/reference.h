@@ -159,7 +159,7 @@ static inline real *reference_table(const struct bonds *b, const struct particle
     real *w = NEW("reference.w", p->n * p->n, real);
     for (int64_t k = 0; k < p->n * p->n; k++) w[k] = NAN;
     for (int64_t row = 0; row < b->rows; row++)
-        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);)
+        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_iterator_advance(&it);)
             w[b->particle[row] * p->n + it.bond.nbr] = it.bond.w;
     return w;
 }

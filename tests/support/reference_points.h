@@ -143,7 +143,7 @@ static inline void reference_step_free(struct reference_step *s)
  * the part that bonds between peridynamic particles and material points carry. */
 static inline void reference_given(const struct reference_step *s, int64_t i, real tensor[DIM_MAX][DIM_MAX])
 {
-    int n = symmetric_component_count(s->p->dim);
+    int n = symmetric_tensor_component_count(s->p->dim);
     real sigma[SYM_MAX], given[SYM_MAX];
     for (int a = 0; a < n; a++) given[a] = sigma[a] = s->p->stress[a][i];
     if (s->partial->index && s->partial->index[i] >= 0)
@@ -328,7 +328,7 @@ static inline void reference_stress(const struct reference_step *s, int64_t i, r
     struct particles *p = s->p;
     const struct elastic *c = &s->elastic[p->material[i]];
     real sigma[DIM_MAX][DIM_MAX] = {{0}}, W[DIM_MAX][DIM_MAX] = {{0}}, WW[DIM_MAX][DIM_MAX], old[SYM_MAX], trace = 0;
-    for (int a = 0; a < symmetric_component_count(p->dim); a++) old[a] = p->stress[a][i];
+    for (int a = 0; a < symmetric_tensor_component_count(p->dim); a++) old[a] = p->stress[a][i];
     reference_tensor(old, p->dim, sigma);
     for (int a = 0; a < p->dim; a++)
         for (int b = 0; b < p->dim; b++) W[a][b] = 0.5 * s->dt * (L[a][b] - L[b][a]);

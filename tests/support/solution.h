@@ -26,7 +26,7 @@ static inline void solution_make_list(struct solution *a, const char *text, va_l
 {
     memset(a, 0, sizeof *a);
     a->made = scene_with(&a->s, text, list);
-    if (a->made == OK) a->made = engine_set_up_run(&a->e, &a->s, NULL);
+    if (a->made == OK) a->made = run_set_up_from_scene(&a->e, &a->s, NULL);
     if (a->e.report) a->e.report->quiet = true;
     a->ran = a->made;
 }
@@ -48,7 +48,7 @@ static inline void solution_run(struct solution *a, const char *text, ...)
     va_start(list, text);
     solution_make_list(a, text, list);
     va_end(list);
-    if (a->made == OK) a->ran = engine_run_to_end(&a->e);
+    if (a->made == OK) a->ran = run_advance_to_end_time(&a->e);
 }
 
 /* Fails the test with the message of the last error unless a->ran is OK. */
@@ -60,7 +60,7 @@ static inline void solution_done(const struct solution *a)
 /* Frees the run and the scene of *a, if they were created. */
 static inline void solution_free(struct solution *a)
 {
-    engine_free_run(&a->e);
+    run_free_memory(&a->e);
     scene_free(&a->s);
 }
 

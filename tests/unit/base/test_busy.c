@@ -3,12 +3,12 @@
 
 #include "base/busy.h"
 
-/* Returns true if machine_describe_overload_if_any writes a warning about a machine with the load `load` of other
+/* Returns true if machine_compose_warning_if_overloaded writes a warning about a machine with the load `load` of other
  * programs, `cores` cores and `threads` threads, and checks that this warning contains the text `words`. */
 static bool said(double load, int cores, int threads, const char *words)
 {
     char text[256] = "";
-    const bool busy = machine_describe_overload_if_any(text, sizeof text, load, cores, threads);
+    const bool busy = machine_compose_warning_if_overloaded(text, sizeof text, load, cores, threads);
     if (busy && !strstr(text, words)) fail_msg("%s", text);
     assert_int_equal(busy, text[0] != '\0');
     return busy;

@@ -26,7 +26,7 @@ static void status_keeps_its_message(void **state)
     (void)state;
     assert_refused(outer(), "x.yaml:3:1: 7 is too large");
     assert_failed(status_set(FAILED, "again: %s", status_message()), "again: x.yaml:3:1: 7 is too large");
-    status_add_line("x.yaml:%d:1: \n", 4);
+    status_message_append_line("x.yaml:%d:1: \n", 4);
     assert_string_equal(status_message(), "again: x.yaml:3:1: 7 is too large\nx.yaml:4:1: ?");
     char *text = memory_new("text", 5001, 1);
     memset(text, 'a', 5000);
@@ -58,14 +58,14 @@ static void arrays_may_be_empty_or_overlap(void **state)
 static void refusals_have_one_place(void **state)
 {
     (void)state;
-    assert_refused(status_prepend_location("x.yaml:3:1: ", status_set(REFUSED, "no particle")),
+    assert_refused(status_message_prepend_location("x.yaml:3:1: ", status_set(REFUSED, "no particle")),
                    "x.yaml:3:1: no particle");
-    assert_refused(status_prepend_location("x.yaml: ", REFUSED),
+    assert_refused(status_message_prepend_location("x.yaml: ", REFUSED),
                    "x.yaml:3:1: no particle"); /* the first location is kept */
     assert_int_equal(strncmp(status_message(), "x.yaml:3:1: ", 12), 0);
-    status_prepend_location("x.yaml: ", status_set(FAILED, "disk full"));
+    status_message_prepend_location("x.yaml: ", status_set(FAILED, "disk full"));
     assert_string_equal(status_message(), "disk full"); /* a failure has no location */
-    status_prepend_location("", status_set(REFUSED, "no particle"));
+    status_message_prepend_location("", status_set(REFUSED, "no particle"));
     assert_string_equal(status_message(), "no particle");
 }
 
@@ -177,7 +177,7 @@ static void team_has_the_threads_asked_for(void **state)
     struct machine before = machine_properties();
     for (int threads = 3; threads >= 1; threads--) {
         int seen = 0;
-        assert_int_equal(team_set_thread_count(threads), threads);
+        assert_int_equal(threads_set_count_and_bind_to_cores(threads), threads);
 #pragma omp parallel
 #pragma omp single
         seen = omp_get_num_threads();
@@ -188,8 +188,8 @@ static void team_has_the_threads_asked_for(void **state)
     assert_int_equal(m.threads_allowed, before.threads_allowed);
     assert_true(m.cores >= 1 && m.threads_allowed >= m.cores);
     assert_true(m.memory > 0 && strlen(m.model) > 0);
-    assert_true(team_set_thread_count(0) >= 1);
-    team_set_thread_count(2);
+    assert_true(threads_set_count_and_bind_to_cores(0) >= 1);
+    threads_set_count_and_bind_to_cores(2);
 }
 
 static void timers_book_time_where_it_went(void **state)
@@ -413,7 +413,7 @@ static void compliance_inverts_stiffness(void **state)
     const enum space space[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_PLANE_STRAIN, SPACE_SOLID};
     for (size_t k = 0; k < COUNT_OF(space); k++) {
         struct material m = {.young = 7e10, .poisson = 0.2, .density = 1};
-        int dim = space_dim(space[k]), n = symmetric_component_count(dim);
+        int dim = space_dim(space[k]), n = symmetric_tensor_component_count(dim);
         real C[SYM_MAX * SYM_MAX], S[SYM_MAX * SYM_MAX];
         material_compute_derived_constants(&m, space[k]);
         material_stiffness_matrix(&m, dim, C);

@@ -164,10 +164,10 @@ static void manufactured_is_a_solution(void **state)
                 manufactured_motion(&m, place[k], t - h, u[0]), manufactured_motion(&m, place[k], t + h, u[1]);
                 for (int a = 0; a < dim; a++)
                     assert_true(fabs((u[1][a] - u[0][a]) / (2 * h) - v.velocity[a]) <= 1e-6 * m.amplitude);
-                for (int s = 0; s < symmetric_component_count(dim); s++) {
+                for (int s = 0; s < symmetric_tensor_component_count(dim); s++) {
                     int a, b;
                     real ends[4][DIM_MAX], slope = 0;
-                    symmetric_component_axes(dim, s, &a, &b);
+                    symmetric_tensor_component_axes(dim, s, &a, &b);
                     for (int end = 0; end < 4; end++) {
                         real Y[DIM_MAX] = {place[k][0], place[k][1], place[k][2]};
                         Y[end < 2 ? b : a] += end % 2 ? -h : h;
@@ -234,7 +234,7 @@ static void particles_start_in_a_transverse_wave(void **state)
     struct scene s;
     struct particles p;
     assert_int_equal(scene_read_text(&s, text, strlen(text), "test", NULL, 0), OK);
-    assert_int_equal(fill_bodies_with_particles(&p, &s, NULL, 0), OK);
+    assert_int_equal(bodies_fill_with_particles(&p, &s, NULL, 0), OK);
     const struct wave_pulse *w = &s.initial[0].pulse;
     const real speed = sqrt(2 / (2 * 1.2) / 1.3), *n = w->direction;
     for (int64_t i = 0; i < p.n; i++) {

@@ -128,7 +128,7 @@ static void points_are_as_far_off_as_measured(void **state)
         accuracy_compose_scene_of_point(&p, &from);
         assert_int_equal(bench_engine_make(&e, &s, "test", from.text, bench_overrides_as_array(&from.set), from.set.n),
                          OK);
-        assert_int_equal(p.problem->run ? p.problem->run(&p, &e) : engine_run_to_end(&e), OK);
+        assert_int_equal(p.problem->run ? p.problem->run(&p, &e) : run_advance_to_end_time(&e), OK);
         assert_int_equal(p.problem->measure(&p, &e, &error, part), OK);
         if (fabs(error / cheap[k].error - 1) > 0.2)
             fail_msg("%s, %s %d: error %g, %g was measured", p.problem->name, method->name, p.resolution, error,

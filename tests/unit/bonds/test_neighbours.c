@@ -475,6 +475,6 @@ int main(void)
         cmocka_unit_test(test_rows_inherit),    cmocka_unit_test(test_rows_again),
         cmocka_unit_test(test_rows_of_lattice), cmocka_unit_test(test_rows_threads),
     };
-    team_set_thread_count(2);
+    threads_set_count_and_bind_to_cores(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -102,12 +102,12 @@ static void test_what_is_stored(void **state)
             const int32_t i = b->particle[row];
             const real r = apart(p, i, j);
             if (j == i || r > c.source.family.cutoff) continue;
-            assert_true(bond_next(&it));
+            assert_true(bond_iterator_advance(&it));
             assert_int_equal(it.bond.nbr, j);
             assert_true(fabs(it.bond.inverse_length * r - 1) < 1e-15);
             assert_true(it.bond.w == 1);
         }
-        assert_false(bond_next(&it));
+        assert_false(bond_iterator_advance(&it));
     }
     assert_int_equal(count_folded(b), implicit);
     cloud_unfold(&c.bonds);
@@ -174,7 +174,7 @@ static struct made make_all(struct particle_cloud *c, enum pd_model model)
         made_add(&m, &broken, 1);
         made_add(&m, &energy, 1);
         for (int d = 0; d < c->p.dim; d++) made_add(&m, c->p.f[d], c->p.n);
-        for (int s = 0; s < symmetric_component_count(c->p.dim); s++) made_add(&m, c->p.stress[s], c->p.n);
+        for (int s = 0; s < symmetric_tensor_component_count(c->p.dim); s++) made_add(&m, c->p.stress[s], c->p.n);
     }
     return m;
 }
@@ -223,7 +223,7 @@ static void test_fault(void **state)
     exact_cloud(&c, 2, SURFACE_NONE, NULL);
     struct bonds *b = &c.bonds;
     assert_null(bonds_describe_first_inconsistency(b));
-    const int64_t q = bond_index_for_writing(b, b->row_blocks / 2, 3, 4), column = q / LANES;
+    const int64_t q = bond_copy_on_write_and_return_array_index(b, b->row_blocks / 2, 3, 4), column = q / LANES;
     assert_null(bonds_describe_first_inconsistency(b)); /* stored explicitly, it still follows its stencil */
     bond_fade(b, &c.p, b->row_blocks / 2 * LANES + 4, q, 0.5);
     assert_null(bonds_describe_first_inconsistency(b));
@@ -258,7 +258,7 @@ static void test_who_leaves(void **state)
     struct particle_cloud c;
     exact_cloud(&c, 2, SURFACE_NONE, NULL);
     const int64_t implicit = count_folded(&c.bonds), row_block = c.bonds.row_blocks / 2,
-                  q = bond_index_for_writing(&c.bonds, row_block, 3, 4);
+                  q = bond_copy_on_write_and_return_array_index(&c.bonds, row_block, 3, 4);
     bond_fade(&c.bonds, &c.p, row_block * LANES + 4, q, 0);
     for (int64_t g = 0; g < c.bonds.row_blocks; g++)
         assert_true(c.bonds.stencil[g] ? g != row_block : g == row_block || at_an_end(&c, g));
@@ -279,7 +279,7 @@ static void test_who_stays_out(void **state)
     particles_rebuild_lists_by_kind(&c.p);
     bonds_make(&c.bonds, NULL, &c.p, &c.source);
     const int64_t row = c.bonds.row_of[point] + 1,
-                  q = bond_index_for_writing(&c.bonds, row / LANES, 5, (int)(row % LANES));
+                  q = bond_copy_on_write_and_return_array_index(&c.bonds, row / LANES, 5, (int)(row % LANES));
     const int32_t j = c.bonds.nbr[q];
     bond_fade(&c.bonds, &c.p, row, q, 0.5);
     c.p.kind[point] = KIND_PD;
@@ -289,7 +289,7 @@ static void test_who_stays_out(void **state)
     bonds_free(&old);
     int found = 0;
     for (int64_t k = 0; k < c.bonds.column_count[row / LANES]; k++) {
-        const int64_t at = bond_index_for_writing(&c.bonds, row / LANES, k, (int)(row % LANES));
+        const int64_t at = bond_copy_on_write_and_return_array_index(&c.bonds, row / LANES, k, (int)(row % LANES));
         if (c.bonds.nbr[at] == j && c.bonds.w[at] == 0.5) found++;
     }
     assert_int_equal(found, 1);

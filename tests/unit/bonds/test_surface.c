@@ -20,7 +20,7 @@ enum { STRAINS = 6 };
 /* A body, the requirements of its faces, and a factor for each particle and offset. */
 struct plain {
     struct particle_cloud cloud;
-    struct near_faces body;
+    struct particles_near_faces body;
     struct surface_fit_targets faces;
     real *factor, alpha, prior, full[DIM_MAX][DIM_MAX][DIM_MAX][DIM_MAX];
     real strain[STRAINS][DIM_MAX][DIM_MAX];
@@ -98,18 +98,18 @@ static void add_bond(const struct plain *s, int k, real factor, real (*fourth)[D
 
 static bool may_change(const struct plain *s, int64_t t, int k)
 {
-    const int32_t j = near_faces_neighbour_at_offset(&s->body, t, k);
+    const int32_t j = particles_near_faces_neighbour_at_offset(&s->body, t, k);
     return j >= 0 && !(s->body.whole[s->body.particle[t]] && s->body.whole[j]);
 }
 
 static real objective(const struct plain *s)
 {
-    const struct near_faces *near = &s->body;
+    const struct particles_near_faces *near = &s->body;
     real sum = 0;
     for (int64_t t = 0; t < near->n; t++) {
         real fourth[DIM_MAX][DIM_MAX][DIM_MAX][DIM_MAX] = {{{{0}}}}, third[DIM_MAX][DIM_MAX][DIM_MAX] = {{{0}}};
         for (int k = 0; k < near->offset.n; k++) {
-            if (near_faces_neighbour_at_offset(near, t, k) < 0) continue;
+            if (particles_near_faces_neighbour_at_offset(near, t, k) < 0) continue;
             const real f = s->factor[t * near->offset.n + k];
             add_bond(s, k, f, fourth, third);
             if (may_change(s, t, k)) sum += 0.5 * s->prior * square(f - 1);
@@ -128,8 +128,8 @@ static void plain_make(struct plain *s, const struct cloud_plan *plan)
     cloud_exact(&s->cloud);
     cloud_source(&s->cloud);
     int64_t apart[2];
-    assert_int_equal(near_faces_list_particles_and_neighbours(&s->body, &s->cloud.p, &s->cloud.source, apart), OK);
-    surface_fit_targets_compute_moments(&s->faces, &s->body, false);
+    assert_int_equal(particles_near_faces_list_with_neighbours(&s->body, &s->cloud.p, &s->cloud.source, apart), OK);
+    surface_fit_targets_compute_areas_and_moments(&s->faces, &s->body, false);
     const struct offsets *o = &s->body.offset;
     real third[DIM_MAX][DIM_MAX][DIM_MAX] = {{{0}}}, bonds = 0, squared = 0;
     for (int k = 0; k < o->n; k++) add_bond(s, k, 1, s->full, third);
@@ -157,14 +157,14 @@ static void plain_make(struct plain *s, const struct cloud_plan *plan)
         for (int k = 0; k < o->n; k++) {
             real xi[DIM_MAX];
             for (int d = 0; d < DIM_MAX; d++) xi[d] = o->at[k][d] * CLOUD_SPACING;
-            s->factor[t * o->n + k] = surface_weight_factor(&s->cloud.surface, s->body.particle[t], xi);
+            s->factor[t * o->n + k] = surface_correction_bond_weight_factor(&s->cloud.surface, s->body.particle[t], xi);
         }
 }
 
 static void plain_free(struct plain *s)
 {
     surface_fit_targets_free(&s->faces);
-    near_faces_free(&s->body);
+    particles_near_faces_free(&s->body);
     memory_free(s->factor);
     particle_cloud_free(&s->cloud);
 }
@@ -175,7 +175,7 @@ static real slope(struct plain *s, int64_t t, int k)
 {
     const int n = s->body.offset.n;
     real *one = &s->factor[t * n + k];
-    real *other = &s->factor[s->body.place[near_faces_neighbour_at_offset(&s->body, t, k)] * n + n - 1 - k];
+    real *other = &s->factor[s->body.place[particles_near_faces_neighbour_at_offset(&s->body, t, k)] * n + n - 1 - k];
     const real was = *one, step = 1e-4;
     assert_true(*one == *other);
     *one = *other = was + step;
@@ -336,8 +336,8 @@ static void half_is_as_the_whole(void **state)
         for (int x = -3; x <= 3; x++)
             for (int y = -3; y <= 3; y++) {
                 const real xi[DIM_MAX] = {x * CLOUD_SPACING, y * CLOUD_SPACING, 0};
-                const real one = surface_weight_factor(&half.surface, i, xi);
-                const real other = surface_weight_factor(&whole.surface, i / 7 * 14 + 7 + i % 7, xi);
+                const real one = surface_correction_bond_weight_factor(&half.surface, i, xi);
+                const real other = surface_correction_bond_weight_factor(&whole.surface, i / 7 * 14 + 7 + i % 7, xi);
                 if (!(fabs(one - other) <= 1e-7)) fail_msg("particle %d, %d %d: %g, %g", (int)i, x, y, one, other);
             }
     loads_free(&loads);
@@ -371,6 +371,6 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(factors_are_least), cmocka_unit_test(faces_are_at_their_places),
                                        cmocka_unit_test(bending_has_the_energy_of_a_beam),
                                        cmocka_unit_test(half_is_as_the_whole), cmocka_unit_test(residual_is_told)};
-    team_set_thread_count(0);
+    threads_set_count_and_bind_to_cores(0);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -52,22 +52,22 @@ static struct run *contact_run(struct scene *s, const char *text, const char *la
     const struct scene_override set = {"contact.law", law};
     struct run *e = NEW("test.engine", 1, struct run);
     if (scene_read_text(s, text, strlen(text), "contact.yaml", &set, 1) != OK) fail_msg("%s", status_message());
-    assert_ok(engine_set_up_run(e, s, NULL));
+    assert_ok(run_set_up_from_scene(e, s, NULL));
     e->report->quiet = true;
-    assert_ok(report_start_before_first_step(e));
+    assert_ok(report_open_history_and_write_first_frame(e));
     return e;
 }
 
 static void contact_end(struct run *e, struct scene *s)
 {
-    engine_free_run(e);
+    run_free_memory(e);
     memory_free(e);
     scene_free(s);
 }
 
 static bool has_bond(const struct run *e, int64_t i, int64_t j)
 {
-    for (struct bond_iterator it = bond_iterator_of_row(&e->bonds, e->bonds.row_of[i]); bond_next(&it);)
+    for (struct bond_iterator it = bond_iterator_of_row(&e->bonds, e->bonds.row_of[i]); bond_iterator_advance(&it);)
         if (it.bond.w != 0 && it.bond.nbr == j) return true;
     return false;
 }
@@ -204,7 +204,7 @@ static real plain_faces(const struct run *e)
 static void contact_alone(struct run *e)
 {
     for (int d = 0; d < e->part.dim; d++) memset(e->part.f[d], 0, (size_t)e->part.n * sizeof(real));
-    contact_activate_particles_after_restart(e->contact, &e->part, &e->bonds, &e->loads);
+    contact_restore_active_particles_after_restart(e->contact, &e->part, &e->bonds, &e->loads);
     contact_compute_forces(e->contact, &e->part, 0);
 }
 
@@ -281,8 +281,8 @@ static void check_collision(const char *text, const char *law, real pairs_least)
     struct run *e = contact_run(&s, text, law);
     int64_t seen = 0;
     while (e->clock.step < e->clock.steps) {
-        assert_ok(engine_adapt_refinement_and_step(e));
-        assert_ok(stability_check_after_step(e));
+        assert_ok(run_adapt_mesh_and_advance_one_step(e));
+        assert_ok(run_check_stability_after_step(e));
         if (e->clock.step % 4 > 0) continue;
         check_plain(e);
         if (e->contact->touching == 0) continue;
@@ -338,7 +338,7 @@ static void test_steps(void **state)
     real most = 0;
     int64_t seen = 0;
     while (e->clock.step < e->clock.steps) {
-        assert_ok(engine_adapt_refinement_and_step(e));
+        assert_ok(run_adapt_mesh_and_advance_one_step(e));
         most = real_max(most, fabs(e->diagnostics->now.balance_error));
         if (e->contact->touching == 0) continue;
         if (seen % 8 == 0) check_law_gradient(e);
@@ -376,7 +376,7 @@ static void check_rest(const char *law)
                                "contact: {between: all}\ntime: {step: 0.1 us}\noutput: {frames: 1, samples: 10}\n";
     struct scene s;
     struct run *e = contact_run(&s, text, law);
-    for (int step = 0; step < 1000; step++) assert_ok(engine_adapt_refinement_and_step(e));
+    for (int step = 0; step < 1000; step++) assert_ok(run_adapt_mesh_and_advance_one_step(e));
     assert_true(e->contact->pairs > 50);
     for (int d = 0; d < 2; d++)
         for (int64_t i = 0; i < e->part.n; i++) assert_true(e->part.v[d][i] == 0);
@@ -400,11 +400,11 @@ static void test_account(void **state)
     static const int gaps[] = {4, 6};
     const real K = 7.3;
     for (int k = 0; k < 2; k++) {
-        struct contact_balance b = contact_energy_correction_start_account(NULL, gap[k][0]);
+        struct contact_leapfrog_error_account b = contact_leapfrog_error_account_for_new_list(NULL, gap[k][0]);
         real work = 0;
         for (int n = 1; n < gaps[k]; n++) {
             if (gap[k][n] < 0) work += 0.5 * K * gap[k][n] * 0.5 * (gap[k][n + 1] - gap[k][n - 1]);
-            assert_true(contact_energy_correction_force(&b, K, gap[k][n], true) ==
+            assert_true(contact_leapfrog_error_correction_force(&b, K, gap[k][n], true) ==
                         0); /* the account is negative meanwhile */
         }
         assert_near(b.account, -work, 1e-14);
@@ -438,11 +438,11 @@ static void test_sizes(void **state)
             p.X[dim > 1][i] = i * h, p.body[i] = i == 2;
             p.volume0[i] = (i == 1 ? 0.3 : 1) * pow(h, dim) * c.law.section;
         }
-        contact_list_compute_entry_data(&c, &p);
+        contact_list_set_spacings_and_surface_heights(&c, &p);
         assert_close(c.size[0], h, 1e-14);
         assert_close(c.size[1], dim == 1 ? 0.3 * h : dim == 2 ? sqrt(0.3) * h : cbrt(0.3) * h, 1e-12);
-        assert_near(contact_notch_width_between_entries(&c, &p, 0, 1), dim == 2 ? 0.31 * h : 0, 0);
-        assert_near(contact_notch_width_between_entries(&c, &p, 0, 2), 0, 0);
+        assert_near(contact_notch_width_between_particles(&c, &p, 0, 1), dim == 2 ? 0.31 * h : 0, 0);
+        assert_near(contact_notch_width_between_particles(&c, &p, 0, 2), 0, 0);
         memory_free(c.particle), memory_free(c.size), memory_free(c.rise), memory_free(c.root);
         particles_free(&p);
     }

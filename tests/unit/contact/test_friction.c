@@ -57,15 +57,15 @@ static struct run *body_begin(struct scene *s, const char *text)
 {
     struct run *e = NEW("test.engine", 1, struct run);
     if (scene_read_text(s, text, strlen(text), "friction.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
-    assert_ok(engine_set_up_run(e, s, NULL));
+    assert_ok(run_set_up_from_scene(e, s, NULL));
     e->report->quiet = true;
-    assert_ok(report_start_before_first_step(e));
+    assert_ok(report_open_history_and_write_first_frame(e));
     return e;
 }
 
 static void body_end(struct run *e, struct scene *s)
 {
-    engine_free_run(e);
+    run_free_memory(e);
     memory_free(e);
     scene_free(s);
 }
@@ -241,7 +241,7 @@ static void rigid_body_rubs(void **state)
     for (int k = 0; k < 7; k++) forces_at(e, 1e-7);
     assert_close(contact_friction_dissipated_energy(e->contact) - before, lost, 1e-9);
     e->report->sampling.due = true, e->damped = 0.021;
-    sample_compute_energies(e);
+    history_sample_compute_energies(e);
     assert_close(e->report->sampling.energy.damped, 0.021 + before + lost, 1e-9);
     assert_true(lost > 1e-6 * 0.021); /* significant beside the other terms */
     body_end(e, &s);

@@ -67,9 +67,9 @@ static struct run *pressed_begin(struct scene *s, const char *text)
     struct run *e = NEW("test.engine", 1, struct run);
     struct particles *p = &e->part;
     if (scene_read_text(s, text, strlen(text), "friction.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
-    assert_ok(engine_set_up_run(e, s, NULL));
+    assert_ok(run_set_up_from_scene(e, s, NULL));
     e->report->quiet = true;
-    assert_ok(report_start_before_first_step(e));
+    assert_ok(report_open_history_and_write_first_frame(e));
     contact_update_pair_list_if_outdated(e->contact, p, &e->bonds, &e->loads, &e->source.family, 0, 0, 0);
     for (int64_t i = 0; i < p->n; i++)
         if (p->body[i] == 1) p->x[p->dim - 1][i] -= 0.12e-3;
@@ -80,7 +80,7 @@ static struct run *pressed_begin(struct scene *s, const char *text)
 
 static void pressed_end(struct run *e, struct scene *s)
 {
-    engine_free_run(e);
+    run_free_memory(e);
     memory_free(e);
     scene_free(s);
 }
@@ -264,7 +264,7 @@ static real couple_of(int felt, real aside, int along, real *balance)
     contact_face_advance_friction_spring(&c, &p, 0, 1e-7);
     vector_product(reaction.arm, spring.drag, moment);
     for (int j = 0; j < felt; j++) {
-        const struct contact_weight w = contact_face_density_contribution(&c, &p, 0, j + 1, 0);
+        const struct contact_density_contribution w = contact_face_density_contribution(&c, &p, 0, j + 1, 0);
         real r[3], turning[3];
         for (int d = 0; d < 3; d++) r[d] = reaction.arm[d] - w.apart[d];
         vector_product(reaction.turn, r, force);

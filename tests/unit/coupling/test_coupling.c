@@ -37,7 +37,7 @@ static void set_stress(struct particle_cloud *c, const real strain[DIM_MAX][DIM_
         stress[at] = m->shear * (strain[a][b] + strain[b][a]);
     }
     for (int64_t i = 0; i < c->p.n; i++)
-        for (int s = 0; s < symmetric_component_count(dim); s++)
+        for (int s = 0; s < symmetric_tensor_component_count(dim); s++)
             c->p.stress[s][i] = c->p.kind[i] == KIND_MPM ? stress[s] : 0;
 }
 
@@ -56,7 +56,8 @@ static real interface_residual(const struct interface *k, const real strain[DIM_
     cloud_strain(&s.c, strain);
     set_stress(&s.c, strain, stress);
     bond_force_table[p->dim][PD_BOND](&s.c.bonds, p, &s.c.source.limit, NULL);
-    if (k->coupling == COUPLING_PARTIAL_STRESS) partial_stress_make(&s.partial, p, &s.c.bonds, &s.c.source, NULL, 0);
+    if (k->coupling == COUPLING_PARTIAL_STRESS)
+        partial_stress_compute_from_bonds(&s.partial, p, &s.c.bonds, &s.c.source, NULL, 0);
     patch_grid(&s, k->ratio, k->offset);
     patch_map(&s, k->shape);
     for (int d = 0; d < p->dim; d++) from[d] = reach, to[d] = count[d] - reach;
@@ -152,7 +153,7 @@ static void test_share_given(void **state)
     particle_cloud_make(&c, &bar);
     for (int64_t i = 16; i < c.p.n; i++) c.p.kind[i] = KIND_MPM;
     cloud_bonds(&c);
-    partial_stress_make(&partial, &c.p, &c.bonds, &c.source, NULL, 0);
+    partial_stress_compute_from_bonds(&partial, &c.p, &c.bonds, &c.source, NULL, 0);
     for (int64_t i = 0; i < c.p.n; i++) {
         int64_t k = i - 16;
         if (k < 0 || k > 2)
@@ -176,7 +177,7 @@ static void shares_make(struct particle_cloud *c, struct partial_stress *partial
             c->p.X[0][i] += c->p.X[0][i] > 23 * CLOUD_SPACING ? 0.01 * CLOUD_SPACING : 0;
     for (int64_t i = 0; i < c->p.n; i++) c->p.kind[i] = c->p.X[0][i] > 12 * CLOUD_SPACING ? KIND_MPM : KIND_PD;
     cloud_bonds(c);
-    partial_stress_make(partial, &c->p, &c->bonds, &c->source, NULL, 0);
+    partial_stress_compute_from_bonds(partial, &c->p, &c->bonds, &c->source, NULL, 0);
 }
 
 /* Checks that partial stresses from tables of bonds on a lattice agree with sums over the bonds, and that no tables are
@@ -242,13 +243,13 @@ static void test_energy_at_start(void **state)
         is_near("energy before", before / particle, (real)c.p.n, 1e-4);
         struct solid box = {
             .kind = SOLID_BOX, .from = {12 * CLOUD_SPACING}, .to = {(12 + row[k].block) * CLOUD_SPACING}};
-        convert_to_peridynamic_at_precracks(&c.p, &c.source, &(struct region){.n = 1, .solid = &box});
+        convert_particles_at_precracks_to_peridynamic(&c.p, &c.source, &(struct region){.n = 1, .solid = &box});
         assert_int_equal(c.p.n_of[KIND_PD], row[k].block);
         bonds_make(&c.bonds, NULL, &c.p, &c.source);
         set_stress(&c, strain, stress);
         /* Tolerance: finite strain and round-off as above, for 32 particle energies. */
         is_near("handshake", (energy_of(&c, &partial) - before) / particle, row[k].handshake, 1e-4);
-        partial_stress_make(&partial, &c.p, &c.bonds, &c.source, NULL, 0);
+        partial_stress_compute_from_bonds(&partial, &c.p, &c.bonds, &c.source, NULL, 0);
         is_near("partial stress", (energy_of(&c, &partial) - before) / particle, row[k].partial, 1e-4);
         partial_stress_free(&partial);
         particle_cloud_free(&c);
@@ -280,13 +281,17 @@ static void test_energy_in_run(void **state)
         cloud_copy(&before, p, 0);
         const struct conversion_rule by_breaks = {
             .criteria = CONVERT_ON_BREAK, .stress = NAN, .alpha = 1, .block = true};
-        assert_int_equal(
-            convert_flagged_points(&conversion, &rule, p, &c.bonds, &c.source, with ? &partial : NULL, NULL, 3e-6), 0);
+        assert_int_equal(convert_flagged_points_to_peridynamic(&conversion, &rule, p, &c.bonds, &c.source,
+                                                               with ? &partial : NULL, NULL, 3e-6),
+                         0);
         p->flag[15] |= FLAG_STRESSED;
-        assert_int_equal(convert_flagged_points(&conversion, &by_breaks, p, &c.bonds, &c.source, NULL, NULL, 2e-6), 0);
-        p->flag[15] |= FLAG_STRESSED; /* the flag has been cleared */
         assert_int_equal(
-            convert_flagged_points(&conversion, &rule, p, &c.bonds, &c.source, with ? &partial : NULL, NULL, 3e-6), 7);
+            convert_flagged_points_to_peridynamic(&conversion, &by_breaks, p, &c.bonds, &c.source, NULL, NULL, 2e-6),
+            0);
+        p->flag[15] |= FLAG_STRESSED; /* the flag has been cleared */
+        assert_int_equal(convert_flagged_points_to_peridynamic(&conversion, &rule, p, &c.bonds, &c.source,
+                                                               with ? &partial : NULL, NULL, 3e-6),
+                         7);
         for (int64_t i = 0; i < p->n; i++) assert_int_equal(p->kind[i], i >= 12 && i <= 18 ? KIND_PD : KIND_MPM);
         assert_int_equal(p->flag[15], 0);
         assert_int_equal(conversion.converted, 7);
@@ -314,7 +319,8 @@ static void test_block_in_its_body(void **state)
     for (int64_t i = 0; i < c.p.n; i++) c.p.kind[i] = KIND_MPM, c.p.body[i] = i >= 17;
     cloud_bonds(&c);
     c.p.flag[15] |= FLAG_NEAR;
-    assert_int_equal(convert_flagged_points(&conversion, &rule, &c.p, &c.bonds, &c.source, NULL, NULL, 3e-6), 5);
+    assert_int_equal(
+        convert_flagged_points_to_peridynamic(&conversion, &rule, &c.p, &c.bonds, &c.source, NULL, NULL, 3e-6), 5);
     for (int64_t i = 0; i < c.p.n; i++) assert_int_equal(c.p.kind[i], i >= 12 && i < 17 ? KIND_PD : KIND_MPM);
     particle_cloud_free(&c);
 }
@@ -332,7 +338,7 @@ static void test_crack_in_its_body(void **state)
     for (int64_t i = 0; i < c.p.n; i++) c.p.kind[i] = KIND_MPM, c.p.body[i] = i >= 40;
     cloud_source(&c);
     c.source.crack = &crack, c.source.cracks = 1;
-    convert_to_peridynamic_at_precracks(&c.p, &c.source, NULL);
+    convert_particles_at_precracks_to_peridynamic(&c.p, &c.source, NULL);
     for (int64_t i = 0; i < c.p.n; i++) assert_int_equal(c.p.kind[i], i < 40 ? KIND_PD : KIND_MPM);
     particle_cloud_free(&c);
 }
@@ -361,7 +367,7 @@ static void test_approach(void **state)
         p->body[i] = (uint8_t)body, p->flag[i] = 0, p->kind[i] = i % 7 == 0 ? KIND_PD : KIND_MPM;
         p->x[0][i] += 1.3 * CLOUD_SPACING * body, p->x[1][i] += 0.4 * CLOUD_SPACING * (body == 1);
     }
-    flag_points_near_other_bodies_to_convert(p, BODIES, &rigid, 1, reach);
+    flag_points_near_other_bodies_for_conversion(p, BODIES, &rigid, 1, reach);
     for (int64_t i = 0; i < p->n; i++) {
         real normal[DIM_MAX], x[DIM_MAX] = {p->x[0][i], p->x[1][i]};
         bool near = region_signed_distance(&shape, x, 2, normal) < reach;
@@ -396,7 +402,7 @@ static void test_faces_meet(void **state)
         c.p.x[1][i] -= moved[k] * h, c.p.v[1][i] = -way[k] * h / ahead;
     }
     const struct notches notches = {.slits = 1, .slit = &slit, .faces = c.p.n, .face = face};
-    notches_flag_points_at_closing_faces(&notches, &c.p, h, ahead);
+    notches_flag_closing_face_points_for_conversion(&notches, &c.p, h, ahead);
     for (int64_t i = 0; i < c.p.n; i++) {
         const int k = (int)(c.p.X[0][i] / h);
         assert_int_equal((c.p.flag[i] & FLAG_NEAR) != 0, moved[k] + real_max(way[k], 0) > 0.3);
@@ -414,6 +420,6 @@ int main(void)
         cmocka_unit_test(test_crack_in_its_body), cmocka_unit_test(test_approach),
         cmocka_unit_test(test_faces_meet),
     };
-    team_set_thread_count(2);
+    threads_set_count_and_bind_to_cores(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

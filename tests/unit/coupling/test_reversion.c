@@ -55,14 +55,14 @@ static void setting_never(struct setting *s)
 static real energy_of(const struct setting *s, const struct partial_stress *partial)
 {
     const struct particles *p = &s->c.p;
-    const int n = symmetric_component_count(p->dim);
+    const int n = symmetric_tensor_component_count(p->dim);
     real sum = s->c.bonds.rows > 0 ? bond_energy_table[p->dim][PD_BOND](&s->c.bonds, p, NULL) : 0,
          compliance[SYM_MAX * SYM_MAX];
     material_compliance_matrix(&s->c.material[0], p->dim, compliance);
     for (int64_t i = 0; i < p->n; i++) {
         real given[SYM_MAX];
         if (p->kind[i] != KIND_MPM) continue;
-        point_stress_on_grid(p, partial, i, given, p->dim);
+        point_compute_stress_transmitted_to_grid(p, partial, i, given, p->dim);
         for (int a = 0; a < n; a++)
             for (int c = 0; c < n; c++)
                 sum += 0.5 * p->volume0[i] * given[a] * (a < p->dim ? 1 : 2) * compliance[a * n + c] * p->stress[c][i];
@@ -90,7 +90,7 @@ static void test_bar(void **state)
     setting_never(&s);
     for (int64_t i = 0; i < p->n; i++)
         p->stress[0][i] = STRAIN * s.c.material[0].young, p->gradient[0][i] = 3, p->f[0][i] = 7;
-    partial_stress_make(&partial, p, &s.c.bonds, &s.c.source, NULL, 0);
+    partial_stress_compute_from_bonds(&partial, p, &s.c.bonds, &s.c.source, NULL, 0);
     const real energy = energy_of(&s, &partial),
                particle = 0.5 * s.c.material[0].young * square(STRAIN) * p->volume0[0];
     assert_near(energy / particle, 60, 1e-3);
@@ -171,7 +171,7 @@ static void test_surfaces(void **state)
         setting_never(&s);
         assert_int_equal(choose(&s, &list), p->n);
         real middle[SYM_MAX], most = 0;
-        const int n = symmetric_component_count(p->dim);
+        const int n = symmetric_tensor_component_count(p->dim);
         for (int64_t i = 0; i < p->n; i++) /* a complete neighbourhood has its plain virial stress */
             if (s.c.bonds.family_volume[i] > 0.999 * s.c.source.family.full)
                 for (int c = 0; c < n; c++) middle[c] = p->stress[c][i], most = real_max(most, fabs(middle[c]));
@@ -350,6 +350,6 @@ int main(void)
         cmocka_unit_test(test_bar),       cmocka_unit_test(test_wave),          cmocka_unit_test(test_surfaces),
         cmocka_unit_test(test_who_stays), cmocka_unit_test(test_dwell_and_gap), cmocka_unit_test(test_mesh),
     };
-    team_set_thread_count(2);
+    threads_set_count_and_bind_to_cores(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -44,7 +44,7 @@ static void both_make(struct both *b, const struct partners *k)
 static void stress_set(struct particle_cloud *c, const real strain[DIM_MAX][DIM_MAX])
 {
     real vector[SYM_MAX] = {0}, stiffness[SYM_MAX * SYM_MAX];
-    const int dim = c->p.dim, n = symmetric_component_count(dim);
+    const int dim = c->p.dim, n = symmetric_tensor_component_count(dim);
     for (int a = 0; a < dim; a++) vector[a] = strain[a][a];
     if (dim == 2) vector[2] = strain[0][1];
     if (dim == 3) vector[3] = strain[0][1], vector[4] = strain[1][2], vector[5] = strain[0][2];
@@ -62,7 +62,7 @@ static void stress_set(struct particle_cloud *c, const real strain[DIM_MAX][DIM_
 static void forces(struct both *b, enum pd_model model)
 {
     struct particle_cloud *c = &b->s.c;
-    partial_stress_make(&b->s.partial, &c->p, &c->bonds, &c->source, NULL, 0);
+    partial_stress_compute_from_bonds(&b->s.partial, &c->p, &c->bonds, &c->source, NULL, 0);
     bonded_points_compute_strain_from_stress(&b->s.partial, &c->p, c->material);
     state_force_table[c->p.dim][model](&c->bonds, &c->p, &c->source.limit, NULL);
 }
@@ -84,7 +84,8 @@ static real residual(const struct partners *k, const real strain[DIM_MAX][DIM_MA
     patch_map(&b.s, SHAPE_LINEAR);
     for (int d = 0; d < p->dim; d++) from[d] = reach, to[d] = k->plan.count[d] - reach;
     from[0] = 0, to[0] = k->plan.count[0] - 4;
-    for (int s = 0; s < symmetric_component_count(p->dim); s++) stress = real_max(stress, fabs(p->stress[s][p->n - 1]));
+    for (int s = 0; s < symmetric_tensor_component_count(p->dim); s++)
+        stress = real_max(stress, fabs(p->stress[s][p->n - 1]));
     real force = patch_residual(&b.s, from, to) / (pow(b.s.g.h, p->dim - 1) * b.s.c.source.family.section * stress);
     patch_free(&b.s);
     return force;
@@ -175,14 +176,14 @@ static void test_torque(void **state)
 static real energy_of(const struct both *b, enum pd_model model)
 {
     const struct particle_cloud *c = &b->s.c;
-    const int dim = c->p.dim, n = symmetric_component_count(dim);
+    const int dim = c->p.dim, n = symmetric_tensor_component_count(dim);
     real sum = c->bonds.rows > 0 ? state_energy_table[dim][model](&c->bonds, &c->p, NULL) : 0,
          compliance[SYM_MAX * SYM_MAX];
     material_compliance_matrix(&c->material[0], dim, compliance);
     for (int64_t i = 0; i < c->p.n; i++) {
         real given[SYM_MAX];
         if (c->p.kind[i] != KIND_MPM) continue;
-        point_stress_on_grid(&c->p, &b->s.partial, i, given, dim);
+        point_compute_stress_transmitted_to_grid(&c->p, &b->s.partial, i, given, dim);
         for (int s = 0; s < n; s++)
             for (int t = 0; t < n; t++)
                 sum += 0.5 * (s < dim ? 1 : 2) * c->p.volume0[i] * given[s] * compliance[s * n + t] * c->p.stress[t][i];
@@ -209,7 +210,7 @@ static real jump(enum pd_model model, const real strain[DIM_MAX][DIM_MAX], int e
     cloud_strain(c, strain);
     stress_set(c, strain);
     const real before = energy_of(&b, model), particle = before / (real)c->p.n;
-    convert_to_peridynamic_at_precracks(&c->p, &c->source, &(struct region){.n = 1, .solid = &box});
+    convert_particles_at_precracks_to_peridynamic(&c->p, &c->source, &(struct region){.n = 1, .solid = &box});
     assert_int_equal(c->p.n_of[KIND_PD], edge * edge);
     bonds_make(&c->bonds, NULL, &c->p, &c->source);
     forces(&b, model);
@@ -253,11 +254,13 @@ static void test_response(void **state)
     int64_t tried = 0;
     const real full = c->source.family.cell_volume / c->source.family.weighted;
     for (int64_t r = 0; r < c->bonds.rows; r++)
-        for (struct bond_iterator it = bond_iterator_of_row(&c->bonds, r); bond_next(&it);) {
+        for (struct bond_iterator it = bond_iterator_of_row(&c->bonds, r); bond_iterator_advance(&it);) {
             const int32_t i = c->bonds.particle[r], j = it.bond.nbr;
             const struct bond back = {it.bond.entry, i, it.bond.inverse_length, it.bond.w};
-            const struct response one = bond_force_derivative_by_strain(&c->p, &c->bonds, &c->source, i, &it.bond);
-            const struct response other = bond_force_derivative_by_strain(&c->p, &c->bonds, &c->source, j, &back);
+            const struct bond_strain_response one =
+                bond_force_derivative_by_strain(&c->p, &c->bonds, &c->source, i, &it.bond);
+            const struct bond_strain_response other =
+                bond_force_derivative_by_strain(&c->p, &c->bonds, &c->source, j, &back);
             assert_true(one.central == 0 && other.central == 0);
             assert_true(fabs(one.vector / other.vector - 1) < 1e-12 && fabs(one.pressure / other.pressure - 1) < 1e-12);
             if (i % 9 != 4 || i / 9 != 3 || j != i + 1) continue; /* both have complete neighbourhoods */
@@ -308,7 +311,7 @@ static void test_positive(void **state)
 {
     (void)state;
     for (int dim = 2; dim <= 3; dim++) {
-        const int n = symmetric_component_count(dim);
+        const int n = symmetric_tensor_component_count(dim);
         const struct partners k = {.plan = {.space = dim == 2 ? SPACE_PLANE_STRESS : SPACE_SOLID,
                                             .count = {5, 4, dim == 3 ? 3 : 1},
                                             .horizon = 2.015},
@@ -326,7 +329,7 @@ static void test_positive(void **state)
         for (int a = 0; a < n; a++)
             for (int c = 0; c <= a; c++) T[a * n + c] = T[c * n + a] = V * m->c11 * cloud_between(&seed, -1, 1.5);
         for (int a = 0; a < n * n; a++) rest[a] = T[a];
-        partial_tensor_limit_for_bond_based_model(T, &b.s.c.p, &b.s.c.source, 0);
+        cell_stiffness_reduction_limit_bond_based(T, &b.s.c.p, &b.s.c.source, 0);
         before = 0;
         for (int a = 0; a < n; a++)
             for (int c = 0; c < n; c++) { /* components of shear count twice: a factor sqrt(2) each */
@@ -353,6 +356,6 @@ int main(void)
                                        cmocka_unit_test(test_torque),   cmocka_unit_test(test_energy),
                                        cmocka_unit_test(test_response), cmocka_unit_test(test_positive),
                                        cmocka_unit_test(test_rows)};
-    team_set_thread_count(2);
+    threads_set_count_and_bind_to_cores(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

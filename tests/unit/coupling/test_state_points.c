@@ -34,7 +34,7 @@ static const char block[] =
 static void engine_from(struct run *e, struct scene *s, const char *text)
 {
     if (scene_read_text(s, text, strlen(text), "points.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
-    assert_int_equal(engine_set_up_run(e, s, NULL), OK);
+    assert_int_equal(run_set_up_from_scene(e, s, NULL), OK);
 }
 
 /* ---- gradient ---------------------------------------------------------------------------------------------------- */
@@ -132,7 +132,7 @@ static void test_gradient(void **state)
                  coupling[k / 2 % 2]);
         engine_from(&e, &s, whole);
         check_gradient(&e);
-        engine_free_run(&e);
+        run_free_memory(&e);
         scene_free(&s);
     }
 }
@@ -146,7 +146,7 @@ static void check_point(const struct run *e, int64_t row)
     const struct bonds *b = &e->bonds;
     const struct particles *p = &e->part;
     const int32_t i = b->particle[row];
-    const int dim = p->dim, n = symmetric_component_count(dim);
+    const int dim = p->dim, n = symmetric_tensor_component_count(dim);
     const struct state_modulus *m = &b->state.modulus[0];
     const real share = p->volume0[i] / b->state.weighted[row],
                *local = e->coupling->partial.local + e->coupling->partial.index[i] * n;
@@ -176,20 +176,20 @@ static void check_points(const char *text)
     engine_from(&e, &s, whole);
     shake(&e);
     for (int64_t i = 0; i < e.part.n; i++)
-        for (int c = 0; c < symmetric_component_count(e.part.dim); c++)
+        for (int c = 0; c < symmetric_tensor_component_count(e.part.dim); c++)
             e.part.stress[c][i] = cloud_between(&seed, -1e9, 1e9);
-    bonded_points_update_strain(&e.coupling->partial, e.frame, &e.part, e.scene->material);
-    family_states_precompute(&e.bonds, &e.part, &e.source);
+    bonded_points_update_strain_from_mesh_or_stress(&e.coupling->partial, e.frame, &e.part, e.scene->material);
+    families_compute_pressure_stiffness_and_rotation(&e.bonds, &e.part, &e.source);
     for (int64_t row = 0; row < e.bonds.rows; row++) {
         const int64_t i = e.bonds.particle[row];
         if (e.part.kind[i] != KIND_MPM || e.coupling->partial.index[i] < 0 ||
-            !point_has_state_bonds(&e.coupling->partial, i, e.part.dim))
+            !point_has_own_state_based_bonds(&e.coupling->partial, i, e.part.dim))
             continue;
         check_point(&e, row);
         points++;
     }
     assert_true(points > 40);
-    engine_free_run(&e);
+    run_free_memory(&e);
     scene_free(&s);
 }
 
@@ -206,7 +206,7 @@ static void test_points(void **state)
  * bitwise equal. */
 static void same_partials(const struct partial_stress *a, const struct partial_stress *b, int64_t n, int dim)
 {
-    const int symmetric = symmetric_component_count(dim), size = symmetric * symmetric;
+    const int symmetric = symmetric_tensor_component_count(dim), size = symmetric * symmetric;
     int64_t points = 0;
     for (int64_t i = 0; i < n; i++) {
         assert_int_equal(a->index[i] >= 0, b->index[i] >= 0);
@@ -232,18 +232,18 @@ static void check_partials(const char *text)
     int64_t point = 0;
     while (e.part.kind[point] != KIND_MPM || e.bonds.row_of[point] < 0) point++;
     e.part.flag[point] |= FLAG_STRESSED;
-    assert_true(convert_flagged_points(&e.coupling->conversion, &s.conversion, &e.part, &e.bonds, &e.source,
-                                       &e.coupling->partial, NULL, 0) > 0);
+    assert_true(convert_flagged_points_to_peridynamic(&e.coupling->conversion, &s.conversion, &e.part, &e.bonds,
+                                                      &e.source, &e.coupling->partial, NULL, 0) > 0);
     assert_non_null(e.bonds.site_map);
     bonds_make(&searched, NULL, &e.part, &e.source);
-    struct site_map *sites = searched.site_map;
+    struct lattice_site_map *sites = searched.site_map;
     searched.site_map = NULL;
-    partial_stress_make(&again, &e.part, &searched, &e.source, NULL, 0);
+    partial_stress_compute_from_bonds(&again, &e.part, &searched, &e.source, NULL, 0);
     searched.site_map = sites;
     same_partials(&e.coupling->partial, &again, e.part.n, e.part.dim);
     partial_stress_free(&again);
     bonds_free(&searched);
-    engine_free_run(&e);
+    run_free_memory(&e);
     scene_free(&s);
 }
 
@@ -258,7 +258,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_gradient), cmocka_unit_test(test_points),
                                        cmocka_unit_test(test_partials)};
-    team_set_thread_count(2);
+    threads_set_count_and_bind_to_cores(2);
     int failures = 0;
     FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);
     return failures;

@@ -86,7 +86,7 @@ static void ball_and_torus(void **state)
     }
 }
 
-/* Checks hull_is_convex_within_distance: a ball is convex everywhere, a torus on its outer rim and not on its inner
+/* Checks hull_is_convex_near_point: a ball is convex everywhere, a torus on its outer rim and not on its inner
  * one; the answer is false where too many faces are near. */
 static void convex_near(void **state)
 {
@@ -95,9 +95,9 @@ static void convex_near(void **state)
         const struct grid_hull g = grid_make(torus, 16, 16), fine = grid_make(torus, 96, 96);
         struct hull s, t;
         hull_of(&s, &g), hull_of(&t, &fine);
-        assert_true(hull_is_convex_within_distance(&s, (real[]){torus ? 2.4 : 0.9, 0, 0}, 0.15));
-        assert_int_equal(hull_is_convex_within_distance(&s, (real[]){torus ? 1.6 : 0.9, 0, 0}, 0.3), !torus);
-        assert_false(hull_is_convex_within_distance(&t, (real[]){0.9, 0, 0}, 3));
+        assert_true(hull_is_convex_near_point(&s, (real[]){torus ? 2.4 : 0.9, 0, 0}, 0.15));
+        assert_int_equal(hull_is_convex_near_point(&s, (real[]){torus ? 1.6 : 0.9, 0, 0}, 0.3), !torus);
+        assert_false(hull_is_convex_near_point(&t, (real[]){0.9, 0, 0}, 3));
         hull_free(&s), hull_free(&t);
     }
 }
@@ -121,7 +121,7 @@ static void turned_and_open(void **state)
     g.faces -= 2;
     hull_of(&s, &g);
     assert_int_equal(s.open_edges, 4);
-    assert_true(hull_sample_winding_numbers(&s).unclear < 0.01);
+    assert_true(hull_sample_winding_number_statistics(&s).unclear < 0.01);
     assert_true(hull_winding_number(&s, (real[]){0, 0, 0}) > 0.98);
     hull_free(&s);
     /* Half a ball is not closed. */
@@ -129,7 +129,7 @@ static void turned_and_open(void **state)
     g.faces /= 2;
     hull_of(&s, &g);
     assert_int_equal(s.open_edges, 24);
-    assert_true(hull_sample_winding_numbers(&s).unclear > 0.1);
+    assert_true(hull_sample_winding_number_statistics(&s).unclear > 0.1);
     hull_free(&s);
 }
 
@@ -154,7 +154,7 @@ static void ball_in_ball(void **state)
         memory_free(inner.corner);
         memory_free(inner.face);
         assert_int_equal(s.shells, 2);
-        const real twice = hull_sample_winding_numbers(&s).enclosed_again, ball = 4 * 3.14159265 / 3 / 8;
+        const real twice = hull_sample_winding_number_statistics(&s).enclosed_again, ball = 4 * 3.14159265 / 3 / 8;
         assert_true(fabs(twice - (cavity ? 0 : ball)) < 0.05 * ball);
         hull_free(&s);
     }

@@ -15,15 +15,16 @@ static void test_curves(void **state)
         const struct softening_curve c = softening_curve_of_law(law);
         real sum = 0;
         assert_near(c.area, area[law], within[law]);
-        assert_near(softening_curve_value(&c, 0), 1, 1e-15);
-        assert_near(softening_curve_value(&c, 1), 0, 1e-15);
-        for (int k = 0; k < 100000; k++) sum += softening_curve_value(&c, (k + 0.5) * 1e-5) * 1e-5;
+        assert_near(softening_curve_normalised_force(&c, 0), 1, 1e-15);
+        assert_near(softening_curve_normalised_force(&c, 1), 0, 1e-15);
+        for (int k = 0; k < 100000; k++) sum += softening_curve_normalised_force(&c, (k + 0.5) * 1e-5) * 1e-5;
         assert_near(sum, c.area, 1e-9);
         for (int k = 0; k <= 1000 && law == SOFTENING_EXPONENTIAL; k++)
-            assert_near(softening_curve_value(&c, 1e-3 * k), (exp(-5e-3 * k) - exp(-5)) / (1 - exp(-5)), 8e-3);
+            assert_near(softening_curve_normalised_force(&c, 1e-3 * k), (exp(-5e-3 * k) - exp(-5)) / (1 - exp(-5)),
+                        8e-3);
     }
     const struct softening_curve concrete = softening_curve_of_law(SOFTENING_BILINEAR);
-    assert_near(softening_curve_value(&concrete, 2.0 / 9), 1.0 / 3, 1e-15);
+    assert_near(softening_curve_normalised_force(&concrete, 2.0 / 9), 1.0 / 3, 1e-15);
 }
 
 /* Checks the energy that a bond dissipates by softening against closed forms: s_c^2/2 in all; for the linear curve s_f
@@ -34,7 +35,7 @@ static void test_energy(void **state)
     const real onset = 1.3e-4, critical = 2.9e-4;
     for (enum softening law = SOFTENING_LINEAR; law <= SOFTENING_EXPONENTIAL; law++) {
         const struct softening_curve c = softening_curve_of_law(law);
-        const real end = softening_end_stretch(&c, onset, critical);
+        const real end = softening_breaking_stretch_of_equal_energy(&c, onset, critical);
         assert_close(softening_normalised_dissipated_energy(&c, onset, end, end), 0.5 * critical * critical, 1e-13);
         assert_close(softening_normalised_dissipated_energy(&c, onset, end, 7 * end), 0.5 * critical * critical, 1e-13);
         assert_near(softening_normalised_dissipated_energy(&c, onset, end, onset), 0, 1e-25);
@@ -56,14 +57,15 @@ static void test_strength(void **state)
     const real plane[] = {1.003, 1.035, 1.096, 1.183, 1.242}, solid[] = {1.038, 1.143, 1.281, 1.445, 1.552};
     const struct softening_curve c = softening_curve_of_law(SOFTENING_LINEAR);
     for (size_t k = 0; k < COUNT_OF(kappa); k++) {
-        const struct softening_strength flat = softening_curve_normalised_strengths(&c, SPACE_PLANE_STRESS, kappa[k]);
+        const struct softening_strength flat =
+            softening_curve_normalised_peak_stresses(&c, SPACE_PLANE_STRESS, kappa[k]);
         assert_near(flat.tension, plane[k], 1.5e-3);
         assert_near(flat.biaxial, 1.5, 1e-9);
-        assert_near(softening_curve_normalised_strengths(&c, SPACE_SOLID, kappa[k]).tension, solid[k], 1.5e-3);
-        assert_near(softening_curve_normalised_strengths(&c, SPACE_LINE, kappa[k]).tension, 1, 1e-12);
+        assert_near(softening_curve_normalised_peak_stresses(&c, SPACE_SOLID, kappa[k]).tension, solid[k], 1.5e-3);
+        assert_near(softening_curve_normalised_peak_stresses(&c, SPACE_LINE, kappa[k]).tension, 1, 1e-12);
     }
-    assert_near(softening_curve_normalised_strengths(&c, SPACE_PLANE_STRAIN, 1).shear, 0.75, 1e-3);
-    assert_near(softening_curve_normalised_strengths(&c, SPACE_PLANE_STRESS, 4).shear, 0.864, 1.5e-3);
+    assert_near(softening_curve_normalised_peak_stresses(&c, SPACE_PLANE_STRAIN, 1).shear, 0.75, 1e-3);
+    assert_near(softening_curve_normalised_peak_stresses(&c, SPACE_PLANE_STRESS, 4).shear, 0.864, 1.5e-3);
 }
 
 /* Checks that the onset stretch gives the strength: E' s_0 tension(s_c^2/s_0^2) = strength, and that it is beyond the
@@ -78,7 +80,7 @@ static void test_onset(void **state)
         const real modulus = k == 2 ? 70e9 / (1 - 1.0 / 16) : 70e9,
                    onset = softening_onset_stretch_from_strength(&m, spaces[k]);
         const struct softening_curve c = softening_curve_of_law(m.softening);
-        const real tension = softening_curve_normalised_strengths(&c, spaces[k], square(1e-3 / onset)).tension;
+        const real tension = softening_curve_normalised_peak_stresses(&c, spaces[k], square(1e-3 / onset)).tension;
         assert_close(modulus * onset * tension, 40e6, 1e-6);
         m.tensile_strength = 80e6;
         assert_true(softening_onset_stretch_from_strength(&m, spaces[k]) > m.critical_stretch);

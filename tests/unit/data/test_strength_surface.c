@@ -10,10 +10,10 @@
 static void test_glass(void **state)
 {
     (void)state;
-    const struct strength_surface glass = strength_surface_from_compression(40e6, 1000e6);
-    assert_near(strength_surface_strength_along(&glass, (const real[]){1, -1, 0}), 44.4e6, 5e4);
-    assert_near(strength_surface_strength_along(&glass, (const real[]){1, 1, 0}), 27.0e6, 5e4);
-    assert_near(strength_surface_strength_along(&glass, (const real[]){1, 1, 1}), 27.8e6, 5e4);
+    const struct strength_surface glass = strength_surface_from_compressive_strength(40e6, 1000e6);
+    assert_near(strength_surface_strength_in_stress_direction(&glass, (const real[]){1, -1, 0}), 44.4e6, 5e4);
+    assert_near(strength_surface_strength_in_stress_direction(&glass, (const real[]){1, 1, 0}), 27.0e6, 5e4);
+    assert_near(strength_surface_strength_in_stress_direction(&glass, (const real[]){1, 1, 1}), 27.8e6, 5e4);
 }
 
 /* Checks that every strength surface has the strengths from which it was made, and that all three ways of making it
@@ -22,22 +22,22 @@ static void test_back(void **state)
 {
     (void)state;
     const real tension = 31e6, compression = 170e6;
-    const struct strength_surface s = strength_surface_from_compression(tension, compression);
-    const real biaxial = strength_surface_strength_along(&s, (const real[]){1, 1, 0}),
-               hydrostatic = strength_surface_strength_along(&s, (const real[]){1, 1, 1});
-    assert_close(strength_surface_strength_along(&s, (const real[]){0, 1, 0}), tension, 1e-14);
-    assert_close(strength_surface_strength_along(&s, (const real[]){0, 0, -1}), compression, 1e-14);
-    assert_close(strength_surface_stress_ratio(&s, 0, 0, 0, square(s.g0)), 1, 1e-14);
-    const struct strength_surface others[] = {strength_surface_from_biaxial(tension, biaxial),
-                                              strength_surface_from_hydrostatic(tension, hydrostatic)};
+    const struct strength_surface s = strength_surface_from_compressive_strength(tension, compression);
+    const real biaxial = strength_surface_strength_in_stress_direction(&s, (const real[]){1, 1, 0}),
+               hydrostatic = strength_surface_strength_in_stress_direction(&s, (const real[]){1, 1, 1});
+    assert_close(strength_surface_strength_in_stress_direction(&s, (const real[]){0, 1, 0}), tension, 1e-14);
+    assert_close(strength_surface_strength_in_stress_direction(&s, (const real[]){0, 0, -1}), compression, 1e-14);
+    assert_close(strength_surface_stress_to_strength_ratio(&s, 0, 0, 0, square(s.g0)), 1, 1e-14);
+    const struct strength_surface others[] = {strength_surface_from_biaxial_strength(tension, biaxial),
+                                              strength_surface_from_hydrostatic_strength(tension, hydrostatic)};
     for (int k = 0; k < 2; k++) {
         assert_close(others[k].g0, s.g0, 1e-13);
         assert_close(others[k].g1, s.g1, 1e-12);
     }
     /* no uniaxial pressure reaches a surface whose hydrostatic strength is below two thirds of the tensile one */
-    const struct strength_surface blunt = strength_surface_from_hydrostatic(tension, 0.6 * tension);
-    assert_true(isinf(strength_surface_strength_along(&blunt, (const real[]){-1, 0, 0})));
-    assert_close(strength_surface_strength_along(&blunt, (const real[]){1, 1, 1}), 0.6 * tension, 1e-14);
+    const struct strength_surface blunt = strength_surface_from_hydrostatic_strength(tension, 0.6 * tension);
+    assert_true(isinf(strength_surface_strength_in_stress_direction(&blunt, (const real[]){-1, 0, 0})));
+    assert_close(strength_surface_strength_in_stress_direction(&blunt, (const real[]){1, 1, 1}), 0.6 * tension, 1e-14);
 }
 
 /* Checks that the ratio of a stress tensor to the strength surface is that of its principal values, in plane strain
@@ -46,16 +46,16 @@ static void test_share(void **state)
 {
     (void)state;
     struct material m = {.young = 70e9, .poisson = 0.25, .density = 2440, .tensile_strength = 40e6};
-    m.surface = strength_surface_from_compression(40e6, 1000e6);
+    m.surface = strength_surface_from_compressive_strength(40e6, 1000e6);
     const real turn = 0.4, c = cos(turn), s = sin(turn), one = 13e6, two = -7e6;
     const real plane[] = {one * c * c + two * s * s, one * s * s + two * c * c, (one - two) * c * s};
     assert_close(material_stress_to_strength_ratio(&m, SPACE_PLANE_STRESS, plane),
-                 strength_surface_stress_ratio(&m.surface, one, two, 0, 0), 1e-13);
+                 strength_surface_stress_to_strength_ratio(&m.surface, one, two, 0, 0), 1e-13);
     assert_close(material_stress_to_strength_ratio(&m, SPACE_PLANE_STRAIN, plane),
-                 strength_surface_stress_ratio(&m.surface, one, two, 0.25 * (one + two), 0), 1e-13);
+                 strength_surface_stress_to_strength_ratio(&m.surface, one, two, 0.25 * (one + two), 0), 1e-13);
     const real solid[] = {plane[0], plane[1], 5e6, plane[2], 0, 0};
     assert_close(material_stress_to_strength_ratio(&m, SPACE_SOLID, solid),
-                 strength_surface_stress_ratio(&m.surface, one, two, 5e6, 0), 1e-13);
+                 strength_surface_stress_to_strength_ratio(&m.surface, one, two, 5e6, 0), 1e-13);
 }
 
 /* Checks the smallest principal strain on the strength surface against closed forms: that of equal tension, (1 - nu)
@@ -67,13 +67,13 @@ static void test_least(void **state)
     const enum space spaces[] = {SPACE_PLANE_STRESS, SPACE_PLANE_STRAIN, SPACE_SOLID};
     for (int k = 0; k < 3; k++) {
         struct material m = {.young = 70e9, .poisson = bond_based_poisson_ratio(spaces[k]), .tensile_strength = 40e6};
-        m.surface = strength_surface_from_compression(40e6, 1000e6);
-        const struct surface_strengths at = material_strength_surface_strengths(&m, spaces[k]);
+        m.surface = strength_surface_from_compressive_strength(40e6, 1000e6);
+        const struct surface_strengths at = material_strengths_from_strength_surface(&m, spaces[k]);
         const real nu = m.poisson, expected[] = {(1 - nu) * at.biaxial, (1 + nu) * (1 - 2 * nu) * at.biaxial,
                                                  (1 - 2 * nu) * at.hydrostatic};
-        assert_close(material_smallest_strain_at_strength(&m, spaces[k]), expected[k] / 70e9, 1e-12);
-        m.surface = strength_surface_from_compression(40e6, 40e6);
-        assert_true(material_smallest_strain_at_strength(&m, spaces[k]) < 0.2 * expected[k] / 70e9);
+        assert_close(material_smallest_strain_on_strength_surface(&m, spaces[k]), expected[k] / 70e9, 1e-12);
+        m.surface = strength_surface_from_compressive_strength(40e6, 40e6);
+        assert_true(material_smallest_strain_on_strength_surface(&m, spaces[k]) < 0.2 * expected[k] / 70e9);
     }
 }
 

@@ -117,8 +117,9 @@ static void test_transfer_order_growth(void **state)
         transfer_order_sort_points_by_cell(&small, &c.p, c.p.list[KIND_MPM], c.p.n_of[KIND_MPM], &g);
         real from[DIM_MAX], to[DIM_MAX], before = grid_node_position(&g, 0, -g.first[0]);
         for (int d = 0; d < dim; d++)
-            from[d] = -(19 + transfer_block_edge_length(d)) * g.h, to[d] = 33 * g.h; /* by one block: parity must not
-                                                                                      * depend on the box */
+            from[d] = -(19 + transfer_block_edge_length_in_cells(d)) * g.h,
+            to[d] = 33 * g.h; /* by one block: parity must not
+                               * depend on the box */
         assert_int_equal(grid_extend_box(&g, from, to, 1000000, &changed), OK);
         assert_true(changed && grid_node_position(&g, 0, -g.first[0]) == before);
         transfer_order_sort_points_by_cell(&large, &c.p, c.p.list[KIND_MPM], c.p.n_of[KIND_MPM], &g);
@@ -192,17 +193,17 @@ static void test_transfer_order_threads(void **state)
         struct grid g;
         struct transfer_order one = {0}, many = {0};
         scatter_points(&c, dim, &g);
-        team_set_thread_count(1);
+        threads_set_count_and_bind_to_cores(1);
         transfer_order_sort_points_by_cell(&one, &c.p, c.p.list[KIND_MPM], c.p.n_of[KIND_MPM], &g);
         for (int threads = 2; threads <= 7; threads++) {
-            team_set_thread_count(threads);
+            threads_set_count_and_bind_to_cores(threads);
             transfer_order_sort_points_by_cell(&many, &c.p, c.p.list[KIND_MPM], c.p.n_of[KIND_MPM], &g);
             assert_int_equal(one.cells, many.cells);
             assert_memory_equal(one.particle, many.particle, (size_t)one.n * sizeof(int32_t));
             assert_memory_equal(one.cell_start, many.cell_start, (size_t)(one.cells + 1) * sizeof(int32_t));
             assert_memory_equal(one.block_start, many.block_start, (size_t)(one.blocks + 1) * sizeof(int32_t));
         }
-        team_set_thread_count(2);
+        threads_set_count_and_bind_to_cores(2);
         transfer_order_free(&one);
         transfer_order_free(&many);
         grid_free(&g);
@@ -218,6 +219,6 @@ int main(void)
         cmocka_unit_test(test_transfer_order_left),
         cmocka_unit_test(test_transfer_order_threads),
     };
-    team_set_thread_count(2);
+    threads_set_count_and_bind_to_cores(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

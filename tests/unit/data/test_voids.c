@@ -65,7 +65,7 @@ static void round_holes(void **state)
             int body, hidden = 0;
             const struct voids v = voids_of(dim, &r, &shape, &body);
             uint64_t seed = 5 + dim;
-            assert_true(region_may_have_voids(&r));
+            assert_true(region_may_have_voids(&r, &v));
             for (int n = 0; n < TRIES; n++) {
                 real a[DIM_MAX], b[DIM_MAX];
                 bool across;
@@ -126,8 +126,8 @@ static void joined_and_mirrored(void **state)
     const struct region *shape[2] = {&r[0], &r[1]};
     const int body[2] = {3, 3};
     left.to[0] = right.from[0] = 0.1 * SPACING;
-    assert_false(region_may_have_voids(&r[0]));
     struct voids v = {.dim = 2, .shapes = 2, .shape = shape, .body = (int *)body, .spacing = SPACING};
+    assert_false(region_may_have_voids(&r[0], &v));
     uint64_t seed = 3;
     for (int n = 0; n < TRIES / 10; n++) {
         real a[DIM_MAX], b[DIM_MAX];
@@ -171,7 +171,7 @@ static void bits_of_particles(void **state)
     const int body = p->body[0];
     const real reach = 3.01 * CLOUD_SPACING;
     struct voids v = {.dim = 2, .shapes = 1, .shape = &shape, .body = (int *)&body, .spacing = CLOUD_SPACING};
-    voids_mark_separated_particles(&v, p, &c.cells, NULL, reach);
+    voids_mark_particles_beside_voids(&v, p, &c.cells, NULL, reach);
     int64_t near = 0;
     for (int64_t i = 0; i < p->n; i++) {
         bool hides = false;
@@ -192,6 +192,88 @@ static void bits_of_particles(void **state)
     assert_true(near > 10);
     memory_free(v.near); /* shape and body are on the stack */
     particle_cloud_free(&c);
+}
+
+/* Checks that each particle of an L of two boxes from which the line to another one leaves the L is marked: without a
+ * disc, with the foot alone intersected with a disc, which leaves a slit beside the leg, and with all intersected. */
+static void marks_of_intersections(void **state)
+{
+    (void)state;
+    struct particle_cloud c;
+    struct cloud_plan plan = {.space = SPACE_PLANE_STRESS, .horizon = 3, .count = {11, 9}};
+    particle_cloud_make(&c, &plan);
+    cloud_source(&c);
+    struct particles *p = &c.p;
+    real low[DIM_MAX] = {0}, high[DIM_MAX] = {0};
+    for (int d = 0; d < 2; d++) particles_coordinate_range(p, p->n, d, &low[d], &high[d]);
+    const real half = 0.5 * CLOUD_SPACING, reach = 3.01 * CLOUD_SPACING;
+    const struct solid disc = {.kind = SOLID_BALL,
+                               .intersect = true,
+                               .radius = 4.6 * CLOUD_SPACING,
+                               .centre = {low[0] + 7.5 * CLOUD_SPACING, low[1] + CLOUD_SPACING}};
+    const struct solid foot = {.kind = SOLID_BOX,
+                               .from = {low[0] - half, low[1] - half},
+                               .to = {high[0] + half, low[1] + 2.5 * CLOUD_SPACING}};
+    const struct solid leg = {.kind = SOLID_BOX,
+                              .from = {low[0] - half, low[1] - half},
+                              .to = {low[0] + 2.5 * CLOUD_SPACING, high[1] + half}};
+    const int64_t expected[3] = {4, 17, 0};
+    for (int way = 0; way < 3; way++) {
+        struct solid solids[3] = {foot, leg, disc};
+        if (way == 1) solids[1] = disc, solids[2] = leg; /* a slit between disc and leg */
+        struct region r = {.n = way == 0 ? 2 : 3, .solid = solids};
+        const struct region *shape = &r;
+        const int body = p->body[0];
+        struct voids v = {.dim = 2, .shapes = 1, .shape = &shape, .body = (int *)&body, .spacing = CLOUD_SPACING};
+        int64_t beside = 0;
+        assert_true(region_may_have_voids(&r, &v));
+        voids_mark_particles_beside_voids(&v, p, &c.cells, NULL, reach);
+        for (int64_t i = 0; i < p->n; i++) {
+            bool separated = false;
+            const real a[DIM_MAX] = {p->X[0][i], p->X[1][i]};
+            for (int64_t j = 0; j < p->n && region_level_set_value(&r, a, 2) <= 0; j++) {
+                const real b[DIM_MAX] = {p->X[0][j], p->X[1][j]};
+                if (j == i || hypot(b[0] - a[0], b[1] - a[1]) > reach || region_level_set_value(&r, b, 2) > 0) continue;
+                separated |= void_separates_points(&v, body, a, b, NULL);
+            }
+            if (separated) assert_true(particle_is_beside_void(&v, i));
+            beside += separated;
+        }
+        assert_int_equal(beside, expected[way]);
+        memory_free(v.near);
+    }
+    particle_cloud_free(&c);
+}
+
+/* Checks that a quarter of a cylinder between planes of symmetry is known to have no voids, one whose axis is beside a
+ * plane is not, since it has a groove there, nor are shapes with a solid added or subtracted after the intersection. */
+static void convex_intersections(void **state)
+{
+    (void)state;
+    struct mirror_plane planes[2] = {{.axis = 0, .outside = -1}, {.axis = 1, .outside = -1}};
+    struct solid solids[3] = {
+        {.kind = SOLID_CYLINDER, .to = {0, 0, 9 * SPACING}, .radius = 4 * SPACING}, block(), block()};
+    struct region r = {.n = 2, .solid = solids};
+    const struct region *shape;
+    int body;
+    struct voids v = voids_of(3, &r, &shape, &body);
+    solids[1].intersect = true, solids[1].from[0] = solids[1].from[1] = 0;
+    v.mirror = planes, v.mirrors = 2;
+    assert_false(region_may_have_voids(&r, &v));
+    solids[0].from[0] = solids[0].to[0] = 0.3 * SPACING;
+    assert_true(region_may_have_voids(&r, &v));
+    solids[0].from[0] = 0;
+    assert_true(region_may_have_voids(&r, &v)); /* an inclined axis */
+    solids[0].to[0] = 0, r.n = 3;
+    assert_true(region_may_have_voids(&r, &v));
+    solids[2].subtract = true;
+    assert_true(region_may_have_voids(&r, &v));
+    solids[2].subtract = false, solids[2].intersect = true;
+    assert_false(region_may_have_voids(&r, &v));
+    v.mirrors = 1, planes[0].axis = 2, planes[0].at = 9 * SPACING; /* across the axis, at its end */
+    assert_true(region_may_have_voids(&r, &v));                    /* ... which the boxes do not reach */
+    planes[0].at = 8 * SPACING;
+    assert_false(region_may_have_voids(&r, &v));
 }
 
 /* ---- slits ------------------------------------------------------------------------------------------------------- */
@@ -239,7 +321,7 @@ static void slits_of_doubled_nodes(void **state)
         fclose(file);
         assert_ok(geometry_read(&g, "slit.msh", dim, 1, 1e-3));
         unlink("slit.msh");
-        geometry_append_slits_as_precracks(&g.whole, &crack, &n);
+        geometry_append_mesh_slits_as_precracks(&g.whole, &crack, &n);
         assert_int_equal(n, 1);
         assert_int_equal(crack[0].n, dim == 3 ? 4 : 2);
         real area[DIM_MAX] = {0}, far = 0;
@@ -260,8 +342,12 @@ static void slits_of_doubled_nodes(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(round_holes), cmocka_unit_test(thin_slot),
-                                       cmocka_unit_test(joined_and_mirrored), cmocka_unit_test(bits_of_particles),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(round_holes),
+                                       cmocka_unit_test(thin_slot),
+                                       cmocka_unit_test(joined_and_mirrored),
+                                       cmocka_unit_test(bits_of_particles),
+                                       cmocka_unit_test(marks_of_intersections),
+                                       cmocka_unit_test(convex_intersections),
                                        cmocka_unit_test(slits_of_doubled_nodes)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

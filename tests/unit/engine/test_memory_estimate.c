@@ -26,16 +26,16 @@ static void takes_what_it_says(const char *space, const char *box, const char *p
         "material: {young: 72e9, density: 2440, critical_stretch: 0.1}\noutput: {frames: 0, samples: 1}\n",
         space, particles, box);
     if (scene_read_text(&s, text, strlen(text), "block", NULL, 0) != OK) fail_msg("%s", status_message());
-    if (engine_set_up_run(&e, &s, NULL) != OK) fail_msg("%s", status_message());
+    if (run_set_up_from_scene(&e, &s, NULL) != OK) fail_msg("%s", status_message());
     e.report->quiet = true;
-    if (engine_run_to_end(&e) != OK) fail_msg("%s", status_message());
+    if (run_advance_to_end_time(&e) != OK) fail_msg("%s", status_message());
     *taken = (double)memory_peak_resident_size();
     const double said = run_estimate_peak_memory(&s, &e.part, &e.source);
     print_message("%.5s, %s: said %.0f MB, with what was there before at most %.0f MB\n", space, particles, 1e-6 * said,
                   1e-6 * *taken);
     assert_true(*taken < 1.1 * said + 30e6); /* the program and its libraries */
     assert_true(*taken > 0.5 * said);
-    engine_free_run(&e);
+    run_free_memory(&e);
     scene_free(&s);
 }
 

@@ -13,14 +13,14 @@ static void make(struct run *e, struct scene *s, const char *text)
 {
     omp_set_num_threads(2);
     if (scene_read_text(s, text, strlen(text), "scatter.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
-    assert_ok(engine_set_up_run(e, s, NULL));
+    assert_ok(run_set_up_from_scene(e, s, NULL));
     e->report->quiet = true;
-    assert_ok(report_start_before_first_step(e));
+    assert_ok(report_open_history_and_write_first_frame(e));
 }
 
 static void drop(struct run *e, struct scene *s)
 {
-    engine_free_run(e);
+    run_free_memory(e);
     scene_free(s);
 }
 
@@ -38,7 +38,7 @@ static real least_of(const struct run *e, int64_t row)
     const struct particles *p = &e->part;
     const int32_t i = e->bonds.particle[row];
     real least = INFINITY;
-    for (struct bond_iterator it = bond_iterator_of_row(&e->bonds, row); bond_next(&it);)
+    for (struct bond_iterator it = bond_iterator_of_row(&e->bonds, row); bond_iterator_advance(&it);)
         if (it.bond.w != 0) least = real_min(least, 1e-3 * real_min(p->strength[i], p->strength[it.bond.nbr]));
     return least;
 }
@@ -76,10 +76,10 @@ static void check_breaks(const char *text)
     real weakest = INFINITY, first = NAN;
     for (int64_t i = 0; i < p->n; i++) weakest = real_min(weakest, p->strength[i]);
     while (e.clock.step + 1 < e.clock.steps && broken_in(&e) < 200) {
-        assert_ok(engine_adapt_refinement_and_step(&e));
+        assert_ok(run_adapt_mesh_and_advance_one_step(&e));
         if (isnan(first) && broken_in(&e) > 0) first = e.clock.t * 400 / (1e-3 * weakest);
         for (int64_t row = 0; row < e.bonds.rows && e.clock.step % 10 == 0; row++)
-            for (struct bond_iterator it = bond_iterator_of_row(&e.bonds, row); bond_next(&it);) {
+            for (struct bond_iterator it = bond_iterator_of_row(&e.bonds, row); bond_iterator_advance(&it);) {
                 const int32_t i = e.bonds.particle[row], j = it.bond.nbr;
                 real y2 = 0;
                 for (int d = 0; d < 2; d++) y2 += square(p->x[d][j] - p->x[d][i]);
@@ -114,7 +114,8 @@ static void check_points(const char *frame)
     int64_t weak = 0;
     for (int64_t i = 0; i < p->n; i++)
         if (p->strength[i] < weakest) weakest = p->strength[weak = i];
-    while (e.clock.step + 1 < e.clock.steps && p->n_of[KIND_PD] == 0) assert_ok(engine_adapt_refinement_and_step(&e));
+    while (e.clock.step + 1 < e.clock.steps && p->n_of[KIND_PD] == 0)
+        assert_ok(run_adapt_mesh_and_advance_one_step(&e));
     assert_true(p->n_of[KIND_PD] > 0 && p->n_of[KIND_PD] < p->n / 10);
     assert_int_equal(p->kind[weak], KIND_PD);
     /* Uniform biaxial strain: sigma = E/(1 - nu) strain, nu = 1/3. */

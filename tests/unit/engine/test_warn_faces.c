@@ -18,9 +18,9 @@ static void weights_that_are_not_solved(void **state)
     for (size_t k = 0; k < COUNT_OF(cases); k++) {
         const struct scene s = {.method = METHOD_PD, .dim = 2, .surface = cases[k].surface};
         const struct particles p = {0};
-        const struct surface_weights w = {.residual = cases[k].residual};
+        const struct surface_correction w = {.residual = cases[k].residual};
         struct warnings to = {0};
-        engine_warn_of_uncorrected_faces(&s, &p, &w, &to);
+        run_warn_of_bodies_too_thin_to_correct_faces(&s, &p, &w, &to);
         assert_int_equal(to.n, cases[k].warnings);
         if (to.n > 0) assert_non_null(strstr(to.text[0], "have not converged (residual 0.02, required 1e-13)"));
         warnings_free(&to);

@@ -47,9 +47,9 @@ static uint64_t key_of_point(const struct points *s, int i)
 }
 
 /* Lists all particles of s with a bond that the crack cuts, by two plain loops. */
-static struct touched touched_of(const struct points *s)
+static struct particles_at_cut_bonds touched_of(const struct points *s)
 {
-    struct touched t = {0};
+    struct particles_at_cut_bonds t = {0};
     int *number = NEW("test", s->n, int);
     t.particle = NEW("test", s->n, int32_t), t.key = NEW("test", s->n, uint64_t);
     for (int i = 0; i < s->n; i++) {
@@ -90,10 +90,10 @@ static struct points lattice(int edge, double a, double b, double shake)
  * the crack if and only if the pair of their colours is. Returns the number of colours. */
 static int colours_of(const struct points *s)
 {
-    struct touched t = touched_of(s);
+    struct particles_at_cut_bonds t = touched_of(s);
     int32_t *colour = NEW("test", t.n, int32_t);
-    const int n = particle_colours_assign_and_count(colour, &t);
-    uint8_t *pair = particle_colours_find_bonded_pairs(colour, n, &t);
+    const int n = particles_at_cut_bonds_assign_and_count_colours(colour, &t);
+    uint8_t *pair = colour_pairs_find_bonded_or_cut(colour, n, &t);
     assert_non_null(pair);
     for (int64_t k = 0; k < t.n; k++)
         for (int64_t m = 0; m < t.n; m++) {
@@ -104,7 +104,7 @@ static int colours_of(const struct points *s)
         }
     memory_free(pair);
     memory_free(colour);
-    touched_particles_free(&t);
+    particles_at_cut_bonds_free(&t);
     return n;
 }
 
@@ -148,15 +148,15 @@ static void both_kinds_are_found(void **state)
     int64_t first[] = {0, 1, 2, 4};
     uint8_t cut[] = {1, 0, 1, 0}, *pair;
     uint64_t key[] = {5, 5, 6};
-    const struct touched t = {3, particle, first, near, cut, key};
+    const struct particles_at_cut_bonds t = {3, particle, first, near, cut, key};
     (void)state;
-    assert_null(particle_colours_find_bonded_pairs(colour, 2, &t));
-    pair = particle_colours_find_bonded_pairs(own, 3, &t);
+    assert_null(colour_pairs_find_bonded_or_cut(colour, 2, &t));
+    pair = colour_pairs_find_bonded_or_cut(own, 3, &t);
     assert_non_null(pair);
     memory_free(pair);
     int32_t made[3];
-    const int n = particle_colours_assign_and_count(made, &t);
-    pair = particle_colours_find_bonded_pairs(made, n, &t);
+    const int n = particles_at_cut_bonds_assign_and_count_colours(made, &t);
+    pair = colour_pairs_find_bonded_or_cut(made, n, &t);
     assert_non_null(pair);
     memory_free(pair);
 }

@@ -190,7 +190,7 @@ static void files_are_kept(void **state)
 
 int main(void)
 {
-    team_set_thread_count(2);
+    threads_set_count_and_bind_to_cores(2);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(scene_by_netcdf),
         cmocka_unit_test(scene_by_cleave),

@@ -204,6 +204,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(exclusions_are_the_crack), cmocka_unit_test(coefficients),
                                        cmocka_unit_test(bonds_of_bpm), cmocka_unit_test(what_lammps_cannot)};
-    team_set_thread_count(2);
+    threads_set_count_and_bind_to_cores(2);
     return cmocka_run_group_tests(tests, folder_enter, folder_leave);
 }

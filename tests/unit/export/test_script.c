@@ -310,6 +310,6 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(coefficients), cmocka_unit_test(bonds_of_two),
                                        cmocka_unit_test(bonds_of_three), cmocka_unit_test(forces),
                                        cmocka_unit_test(drives)};
-    team_set_thread_count(1);
+    threads_set_count_and_bind_to_cores(1);
     return cmocka_run_group_tests(tests, folder_enter, folder_leave);
 }

@@ -124,7 +124,7 @@ static void check_weights(struct stage *s, real damping, real exponent, int64_t 
     const real advance = SPEED * STEP;
     for (int64_t row = 0; row < b->rows; row++)
         for (int64_t k = 0; k < b->column_count[row / LANES]; k++) {
-            const int64_t q = bond_index_for_writing(b, row / LANES, k, (int)(row % LANES));
+            const int64_t q = bond_copy_on_write_and_return_array_index(b, row / LANES, k, (int)(row % LANES));
             real X[DIM_MAX], Y[DIM_MAX];
             particle_reference_position(&s->c.p, b->particle[row], X);
             particle_reference_position(&s->c.p, b->nbr[q], Y);

@@ -208,7 +208,7 @@ static void gradients_have_their_weights(void **state)
 /* ---- the integral from particles --------------------------------------------------------------------------------- */
 
 /* A regular lattice of spacing 1 with the tip at (shift), displaced by the exact field of a crack at an angle. */
-struct site_map {
+struct lattice_site_map {
     struct patch patch;
     struct sif_tip tip;
     real corner[2][DIM_MAX];
@@ -223,7 +223,7 @@ static void rotate(const struct sif_tip *tip, const real local[2], real global[2
     global[1] = tip->along[1] * local[0] + tip->along[0] * local[1];
 }
 
-static void lattice_field(struct site_map *l, const real K[MODES])
+static void lattice_field(struct lattice_site_map *l, const real K[MODES])
 {
     struct particles *p = &l->patch.p;
     for (int64_t i = 0; i < p->n; i++) {
@@ -232,7 +232,7 @@ static void lattice_field(struct site_map *l, const real K[MODES])
         if (fabs(x[1]) < 1e-9) x[1] = copysign(0, l->tip.face);
         for (int mode = 0; mode < MODES; mode++) {
             struct crack_field f;
-            crack_tip_field(&l->tip.medium, mode, l->tip.speed, x, &f);
+            crack_tip_field_resting_or_moving(&l->tip.medium, mode, l->tip.speed, x, &f);
             for (int k = 0; k < 2; k++) {
                 sum[0][k] += K[mode] * f.displacement[k];
                 sum[1][k] += K[mode] * f.state.velocity[k];
@@ -247,7 +247,8 @@ static void lattice_field(struct site_map *l, const real K[MODES])
     }
 }
 
-static void site_map_make_if_on_lattice(struct site_map *map, int edge, real degrees, const real shift[2], real speed)
+static void lattice_site_map_make_if_particles_fit_lattice(struct lattice_site_map *map, int edge, real degrees,
+                                                           const real shift[2], real speed)
 {
     memset(map, 0, sizeof *map);
     patch_make(&map->patch, edge, 0, 1);
@@ -269,13 +270,13 @@ static void site_map_make_if_on_lattice(struct site_map *map, int edge, real deg
     map->rule.reach = 1.5, map->rule.sight = (struct sight){.crack = &map->crack, .cracks = 1};
 }
 
-static void site_map_free(struct site_map *map)
+static void lattice_site_map_free(struct lattice_site_map *map)
 {
     for (int d = 0; d < 2; d++) memory_free(map->v[d]), memory_free(map->a[d]);
     patch_free(&map->patch);
 }
 
-static struct sif lattice_sif(const struct site_map *l, real inner, real outer)
+static struct sif lattice_sif(const struct lattice_site_map *l, real inner, real outer)
 {
     const struct contour c = {inner, outer};
     const bool moves = l->tip.speed > 0;
@@ -295,7 +296,7 @@ static real sif_error(const struct sif *s, const real K[MODES])
 
 /* Returns the error of K by the sum over particles of l with exact gradients of the field of mode `mode`, which is due
  * to quadrature; outer: outer radius of the contour, twice the inner one, in the unit of positions. */
-static real exact_gradient_error(const struct site_map *l, real outer, enum crack_mode mode)
+static real exact_gradient_error(const struct lattice_site_map *l, real outer, enum crack_mode mode)
 {
     const struct contour c = {0.5 * outer, outer};
     const struct particles *p = &l->patch.p;
@@ -305,7 +306,7 @@ static real exact_gradient_error(const struct site_map *l, real outer, enum crac
         const real x[2] = {d[0] * e[0] + d[1] * e[1], d[1] * e[0] - d[0] * e[1]};
         struct crack_field f[MODES];
         if (hypot(x[0], x[1]) > outer || hypot(x[0], x[1]) < 0.5 * outer) continue;
-        for (int m = 0; m < MODES; m++) crack_tip_field(&l->tip.medium, m, 0, x, &f[m]);
+        for (int m = 0; m < MODES; m++) crack_tip_field_resting_or_moving(&l->tip.medium, m, 0, x, &f[m]);
         for (int m = 0; m < MODES; m++)
             sum[m] += sif_interaction_integrand(&l->tip, &c, x, &f[mode].state, &f[m].state, false);
     }
@@ -322,8 +323,9 @@ static void lattice_sums_of_exact_gradients(void **state)
     const real shift[][2] = {{0, 0}, {0.499, 0}, {0, 0.3}, {0.5, 0.3}, {0.2, 0.4}}, degrees[] = {0, 30, 45};
     const real outer[] = {10, 20, 40}, cubic[] = {0.0035, 0.0005, 0.0005}, quintic[] = {0.0007, 0.00007, 0.00002};
     for (size_t n = 0; n < COUNT_OF(degrees) * COUNT_OF(shift); n++) {
-        struct site_map l;
-        site_map_make_if_on_lattice(&l, 90, degrees[n % COUNT_OF(degrees)], shift[n / COUNT_OF(degrees)], 0);
+        struct lattice_site_map l;
+        lattice_site_map_make_if_particles_fit_lattice(&l, 90, degrees[n % COUNT_OF(degrees)],
+                                                       shift[n / COUNT_OF(degrees)], 0);
         for (int mode = 0; mode < MODES; mode++)
             for (int k = 0; k < 3; k++) {
                 l.tip.weight = SIF_QUINTIC;
@@ -334,7 +336,7 @@ static void lattice_sums_of_exact_gradients(void **state)
                                         : k == 1              ? 2.4
                                                               : 1.7));
             }
-        site_map_free(&l);
+        lattice_site_map_free(&l);
     }
 }
 
@@ -348,8 +350,9 @@ static void lattice_sums_of_fitted_gradients(void **state)
     const real allowed[] = {0.0025, 0.00025, 0.00005}; /* gradients have errors of 1/r^2, and quadrature larger ones */
     real worst[2][3] = {{0}};
     for (size_t n = 0; n < COUNT_OF(degrees) * COUNT_OF(shift); n++) {
-        struct site_map l;
-        site_map_make_if_on_lattice(&l, 96, degrees[n % COUNT_OF(degrees)], shift[n / COUNT_OF(degrees)], 0);
+        struct lattice_site_map l;
+        lattice_site_map_make_if_particles_fit_lattice(&l, 96, degrees[n % COUNT_OF(degrees)],
+                                                       shift[n / COUNT_OF(degrees)], 0);
         for (size_t k = 0; k < COUNT_OF(Ks); k++) {
             lattice_field(&l, Ks[k]);
             for (int method = 0; method < 2; method++)
@@ -360,7 +363,7 @@ static void lattice_sums_of_fitted_gradients(void **state)
                     assert_near(s.J * l.tip.medium.modulus, 1, 2 * allowed[o]);
                 }
         }
-        site_map_free(&l);
+        lattice_site_map_free(&l);
     }
     for (int method = 0; method < 2; method++) {
         print_message("%s: %.4f %% at 10, %.4f %% at 20, %.4f %% at 40 spacings\n", method ? "PDDO" : "MLS",
@@ -377,9 +380,9 @@ static void body_forces_leave_the_factors(void **state)
     (void)state;
     const real K[MODES] = {0.8, -0.6}, degrees[] = {0, 30};
     for (int n = 0; n < 2; n++) {
-        struct site_map l;
+        struct lattice_site_map l;
         real *body[2];
-        site_map_make_if_on_lattice(&l, 96, degrees[n], (const real[]){0.2, 0.4}, 0);
+        lattice_site_map_make_if_particles_fit_lattice(&l, 96, degrees[n], (const real[]){0.2, 0.4}, 0);
         lattice_field(&l, K);
         const struct crack_medium *m = &l.tip.medium;
         const real c = m->lambda / (m->lambda + 2 * m->shear), a = 0.002 / m->modulus, *e = l.tip.along;
@@ -407,7 +410,7 @@ static void body_forces_leave_the_factors(void **state)
             assert_true(sif_error(&s, K) > 0.015);
         }
         for (int d = 0; d < 2; d++) memory_free(body[d]);
-        site_map_free(&l);
+        lattice_site_map_free(&l);
     }
 }
 
@@ -416,10 +419,10 @@ static void body_forces_leave_the_factors(void **state)
 static void particle_stresses_are_turned(void **state)
 {
     (void)state;
-    struct site_map l;
+    struct lattice_site_map l;
     real *stress[3];
     const real K[MODES] = {0.8, 0.6};
-    site_map_make_if_on_lattice(&l, 48, 30, (const real[]){0, 0}, 0);
+    lattice_site_map_make_if_particles_fit_lattice(&l, 48, 30, (const real[]){0, 0}, 0);
     lattice_field(&l, K);
     const struct sif hooke = lattice_sif(&l, 10, 20);
     for (int c = 0; c < 3; c++) stress[c] = NEW("test.stress", l.patch.p.n, real);
@@ -441,7 +444,7 @@ static void particle_stresses_are_turned(void **state)
     assert_close(own.J, hooke.J, 1e-12);
     for (int c = 0; c < 3; c++) memory_free(stress[c]);
     gradient_stencil_free(&s);
-    site_map_free(&l);
+    lattice_site_map_free(&l);
 }
 
 /* Checks a steadily moving crack, with inertia: K is recovered, and J E* = A_I K_I^2 + A_II K_II^2. The core is left
@@ -451,20 +454,20 @@ static void lattice_sums_of_a_moving_crack(void **state)
     (void)state;
     const real speed[] = {500, 1000, 2000}, K[MODES] = {0.8, -0.6}, degrees[] = {0, 30};
     for (size_t n = 0; n < COUNT_OF(speed) * 2; n++) {
-        struct site_map l;
-        site_map_make_if_on_lattice(&l, 96, degrees[n % 2], (const real[]){0.2, 0.4}, speed[n / 2]);
+        struct lattice_site_map l;
+        lattice_site_map_make_if_particles_fit_lattice(&l, 96, degrees[n % 2], (const real[]){0.2, 0.4}, speed[n / 2]);
         l.tip.core = 5;
         lattice_field(&l, K);
         const struct sif s = lattice_sif(&l, 10, 20), large = lattice_sif(&l, 20, 40);
-        const real J = crack_universal_function(&l.tip.medium, MODE_I, l.tip.speed) * square(K[0]) +
-                       crack_universal_function(&l.tip.medium, MODE_II, l.tip.speed) * square(K[1]);
+        const real J = crack_tip_speed_universal_function(&l.tip.medium, MODE_I, l.tip.speed) * square(K[0]) +
+                       crack_tip_speed_universal_function(&l.tip.medium, MODE_II, l.tip.speed) * square(K[1]);
         print_message("moving at %g m/s, %g deg: %.4f %%, %.4f %%, J %.4f %%\n", l.tip.speed, degrees[n % 2],
                       100 * sif_error(&s, K), 100 * sif_error(&large, K),
                       100 * (large.J * l.tip.medium.modulus / J - 1));
         assert_near(sif_error(&s, K), 0, 0.0007);
         assert_near(sif_error(&large, K), 0, 0.0004);
         assert_near(large.J * l.tip.medium.modulus, J, 0.001);
-        site_map_free(&l);
+        lattice_site_map_free(&l);
     }
 }
 
@@ -477,15 +480,15 @@ static void a_core_does_not_see_single_particles(void **state)
     enum { PLACES = 8 };
     real low = INFINITY, high = -INFINITY;
     for (int place = 0; place < PLACES; place++) {
-        struct site_map l;
-        site_map_make_if_on_lattice(&l, 96, 0, (const real[]){(real)place / PLACES, 0.4}, 1000);
+        struct lattice_site_map l;
+        lattice_site_map_make_if_particles_fit_lattice(&l, 96, 0, (const real[]){(real)place / PLACES, 0.4}, 1000);
         l.tip.core = 5;
         lattice_field(&l, (const real[MODES]){1, 0});
         for (int d = 0; d < 2; d++)
             for (int64_t i = 0; i < l.patch.p.n; i++) l.a[d][i] *= 20;
         const real K = lattice_sif(&l, 10, 20).K[MODE_I];
         low = real_min(low, K), high = real_max(high, K);
-        site_map_free(&l);
+        lattice_site_map_free(&l);
     }
     print_message("wrong acceleration: K_I from %.4f to %.4f\n", low, high);
     assert_true(high - low < 0.001);

@@ -107,21 +107,21 @@ static void tip_turns(void **state)
     assert_int_equal(t.n, 1);
     assert_near(tip_deflection_angle(&t.tip[0], 2), atan2(3, 2.5) * 180 / M_PI, 1e-10);
     /* A mirror image about y = 10.5: the tip is on the upper of both branches; then on the longer one. */
-    assert_int_equal(tips_count_ends_with_largest_growth(&t), 1);
+    assert_int_equal(tips_count_crack_ends_with_largest_growth(&t), 1);
     hurt(&b, 10.5, 9.5, 0), hurt(&b, 11.5, 8.5, 0);
     tips_update_from_damage(&t, &b.p, &b.c, 1);
-    assert_int_equal(tips_count_ends_with_largest_growth(&t), 1); /* 3.9 and 2.5 */
+    assert_int_equal(tips_count_crack_ends_with_largest_growth(&t), 1); /* 3.9 and 2.5 */
     hurt(&b, 12.5, 7.5, 0);
     tips_update_from_damage(&t, &b.p, &b.c, 2);
     assert_int_equal(t.tip[0].particles, 6);
     assert_near(t.tip[0].growth, hypot(2.5, 3), ROUND_OFF);
     assert_near(t.tip[0].place[0], 12.5, ROUND_OFF);
     assert_near(t.tip[0].place[1], 13.5, ROUND_OFF);
-    assert_int_equal(tips_count_ends_with_largest_growth(&t), 2);
+    assert_int_equal(tips_count_crack_ends_with_largest_growth(&t), 2);
     hurt(&b, 13.5, 6.5, 0);
     tips_update_from_damage(&t, &b.p, &b.c, 3);
     assert_near(t.tip[0].place[1], 6.5, ROUND_OFF);
-    assert_int_equal(tips_count_ends_with_largest_growth(&t), 1); /* 5.3 and 3.9 */
+    assert_int_equal(tips_count_crack_ends_with_largest_growth(&t), 1); /* 5.3 and 3.9 */
     notched_free(&b, &t);
 }
 
@@ -138,14 +138,14 @@ static void tips_that_tie(void **state)
     tips_free(&t);
     tips_make_at_precrack_ends(&t, &b.p, &b.c, &crack, 1, 1, 4);
     assert_int_equal(t.n, 2);
-    assert_int_equal(tips_count_ends_with_largest_growth(&t), 0);
+    assert_int_equal(tips_count_crack_ends_with_largest_growth(&t), 0);
     for (int k = 0; k < 4; k++)
         for (int side = -1; side <= 1; side += 2)
             hurt(&b, 25.5 + k, 10 + 0.5 * side, 0), hurt(&b, 14.5 - k, 10 + 0.5 * side, 0);
     tips_update_from_damage(&t, &b.p, &b.c, 0);
     for (int k = 0; k < 2; k++) assert_near(t.tip[k].place[1], 10, ROUND_OFF);
     assert_near(fabs(t.tip[0].place[0] - 20), 8.5, ROUND_OFF);
-    assert_int_equal(tips_count_ends_with_largest_growth(&t), 2);
+    assert_int_equal(tips_count_crack_ends_with_largest_growth(&t), 2);
     assert_ptr_equal(tips_find_tip_with_largest_growth(&t), &t.tip[0]);
     for (int k = 1; k < 4; k++)
         for (int side = -1; side <= 1; side += 2) hurt(&b, 28.5 + k, 10 + (0.5 + k) * side, 0);
@@ -153,7 +153,7 @@ static void tips_that_tie(void **state)
     const struct crack_tip *longest = tips_find_tip_with_largest_growth(&t);
     assert_near(longest->place[0], 31.5, ROUND_OFF);
     assert_near(longest->place[1], 13.5, ROUND_OFF); /* a damaged position, not (31.5, 10) */
-    assert_int_equal(tips_count_ends_with_largest_growth(&t), 2);
+    assert_int_equal(tips_count_crack_ends_with_largest_growth(&t), 2);
     notched_free(&b, &t);
 }
 
@@ -170,19 +170,19 @@ static void places_of_groups(void **state)
         place[k] = (struct place){{7 + 5 * cos(angle), 3 + 5 * sin(angle)}, false};
         place[24 + k] = (struct place){{-7 + cos(angle), 3, 0.37 * k}, k < 12};
     }
-    assert_int_equal(positions_count_clusters_and_find_centre(place, 24, 2, 1.5, none, middle), 1);
+    assert_int_equal(position_clusters_count_and_find_foremost_centre(place, 24, 2, 1.5, none, middle), 1);
     assert_near(hypot(middle[0] - 7, middle[1] - 3), 5, ROUND_OFF);
-    assert_int_equal(positions_count_clusters_and_find_centre(place, 24, 2, 1.2, none, middle),
+    assert_int_equal(position_clusters_count_and_find_foremost_centre(place, 24, 2, 1.2, none, middle),
                      24); /* their distance is 1.305 */
     assert_near(middle[0], 12, ROUND_OFF);
     assert_near(middle[1], 3, ROUND_OFF);
-    assert_int_equal(positions_count_clusters_and_find_centre(place, 48, 3, 1.5, none, middle), 2);
+    assert_int_equal(position_clusters_count_and_find_foremost_centre(place, 48, 3, 1.5, none, middle), 2);
     assert_true(middle[0] > 1);
-    assert_int_equal(positions_count_clusters_and_find_centre(place + 24, 24, 3, 4.5, along, middle),
+    assert_int_equal(position_clusters_count_and_find_foremost_centre(place + 24, 24, 3, 4.5, along, middle),
                      1); /* the mean of the twelve that count */
     assert_near(middle[2], 0.37 * 17.5, ROUND_OFF);
-    assert_int_equal(positions_count_clusters_and_find_centre(place + 24, 12, 3, 4.5, along, middle), 0);
-    assert_int_equal(positions_count_clusters_and_find_centre(place, 0, 2, 1.5, none, middle), 0);
+    assert_int_equal(position_clusters_count_and_find_foremost_centre(place + 24, 12, 3, 4.5, along, middle), 0);
+    assert_int_equal(position_clusters_count_and_find_foremost_centre(place, 0, 2, 1.5, none, middle), 0);
 }
 
 /* Checks what does not count as growth: the faces of the pre-crack beside its end are part of the crack; fixed

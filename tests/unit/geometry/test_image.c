@@ -135,14 +135,14 @@ static void kinds_of_images(void **state)
 }
 
 /* Layout of the samples of a TIFF page. */
-struct layout {
+struct maps_layout {
     int bits, samples, planar, orientation, format;
     bool tiled, white;
 };
 
 /* Returns sample c of the pixel in row j and column i of a file with the layout a. Transparency of 3/8, associated or
  * not, does not affect the value. */
-static int sample_at(const struct layout *a, int j, int i, int c)
+static int sample_at(const struct maps_layout *a, int j, int i, int c)
 {
     const bool right = a->orientation == ORIENTATION_TOPRIGHT || a->orientation == ORIENTATION_BOTRIGHT;
     const int row = a->orientation >= ORIENTATION_BOTRIGHT ? HIGH - 1 - j : j, column = right ? WIDE - 1 - i : i;
@@ -155,7 +155,7 @@ static int sample_at(const struct layout *a, int j, int i, int c)
 
 /* Fills row[] with row j of a tile of 16 x 16, or of the image, `wide` pixels wide, in the layout a. plane: index of
  * the sample; -1: all samples of a pixel together. */
-static void fill_row(const struct layout *a, uint8_t *row, int j, int wide, int plane)
+static void fill_row(const struct maps_layout *a, uint8_t *row, int j, int wide, int plane)
 {
     const int n = plane < 0 ? a->samples : 1;
     for (int i = 0; i < wide; i++)
@@ -168,7 +168,7 @@ static void fill_row(const struct layout *a, uint8_t *row, int j, int wide, int 
         }
 }
 
-static void write_layout(const char *name, const struct layout *a)
+static void write_layout(const char *name, const struct maps_layout *a)
 {
     const uint16_t extra = EXTRASAMPLE_UNASSALPHA;
     TIFF *tiff = TIFFOpen(name, "w");
@@ -207,13 +207,13 @@ static void layouts_of_tiff(void **state)
 {
     (void)state;
     for (int k = 0; k < 2 * 4 * 2 * 2 * 4 * 2; k++) {
-        const struct layout a = {.bits = k & 1 ? 16 : 8,
-                                 .samples = 1 + k / 2 % 4,
-                                 .tiled = k / 8 & 1,
-                                 .planar = k / 16 & 1 ? PLANARCONFIG_SEPARATE : PLANARCONFIG_CONTIG,
-                                 .orientation = 1 + k / 32 % 4,
-                                 .white = k / 128 && k / 2 % 4 < 2,
-                                 .format = SAMPLEFORMAT_UINT};
+        const struct maps_layout a = {.bits = k & 1 ? 16 : 8,
+                                      .samples = 1 + k / 2 % 4,
+                                      .tiled = k / 8 & 1,
+                                      .planar = k / 16 & 1 ? PLANARCONFIG_SEPARATE : PLANARCONFIG_CONTIG,
+                                      .orientation = 1 + k / 32 % 4,
+                                      .white = k / 128 && k / 2 % 4 < 2,
+                                      .format = SAMPLEFORMAT_UINT};
         write_layout("a.tif", &a);
         check_values("a.tif", 2, 1, a.bits);
     }
@@ -224,7 +224,7 @@ static void samples_refused(void **state)
 {
     (void)state;
     static const struct {
-        struct layout layout;
+        struct maps_layout layout;
         const char *message;
     } bad[] = {{{.bits = 16, .format = SAMPLEFORMAT_INT},
                 "a.tif: pixels are signed values of 16 bits; save unsigned grey values"
@@ -239,7 +239,7 @@ static void samples_refused(void **state)
     struct voxels v;
     char name[] = "a.tif", *const paths[] = {name};
     for (size_t k = 0; k < COUNT_OF(bad); k++) {
-        struct layout a = bad[k].layout;
+        struct maps_layout a = bad[k].layout;
         a.samples = 1, a.planar = PLANARCONFIG_CONTIG;
         if (a.orientation == 0) a.orientation = ORIENTATION_TOPLEFT;
         write_layout(name, &a);
@@ -307,8 +307,8 @@ static void distances(void **state)
         const int64_t all = v.n[0] * v.n[1] * v.n[2];
         v.grey = NEW("test", all, uint16_t);
         for (int64_t k = 0; k < all; k++) v.grey[k] = (uint16_t)(k * k * 7 % 13 < 9 ? 200 : 10);
-        struct voxel_part part = {.of = &v, .ranges = 2, .range = {{100, 199}, {200, 255}}};
-        voxel_part_make_from_grey_value_ranges(&part);
+        struct voxel_solid part = {.of = &v, .ranges = 2, .range = {{100, 199}, {200, 255}}};
+        voxel_solid_make_from_grey_value_ranges(&part);
         for (int64_t a = 0; a < all; a++) {
             real X[DIM_MAX], best = INFINITY, normal[DIM_MAX];
             const int64_t at[] = {a % v.n[0], a / v.n[0] % v.n[1], a / v.n[0] / v.n[1]};
@@ -325,10 +325,10 @@ static void distances(void **state)
                 for (int d = 0; d < dim; d++) r2 += square((real)(at[d] - other[d]) * v.size[d]);
                 if ((v.grey[b] == 200) != in) best = real_min(best, sqrt(r2));
             }
-            assert_near(voxel_part_signed_distance(&part, X, normal), in ? 0.5 - best : best - 0.5, 1e-6);
+            assert_near(voxel_solid_signed_distance(&part, X, normal), in ? 0.5 - best : best - 0.5, 1e-6);
         }
-        assert_near(voxel_part_signed_distance(&part, (real[]){-3, 4, 5}, NULL) > 3, 1, 0);
-        voxel_part_free(&part);
+        assert_near(voxel_solid_signed_distance(&part, (real[]){-3, 4, 5}, NULL) > 3, 1, 0);
+        voxel_solid_free(&part);
         voxels_free(&v);
     }
 }

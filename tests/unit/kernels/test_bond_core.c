@@ -22,13 +22,13 @@ static struct run *make(struct scene *s, const char *text, const char *model)
     const struct scene_override set = {"model", model};
     struct run *e = NEW("test.engine", 1, struct run);
     if (scene_read_text(s, text, strlen(text), "squeezed.yaml", &set, 1) != OK) fail_msg("%s", status_message());
-    assert_ok(engine_set_up_run(e, s, NULL));
+    assert_ok(run_set_up_from_scene(e, s, NULL));
     return e;
 }
 
 static void end(struct run *e, struct scene *s)
 {
-    engine_free_run(e);
+    run_free_memory(e);
     memory_free(e);
     scene_free(s);
 }

@@ -16,7 +16,7 @@ static real pulled(struct particle_cloud *c, real s)
 {
     c->p.x[0][1] = c->p.x[0][0] + (c->p.X[0][1] - c->p.X[0][0]) * (1 + s);
     bond_force_table[1][PD_BOND_PLASTIC](&c->bonds, &c->p, &c->source.limit, NULL);
-    int64_t q = bond_index_for_writing(&c->bonds, 0, 0, 0);
+    int64_t q = bond_copy_on_write_and_return_array_index(&c->bonds, 0, 0, 0);
     assert_exact(c->p.f[0][0], -c->p.f[0][1]);
     return c->p.f[0][0] / (c->bonds.stiffness * c->bonds.w[q]);
 }
@@ -77,7 +77,7 @@ static void test_work(void **state)
     struct particle_cloud c;
     real work = 0, before = 0;
     pair_make(&c);
-    int64_t q = bond_index_for_writing(&c.bonds, 0, 0, 0);
+    int64_t q = bond_copy_on_write_and_return_array_index(&c.bonds, 0, 0, 0);
     const real scale = c.bonds.stiffness * c.bonds.w[q] / c.bonds.inverse_length[q];
     enum { STEPS = 10000 };
     for (size_t k = 1; k < COUNT_OF(corner); k++)
@@ -98,7 +98,7 @@ static void test_broken(void **state)
     (void)state;
     struct particle_cloud c;
     pair_make(&c);
-    const int64_t q = bond_index_for_writing(&c.bonds, 0, 0, 0);
+    const int64_t q = bond_copy_on_write_and_return_array_index(&c.bonds, 0, 0, 0);
     const real scale = c.bonds.stiffness * c.bonds.w[q] / c.bonds.inverse_length[q], path = 2 * YIELD / (1 + HARDENING);
     pulled(&c, 3 * YIELD);
     const real work = scale * path * (YIELD + 0.5 * HARDENING * path);
@@ -277,7 +277,7 @@ static void test_taken_over_in_the_plane(void **state)
     cloud_source(&c);
     bonds_make(&c.bonds, NULL, &c.p, &c.source);
     for (int64_t r = 0; r < c.bonds.rows; r++)
-        for (struct bond_iterator it = bond_iterator_of_row(&c.bonds, r); bond_next(&it);) {
+        for (struct bond_iterator it = bond_iterator_of_row(&c.bonds, r); bond_iterator_advance(&it);) {
             const int32_t ends[2] = {c.bonds.particle[r], it.bond.nbr};
             real y[2], elastic = 0, path = 0;
             for (int d = 0; d < 2; d++) y[d] = c.p.x[d][ends[1]] - c.p.x[d][ends[0]];

@@ -19,12 +19,12 @@ static const struct strength_rate table = {
 static void test_table(void **state)
 {
     (void)state;
-    assert_exact(strength_rate_interpolate_table(&table, table.factor, 0), 1);
-    assert_exact(strength_rate_interpolate_table(&table, table.factor, 1), 1);
-    assert_close(strength_rate_interpolate_table(&table, table.factor, 10), 1 + 0.4 / 3, 1e-14);
-    assert_close(strength_rate_interpolate_table(&table, table.factor, 100), 1 + 0.8 / 3, 1e-14);
-    assert_exact(strength_rate_interpolate_table(&table, table.factor, 1000), 1.4);
-    assert_exact(strength_rate_interpolate_table(&table, table.factor, 1e9), 1.4);
+    assert_exact(strength_rate_table_interpolate_in_log_rate(&table, table.factor, 0), 1);
+    assert_exact(strength_rate_table_interpolate_in_log_rate(&table, table.factor, 1), 1);
+    assert_close(strength_rate_table_interpolate_in_log_rate(&table, table.factor, 10), 1 + 0.4 / 3, 1e-14);
+    assert_close(strength_rate_table_interpolate_in_log_rate(&table, table.factor, 100), 1 + 0.8 / 3, 1e-14);
+    assert_exact(strength_rate_table_interpolate_in_log_rate(&table, table.factor, 1000), 1.4);
+    assert_exact(strength_rate_table_interpolate_in_log_rate(&table, table.factor, 1e9), 1.4);
 }
 
 /* Checks that at the onsets of the rate table the peak of uniform tension is the strength times the factor: E s_0
@@ -39,16 +39,17 @@ static void test_onsets(void **state)
     m.critical_stretch = 2.5 * m.tensile_strength / m.young;
     m.rate = (struct strength_rate){.points = 3, .rate = {1, 10, 100}, .factor = {1, 1.3, 2}};
     m.onset_stretch = softening_onset_stretch_from_strength(&m, SPACE_PLANE_STRESS);
-    const real least = strength_rate_compute_onsets_and_least_ratio(&m, SPACE_PLANE_STRESS, &bonds);
+    const real least = strength_rate_set_onsets_return_stretch_ratio(&m, SPACE_PLANE_STRESS, &bonds);
     const struct softening_curve curve = softening_curve_of_law(SOFTENING_LINEAR);
     for (int k = 0; k < 3; k++) {
         const real onset = m.onset_stretch * m.rate.onset[k], kappa = square(m.critical_stretch / onset);
-        assert_close(m.young * onset * softening_curve_normalised_strengths(&curve, SPACE_PLANE_STRESS, kappa).tension,
+        assert_close(m.young * onset *
+                         softening_curve_normalised_peak_stresses(&curve, SPACE_PLANE_STRESS, kappa).tension,
                      m.tensile_strength * m.rate.factor[k], 1e-6);
         assert_true(kappa >= least);
     }
     m.rate.factor[2] = 3;
-    assert_true(strength_rate_compute_onsets_and_least_ratio(&m, SPACE_PLANE_STRESS, &bonds) < 1);
+    assert_true(strength_rate_set_onsets_return_stretch_ratio(&m, SPACE_PLANE_STRESS, &bonds) < 1);
 }
 
 static void body_make(struct soft_body *s, enum space space, const struct strength_rate *rate, real critical)

@@ -89,7 +89,7 @@ static void test_work(void **state)
     for (enum softening law = SOFTENING_LINEAR; law <= SOFTENING_EXPONENTIAL; law++) {
         struct soft_body s;
         pair_make(&s, law);
-        const real end = softening_end_stretch(&s.curve, ONSET, CRITICAL),
+        const real end = softening_breaking_stretch_of_equal_energy(&s.curve, ONSET, CRITICAL),
                    corner[] = {0, 1.4 * ONSET, -ONSET, 0.6 * end, 0, end};
         const real scale = s.c.bonds.stiffness * CLOUD_SPACING;
         real work = 0, before = 0, dissipated = 0;
@@ -124,7 +124,8 @@ static void test_kinks(void **state)
     for (enum softening law = SOFTENING_LINEAR; law <= SOFTENING_EXPONENTIAL; law++) {
         struct soft_body s;
         pair_make(&s, law);
-        const real end = softening_end_stretch(&s.curve, ONSET, CRITICAL), scale = s.c.bonds.stiffness * CLOUD_SPACING;
+        const real end = softening_breaking_stretch_of_equal_energy(&s.curve, ONSET, CRITICAL),
+                   scale = s.c.bonds.stiffness * CLOUD_SPACING;
         real at = 1.01 * ONSET, force = pulled(&s, at);
         for (int step = 1; step <= 3; step++) {
             const real before = bonds_fracture_energy(&s.c.bonds) + 0.5 * force * at * scale, to = 0.3 * step * end;
@@ -252,7 +253,7 @@ static void test_ends(void **state)
             const struct bond bond = bond_read(b, r / LANES, k, (int)(r % LANES));
             if (bond.w == 0 || !bond_is_softening(b, r / LANES, bond.entry)) continue;
             const int64_t other = b->row_of[bond.nbr];
-            for (struct bond_iterator it = bond_iterator_of_row(b, other); bond_next(&it);) {
+            for (struct bond_iterator it = bond_iterator_of_row(b, other); bond_iterator_advance(&it);) {
                 if (it.bond.nbr != b->particle[r]) continue;
                 assert_true(bond_is_softening(b, other / LANES, it.bond.entry));
                 assert_exact(b->soft.most[it.bond.entry], b->soft.most[bond.entry]);

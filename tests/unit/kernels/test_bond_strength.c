@@ -32,8 +32,8 @@ static void body_make(struct surface_body *s, enum space space, real shake, int 
     for (int m = 0; m < CLOUD_MATERIALS; m++) {
         struct material *k = &s->c.material[m];
         k->tensile_strength = 0.4 * CRITICAL * k->young;
-        material_set_strength_surface(k, space,
-                                      strength_surface_from_compression(k->tensile_strength, 10 * k->tensile_strength));
+        material_set_strength_surface(
+            k, space, strength_surface_from_compressive_strength(k->tensile_strength, 10 * k->tensile_strength));
         k->surface_means = means;
     }
     cloud_source(&s->c);
@@ -84,9 +84,9 @@ static void test_uniform(void **state)
             const int dim = p->dim;
             real stress[SYM_MAX], trace = 0, *share = NEW("test.share", p->n, real);
             for (int d = 0; d < dim; d++) trace += strain[d][d];
-            for (int c = 0; c < symmetric_component_count(dim); c++) {
+            for (int c = 0; c < symmetric_tensor_component_count(dim); c++) {
                 int a, b;
-                symmetric_component_axes(dim, c, &a, &b);
+                symmetric_tensor_component_axes(dim, c, &a, &b);
                 stress[c] = 2 * m->shear * strain[a][b] + (a == b ? m->c12 * trace : 0);
             }
             const real expected = material_stress_to_strength_ratio(m, spaces[k], stress);
@@ -175,7 +175,7 @@ static real started(const struct bonds *b)
 {
     int64_t begun = 0, all = 0;
     for (int64_t r = 0; r < b->rows; r++)
-        for (struct bond_iterator it = bond_iterator_of_row(b, r); bond_next(&it); all += it.bond.w != 0)
+        for (struct bond_iterator it = bond_iterator_of_row(b, r); bond_iterator_advance(&it); all += it.bond.w != 0)
             begun += it.bond.w != 0 && bond_is_softening(b, r / LANES, it.bond.entry);
     return (real)begun / (real)all;
 }
@@ -251,15 +251,15 @@ static void test_ends(void **state)
     }
     assert_true(started(b) > 0.1 && started(b) < 0.9);
     for (int64_t r = 0; r < b->rows; r++)
-        for (struct bond_iterator it = bond_iterator_of_row(b, r); bond_next(&it);) {
+        for (struct bond_iterator it = bond_iterator_of_row(b, r); bond_iterator_advance(&it);) {
             if (!bond_is_softening(b, r / LANES, it.bond.entry)) continue;
-            const struct bond_softness own = bond_softness_load(&b->soft, it.bond.entry);
+            const struct bond_softening_state own = bond_softening_state_read(&b->soft, it.bond.entry);
             const int64_t other = b->row_of[it.bond.nbr];
             assert_close(own.end, square(CRITICAL) / own.onset, 1e-6);
             assert_true(own.onset <= CRITICAL / sqrt(2) * (1 + 1e-6) && own.onset >= 0.3 * 0.4 * CRITICAL * (1 - 1e-6));
-            for (struct bond_iterator back = bond_iterator_of_row(b, other); bond_next(&back);) {
+            for (struct bond_iterator back = bond_iterator_of_row(b, other); bond_iterator_advance(&back);) {
                 if (back.bond.nbr != b->particle[r]) continue;
-                const struct bond_softness there = bond_softness_load(&b->soft, back.bond.entry);
+                const struct bond_softening_state there = bond_softening_state_read(&b->soft, back.bond.entry);
                 assert_exact(there.most, own.most);
                 assert_exact(there.onset, own.onset);
                 assert_exact(there.end, own.end);
@@ -295,7 +295,7 @@ static void test_scatter(void **state)
         bonds_start_softening_at_strength_surface(b, p, &s.c.source);
         for (int64_t i = 0; i < p->n; i++) {
             int64_t begun = 0, bonds = 0;
-            for (struct bond_iterator it = bond_iterator_of_row(b, b->row_of[i]); bond_next(&it); bonds++)
+            for (struct bond_iterator it = bond_iterator_of_row(b, b->row_of[i]); bond_iterator_advance(&it); bonds++)
                 begun += bond_is_softening(b, b->row_of[i] / LANES, it.bond.entry);
             if (i == weak) assert_int_equal(begun, k == 0 ? 0 : bonds);
             if (i != weak) assert_true(begun <= (k == 0 ? 0 : 1));
@@ -314,9 +314,9 @@ static void test_unstretched(void **state)
     body_make(&s, SPACE_SOLID, 0, 1, false);
     struct bonds *b = &s.c.bonds;
     for (int m = 0; m < CLOUD_MATERIALS; m++)
-        material_set_strength_surface(
-            &s.c.material[m], SPACE_SOLID,
-            strength_surface_from_compression(s.c.material[m].tensile_strength, s.c.material[m].tensile_strength));
+        material_set_strength_surface(&s.c.material[m], SPACE_SOLID,
+                                      strength_surface_from_compressive_strength(s.c.material[m].tensile_strength,
+                                                                                 s.c.material[m].tensile_strength));
     struct bonds old = *b;
     bonds_make(b, NULL, &s.c.p, &s.c.source);
     bonds_free(&old);

@@ -53,7 +53,8 @@ static void setting_make(struct setting *s, int dim, enum shape shape, enum tran
     struct particles *p = &s->c.p;
     for (int64_t i = 0; i < p->n; i++) {
         p->kind[i] = KIND_MPM;
-        for (int c = 0; c < symmetric_component_count(dim); c++) p->stress[c][i] = cloud_between(&seed, -1e8, 1e8);
+        for (int c = 0; c < symmetric_tensor_component_count(dim); c++)
+            p->stress[c][i] = cloud_between(&seed, -1e8, 1e8);
     }
     particles_rebuild_lists_by_kind(p);
     s->g = (struct grid){.dim = dim, .h = 2 * CLOUD_SPACING, .anchor = {0.37e-3, 0.11e-3, 0.23e-3}};
@@ -96,7 +97,7 @@ static void strain_rates(struct setting *s, enum shape shape, enum transfer tran
         g2p_table[p.dim][shape][transfer](&s->g, &p, &s->t);
         for (int d = 0; d < p.dim; d++)
             for (int64_t I = 0; I < s->g.n; I++) s->g.velocity[d][I] *= sign;
-        for (int c = 0; c < symmetric_component_count(p.dim); c++)
+        for (int c = 0; c < symmetric_tensor_component_count(p.dim); c++)
             for (int64_t i = 0; i < p.n; i++)
                 rate[c][i] += sign * (p.stress[c][i] - s->c.p.stress[c][i]) / (2 * STIFF * STEP);
         particles_free(&p);
@@ -122,14 +123,14 @@ static real adjoint(int dim, enum shape shape, enum transfer transfer, bool crow
             s.g.velocity[d][I] = cloud_between(&seed, -1, 1);
             given -= s.g.force[d][I] * s.g.velocity[d][I];
         }
-    for (int c = 0; c < symmetric_component_count(dim); c++) rate[c] = NEW("test.rate", p->n, real);
+    for (int c = 0; c < symmetric_tensor_component_count(dim); c++) rate[c] = NEW("test.rate", p->n, real);
     strain_rates(&s, shape, transfer, rate);
-    for (int c = 0; c < symmetric_component_count(dim); c++)
+    for (int c = 0; c < symmetric_tensor_component_count(dim); c++)
         for (int64_t i = 0; i < p->n; i++) {
             const real power = p->volume[i] * p->stress[c][i] * rate[c][i] * (c < dim ? 1 : 2);
             taken += power, size += fabs(power);
         }
-    for (int c = 0; c < symmetric_component_count(dim); c++) memory_free(rate[c]);
+    for (int c = 0; c < symmetric_tensor_component_count(dim); c++) memory_free(rate[c]);
     setting_free(&s);
     assert_true(fabs(given - taken) <= 1e-12 * size);
     return given / size;
@@ -155,7 +156,7 @@ static void test_uniform(void **state)
         struct setting s;
         real *rate[SYM_MAX];
         setting_make(&s, dim, SHAPE_LINEAR, TRANSFER_FLIP, false);
-        for (int c = 0; c < symmetric_component_count(dim); c++) {
+        for (int c = 0; c < symmetric_tensor_component_count(dim); c++) {
             rate[c] = NEW("test.rate", s.c.p.n, real);
             for (int64_t i = 0; i < s.c.p.n; i++) s.c.p.stress[c][i] = 0;
         }
@@ -171,7 +172,7 @@ static void test_uniform(void **state)
         strain_rates(&s, SHAPE_LINEAR, TRANSFER_FLIP, rate);
         for (int64_t i = 0; i < s.c.p.n; i++)
             for (int d = 0; d < dim; d++) assert_true(fabs(rate[d][i] - L[d][d]) <= 1e-11 * 700);
-        for (int c = 0; c < symmetric_component_count(dim); c++) memory_free(rate[c]);
+        for (int c = 0; c < symmetric_tensor_component_count(dim); c++) memory_free(rate[c]);
         setting_free(&s);
     }
 }
@@ -268,7 +269,7 @@ int main(void)
         cmocka_unit_test(test_several),
         cmocka_unit_test(test_cells_change),
     };
-    team_set_thread_count(2);
+    threads_set_count_and_bind_to_cores(2);
     int failures = 0;
     FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);
     return failures;

@@ -184,7 +184,7 @@ static void test_bond_momentum(void **state)
 
 /* Creates c, a displaced lattice of one material; some bonds are broken by load, one is partially released. state: true
  * for a state-based model. */
-static void site_map_make_if_on_lattice(struct particle_cloud *c, int dim, bool state)
+static void lattice_site_map_make_if_particles_fit_lattice(struct particle_cloud *c, int dim, bool state)
 {
     uint64_t seed = 5;
     particle_cloud_make(c, &(struct cloud_plan){.space = space_of[dim],
@@ -200,7 +200,8 @@ static void site_map_make_if_on_lattice(struct particle_cloud *c, int dim, bool 
         for (int64_t i = 0; i < c->p.n; i++)
             c->p.x[d][i] = c->p.X[d][i] + cloud_between(&seed, -0.02, 0.02) * CLOUD_SPACING;
     struct bonds *b = &c->bonds;
-    const int64_t row = b->row_of[c->p.n / 2], q = bond_index_for_writing(b, row / LANES, 2, (int)(row % LANES));
+    const int64_t row = b->row_of[c->p.n / 2],
+                  q = bond_copy_on_write_and_return_array_index(b, row / LANES, 2, (int)(row % LANES));
     bond_fade(&c->bonds, &c->p, row, q, 0.5f * b->w[q]);
 }
 
@@ -237,7 +238,7 @@ static void test_column_kinds(void **unused)
             const bool state = model >= PD_OSPD;
             struct particle_cloud c;
             if (model == PD_BOND_PLASTIC || (dim == 1 && state)) continue;
-            site_map_make_if_on_lattice(&c, dim, state);
+            lattice_site_map_make_if_particles_fit_lattice(&c, dim, state);
             const size_t bytes = (size_t)(dim * c.p.n) * sizeof(real);
             real *f = forces_by_kind(&c, state ? state_force_table[dim][model] : bond_force_table[dim][model], kinds);
             assert_memory_equal(f, f + dim * c.p.n, bytes);
@@ -281,7 +282,7 @@ static void test_bond_stress(void **state)
                 struct particle_cloud c;
                 body_make(&c, dim, way);
                 real *w = reference_table(&c.bonds, &c.p), *stress = NEW("test.stress", c.p.n, real);
-                for (int s = 0; s < symmetric_component_count(dim); s++) /* material points keep their own */
+                for (int s = 0; s < symmetric_tensor_component_count(dim); s++) /* material points keep their own */
                     for (int64_t i = 0; i < c.p.n; i++) c.p.stress[s][i] = 1e6 * (real)(i + s);
                 bond_stress_table[dim][model](&c.bonds, &c.p);
                 for (int a = 0; a < dim; a++)
@@ -362,7 +363,7 @@ static void test_bond_threads(void **state)
  * M[n][n] over symmetric components of stress. */
 static real least_kept(const struct material *m, int dim, const real *M)
 {
-    const int n = symmetric_component_count(dim);
+    const int n = symmetric_tensor_component_count(dim);
     real kept[SYM_MAX * SYM_MAX], value[SYM_MAX], scratch[SYM_MAX], least = INFINITY;
     for (int a = 0; a < n; a++)
         for (int b = 0; b < n; b++) {
@@ -383,7 +384,7 @@ static bool check_partial(const struct particle_cloud *c, const struct partial_s
                           int64_t q)
 {
     const struct particles *p = &c->p;
-    const int n = symmetric_component_count(p->dim);
+    const int n = symmetric_tensor_component_count(p->dim);
     real T[DIM_MAX][DIM_MAX][DIM_MAX][DIM_MAX], expected[SYM_MAX * SYM_MAX], got[SYM_MAX * SYM_MAX] = {0}, largest = 0;
     reference_partial(p, w, c->bonds.stiffness, c->source.family.section, q, T);
     for (int b = 0; b < n; b++) {
@@ -431,7 +432,7 @@ static void test_partial_stress(void **state)
             bonds_make(&c.bonds, NULL, &c.p, &c.source);
             if (way & MIXED) /* broken bonds carry nothing */
                 bond_force_table[dim][PD_BOND](&c.bonds, &c.p, &c.source.limit, NULL);
-            partial_stress_make(&partial, &c.p, &c.bonds, &c.source, NULL, 0);
+            partial_stress_compute_from_bonds(&partial, &c.p, &c.bonds, &c.source, NULL, 0);
             check_partials(&c, &partial, whole);
 
             int32_t changed[] = {(int32_t)c.p.n - 2, (int32_t)c.p.n - 1};
@@ -440,7 +441,7 @@ static void test_partial_stress(void **state)
             particles_rebuild_lists_by_kind(&c.p);
             bonds_make(&c.bonds, &old, &c.p, &c.source);
             bonds_free(&old);
-            partial_stress_make(&partial, &c.p, &c.bonds, &c.source, changed, COUNT_OF(changed));
+            partial_stress_compute_from_bonds(&partial, &c.p, &c.bonds, &c.source, changed, COUNT_OF(changed));
             check_partials(&c, &partial, whole);
             partial_stress_free(&partial);
             particle_cloud_free(&c);
@@ -459,7 +460,7 @@ static void test_partial_stress_corner(void **state)
     for (int64_t i = 1; i < c.p.n; i++) c.p.kind[i] = KIND_MPM;
     cloud_bonds(&c);
     int whole[2] = {0};
-    partial_stress_make(&partial, &c.p, &c.bonds, &c.source, NULL, 0);
+    partial_stress_compute_from_bonds(&partial, &c.p, &c.bonds, &c.source, NULL, 0);
     check_partials(&c, &partial, whole);
     assert_int_equal(whole[false], 0);
     partial_stress_free(&partial);
@@ -475,7 +476,7 @@ int main(void)
         cmocka_unit_test(test_pd_move),        cmocka_unit_test(test_bond_threads),
         cmocka_unit_test(test_partial_stress), cmocka_unit_test(test_partial_stress_corner),
     };
-    team_set_thread_count(2);
+    threads_set_count_and_bind_to_cores(2);
     int failures = 0;
     FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);
     return failures;

@@ -22,7 +22,8 @@ static real parted(enum last_force rule, real step, real phase, real *fracture)
     for (int k = 0; k < CLOUD_MATERIALS * CLOUD_MATERIALS; k++) c.limit[k] = LIMIT;
     cloud_bonds(&c);
     struct particles *p = &c.p;
-    const real stiffness = c.bonds.stiffness * c.bonds.w[bond_index_for_writing(&c.bonds, 0, 0, 0)] / CLOUD_SPACING;
+    const real stiffness =
+        c.bonds.stiffness * c.bonds.w[bond_copy_on_write_and_return_array_index(&c.bonds, 0, 0, 0)] / CLOUD_SPACING;
     const real omega = sqrt(2 * stiffness / p->mass[0]), dt = step * 2 / omega;
     const real speed = omega * LIMIT * CLOUD_SPACING / sqrt(0.75), start = (phase - 1) * dt;
     const struct bond_limit limit = {

@@ -46,7 +46,7 @@ static void test_light_nodes(void **state)
                 g.mass[I] = mass[I];
                 for (int d = 0; d < dim; d++) g.momentum[d][I] = 3 * mass[I], g.force[d][I] = d == 0 && I == J;
             }
-            grid_move_nodes(&g, TRANSFER_APIC, 1, GRID_MASS_SMALLEST, impulse, &work);
+            grid_advance_and_constrain_nodes(&g, TRANSFER_APIC, 1, GRID_MASS_SMALLEST, impulse, &work);
             for (int64_t I = 0; I < g.n; I++) {
                 const real own = mass[I] > 0 ? g.velocity[0][I] - 3 : 0;
                 a[I * g.n + J] = own, largest = fmax(largest, fabs(own));
@@ -68,7 +68,7 @@ static void test_light_nodes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_light_nodes)};
-    team_set_thread_count(2);
+    threads_set_count_and_bind_to_cores(2);
     int failures = 0;
     FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);
     return failures;

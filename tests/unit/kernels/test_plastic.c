@@ -45,7 +45,7 @@ static struct metal constants(const struct material *m, enum space space)
     metal.elastic =
         (struct elastic){.c11 = m->c11, .c12 = m->c12, .shear = m->shear, .space = space, .poisson = m->poisson};
     metal.law = (struct law){.given = true, .flow = FLOW_LINEAR, .hardening = m->yield_hardening};
-    law_compute_derived_constants(&metal.law, m->yield_stress, m->young, m->poisson, m->shear, m->density);
+    flow_law_compute_derived_constants(&metal.law, m->yield_stress, m->young, m->poisson, m->shear, m->density);
     return metal;
 }
 
@@ -67,7 +67,7 @@ static real step(struct point *p, const struct metal *metal, const real *L)
     row_of_points stress[SYM_MAX], gradient[DIM_MAX * DIM_MAX];
     for (int c = 0; c < dim * (dim + 1) / 2; c++) stress[c] = points_broadcast(p->s[c]);
     for (int k = 0; k < dim * dim; k++) gradient[k] = points_broadcast(L[k]);
-    stress_update(stress, gradient, &constants, 1, dim);
+    stress_update_and_return_strain_trace(stress, gradient, &constants, 1, dim);
     memcpy(before, p->s, sizeof before);
     for (int c = 0; c < dim * (dim + 1) / 2; c++) p->s[c] = stress[c][0];
     return law_step(&metal->law, m->space, before, p->s, &p->a, &p->work, &p->zz);
@@ -131,7 +131,7 @@ static void check_return(const struct metal *m, const struct point *trial, const
     const real mean = (after[0] + after[1] + after[2]) / 3;
     /* Under a pressure of `size` the direction of a deviator q is known to their ratio in roundings. */
     const real slack = CLOSE * size + 1e-15 * size / q * more;
-    const int n = symmetric_component_count(space_dim(m->elastic.space));
+    const int n = symmetric_tensor_component_count(space_dim(m->elastic.space));
     static const int place[DIM_MAX + 1][SYM_MAX] = {{0}, {0}, {0, 1, 3}, {0, 1, 2, 3, 4, 5}};
     for (int c = 0; c < n; c++) {
         const int k = place[space_dim(m->elastic.space)][c];
@@ -155,7 +155,7 @@ static void test_conditions(void **state)
             for (int n = 0; n < 2000; n++) {
                 struct point trial = {.a = n % 2 ? cloud_between(&seed, 0, 0.01) : 0};
                 const real size = YIELD * pow(10, cloud_between(&seed, -1, 6));
-                for (int c = 0; c < symmetric_component_count(space_dim(spaces[s])); c++)
+                for (int c = 0; c < symmetric_tensor_component_count(space_dim(spaces[s])); c++)
                     trial.s[c] = size * cloud_between(&seed, -1, 1) * pow(10, -cloud_between(&seed, 0, 3) * (n % 3));
                 if (spaces[s] == SPACE_PLANE_STRAIN) trial.zz = YIELD * cloud_between(&seed, -1, 1);
                 struct point p = trial;
@@ -227,7 +227,7 @@ static void test_rotation_by_series(void **state)
     for (int dim = 2; dim <= 3; dim++)
         for (size_t k = 0; k < COUNT_OF(angle); k++)
             for (int times = 0; times < 100; times++) {
-                const int n = symmetric_component_count(dim);
+                const int n = symmetric_tensor_component_count(dim);
                 real s[SYM_MAX], axis[3] = {1}, size = 0;
                 row_of_points turned[SYM_MAX], w[3];
                 for (int c = 0; c < 3 && dim == 3; c++) axis[c] = cloud_between(&seed, -1, 1);
@@ -415,7 +415,7 @@ static real balance_energy(const struct point *p, const struct material *m, enum
     const int dim = space_dim(space);
     struct particles body;
     particles_make(&body, dim, 1, WITH_PLASTIC | (space == SPACE_PLANE_STRAIN ? WITH_OUT_OF_PLANE : 0));
-    for (int c = 0; c < symmetric_component_count(dim); c++) body.stress[c][0] = p->s[c];
+    for (int c = 0; c < symmetric_tensor_component_count(dim); c++) body.stress[c][0] = p->s[c];
     body.volume[0] = body.volume0[0] = 1, body.plastic_work[0] = p->work;
     if (body.out_of_plane) body.out_of_plane[0] = p->zz;
     const real energy = points_strain_energy(&body, m, partial) + points_plastic_work(&body, m, partial);
@@ -431,7 +431,7 @@ static void test_work_is_booked(void **state)
     (void)state;
     static const real whole[2][9] = {{4, 1, 0, 3, -2, 1, 0, 2, 1}, {-2, 1, 0, -2, 0.5, -1, 1, 0, 1}};
     for (int s = 0; s < 4; s++) {
-        const int dim = space_dim(spaces[s]), n = symmetric_component_count(dim), steps = 2000;
+        const int dim = space_dim(spaces[s]), n = symmetric_tensor_component_count(dim), steps = 2000;
         const struct material given = material(spaces[s], 0.3, 0.2);
         const struct metal m = constants(&given, spaces[s]);
         struct point p = {.a = 0};

@@ -89,7 +89,7 @@ static void check_slopes(struct points *s, enum shape shape, enum transfer trans
         {{0}}, {{0}}, {{0, 2}, {2, 1}}, {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}}};
     const int dim = s->p.dim;
     for (int64_t i = 0; i < POINTS; i++)
-        for (int c = 0; c < symmetric_component_count(dim); c++) {
+        for (int c = 0; c < symmetric_tensor_component_count(dim); c++) {
             s->p.stress[c][i] = 1;
             grid_clear(&s->g);
             p2g_table[dim][shape][transfer](&s->g, &s->p, &s->t);
@@ -123,6 +123,6 @@ static void test_complete(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_complete)};
-    team_set_thread_count(2);
+    threads_set_count_and_bind_to_cores(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

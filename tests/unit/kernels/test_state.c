@@ -98,7 +98,7 @@ static real patch_ratio(struct body *b, const int *count, enum patch_load load, 
         real f2 = 0, work = 0;
         static const int row[SYM_MAX] = {0, 1, 2, 0, 1, 2}, column[SYM_MAX] = {0, 1, 2, 1, 2, 0};
         for (int d = 0; d < dim; d++) f2 += square(p->f[d][i]);
-        for (int s = 0; s < symmetric_component_count(dim); s++) {
+        for (int s = 0; s < symmetric_tensor_component_count(dim); s++) {
             int a = s < dim ? s : row[3 + s - dim], c = s < dim ? s : column[3 + s - dim];
             work += 0.5 * p->stress[s][i] * (s < dim ? strain[a][c] : strain[a][c] + strain[c][a]);
         }
@@ -120,8 +120,8 @@ static void check_quarter_turn(struct body *b)
     cloud_strain(&b->c, (const real(*)[DIM_MAX])strain);
     force(b);
     state_stress_table[dim][b->model](&b->c.bonds, p);
-    real *before = NEW("test.stress", p->n * symmetric_component_count(dim), real);
-    for (int c = 0; c < symmetric_component_count(dim); c++)
+    real *before = NEW("test.stress", p->n * symmetric_tensor_component_count(dim), real);
+    for (int c = 0; c < symmetric_tensor_component_count(dim); c++)
         memcpy(before + c * p->n, p->stress[c], (size_t)p->n * sizeof(real));
     for (int64_t i = 0; i < p->n_all; i++) {
         const real x = p->x[0][i];
@@ -275,7 +275,7 @@ static void cracked_make(struct body *b, enum space space, enum pd_model model, 
     const int dim = space_dim(space);
     body_make(b, &plan, model, 0.3, local);
     cloud_bonds(&b->c);
-    for (int64_t g = 0; g < b->c.bonds.row_blocks; g++) bond_row_block_write_columns_from_stencil(&b->c.bonds, g);
+    for (int64_t g = 0; g < b->c.bonds.row_blocks; g++) bond_row_block_copy_bonds_from_stencil(&b->c.bonds, g);
     for (int64_t g = 0; g < b->c.bonds.row_blocks; g++) /* a cut along x = 4.5, up to y = 4 */
         for (int64_t q = b->c.bonds.column[g] * LANES; q < (b->c.bonds.column[g] + b->c.bonds.column_count[g]) * LANES;
              q++) {
@@ -283,7 +283,7 @@ static void cracked_make(struct body *b, enum space space, enum pd_model model, 
             const real *X = b->c.p.X[0], *Y = b->c.p.X[1], line = 4.5 * CLOUD_SPACING;
             if (b->c.bonds.w[q] == 0 || (X[i] < line) == (X[j] < line) || Y[i] + Y[j] > 8 * CLOUD_SPACING) continue;
             b->c.bonds.w[q] = 0, b->c.bonds.inverse_length[q] *= -1;
-            bond_column_update_after_bond_change(&b->c.bonds, g * LANES + q % LANES, q);
+            bond_update_cached_data_after_modification(&b->c.bonds, g * LANES + q % LANES, q);
         }
     state_based_update_weighted_volumes(&b->c.bonds, &b->c.p, &b->c.source);
     uint64_t seed = 17;

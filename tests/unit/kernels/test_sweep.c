@@ -136,10 +136,10 @@ static void check_sweeps(int dim, enum pd_model model)
     struct plain plain[WAYS];
     for (int way = 0; way < WAYS; way++) plain_make(&plain[way], force, dim, model, way);
     for (int threads = 1; threads <= THREADS_MOST; threads++) {
-        team_set_thread_count(threads);
+        threads_set_count_and_bind_to_cores(threads);
         for (int way = 0; way < WAYS; way++) check_sweep(&plain[way], force, dim, model, way, threads);
     }
-    team_set_thread_count(1);
+    threads_set_count_and_bind_to_cores(1);
     for (int way = 0; way < WAYS; way++) body_free(&plain[way].body);
 }
 
@@ -180,7 +180,7 @@ int main(void)
         cmocka_unit_test(test_sweep),
         cmocka_unit_test(test_reach),
     };
-    team_set_thread_count(1);
+    threads_set_count_and_bind_to_cores(1);
     int failures = 0;
     FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);
     return failures;

@@ -39,7 +39,7 @@ struct choice {
 static void random_state(struct scene *s, uint64_t *seed, real spin)
 {
     struct particles *p = &s->c.p;
-    const int n = symmetric_component_count(s->dim);
+    const int n = symmetric_tensor_component_count(s->dim);
     for (int64_t i = 0; i < p->n; i++) {
         p->kind[i] = cloud_random(seed) < 0.2 ? KIND_PD : KIND_MPM;
         p->material[i] = cloud_random(seed) < 0.3;
@@ -59,7 +59,7 @@ static void random_state(struct scene *s, uint64_t *seed, real spin)
 /* Gives every second point of s a random partial stress, which it leaves to bonds, from the seed *seed. */
 static void random_partial(struct scene *s, uint64_t *seed)
 {
-    const int64_t size = square(symmetric_component_count(s->dim));
+    const int64_t size = square(symmetric_tensor_component_count(s->dim));
     s->partial.index = NEW("test.index", s->c.p.n, int32_t);
     s->partial.matrix = NEW("test.matrix", s->c.p.n * size, real);
     for (int64_t i = 0; i < s->c.p.n; i++) s->partial.index[i] = i % 2 ? (int32_t)s->partial.entries++ : -1;
@@ -80,8 +80,8 @@ static void scene_grid(struct scene *s)
     assert_int_equal(grid_extend_box(&s->g, from, to, 100000, &changed), OK);
 }
 
-/* Places every fifth point of s so close to the end of its cell in one direction that it enters the next cell in the
- * step. */
+/* Places every fifth point of s so close to the end of its cell in one direction that it leaves the cell in the step.
+ */
 static void scene_crossers(struct scene *s)
 {
     for (int64_t i = 0; i < s->c.p.n; i += 5) {
@@ -139,7 +139,8 @@ static int64_t scene_step(struct scene *s, const struct choice *k, real *impulse
     kernels_choose(&kernel, k->dim, PD_BOND, (enum shape)k->shape, (enum transfer)k->transfer);
     grid_clear(&s->g);
     kernel.p2g(&s->g, &s->c.p, &s->t);
-    grid_move_nodes(&s->g, (enum transfer)k->transfer, s->t.dt_velocity, s->smallest_mass, impulse, work);
+    grid_advance_and_constrain_nodes(&s->g, (enum transfer)k->transfer, s->t.dt_velocity, s->smallest_mass, impulse,
+                                     work);
     if (k->transfer == TRANSFER_FLIP) {
         kernel.remap(&s->g, &s->c.p, &s->t);
         grid_remapped(&s->g, s->smallest_mass);
@@ -198,7 +199,7 @@ static int64_t marks(const struct scene *s, struct particles *expected, const st
         real stress[SYM_MAX];
         bool moved = false;
         if (expected->kind[i] != KIND_MPM) continue;
-        for (int a = 0; a < symmetric_component_count(s->dim); a++) stress[a] = expected->stress[a][i];
+        for (int a = 0; a < symmetric_tensor_component_count(s->dim); a++) stress[a] = expected->stress[a][i];
         real largest = reference_principal(stress, s->dim), trigger = s->elastic[expected->material[i]].trigger;
         assert_true(fabs(largest - trigger) > 1e-9 * trigger); /* no tie that round-off could decide */
         if (largest > trigger) expected->flag[i] |= FLAG_STRESSED;
@@ -252,7 +253,8 @@ static void step_case(const struct choice *k, real spin, real smallest_mass, boo
     check_fields(s.g.momentum, r.momentum, s.dim, s.g.n);
     check_fields(s.g.force, r.force, s.dim, s.g.n);
 
-    grid_move_nodes(&s.g, (enum transfer)k->transfer, s.t.dt_velocity, s.smallest_mass, impulse, &work);
+    grid_advance_and_constrain_nodes(&s.g, (enum transfer)k->transfer, s.t.dt_velocity, s.smallest_mass, impulse,
+                                     &work);
     reference_move(&r);
     check_motion(&s, s.g.velocity, r.velocity);
     check_motion(&s, s.g.force, r.change);
@@ -304,8 +306,8 @@ static struct total total_of(const struct particles *p)
 }
 
 /* Checks case k: mass and momentum of nodes are those of points; after the step the points have gained dt f and the
- * impulse of walls. The work of walls is their impulse times the mean velocity before and after, which is the change of
- * kinetic energy. */
+ * impulse of walls. The work of walls is their impulse times the mean velocity before and after, the change of kinetic
+ * energy. */
 static void conserved(const struct choice *k)
 {
     for (int walls = 0; walls < 2; walls++) {
@@ -370,7 +372,7 @@ static void linear_field(const struct choice *k)
     for (int64_t i = 0; i < p->n; i++)
         for (int a = 0; a < s.dim; a++) {
             p->v[a][i] = 2, p->f[a][i] = 0;
-            for (int c = 0; c < symmetric_component_count(s.dim); c++) p->stress[c][i] = 0;
+            for (int c = 0; c < symmetric_tensor_component_count(s.dim); c++) p->stress[c][i] = 0;
             for (int b = 0; b < s.dim; b++) {
                 p->v[a][i] += gradient[a][b] * p->x[b][i];
                 p->gradient[a * s.dim + b][i] = gradient[a][b];
@@ -406,7 +408,7 @@ static void test_rotation(void **state)
             for (int64_t i = 0; i < p->n; i++) {
                 for (int d = 0; d < dim; d++) p->v[d][i] = p->f[d][i] = 0;
                 for (int c = 0; c < dim * dim; c++) p->gradient[c][i] = 0;
-                for (int c = 0; c < symmetric_component_count(dim); c++) p->stress[c][i] = 0;
+                for (int c = 0; c < symmetric_tensor_component_count(dim); c++) p->stress[c][i] = 0;
                 p->stress[0][i] = 1e8;
                 const real rotation = angle / s.t.dt, inwards = -0.5 * angle * rotation;
                 p->gradient[0][i] = p->gradient[dim + 1][i] = inwards;
@@ -459,7 +461,7 @@ static bool check_yielded(const struct scene *s, const struct particles *elastic
 {
     const struct particles *p = &s->c.p;
     const struct elastic *m = &s->elastic[p->material[i]];
-    const int n = symmetric_component_count(s->dim);
+    const int n = symmetric_tensor_component_count(s->dim);
     real stress[SYM_MAX], zz = 0, work = 0, a = strain;
     for (int c = 0; c < n; c++) stress[c] = elastic->stress[c][i];
     const real more = m->law ? law_step(m->law, m->space, NULL, stress, &a, &work, &zz) : 0;
@@ -481,7 +483,7 @@ static void yields_case(const struct choice *k)
     scene_make(&s, k, 200), scene_make(&elastic, k, 200);
     const struct material *own = &s.c.material[0];
     struct law law = {.given = true, .flow = FLOW_LINEAR, .hardening = 3e9};
-    law_compute_derived_constants(&law, 6e7, own->young, own->poisson, own->shear, own->density);
+    flow_law_compute_derived_constants(&law, 6e7, own->young, own->poisson, own->shear, own->density);
     s.elastic[0].law = &law, s.elastic[0].space = space[k->dim], s.t.laws = true;
     for (int64_t i = 0; i < s.c.p.n; i++) s.c.p.plastic_strain[i] = 1e-3 * (real)(i % 7);
     scene_step(&s, k, impulse, &work), scene_step(&elastic, k, impulse, &work);
@@ -518,7 +520,7 @@ int main(void)
         cmocka_unit_test(test_rotation), cmocka_unit_test(test_spread),    cmocka_unit_test(test_threads),
         cmocka_unit_test(test_yielding),
     };
-    team_set_thread_count(2);
+    threads_set_count_and_bind_to_cores(2);
     int failures = 0;
     FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);
     return failures;

@@ -17,7 +17,7 @@ struct scene {
     struct particle_cloud c;
     struct grid g;
     struct transfer_order order;
-    struct rotation_groups turning;
+    struct corotating_groups turning;
     struct transfer_data t;
     uint64_t seed;
     int dim, shape;
@@ -54,7 +54,7 @@ static void scene_make(struct scene *s, int dim, int shape)
     }
     assert_int_equal(grid_extend_box(&s->g, from, to, 100000, &changed), OK);
     transfer_order_sort_points_by_cell(&s->order, p, p->list_free, p->n_free, &s->g);
-    rotation_groups_make(&s->turning, p, CLOUD_SPACING, (const real[]){0.0075, 0.0055, 0.0035}, one, held, 2);
+    corotating_groups_make(&s->turning, p, CLOUD_SPACING, (const real[]){0.0075, 0.0055, 0.0035}, one, held, 2);
     s->t = (struct transfer_data){.order = &s->order, .half_width = 0.5 * CLOUD_SPACING, .dt = 1e-14, .dt_velocity = 1};
     struct partial_stress none = {0};
     struct elastic elastic[CLOUD_MATERIALS] = {{0}};
@@ -67,7 +67,7 @@ static void scene_make(struct scene *s, int dim, int shape)
 
 static void scene_free(struct scene *s)
 {
-    rotation_groups_free(&s->turning);
+    corotating_groups_free(&s->turning);
     transfer_order_free(&s->order);
     grid_free(&s->g);
     particle_cloud_free(&s->c);
@@ -104,16 +104,16 @@ static void gather(struct scene *s)
 {
     for (int64_t I = 0; I < s->g.n; I++)
         for (int d = 0; d < s->dim; d++) s->g.force[d][I] = s->g.mass[I] > 0 ? cloud_between(&s->seed, -2, 1) : 0;
-    rotation_groups_compute_spins(&s->turning, &s->c.p, CLOUD_SPACING);
+    corotating_groups_compute_spins(&s->turning, &s->c.p, CLOUD_SPACING);
     turn_gather_table[s->dim][s->shape](&s->g, &s->c.p, &s->t);
-    rotation_groups_restore_angular_momentum(&s->turning, &s->c.p);
+    corotating_groups_restore_angular_momentum(&s->turning, &s->c.p);
 }
 
 /* Computes the nodal velocities of the second map of s for unchanged points; in flight (weights ahead of the positions)
  * with new nodal masses. */
 static void scatter(struct scene *s)
 {
-    rotation_groups_compute_spins(&s->turning, &s->c.p, CLOUD_SPACING);
+    corotating_groups_compute_spins(&s->turning, &s->c.p, CLOUD_SPACING);
     for (int d = 0; d < s->dim; d++) array_fill_bytes(s->g.momentum[d], 0, s->g.n, sizeof(real));
     if (s->g.ahead[0] != 0) array_fill_bytes(s->g.mass, 0, s->g.n, sizeof(real));
     turn_scatter_table[s->dim][s->shape](&s->g, &s->c.p, &s->t);
@@ -226,10 +226,10 @@ static void test_groups(void **state)
     struct particles *p = &s.c.p;
     for (int64_t i = 0; i < p->n; i++) p->kind[i] = p->body[i] == 0 || i == p->n - 1 ? KIND_MPM : KIND_PD;
     particles_rebuild_lists_by_kind(p);
-    rotation_groups_compute_spins(&s.turning, p, CLOUD_SPACING);
+    corotating_groups_compute_spins(&s.turning, p, CLOUD_SPACING);
     for (int64_t k = 0; k < p->n; k++) s.turning.turn[2][k] = 1e-9;
     const real alone = p->v[1][p->n - 1];
-    rotation_groups_restore_angular_momentum(&s.turning, p);
+    corotating_groups_restore_angular_momentum(&s.turning, p);
     assert_true(p->v[1][p->n - 1] == alone);
     for (int32_t g = 0; g < s.turning.groups; g++) {
         const struct turning_group *own = &s.turning.group[g], *root = &s.turning.group[own->root];
@@ -251,16 +251,16 @@ static void test_held(void **state)
         for (int k = 0; k < 4; k++) beside += s.turning.group[g].near[k] >= 0;
         assert_true(beside > 0);
     }
-    rotation_groups_make(&s.turning, p, CLOUD_SPACING, (const real[]){0.0075, 0.0055, 0}, (const int[]){0, 0},
-                         (const bool[]){true, false}, 2);
+    corotating_groups_make(&s.turning, p, CLOUD_SPACING, (const real[]){0.0075, 0.0055, 0}, (const int[]){0, 0},
+                           (const bool[]){true, false}, 2);
     real *before = BARE("test.before", p->n, real);
     array_copy(before, p->v[1], p->n, sizeof(real));
-    rotation_groups_compute_spins(&s.turning, p, CLOUD_SPACING);
+    corotating_groups_compute_spins(&s.turning, p, CLOUD_SPACING);
     for (int64_t k = 0; k < p->n; k++) {
         assert_true(p->kind[k] != KIND_MPM || s.turning.turn[2][k] == 0);
         s.turning.turn[2][k] = 1e-6;
     }
-    rotation_groups_restore_angular_momentum(&s.turning, p);
+    corotating_groups_restore_angular_momentum(&s.turning, p);
     assert_true(arrays_equal(before, p->v[1], p->n, sizeof(real)));
     memory_free(before);
     scene_free(&s);

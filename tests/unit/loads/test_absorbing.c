@@ -55,7 +55,7 @@ static void test_kick(void **state)
         for (int d = 0; d < 2; d++) p->v[d][i] = sin((real)i + d), p->f[d][i] = 1e3 * cos(3 * (real)i + d);
     real *before = NEW("test.f", 2 * p->n, real);
     for (int d = 0; d < 2; d++) memcpy(before + d * p->n, p->f[d], (size_t)p->n * sizeof(real));
-    loads_apply_to_particle_forces(&l, p, dt, dt, dt);
+    loads_apply_forces_and_motion_constraints(&l, p, dt, dt, dt);
     for (int64_t i = 0; i < p->n; i++)
         for (int d = 0; d < 2; d++) {
             const bool on[2] = {p->X[0][i] > right - 1e-9, p->X[1][i] > top - 1e-9};
@@ -90,16 +90,16 @@ static struct left run_text(const char *text)
     struct left m = {0};
     real before = 0;
     assert_ok(bench_engine_make(&e, &s, "absorbing", text, NULL, 0));
-    assert_ok(report_start_before_first_step(&e));
+    assert_ok(report_open_history_and_write_first_frame(&e));
     while (e.clock.step < e.clock.steps) {
-        assert_ok(engine_adapt_refinement_and_step(&e));
+        assert_ok(run_adapt_mesh_and_advance_one_step(&e));
         m.back = real_max(m.back, before - e.loads.absorbing.energy);
         before = e.loads.absorbing.energy;
         const struct energy_balance *now = &e.diagnostics->now;
         m.most = real_max(m.most, now->energy.kinetic + now->energy.strain);
         m.balance = real_max(m.balance, fabs(now->balance_error));
     }
-    assert_ok(report_finish_after_last_step(&e));
+    assert_ok(report_write_last_checkpoint_and_finish(&e));
     m.start = e.diagnostics->energy_start, m.absorbed = e.diagnostics->now.energy.absorbed;
     m.rest = e.diagnostics->now.energy.kinetic + e.diagnostics->now.energy.strain;
     m.momentum = e.diagnostics->now.momentum_error;

@@ -60,13 +60,13 @@ static void body_make(struct body *a, const char *text, const char *const *with)
     }
     memset(a, 0, sizeof *a);
     assert_ok(scene_read_text(&a->s, text, strlen(text), "clamp.yaml", override, n));
-    assert_ok(engine_set_up_run(&a->e, &a->s, NULL));
+    assert_ok(run_set_up_from_scene(&a->e, &a->s, NULL));
     a->e.report->quiet = true;
 }
 
 static void body_free(struct body *a)
 {
-    engine_free_run(&a->e);
+    run_free_memory(&a->e);
     scene_free(&a->s);
 }
 
@@ -215,7 +215,7 @@ static void test_yielded(void **state)
     struct bonds *b = &a.e.bonds;
     assert_true(b->clamped.n > 0 && b->plastic_stretch);
     for (int64_t row = 0; row < b->rows; row++)
-        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
+        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_iterator_advance(&it);) {
             const int32_t i = b->particle[row], j = it.bond.nbr;
             const real x = p->X[0][i] + p->X[0][j], y = p->X[1][i] + p->X[1][j];
             b->plastic_stretch[it.bond.entry] = 0.02 * sin(700 * x) * cos(500 * y);
@@ -265,10 +265,10 @@ static void test_threads(void **state)
 static real run(struct run *e)
 {
     real most = 0;
-    assert_ok(report_start_before_first_step(e));
+    assert_ok(report_open_history_and_write_first_frame(e));
     while (e->clock.step < e->clock.steps) {
-        assert_ok(engine_adapt_refinement_and_step(e));
-        assert_ok(report_finished_step(e));
+        assert_ok(run_adapt_mesh_and_advance_one_step(e));
+        assert_ok(report_write_outputs_due_after_step(e));
         most = real_max(most, fabs(e->diagnostics->now.balance_error));
     }
     assert_true(e->diagnostics->now.momentum_error < 1e-11); /* round-off of 1e5 steps; supports are included */
@@ -431,7 +431,7 @@ static void test_cantilever(void **state)
         struct body a;
         real tip = 0, grid_coupled = 0;
         body_make(&a, CANTILEVER, model[k].with);
-        assert_ok(engine_run_to_end(&a.e));
+        assert_ok(run_advance_to_end_time(&a.e));
         forces(&a.e);
         for (int64_t i = 0; i < a.e.part.n; i++) {
             tip = real_max(tip, a.e.part.x[1][i] - a.e.part.X[1][i]);
@@ -452,6 +452,6 @@ int main(void)
         cmocka_unit_test(test_reflection), cmocka_unit_test(test_torn),     cmocka_unit_test(test_cantilever),
         cmocka_unit_test(test_coupled),    cmocka_unit_test(test_in_plane), cmocka_unit_test(test_yielded),
     };
-    team_set_thread_count(0);
+    threads_set_count_and_bind_to_cores(0);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -63,7 +63,7 @@ static void test_values(void **state)
             assert_near(u[0], (displaces ? 1 : 4) * 3 * place, 1e-15 * 12);
             assert_true(u[1] == 0);
         }
-        assert_ok(boundary_check_displacement_known(&b));
+        assert_ok(boundary_check_displacement_has_closed_form(&b));
         displaced_free(&m);
     }
     expression_free(&b.formula[0]);
@@ -140,13 +140,13 @@ static void test_formula_of_time(void **state)
     displaced_make(&m, &b);
     load_displacement_of_particle(&m.l.load[0], &m.c.p, 3, 5, u);
     assert_true(m.c.p.X[0][3] != 0 && u[0] == 5 * m.c.p.X[0][3]);
-    assert_ok(boundary_check_displacement_known(&b));
+    assert_ok(boundary_check_displacement_has_closed_form(&b));
     displaced_free(&m);
     b.displaces = false;
-    assert_true(boundary_check_displacement_known(&b) == REFUSED);
+    assert_true(boundary_check_displacement_has_closed_form(&b) == REFUSED);
     assert_non_null(strstr(status_message(), "boundary grip: a velocity that is a formula of t"));
     b.frozen = true, b.frozen_at = 2, b.time = (struct time_function){.kind = TIME_STEP, .until = 1};
-    assert_ok(boundary_check_displacement_known(&b));
+    assert_ok(boundary_check_displacement_has_closed_form(&b));
     displaced_make(&m, &b);
     load_displacement_of_particle(&m.l.load[0], &m.c.p, 3, 1, u);
     assert_true(u[0] == 2 * m.c.p.X[0][3]);
@@ -200,14 +200,14 @@ static void test_static(void **state)
     struct particles *p = &m.c.p;
     real *u[2] = {NEW("test.u", p->n, real), NEW("test.u", p->n, real)}, work = 0, mean = 0;
     uint8_t *held = NEW("test.held", p->n, uint8_t);
-    loads_compute_static_displacements(&m.l, p, 0.1, u, held);
+    loads_compute_prescribed_static_displacements(&m.l, p, 0.1, u, held);
     for (int64_t i = 0; i < p->n; i++) {
         assert_true(held[i] == 1 && u[1][i] == 0);
         assert_close(u[0][i], 4 * p->X[0][i], 1e-15);
         p->f[0][i] = 3 + (real)i, p->f[1][i] = 5;
         work -= 0.5 * (3 + (real)i) * u[0][i], mean += u[0][i] / (real)p->n;
     }
-    loads_collect_static_reactions(&m.l, p);
+    loads_extract_static_reactions_from_forces(&m.l, p);
     loads_compute_static_work(&m.l, p);
     assert_close(m.l.constraint_work, work, 1e-13);
     assert_close(m.l.load[0].displacement[0], mean, 1e-14);
@@ -222,6 +222,6 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_values),        cmocka_unit_test(test_turn),
                                        cmocka_unit_test(test_turn_in_space), cmocka_unit_test(test_formula_of_time),
                                        cmocka_unit_test(test_steepest),      cmocka_unit_test(test_static)};
-    team_set_thread_count(2);
+    threads_set_count_and_bind_to_cores(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -44,7 +44,7 @@ static void sample_try(struct sample *a, const char *space, const char *body, co
                                                 : "1/4",
              body, more, traction);
     if (scene_read_text(&a->s, text, strlen(text), "faces.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
-    assert_ok(fill_bodies_with_particles(&a->p, &a->s, NULL, 0));
+    assert_ok(bodies_fill_with_particles(&a->p, &a->s, NULL, 0));
     const status made = loads_make(&a->l, a->s.boundary, a->s.boundaries, &a->p, a->s.spacing, 3 * H, 0);
     if (refusal)
         status_check(made, REFUSED, refusal, __FILE__, __LINE__);
@@ -400,23 +400,23 @@ static void check_impulse(const struct solid_shown *q, int64_t columns, const ch
              : three ? "3e5, 2e5, -1e5"
                      : "3e5, -2e5");
     if (scene_read_text(&s, text, strlen(text), "faces.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
-    if (engine_set_up_run(e, &s, NULL) != OK) fail_msg("%s", status_message());
+    if (run_set_up_from_scene(e, &s, NULL) != OK) fail_msg("%s", status_message());
     e->report->quiet = true;
-    assert_ok(report_start_before_first_step(e));
-    for (int step = 0; step < STEPS; step++) assert_ok(engine_adapt_refinement_and_step(e));
-    diagnostics_make(&w);
+    assert_ok(report_open_history_and_write_first_frame(e));
+    for (int step = 0; step < STEPS; step++) assert_ok(run_adapt_mesh_and_advance_one_step(e));
+    diagnostics_initialise(&w);
     const struct grid *nodes[] = {&e->frame->mesh.grid};
     diagnostics_update_momentum(&w, &e->part, nodes, 1, (const real[DIM_MAX]){0});
-    const real t = observed_run_view_of(e).t_velocity, shows = (real)columns * pow(H, s.dim - 1) *
-                                                               (one     ? 3e-6
-                                                                : three ? 1
-                                                                        : T);
+    const real t = observed_run_make_read_only_view(e).t_velocity, shows = (real)columns * pow(H, s.dim - 1) *
+                                                                           (one     ? 3e-6
+                                                                            : three ? 1
+                                                                                    : T);
     for (int d = 0; d < s.dim; d++) {
         const real given = (const real[]){3e5, three || one ? 2e5 : -2e5, -1e5}[d] * shows * t;
         if (!(fabs(w.now.momentum[d] - given) <= 1e-10 * fabs(given))) /* round-off of 12 steps for 3e5 */
             fail_msg("%s, %s: momentum %.12g where %.12g was given", q->name, method, w.now.momentum[d], given);
     }
-    engine_free_run(e);
+    run_free_memory(e);
     scene_free(&s);
     memory_free(e);
 }

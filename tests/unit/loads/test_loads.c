@@ -30,8 +30,8 @@ static void test_sine(void **state)
     assert_ok(loads_make(&l, &push, 1, p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
     for (int64_t i = 0; i < p->n; i++) p->x[0][i] += 0.3 * CLOUD_SPACING, p->f[1][i] = 77;
     loads_clear_forces_of_loaded_particles(&l, p);
-    loads_apply_to_particle_forces(&l, p, 1 + 0.5 * dt, dt,
-                                   dt); /* velocity update around t = 1: a quarter of the ramp */
+    loads_apply_forces_and_motion_constraints(&l, p, 1 + 0.5 * dt, dt,
+                                              dt); /* velocity update around t = 1: a quarter of the ramp */
     for (int64_t i = 0; i < p->n; i++) {
         real along = 0.6 * (p->X[0][i] - CLOUD_SPACING) + 0.8 * (p->X[1][i] + CLOUD_SPACING);
         real factor = 0.25 * sin(2 * M_PI * along / length);
@@ -81,7 +81,7 @@ static void check_together(int threads, bool together, real *impulse, real *work
         {.name = "face", .kind = BOUNDARY_TRACTION, .body = -1, .value = {1e6, 2e6}, .face = 1, .side = 1}};
     struct particle_cloud c;
     struct loads l;
-    team_set_thread_count(threads);
+    threads_set_count_and_bind_to_cores(threads);
     particle_cloud_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {71, 53}, .horizon = 3});
     for (int64_t i = 0; i < c.p.n; i++) c.p.body[i] = i % 3 == 0;
     impulse[0] = impulse[1] = *work = 0;
@@ -89,7 +89,7 @@ static void check_together(int threads, bool together, real *impulse, real *work
         assert_ok(loads_make(&l, together ? row : &row[k], together ? COUNT_OF(row) : 1, &c.p, CLOUD_SPACING,
                              3 * CLOUD_SPACING, 0));
         if (k == 0) loads_clear_forces_of_loaded_particles(&l, &c.p);
-        loads_apply_to_particle_forces(&l, &c.p, 1, dt, dt);
+        loads_apply_forces_and_motion_constraints(&l, &c.p, 1, dt, dt);
         for (int d = 0; d < 2; d++)
             for (int64_t i = 0; i < c.p.n; i++) c.p.x[d][i] += 1e-6 * sin(0.1 * (real)i + d);
         loads_impose_prescribed_motion(&l, &c.p, 1, dt);
@@ -122,7 +122,7 @@ static void test_together(void **state)
         assert_memory_equal(impulse[threads], impulse[1], sizeof impulse[1]);
         assert_memory_equal(&work[threads], &work[1], sizeof work[1]);
     }
-    team_set_thread_count(2);
+    threads_set_count_and_bind_to_cores(2);
 }
 
 /* Checks leap-frog integration of loads: half a velocity update, then full ones, each centred at the time of its
@@ -150,7 +150,7 @@ static void test_kicks(void **state)
         assert_ok(loads_make(&l, &push, 1, &c.p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
         for (int step = 0; step < 10; step++) {
             loads_clear_forces_of_loaded_particles(&l, &c.p);
-            loads_apply_to_particle_forces(&l, &c.p, (step + 0.5) * dt, dt, step == 0 ? 0.5 * dt : dt);
+            loads_apply_forces_and_motion_constraints(&l, &c.p, (step + 0.5) * dt, dt, step == 0 ? 0.5 * dt : dt);
         }
         assert_close(l.impulse[0], 4 * 3e6 * volume * row[k].until_now, 1e-12);
         loads_free(&l);
@@ -224,7 +224,7 @@ static void test_mean_displacement(void **state)
         c.p.x[0][i] += u;
         shares += share, moved += share * u;
     }
-    load_sum_force_and_mean_displacement(&l.load[0], &c.p, 1);
+    load_compute_total_force_and_mean_displacement(&l.load[0], &c.p, 1);
     assert_close(l.load[0].reaction[0], 2e6 * volume * shares, 1e-12);
     assert_close(l.load[0].reaction[1], -3e6 * volume * shares, 1e-12);
     assert_close(l.load[0].displacement[0], moved / shares, 1e-9);
@@ -294,6 +294,6 @@ int main(void)
                                        cmocka_unit_test(test_together), cmocka_unit_test(test_traction),
                                        cmocka_unit_test(test_relief),   cmocka_unit_test(test_mean_displacement),
                                        cmocka_unit_test(test_force_at)};
-    team_set_thread_count(2);
+    threads_set_count_and_bind_to_cores(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

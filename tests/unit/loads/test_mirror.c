@@ -122,9 +122,9 @@ static void check_forces(struct quarter *q)
     for (int64_t i = 0; i < q->part.p.n; i++) {
         int32_t a = q->part.bonds.row_of[i], b = q->whole.bonds.row_of[q->twin[i]];
         const bool bonded =
-            a >= 0 && (bond_row_block_lanes_with_intact_bonds(&q->part.bonds, a / LANES) >> a % LANES & 1);
-        assert_int_equal(
-            bonded, b >= 0 && (bond_row_block_lanes_with_intact_bonds(&q->whole.bonds, b / LANES) >> b % LANES & 1));
+            a >= 0 && (bond_row_block_intact_bond_lane_mask(&q->part.bonds, a / LANES) >> a % LANES & 1);
+        assert_int_equal(bonded,
+                         b >= 0 && (bond_row_block_intact_bond_lane_mask(&q->whole.bonds, b / LANES) >> b % LANES & 1));
         if (bonded) assert_true(fabs(q->part.bonds.family_volume[a] / q->whole.bonds.family_volume[b] - 1) <= 1e-6);
     }
 }
@@ -132,7 +132,7 @@ static void check_forces(struct quarter *q)
 static void check_partial(const struct quarter *q, const struct partial_stress *part,
                           const struct partial_stress *whole)
 {
-    const int size = (int)square(symmetric_component_count(q->part.p.dim));
+    const int size = (int)square(symmetric_tensor_component_count(q->part.p.dim));
     int entries = 0;
     for (int64_t i = 0; i < q->part.p.n; i++) {
         int32_t a = part->index[i], b = whole->index[q->twin[i]];
@@ -154,8 +154,8 @@ static void quarter_case(enum space space, enum surface_rule surface, real pd_ra
         assert_true(deviation(&q, q.part.neighbour_volume, q.whole.neighbour_volume) <= CLOSE);
     if (q.part.p.n_of[KIND_MPM] > 0) {
         struct partial_stress part = {0}, whole = {0};
-        partial_stress_make(&part, &q.part.p, &q.part.bonds, &q.part.source, NULL, 0);
-        partial_stress_make(&whole, &q.whole.p, &q.whole.bonds, &q.whole.source, NULL, 0);
+        partial_stress_compute_from_bonds(&part, &q.part.p, &q.part.bonds, &q.part.source, NULL, 0);
+        partial_stress_compute_from_bonds(&whole, &q.whole.p, &q.whole.bonds, &q.whole.source, NULL, 0);
         check_partial(&q, &part, &whole);
         partial_stress_free(&part);
         partial_stress_free(&whole);
@@ -208,15 +208,15 @@ static void test_mirror_convert(void **state)
             whole->flag[j] |= FLAG_STRESSED;
     int looks[LOOKS_MOST] = {0};
     const struct conversion_sync look = {.sync = count_looks, .context = looks};
-    int64_t converted =
-        convert_flagged_points(&conversion[0], &rule, part, &q.part.bonds, &q.part.source, &partial[0], &look, 1e-6);
+    int64_t converted = convert_flagged_points_to_peridynamic(&conversion[0], &rule, part, &q.part.bonds,
+                                                              &q.part.source, &partial[0], &look, 1e-6);
     for (int64_t i = 0; i < part->n; i++) {
         assert_true(looks[i] > 0 || part->kind[i] == KIND_MPM);
         assert_false(part->flag[i] & FLAG_LISTED);
     }
-    assert_int_equal(
-        convert_flagged_points(&conversion[1], &rule, whole, &q.whole.bonds, &q.whole.source, &partial[1], NULL, 1e-6),
-        4 * converted);
+    assert_int_equal(convert_flagged_points_to_peridynamic(&conversion[1], &rule, whole, &q.whole.bonds,
+                                                           &q.whole.source, &partial[1], NULL, 1e-6),
+                     4 * converted);
     for (int64_t i = 0; i < part->n; i++) assert_int_equal(part->kind[i], whole->kind[q.twin[i]]);
     check_forces(&q);
     check_partial(&q, &partial[0], &partial[1]);
@@ -348,7 +348,7 @@ static void points_step(struct points *s, enum shape shape, enum transfer transf
     grid_clear(&s->g);
     k.p2g(&s->g, s->p, &s->t);
     loads_prescribe_grid_velocities(&s->loads, &s->held, &s->g, s->p, &k, s->t.half_width, 0, s->t.dt);
-    grid_move_nodes(&s->g, transfer, s->t.dt_velocity, 1e-30, s->loads.impulse, &work);
+    grid_advance_and_constrain_nodes(&s->g, transfer, s->t.dt_velocity, 1e-30, s->loads.impulse, &work);
     if (transfer == TRANSFER_FLIP) {
         k.remap(&s->g, s->p, &s->t);
         grid_remapped(&s->g, 1e-30);
@@ -380,7 +380,7 @@ static void points_compare(const struct quarter *q)
         assert_true(deviation(q, part->x[d], whole->x[d]) <= CLOSE);
         assert_true(deviation(q, part->v[d], whole->v[d]) <= CLOSE);
     }
-    for (int c = 0; c < symmetric_component_count(part->dim); c++)
+    for (int c = 0; c < symmetric_tensor_component_count(part->dim); c++)
         assert_true(deviation(q, part->stress[c], whole->stress[c]) <= CLOSE);
 }
 
@@ -472,6 +472,6 @@ int main(void)
         cmocka_unit_test(test_mirror_convert), cmocka_unit_test(test_mirror_breaks),
         cmocka_unit_test(test_mirror_points),
     };
-    team_set_thread_count(2);
+    threads_set_count_and_bind_to_cores(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -24,7 +24,7 @@ static void flow_block_make(struct block *b, enum space space, real yield, int o
         const struct material *own = &b->c.material[m];
         const real shear = space == SPACE_LINE ? 0.4 * k->c11 : k->shear;
         b->law[m] = (struct law){.given = true, .flow = FLOW_LINEAR, .hardening = m > 0 ? 0.1 * shear : 0};
-        law_compute_derived_constants(&b->law[m], yield * shear, own->young, own->poisson, k->shear, own->density);
+        flow_law_compute_derived_constants(&b->law[m], yield * shear, own->young, own->poisson, k->shear, own->density);
         k->law = &b->law[m], k->mode = LAW_LOAD_STEP, k->poisson = own->poisson;
     }
 }
@@ -49,7 +49,7 @@ static int states_of(const struct block *b, real *array[STATES])
     array[n++] = b->c.p.plastic_strain;
     if (b->c.p.out_of_plane) array[n++] = b->c.p.out_of_plane;
     if (b->c.p.plastic_work) array[n++] = b->c.p.plastic_work;
-    for (int k = 0; k < symmetric_component_count(b->c.p.dim); k++) {
+    for (int k = 0; k < symmetric_tensor_component_count(b->c.p.dim); k++) {
         array[n++] = b->c.p.plastic_correction[k];
         if (b->c.p.back_stress[0]) array[n++] = b->c.p.back_stress[k];
     }

@@ -41,12 +41,12 @@ static void demand_mark(const struct plate *b, uint8_t *demand, bool bend)
     }
 }
 
-static void levels_set(struct plate *b, bool bend)
+static void mesh_levels_set(struct plate *b, bool bend)
 {
     uint8_t *demand = NEW("test.demand", 2 * b->mesh.grid.n, uint8_t), *level = demand + b->mesh.grid.n;
     demand_mark(b, demand, bend);
-    levels_compute_coarsest_admissible_levels(&b->levels, &b->c.p, demand, NULL, level);
-    levels_change_refinement(&b->levels, &b->c.p, &b->source, level);
+    mesh_levels_compute_coarsest_admissible_levels(&b->levels, &b->c.p, demand, NULL, level);
+    mesh_levels_change_refinement(&b->levels, &b->c.p, &b->source, level);
     memory_free(demand);
 }
 
@@ -76,9 +76,9 @@ static void plate_make_of(struct plate *b, enum space space, int levels, int len
         p->mass[i] = p->volume0[i] * density[p->material[i]];
     }
     assert_ok(mesh_make(&b->mesh, p, &like, &b->source));
-    assert_ok(levels_make_over_finest_mesh(&b->levels, levels, &b->mesh, &b->c.p, &b->source, density));
+    assert_ok(mesh_levels_make_over_finest_mesh(&b->levels, levels, &b->mesh, &b->c.p, &b->source, density));
     b->dt = CLOUD_SPACING / b->c.material[0].wave_speed;
-    levels_match_wave_dispersion_of_bonds(&b->levels, 2 * CLOUD_SPACING, b->c.material[0].wave_speed, b->dt);
+    mesh_levels_match_wave_dispersion_of_bonds(&b->levels, 2 * CLOUD_SPACING, b->c.material[0].wave_speed, b->dt);
 }
 
 static void plate_make(struct plate *b, enum space space, int levels, int length)
@@ -88,7 +88,7 @@ static void plate_make(struct plate *b, enum space space, int levels, int length
 
 static void plate_free(struct plate *b)
 {
-    levels_free(&b->levels);
+    mesh_levels_free(&b->levels);
     mesh_free(&b->mesh);
     particle_cloud_free(&b->c);
 }
@@ -96,7 +96,7 @@ static void plate_free(struct plate *b)
 /* Returns true if node I of level `level` of l is independent: it has mass. */
 static bool node_free(const struct mesh_levels *l, int level, int64_t I)
 {
-    return level_mesh_read_only(l, level)->grid.mass[I] > 0;
+    return mesh_levels_mesh_of_level_read_only(l, level)->grid.mass[I] > 0;
 }
 
 static real place_of(const struct mesh *mesh, int64_t I, int d)
@@ -111,7 +111,7 @@ static void motion_set(struct plate *b, const real A[9], const real *c, real by,
     struct mesh_levels *l = &b->levels;
     const int dim = b->mesh.grid.dim;
     for (int level = 0; level <= l->n; level++) {
-        struct mesh *mesh = level_mesh(l, level);
+        struct mesh *mesh = mesh_levels_mesh_of_level(l, level);
         for (int64_t I = 0; I < mesh->grid.n; I++)
             for (int a = 0; a < dim; a++) {
                 real value = c[a] + (by > 0 ? cloud_between(&seed, -by, by) : 0);
@@ -123,30 +123,31 @@ static void motion_set(struct plate *b, const real A[9], const real *c, real by,
                     mesh->displacement[a][I] = value;
             }
     }
-    if (velocity) levels_compute_momenta_from_velocities(l);
-    for (int level = 1; level <= l->n; level++) levels_interpolate_motion_of_hanging_nodes(l, level);
-    levels_copy_motion_to_ghost_nodes(l);
+    if (velocity) mesh_levels_compute_momenta_from_velocities(l);
+    for (int level = 1; level <= l->n; level++) mesh_levels_interpolate_motion_of_hanging_nodes(l, level);
+    mesh_levels_copy_motion_to_ghost_nodes(l);
 }
 
 static void forces_of(struct plate *b, bool finite, int due)
 {
     mesh_clear(&b->mesh);
     mesh_force(&b->mesh, &b->c.p, b->elastic, finite);
-    levels_compute_forces_of_coarse_cells(&b->levels, &b->c.p, b->elastic, finite, due);
+    mesh_levels_compute_forces_of_coarse_cells(&b->levels, &b->c.p, b->elastic, finite, due);
 }
 
 static real strain_of(struct plate *b, bool finite)
 {
-    for (int level = 1; level <= b->levels.n; level++) levels_interpolate_motion_of_hanging_nodes(&b->levels, level);
+    for (int level = 1; level <= b->levels.n; level++)
+        mesh_levels_interpolate_motion_of_hanging_nodes(&b->levels, level);
     return mesh_strain(&b->mesh, &b->c.p, b->elastic, finite) +
-           levels_strain_energy_of_coarse_cells(&b->levels, &b->c.p, b->elastic, finite);
+           mesh_levels_strain_energy_of_coarse_cells(&b->levels, &b->c.p, b->elastic, finite);
 }
 
 /* Returns the force on component d of node I of `level` of b by all cells: of its own level, plus half the doubled one
  * of the next. */
 static real force_of(struct plate *b, bool finite, int level, int64_t I, int d)
 {
-    const struct grid *g = &level_mesh(&b->levels, level)->grid;
+    const struct grid *g = &mesh_levels_mesh_of_level(&b->levels, level)->grid;
     forces_of(b, finite, level);
     const real own = g->force[d][I];
     if (level == b->levels.n) return own;
@@ -163,13 +164,13 @@ static void gradient_across(enum space space, bool finite)
     const real none[9] = {0};
     const int dim = space_dim(space);
     plate_make(&b, space, 2, 0);
-    levels_set(&b, true);
+    mesh_levels_set(&b, true);
     motion_set(&b, none, none, 0.1 * CLOUD_SPACING, false);
     const real step = 1e-3 * CLOUD_SPACING, stiff = b.elastic[0].c11 * pow(CLOUD_SPACING, dim - 1) * 0.1;
     for (int level = 0; level <= 2; level++) {
-        struct mesh *mesh = level_mesh(&b.levels, level);
+        struct mesh *mesh = mesh_levels_mesh_of_level(&b.levels, level);
         int tried = 0;
-        assert_true(levels_count_cells_of_level(&b.levels, level) > 0);
+        assert_true(mesh_levels_count_cells_of_level(&b.levels, level) > 0);
         for (int64_t I = 0; I < mesh->grid.n && tried < 60; I += 1 + (dim == 3) * 6) {
             const int d = (int)(I % dim);
             real *u = &mesh->displacement[d][I], W[2];
@@ -200,7 +201,7 @@ static void test_gradient(void **state)
 /* Returns true if node I of `level` is on a face of the block b. */
 static bool on_face(const struct plate *b, int level, int64_t I)
 {
-    const struct mesh *mesh = level_mesh_read_only(&b->levels, level);
+    const struct mesh *mesh = mesh_levels_mesh_of_level_read_only(&b->levels, level);
     bool face = false;
     for (int d = 0; d < mesh->grid.dim; d++) {
         real low, high;
@@ -215,7 +216,7 @@ static bool on_face(const struct plate *b, int level, int64_t I)
  * forces of single cells. */
 static void patch_level(struct plate *b, bool finite, int level)
 {
-    const struct mesh *mesh = level_mesh(&b->levels, level);
+    const struct mesh *mesh = mesh_levels_mesh_of_level(&b->levels, level);
     const int dim = mesh->grid.dim;
     const real scale = b->elastic[0].c11 * 2e-3 * pow(mesh->grid.h, dim - 1) * (dim == 2 ? 2e-3 : 1);
     real *own[DIM_MAX];
@@ -243,7 +244,7 @@ static void test_patch(void **state)
         for (int finite = 0; finite < 2; finite++) {
             struct plate b;
             plate_make(&b, tried[t], 2, 0);
-            levels_set(&b, true);
+            mesh_levels_set(&b, true);
             motion_set(&b, A, c, 0, false);
             for (int level = 0; level <= 2; level++) patch_level(&b, finite, level);
             plate_free(&b);
@@ -254,7 +255,7 @@ static void momentum_of(const struct plate *b, real *sum)
 {
     for (int d = 0; d < DIM_MAX; d++) sum[d] = 0;
     for (int level = 0; level <= b->levels.n; level++) {
-        const struct grid *g = &level_mesh_read_only(&b->levels, level)->grid;
+        const struct grid *g = &mesh_levels_mesh_of_level_read_only(&b->levels, level)->grid;
         for (int d = 0; d < g->dim; d++)
             for (int64_t I = 0; I < g->n; I++) sum[d] += g->mass[I] * g->velocity[d][I];
     }
@@ -262,7 +263,7 @@ static void momentum_of(const struct plate *b, real *sum)
 
 static real kinetic_of(const struct plate *b)
 {
-    return mesh_kinetic(&b->mesh) + levels_kinetic_energy_of_coarse_levels(&b->levels);
+    return mesh_kinetic(&b->mesh) + mesh_levels_kinetic_energy_of_coarse_levels(&b->levels);
 }
 
 /* Checks that every change of levels conserves mass and momentum of random motion to round-off, keeps affine motion
@@ -281,20 +282,20 @@ static void test_changes(void **state)
             motion_set(&b, none, c, round % 2 ? 30 : 0, true);
             momentum_of(&b, before);
             const real energy = kinetic_of(&b);
-            levels_set(&b, round % 2 == 0);
+            mesh_levels_set(&b, round % 2 == 0);
             momentum_of(&b, after);
             for (int d = 0; d < dim; d++) assert_near(after[d], before[d], 1e-12 * all * 50);
             if (round % 2 == 0) assert_close(kinetic_of(&b), energy, 1e-12);
         }
         for (int level = 0; level <= 2; level++)
-            for (int64_t I = 0; I < level_mesh(&b.levels, level)->grid.n; I++)
-                mass += level_mesh(&b.levels, level)->grid.mass[I];
+            for (int64_t I = 0; I < mesh_levels_mesh_of_level(&b.levels, level)->grid.n; I++)
+                mass += mesh_levels_mesh_of_level(&b.levels, level)->grid.mass[I];
         assert_close(mass, all, 1e-12);
         motion_set(&b, A, c, 0, true);
-        levels_set(&b, false);
-        levels_set(&b, true);
+        mesh_levels_set(&b, false);
+        mesh_levels_set(&b, true);
         for (int level = 0; level <= 2; level++) {
-            const struct mesh *mesh = level_mesh(&b.levels, level);
+            const struct mesh *mesh = mesh_levels_mesh_of_level(&b.levels, level);
             for (int64_t I = 0; I < mesh->grid.n; I++)
                 for (int a = 0; a < dim && node_free(&b.levels, level, I); a++) {
                     real v = c[a];
@@ -313,9 +314,9 @@ static void steps_make(struct plate *b, int64_t n, bool finite)
 {
     for (int64_t k = 0; k < n; k++, b->step++) {
         real impulse[DIM_MAX] = {0}, work = 0;
-        const int due = levels_highest_level_due_in_step(&b->levels, b->step);
+        const int due = mesh_levels_coarsest_level_integrated_in_step(&b->levels, b->step);
         forces_of(b, finite, due);
-        levels_move_nodes_return_largest_velocity(&b->levels, b->dt, b->dt, due, impulse, &work);
+        mesh_levels_move_nodes_return_largest_velocity(&b->levels, b->dt, b->dt, due, impulse, &work);
     }
 }
 
@@ -324,7 +325,7 @@ static real energy_of(struct plate *b, bool finite)
 {
     const real strain = strain_of(b, finite), before = kinetic_of(b);
     forces_of(b, finite, b->levels.n);
-    const real power = levels_power_of_coarse_nodal_forces(&b->levels);
+    const real power = mesh_levels_power_of_coarse_nodal_forces(&b->levels);
     real own = 0;
     for (int d = 0; d < b->mesh.grid.dim; d++)
         for (int64_t I = 0; I < b->mesh.grid.n; I++) own += b->mesh.grid.velocity[d][I] * b->mesh.grid.force[d][I];
@@ -341,8 +342,8 @@ static real energy_growth(enum space space, int levels, real share, int rounds, 
     real first = 0, last = 0, before[DIM_MAX], after[DIM_MAX];
     plate_make_of(&b, space, levels, space == SPACE_LINE ? 200 : 0, parted);
     b.dt *= share;
-    levels_match_wave_dispersion_of_bonds(&b.levels, 2 * CLOUD_SPACING, b.c.material[0].wave_speed, b.dt);
-    levels_set(&b, false);
+    mesh_levels_match_wave_dispersion_of_bonds(&b.levels, 2 * CLOUD_SPACING, b.c.material[0].wave_speed, b.dt);
+    mesh_levels_set(&b, false);
     motion_set(&b, none, c, 5, true);
     momentum_of(&b, before);
     for (int round = 0; round < rounds && isfinite(last); round++) {
@@ -397,7 +398,7 @@ static void pulse_set(struct plate *b, real at, real width)
     struct mesh_levels *l = &b->levels;
     const real c = b->c.material[0].wave_speed, s = width / 4 * CLOUD_SPACING;
     for (int level = 0; level <= l->n; level++) {
-        struct mesh *mesh = level_mesh(l, level);
+        struct mesh *mesh = mesh_levels_mesh_of_level(l, level);
         for (int64_t I = 0; I < mesh->grid.n; I++) {
             const real x = (place_of(mesh, I, 0) - at) / s;
             const real early = x + 0.5 * (real)(1 << level) * b->dt * c / s; /* half a step earlier */
@@ -406,14 +407,14 @@ static void pulse_set(struct plate *b, real at, real width)
             mesh->grid.velocity[0][I] = own ? 1e-6 * c * early * exp(-0.5 * early * early) : 0;
         }
     }
-    levels_compute_momenta_from_velocities(l);
-    levels_copy_motion_to_ghost_nodes(l);
+    mesh_levels_compute_momenta_from_velocities(l);
+    mesh_levels_copy_motion_to_ghost_nodes(l);
 }
 
 /* Computes u[], the displacement of b at the nodes of level 0. */
 static void profile_of(struct plate *b, real *u)
 {
-    levels_prolong_motion_to_fine_nodes(&b->levels);
+    mesh_levels_prolong_motion_to_fine_nodes(&b->levels);
     memcpy(u, b->mesh.displacement[0], (size_t)b->mesh.grid.n * sizeof *u);
 }
 
@@ -429,7 +430,7 @@ static real pulse_difference(int levels, real width, bool matched)
     plate_make(&b, SPACE_LINE, levels, LENGTH);
     if (!matched)
         for (int level = 1; level <= levels; level++) b.levels.at[level].mesh.match = 0;
-    levels_set(&b, false);
+    mesh_levels_set(&b, false);
     real *u = NEW("test.u", 2 * a.mesh.grid.n, real), *w = u + a.mesh.grid.n;
     struct plate *both[] = {&a, &b};
     for (int k = 0; k < 2; k++) {
@@ -473,8 +474,8 @@ static real reflection(int levels, real width)
     const int64_t n = b.mesh.grid.n;
     uint8_t *demand = NEW("test.demand", 2 * n, uint8_t), *level = demand + n;
     for (int64_t I = 0; I < n; I++) demand[I] = I - b.levels.offset[0][0] < LENGTH / 4;
-    levels_compute_coarsest_admissible_levels(&b.levels, &b.c.p, demand, NULL, level);
-    levels_change_refinement(&b.levels, &b.c.p, &b.source, level);
+    mesh_levels_compute_coarsest_admissible_levels(&b.levels, &b.c.p, demand, NULL, level);
+    mesh_levels_change_refinement(&b.levels, &b.c.p, &b.source, level);
     pulse_set(&b, 0.3 * LENGTH * CLOUD_SPACING, width);
     real *u = NEW("test.u", n, real);
     profile_of(&b, u);

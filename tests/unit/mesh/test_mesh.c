@@ -95,7 +95,7 @@ static void test_whole_and_cut(void **state)
 static void given_own(const struct block *b, const struct partial_stress *partial, int64_t i, real *P)
 {
     const struct mesh *mesh = &b->mesh;
-    const int dim = b->c.p.dim, n = symmetric_component_count(dim), place = mesh->place[i] & ((1 << dim) - 1);
+    const int dim = b->c.p.dim, n = symmetric_tensor_component_count(dim), place = mesh->place[i] & ((1 << dim) - 1);
     const struct elastic *m = &b->elastic[b->c.p.material[i]];
     const bool leaves = partial->index[i] >= 0;
     real g[9] = {0}, s[SYM_MAX], trace = 0;
@@ -109,13 +109,13 @@ static void given_own(const struct block *b, const struct partial_stress *partia
     trace = point_trace(b, i, false);
     for (int k = 0; k < n; k++) {
         int a, d;
-        symmetric_component_axes(dim, k, &a, &d);
+        symmetric_tensor_component_axes(dim, k, &a, &d);
         s[k] =
             a == d ? (m->c11 - m->c12) * g[a * dim + a] + m->c12 * trace : m->shear * (g[a * dim + d] + g[d * dim + a]);
     }
     for (int k = 0; k < n; k++) {
         int a, d;
-        symmetric_component_axes(dim, k, &a, &d);
+        symmetric_tensor_component_axes(dim, k, &a, &d);
         P[a * dim + d] = P[d * dim + a] = s[k] - (leaves ? dot(partial->matrix + (i * n + k) * n, s, n) : 0);
     }
 }
@@ -150,7 +150,7 @@ static void test_partial(void **state)
         block_make(&b, spaces[round / 3], true, false);
         if (round % 3) block_average(&b, round % 3 > 1); /* with one dilatation in a cell; and with several materials */
         const struct particles *p = &b.c.p;
-        const int dim = p->dim, n = symmetric_component_count(dim);
+        const int dim = p->dim, n = symmetric_tensor_component_count(dim);
         partial_of(&partial, p, b.c.material, 0.2);
         int32_t changed[2] = {-1, -1};
         for (int64_t i = 0; i < p->n; i++) {
@@ -163,11 +163,11 @@ static void test_partial(void **state)
         mesh_remove_points_and_return_lost_energy(&b.mesh, &b.c.p, &b.source, NULL, 0);
         for (int k = 0; k < n * n; k++) partial.matrix[changed[0] * n * n + k] *= -0.5;
         partial.index[changed[1]] = -1;
-        assert_true(dim > 1 || !mesh_update_stiffness_of_partial_cells(&b.mesh, &b.c.p, &b.source, changed,
-                                                                       2)); /* one cut cell less */
+        assert_true(dim > 1 || !mesh_try_update_stiffness_for_partial_stress(&b.mesh, &b.c.p, &b.source, changed,
+                                                                             2)); /* one cut cell less */
         mesh_remove_points_and_return_lost_energy(&b.mesh, &b.c.p, &b.source, changed, 2);
         for (int k = 0; k < n * n; k++) partial.matrix[changed[0] * n * n + k] *= 0.7;
-        assert_true(mesh_update_stiffness_of_partial_cells(&b.mesh, &b.c.p, &b.source, changed, 1));
+        assert_true(mesh_try_update_stiffness_for_partial_stress(&b.mesh, &b.c.p, &b.source, changed, 1));
         shake(&b, 0.2, 23);
         forces(&b, false);
         for (int64_t i = 0; i < p->n; i++) {

@@ -390,7 +390,7 @@ static double covered(const struct plotted_particles *c, double from_x, double t
     enum { PIXELS = 20 * SIDE }; /* 20 pixels per spacing: a gap of a tenth of a spacing is visible */
     struct colour *pixel = NEW("test.pixel", PIXELS * PIXELS, struct colour);
     struct view v = {.from = {from_x * SPACING, 0}, .to = {to_x * SPACING, SIDE * SPACING}, .top = 0.5};
-    raster_paint_particles(pixel, PIXELS, PIXELS, &v, c, MAP_DAMAGE);
+    image_paint_particles_in_plane(pixel, PIXELS, PIXELS, &v, c, MAP_DAMAGE);
     int shown = 0;
     for (int q = 0; q < PIXELS * PIXELS; q++) shown += pixel[q].alpha > 0;
     memory_free(pixel);
@@ -425,7 +425,7 @@ static void bodies_are_closed_and_gaps_open(void **state)
     assert_true(c.aligned); /* at reference positions: its squares turn with it */
     struct colour middle[64];
     struct view v = {.from = {4e-3, 4e-3}, .to = {8e-3, 8e-3}, .top = 0.5};
-    raster_paint_particles(middle, 8, 8, &v, &c, MAP_DAMAGE);
+    image_paint_particles_in_plane(middle, 8, 8, &v, &c, MAP_DAMAGE);
     for (int q = 0; q < 64; q++) assert_int_equal(middle[q].alpha, 255);
     plotted_particles_free(&c);
     frame_free(&f);
@@ -439,7 +439,7 @@ static char folder[] = "/tmp/cleave_compare_XXXXXX";
 static int enter(void **state)
 {
     (void)state;
-    output_configure();
+    output_install_signal_handling_for_file_writes();
     return mkdtemp(folder) == NULL || chdir(folder) != 0;
 }
 

@@ -27,7 +27,8 @@ static void make_particles(struct particles *p, int dim, int64_t n)
     particles_make(p, dim, n, 0);
     for (int64_t i = 0; i < n; i++) {
         for (int d = 0; d < dim; d++) p->X[d][i] = sin((double)(3 * i + d)), p->x[d][i] = p->X[d][i] + 0.01 * (real)d;
-        for (int k = 0; k < symmetric_component_count(dim); k++) p->stress[k][i] = 1e6 * cos((double)(7 * i + k));
+        for (int k = 0; k < symmetric_tensor_component_count(dim); k++)
+            p->stress[k][i] = 1e6 * cos((double)(7 * i + k));
         p->id[i] = (int32_t)(2 * (n - 1 - i));
     }
 }
@@ -90,7 +91,7 @@ static void check_step(struct hdf *f, int step, int steps, const struct particle
         counts[k] = all[at[0]];
     }
     assert_true(at[5] == 1 && counts[0] == p->n && counts[1] == p->n && counts[2] == p->n);
-    n = hdf_dataset_size(f, "/VTKHDF/Types");
+    n = hdf_dataset_element_count(f, "/VTKHDF/Types");
     float *points = calloc((size_t)n * 3, sizeof *points), *stress = calloc((size_t)n * 6, sizeof *stress);
     int64_t *offset = calloc((size_t)(n + steps), sizeof *offset), *corner = calloc((size_t)n, sizeof *corner);
     hdf_read_rows(f, "/VTKHDF/Points", HDF_F32, 3 * n, points);
@@ -124,7 +125,7 @@ static void frames_in_one_file(void **state)
     open_fresh(&o, "temporal");
     for (int k = 0; k < STEPS; k++) {
         make_particles(&p[k], 2, PARTICLES + 100 * k);
-        output_discard_particle_order(&o);
+        output_discard_stored_particle_order_by_id(&o);
         assert_int_equal(output_write_frame(&o, &p[k], 0.5 * k, k, scene_text), OK);
     }
     assert_int_equal(output_write_vtkhdf_of_all_frames(&o, scene_text), OK);
@@ -133,7 +134,7 @@ static void frames_in_one_file(void **state)
     assert_true(file.st_size < 64 << 10);
     nftw("moved", remove_one, 8, FTW_DEPTH | FTW_PHYS);
     assert_int_equal(rename("temporal", "moved"), 0);
-    hdf_open(&f, "moved/frames.vtkhdf");
+    hdf_open_for_reading(&f, "moved/frames.vtkhdf");
     hdf_read_attribute(&f, "/VTKHDF/Steps", "NSteps", HDF_I32, &steps);
     assert_int_equal(steps, STEPS);
     hdf_read_rows(&f, "/VTKHDF/Steps/Values", HDF_F64, STEPS, time);
@@ -142,9 +143,9 @@ static void frames_in_one_file(void **state)
         check_step(&f, k, STEPS, &p[k]);
         particles_free(&p[k]);
     }
-    assert_int_equal(hdf_dataset_size(&f, "/VTKHDF/FieldData/scene"), 1);
-    assert_int_equal(hdf_dataset_size(&f, "/VTKHDF/Steps/FieldDataSizes/units"), 2 * STEPS);
-    assert_int_equal(hdf_dataset_size(&f, "/VTKHDF/Steps/PointDataOffsets/fragment"), -1);
+    assert_int_equal(hdf_dataset_element_count(&f, "/VTKHDF/FieldData/scene"), 1);
+    assert_int_equal(hdf_dataset_element_count(&f, "/VTKHDF/Steps/FieldDataSizes/units"), 2 * STEPS);
+    assert_int_equal(hdf_dataset_element_count(&f, "/VTKHDF/Steps/PointDataOffsets/fragment"), -1);
     hdf_close(&f);
 }
 
@@ -166,7 +167,8 @@ static void frames_of_a_region(void **state)
     make_particles(&p, 2, PARTICLES);
     for (int64_t i = 0; i < p.n; i++) inside += region_contains(&region, (real[]){p.X[0][i], p.X[1][i]}, 2, 0);
     assert_int_equal(output_write_frame(&o, &p, 0, 0, scene_text), OK);
-    for (int k = 0; k < 3; k++) assert_int_equal(output_frame_begin(&o, 1, &p, NULL, 0.5 * k, k, scene_text), OK);
+    for (int k = 0; k < 3; k++)
+        assert_int_equal(output_begin_writing_frame_in_thread(&o, 1, &p, NULL, 0.5 * k, k, scene_text), OK);
     assert_int_equal(output_write_vtkhdf_of_all_frames(&o, scene_text), OK);
     assert_true(o.series[0].frames == 1 && o.series[1].frames == 3 && o.series[1].entry[2].rows == inside);
     assert_int_equal(frame_read(&f, "regions/frames_half/000002.hdf"), OK);
@@ -195,6 +197,6 @@ int main(int argc, char **argv)
     };
     (void)argc;
     if (!enter_folder_beside(argv[0], "test_frame_files.files")) return 1;
-    output_configure();
+    output_install_signal_handling_for_file_writes();
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

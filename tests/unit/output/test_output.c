@@ -54,7 +54,7 @@ static void make_particles(struct particles *p, int dim, int64_t n)
             p->x[d][i] = p->X[d][i] + 1e-3 * noise(i, 3 + d);
             p->v[d][i] = noise(i, 6 + d) - 0.5;
         }
-        for (int k = 0; k < symmetric_component_count(dim); k++) p->stress[k][i] = 1e6 * noise(i, 9 + k);
+        for (int k = 0; k < symmetric_tensor_component_count(dim); k++) p->stress[k][i] = 1e6 * noise(i, 9 + k);
         p->damage[i] = noise(i, 15);
         p->kind[i] = i % 3 ? KIND_MPM : KIND_PD;
         p->material[i] = (uint8_t)(i % 5);
@@ -95,7 +95,7 @@ static void check_frame(const struct output_frame *f, const struct particles *p)
             assert_true(f->u[d][k] == (float)(p->x[d][i] - p->X[d][i]));
             assert_true(f->v[d][k] == (float)p->v[d][i]);
         }
-        for (int c = 0; c < symmetric_component_count(p->dim); c++)
+        for (int c = 0; c < symmetric_tensor_component_count(p->dim); c++)
             assert_true(f->stress[c][k] == (float)p->stress[c][i]);
         assert_true(f->damage[k] == (float)p->damage[i]);
         assert_int_equal(f->kind[k], p->kind[i]);
@@ -137,7 +137,7 @@ static void frames_have_vtk_layout(void **state)
     open_fresh(&o, "layout", false);
     make_particles(&p, 2, PARTICLES);
     assert_int_equal(output_write_frame(&o, &p, 0, 0, scene_text), OK);
-    hdf_open(&f, "layout/frames/000000.hdf");
+    hdf_open_for_reading(&f, "layout/frames/000000.hdf");
     hdf_read_rows(&f, "/VTKHDF/NumberOfPoints", HDF_I64, 1, &n);
     hdf_read_rows(&f, "/VTKHDF/Offsets", HDF_I32, PARTICLES + 1, offset);
     hdf_read_rows(&f, "/VTKHDF/Types", HDF_U8, PARTICLES, type);
@@ -145,8 +145,8 @@ static void frames_have_vtk_layout(void **state)
     assert_int_equal(n, PARTICLES);
     assert_int_equal(offset[PARTICLES], PARTICLES);
     assert_int_equal(type[PARTICLES - 1], 1);
-    assert_int_equal(hdf_dataset_size(&f, "/VTKHDF/Points"), 3 * PARTICLES);
-    assert_int_equal(hdf_dataset_size(&f, "/VTKHDF/PointData/stress"), 6 * PARTICLES);
+    assert_int_equal(hdf_dataset_element_count(&f, "/VTKHDF/Points"), 3 * PARTICLES);
+    assert_int_equal(hdf_dataset_element_count(&f, "/VTKHDF/PointData/stress"), 6 * PARTICLES);
     hdf_close(&f);
     particles_free(&p);
     output_close(&o);
@@ -168,7 +168,7 @@ static void plastic_strain_where_it_is(void **state)
         p.id[0] = 1;
         if (yields) p.plastic_strain[0] = 0.25, p.plastic_strain[1] = 0.5;
         assert_int_equal(output_write_frame(&o, &p, 0, 0, scene_text), OK);
-        hdf_open(&f, "plastic/frames/000000.hdf");
+        hdf_open_for_reading(&f, "plastic/frames/000000.hdf");
         hdf_read_rows(&f, "/VTKHDF/PointData/plastic_strain", HDF_F32, 2, strain);
         assert_int_equal(f.failed, !yields);
         if (yields) assert_true(strain[0] == 0.5f && strain[1] == 0.25f); /* by id */
@@ -198,9 +198,9 @@ static void frames_hold_what_they_are_given(void **state)
         open_fresh(&o, "given", false);
         particles_make(&p, 2, 2, 0);
         p.id[0] = 1;
-        assert_int_equal(output_frame_begin(&o, 0, &p, given ? &extra : NULL, 0, 0, scene_text), OK);
-        assert_int_equal(output_wait_for_frame(&o), OK);
-        hdf_open(&file, "given/frames/000000.hdf");
+        assert_int_equal(output_begin_writing_frame_in_thread(&o, 0, &p, given ? &extra : NULL, 0, 0, scene_text), OK);
+        assert_int_equal(output_wait_until_frame_is_written(&o), OK);
+        hdf_open_for_reading(&file, "given/frames/000000.hdf");
         hdf_read_rows(&file, "/VTKHDF/PointData/contact_force", HDF_F32, 6, force);
         assert_int_equal(file.failed, !given);
         if (given) assert_true(force[0] == -2.5f && force[1] == 4 && force[2] == 0 && force[3] == 1.5f);
@@ -339,7 +339,7 @@ static void older_run_is_replaced_unless_resumed(void **state)
     output_close(&o);
     for (size_t k = 0; k < COUNT_OF(made); k++) assert_false(path_exists(path_join("again", made[k]).text));
     for (size_t k = 0; k < COUNT_OF(others); k++)
-        assert_true(file_has_contents(path_join("again", others[k]).text, "mine", 4));
+        assert_true(file_contents_equal_bytes(path_join("again", others[k]).text, "mine", 4));
 }
 
 /* Checks that a table that Cleave did not write is never overwritten in the folder of a run; a truncated one is the
@@ -366,7 +366,7 @@ static void tables_of_others_stay(void **state)
         if (table[k].ended == OK) output_close(&o);
         assert_true(path_exists(path.text) == (table[k].ended != OK));
         if (table[k].ended == OK) continue;
-        assert_true(file_has_contents(path.text, table[k].text, length));
+        assert_true(file_contents_equal_bytes(path.text, table[k].text, length));
         assert_message("exists and was not written by cleave; move or remove it");
         assert_int_equal(unlink(path.text), 0);
     }
@@ -436,7 +436,7 @@ static void summary_has_the_figures(void **state)
     char *text;
     size_t length;
     open_fresh(&o, "summary", false);
-    run_parts_make(e);
+    run_components_allocate(e);
     e->scene = &s, e->report->out = &o, e->clock.step = 7, e->clock.t = 0.1, e->timers.spent[TIMER_BONDS] = 7e-4;
     e->report->began = wall_clock_seconds(), e->report->before = (struct run_seconds){3, 0.25, 3e-4};
     e->report->setup_seconds = 0.25, e->timers.spent[TIMER_OUTPUT] = 2;
@@ -452,7 +452,7 @@ static void summary_has_the_figures(void **state)
                                                   .arrest_time = 0.08,
                                                   .first_time = 0.05,
                                                   .particles = 2};
-    assert_int_equal(summary_write(e, OK, 2), OK);
+    assert_int_equal(run_write_summary_files(e, OK, 2), OK);
     assert_int_equal(file_read_whole("summary/summary.json", &text, &length), OK);
     static const char *const part[] = {"\"name\": \"a \\\"b\\\"\\u000a\"",
                                        "\"status\": \"done\"",
@@ -476,11 +476,11 @@ static void summary_has_the_figures(void **state)
     assert_null(strstr(text, "message"));
     memory_free(text);
     remove_tree("summary"); /* if it cannot be written, the fault of the run is kept */
-    assert_int_equal(summary_write(e, status_set(FAILED, "the run's own fault"), 2), FAILED);
+    assert_int_equal(run_write_summary_files(e, status_set(FAILED, "the run's own fault"), 2), FAILED);
     assert_string_equal(status_message(), "the run's own fault");
-    assert_int_equal(summary_write(e, OK, 2), FAILED);
+    assert_int_equal(run_write_summary_files(e, OK, 2), FAILED);
     assert_message("summary was moved, removed or replaced");
-    run_parts_free(e);
+    run_components_free(e);
     memory_free(e);
     output_close(&o);
 }
@@ -488,7 +488,7 @@ static void summary_has_the_figures(void **state)
 static int start(void **state)
 {
     (void)state;
-    output_configure();
+    output_install_signal_handling_for_file_writes();
     return 0;
 }
 

@@ -31,7 +31,7 @@ static void make_particles(struct particles *p, int dim, int64_t n)
         const double a = (double)(i + 1);
         for (int d = 0; d < dim; d++)
             p->X[d][i] = sin(3 * a + d), p->x[d][i] = p->X[d][i] + 0.01 * cos(a + d), p->v[d][i] = sin(a - d);
-        for (int k = 0; k < symmetric_component_count(dim); k++) p->stress[k][i] = 1e6 * cos(7 * a + k);
+        for (int k = 0; k < symmetric_tensor_component_count(dim); k++) p->stress[k][i] = 1e6 * cos(7 * a + k);
         p->damage[i] = fabs(sin(a)), p->kind[i] = (uint8_t)(i % 2), p->id[i] = (int32_t)i;
     }
 }
@@ -60,8 +60,9 @@ static void frames_take_little(void **state)
             int32_t *fragment = NEW("fragment", PARTICLES, int32_t);
             for (int i = 0; i < PARTICLES; i++) fragment[i] = i % 7;
             const struct frame_extra extra = {.push = p.v, .fragment = fragment};
-            assert_int_equal(output_frame_begin(&o, 0, &p, contact ? &extra : NULL, 0, 0, scene_text), OK);
-            assert_int_equal(output_wait_for_frame(&o), OK);
+            assert_int_equal(output_begin_writing_frame_in_thread(&o, 0, &p, contact ? &extra : NULL, 0, 0, scene_text),
+                             OK);
+            assert_int_equal(output_wait_until_frame_is_written(&o), OK);
             const int64_t least = (4 * (components[dim] + (contact ? dim + 1 : 0)) + 1) * (int64_t)PARTICLES;
             const int64_t size = size_of("small/frames/000000.hdf");
             if (size < least || size > least + PARTICLES / 5 + 16384)
@@ -93,7 +94,7 @@ static void tables_come_back(void **state)
         assert_false(f.failed);
         /* of each table at most two chunks of 4096 rows of 8 and 4 bytes hold more than one value */
         assert_true(size_of("table.h5") < 2 * 4096 * 12 + 8192);
-        hdf_open(&f, "table.h5");
+        hdf_open_for_reading(&f, "table.h5");
         hdf_read_rows(&f, "/wide", HDF_F32, 3 * n, back);
         assert_false(f.failed);
         for (int64_t i = 0; i < 3 * n; i++) {
@@ -121,11 +122,11 @@ static void one_file_while_particles_are_the_same(void **state)
     assert_int_equal(output_write_frame(&o, &p, 0, 0, scene_text), OK);
     assert_int_equal(stat("shared/frames/particles_000000.h5", &first), 0);
     for (int k = 1; k < 3; k++) {
-        output_discard_particle_order(&o);
+        output_discard_stored_particle_order_by_id(&o);
         p.v[0][7] += 1;
         assert_int_equal(output_write_frame(&o, &p, k, k, scene_text), OK);
     }
-    output_discard_particle_order(&o);
+    output_discard_stored_particle_order_by_id(&o);
     assert_int_equal(output_write_frame(&o, &more, 3, 3, scene_text), OK);
     assert_int_equal(stat("shared/frames/particles_000000.h5", &later), 0);
     assert_true(first.st_ino == later.st_ino && first.st_mtime == later.st_mtime && first.st_size == later.st_size);
@@ -197,18 +198,18 @@ static void foreign_file_is_left(void **state)
     open_fresh(&o, "left");
     p.X[0][3] -= 1;
     for (int k = 0; k < 2; k++) assert_int_equal(output_write_frame(&o, &p, k, k, scene_text), OK);
-    assert_int_equal(output_remove_lost_frames_from_index(&o, &lost, text, sizeof text), OK);
+    assert_int_equal(output_remove_missing_frames_from_index(&o, &lost, text, sizeof text), OK);
     assert_int_equal(lost, 0);
     assert_int_equal(rename("foreign/frames/particles_000000.h5", "left/frames/particles_000000.h5"), 0);
-    output_discard_particle_order(&o);
-    assert_int_equal(output_remove_lost_frames_from_index(&o, &lost, text, sizeof text), OK);
+    output_discard_stored_particle_order_by_id(&o);
+    assert_int_equal(output_remove_missing_frames_from_index(&o, &lost, text, sizeof text), OK);
     assert_int_equal(lost, 2);
     assert_non_null(
         strstr(text, "frames/000000.hdf links to frames/particles_000000.h5, which belongs to another run, and 1"));
     assert_int_equal(unlink("left/frames/particles_000000.h5"), 0);
     assert_int_equal(link("left/frames/000000.hdf", "left/frames/particles_000000.h5"), 0);
     o.series[0].particles.number = 0;
-    assert_int_equal(output_remove_lost_frames_from_index(&o, &lost, text, sizeof text), OK);
+    assert_int_equal(output_remove_missing_frames_from_index(&o, &lost, text, sizeof text), OK);
     assert_int_equal(lost, 2);
     assert_int_equal(output_write_frame(&o, &p, 2, 2, scene_text), OK);
     assert_true(path_is_file("left/frames/particles_000002.h5"));
@@ -225,7 +226,7 @@ static void assert_listed(struct output *o, int n, int lost)
     char message[1000], *text;
     size_t length;
     int found = -1, listed = 0;
-    assert_int_equal(output_remove_lost_frames_from_index(o, &found, message, sizeof message), OK);
+    assert_int_equal(output_remove_missing_frames_from_index(o, &found, message, sizeof message), OK);
     assert_int_equal(found, lost);
     assert_int_equal(file_read_whole("back/frames.xdmf", &text, &length), OK);
     for (const char *at = text; (at = strstr(at, "<Time ")); at++) listed++;
@@ -246,7 +247,7 @@ static void file_comes_back(void **state)
     for (int k = 0; k < 2; k++) assert_int_equal(output_write_frame(&o, &p, k, k, scene_text), OK);
     assert_listed(&o, 2, 0);
     assert_int_equal(rename(file, "away.h5"), 0);
-    output_discard_particle_order(&o);
+    output_discard_stored_particle_order_by_id(&o);
     assert_listed(&o, 0, 2);
     assert_int_equal(output_write_frame(&o, &p, 2, 2, scene_text), OK);
     assert_listed(&o, 1, 2);
@@ -270,8 +271,8 @@ static void complete_frames_are_read(void **state)
     make_particles(&p, 3, 500);
     assert_int_equal(output_write_frame(&o, &p, 0.5, 7, scene_text), OK);
     output_close(&o);
-    hdf_open(&from, "complete/frames/000000.hdf");
-    hdf_create(&to, file_begin_writing_temporary("complete.hdf").text, false);
+    hdf_open_for_reading(&from, "complete/frames/000000.hdf");
+    hdf_create(&to, file_register_and_name_temporary("complete.hdf").text, false);
     const hid_t list = H5Pcreate(H5P_OBJECT_COPY);
     assert_true(H5Pset_copy_object(list, H5O_COPY_EXPAND_EXT_LINK_FLAG) >= 0);
     assert_true(H5Ocopy(from.file, "/VTKHDF", to.file, "/VTKHDF", list, H5P_DEFAULT) >= 0);
@@ -305,10 +306,10 @@ static void contact_where_it_is(void **state)
     const struct frame_extra extra = {.push = push};
     for (int k = 0; k < 2; k++) {
         push[1][9] = k ? 2.5 : 0;
-        assert_int_equal(output_frame_begin(&o, 0, &p, &extra, k, k, scene_text), OK);
-        assert_int_equal(output_wait_for_frame(&o), OK);
-        hdf_open(&h, path[k]);
-        assert_int_equal(hdf_dataset_size(&h, "/VTKHDF/PointData/contact_force"), k ? 1500 : -1);
+        assert_int_equal(output_begin_writing_frame_in_thread(&o, 0, &p, &extra, k, k, scene_text), OK);
+        assert_int_equal(output_wait_until_frame_is_written(&o), OK);
+        hdf_open_for_reading(&h, path[k]);
+        assert_int_equal(hdf_dataset_element_count(&h, "/VTKHDF/PointData/contact_force"), k ? 1500 : -1);
         hdf_close(&h);
         assert_int_equal(frame_read(&f, path[k]), OK);
         assert_int_equal(frame_field_read(&f, path[k], "contact_force", &columns, &force), OK);
@@ -325,7 +326,7 @@ static void contact_where_it_is(void **state)
     assert_non_null(strstr(text, "000001.hdf:/VTKHDF/PointData/contact_force"));
     memory_free(text);
     assert_int_equal(output_write_vtkhdf_of_all_frames(&o, scene_text), OK);
-    hdf_open(&h, "touch/frames.vtkhdf");
+    hdf_open_for_reading(&h, "touch/frames.vtkhdf");
     hdf_read_rows(&h, "/VTKHDF/PointData/contact_force", HDF_F32, 3000, all);
     assert_false(h.failed);
     for (int i = 0; i < 3000; i++) assert_true(all[i] == (i == 1528 ? 2.5f : 0));
@@ -349,6 +350,6 @@ int main(int argc, char **argv)
     };
     (void)argc;
     if (!enter_folder_beside(argv[0], "test_particles_file.files")) return 1;
-    output_configure();
+    output_install_signal_handling_for_file_writes();
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -19,7 +19,7 @@ static int painted_around(const struct plotted_particles *c, double half)
     struct colour *pixel = NEW("test.pixel", PIXELS * PIXELS, struct colour);
     const struct view v = {.from = {-half, -half}, .to = {half, half}, .top = 1};
     int painted = 0;
-    raster_paint_particles(pixel, PIXELS, PIXELS, &v, c, MAP_DAMAGE);
+    image_paint_particles_in_plane(pixel, PIXELS, PIXELS, &v, c, MAP_DAMAGE);
     for (int q = 0; q < PIXELS * PIXELS; q++) painted += pixel[q].alpha > 0;
     memory_free(pixel);
     return painted;
@@ -71,8 +71,8 @@ static void long_rigid_bodies_are_cut_off(void **state)
         struct plotted_particles c, six[6];
         plotted_particles_select_from_frame(&c, &f, NULL);
         const struct view alone = view_make_around_particles(&c, 1);
-        struct rigid_shown *r = NEW("test.rigid", 1, struct rigid_shown);
-        *r = (struct rigid_shown){.shape = &shape, .at.turn = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+        struct plotted_rigid_body *r = NEW("test.rigid", 1, struct plotted_rigid_body);
+        *r = (struct plotted_rigid_body){.shape = &shape, .at.turn = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
         r->bounded = region_compute_bounding_box_if_finite(&shape, dim, r->low, r->high);
         c.dim = dim, c.rigids = 1, c.rigid = r;
         for (int k = 0; k < 6; k++) six[k] = c;
@@ -105,7 +105,7 @@ static void narrow_cracks_are_open(void **state)
         plotted_particles_select_from_frame(&c, &f, &(struct projection){.normal = -1, .scene = &scene});
         const struct view v = {
             .from = {-14e-3, -14e-3}, .to = {14e-3, 14e-3}, .top = 1, .notches = cut, .notch = &slit};
-        raster_paint_particles(pixel, FINE, FINE, &v, &c, MAP_DAMAGE);
+        image_paint_particles_in_plane(pixel, FINE, FINE, &v, &c, MAP_DAMAGE);
         for (int q = 0; q < FINE * FINE; q++) blank += !pixel[q].alpha;
         assert_true(blank >= FINE && blank <= 3 * FINE); /* 0.06 spacings of 34 pixels, 2 or 3 high */
         plotted_particles_free(&c), frame_free(&f);

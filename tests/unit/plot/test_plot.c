@@ -132,10 +132,10 @@ static void slices_show_damage(void **state)
     assert_float_equal(fabs(c.layer), 0.5e-3, 1e-8);
     plotted_particles_free(&c);
     struct projection projection = {.normal = 0, .placed = true, .layer = 1.9e-3};
-    assert_int_equal(projection_complete_slice_from_particles(&projection, &f, NULL), OK);
+    assert_int_equal(projection_choose_slice_normal_and_position(&projection, &f, NULL), OK);
     assert_float_equal(projection.layer, 1.5e-3, 1e-8);
     projection.layer = 9e-3;
-    assert_int_equal(projection_complete_slice_from_particles(&projection, &f, NULL), REFUSED);
+    assert_int_equal(projection_choose_slice_normal_and_position(&projection, &f, NULL), REFUSED);
     assert_non_null(strstr(status_message(), "-2.5 to 2.5 mm"));
     frame_free(&f);
 }
@@ -149,7 +149,7 @@ static void slices_are_near_the_middle(void **state)
     struct output_frame f = block_make(9, 9, 8, 3);
     for (int64_t i = 0; i < f.n; i++) f.damage[i] = damage[i / 81];
     struct projection projection = {.normal = 2};
-    assert_int_equal(projection_complete_slice_from_particles(&projection, &f, NULL), OK);
+    assert_int_equal(projection_choose_slice_normal_and_position(&projection, &f, NULL), OK);
     assert_float_equal(projection.layer, -1.5e-3, 1e-8);
     f.spacing = NEW("test.spacing", f.n, float);
     for (int64_t i = 0; i < f.n; i++) f.spacing[i] = i == 37 ? 0.7e-3F : 2.8e-3F;
@@ -167,17 +167,17 @@ static void axes_have_prefixes(void **state)
     } axis[] = {{3.2e9, 1e9, "GPa"},    {3.2e-5, 1e-6, "µPa"}, {0, 1, "Pa"},        {-5e4, 1e3, "kPa"},
                 {1.67e17, 1e15, "PPa"}, {9e-16, 1e-18, "aPa"}, {2e27, 1e24, "YPa"}, {INFINITY, 1, "Pa"}};
     for (size_t k = 0; k < COUNT_OF(axis); k++) {
-        const struct unit u = unit_for_largest_value(axis[k].largest, "Pa");
+        const struct unit u = unit_with_si_prefix_for_largest_value(axis[k].largest, "Pa");
         assert_true(fabs(u.factor / axis[k].factor - 1) < 1e-12);
         assert_string_equal(u.name, axis[k].name);
     }
     assert_true(unit_for_length(0.04).factor == 1e-3 && unit_for_length(6).factor == 1);
     assert_true(unit_for_length(6.4e6).factor == 1e3 && unit_for_length(4e-5).factor == 1e-6);
-    assert_string_equal(unit_for_largest_value_if_prefixable("s", 3e-5).name, "µs");
-    assert_string_equal(unit_for_largest_value_if_prefixable("m", 0.02).name, "mm");
-    assert_string_equal(unit_for_largest_value_if_prefixable("m^2", 3.5e-11).name, "µm²");
+    assert_string_equal(unit_with_si_prefix_if_unit_allows_it("s", 3e-5).name, "µs");
+    assert_string_equal(unit_with_si_prefix_if_unit_allows_it("m", 0.02).name, "mm");
+    assert_string_equal(unit_with_si_prefix_if_unit_allows_it("m^2", 3.5e-11).name, "µm²");
     assert_true(unit_for_area(1e-3).factor == 1e-6 && unit_for_area(3e6).factor == 1e6);
-    assert_string_equal(unit_for_largest_value_if_prefixable("kg/m³", 2440).name, "kg/m³");
+    assert_string_equal(unit_with_si_prefix_if_unit_allows_it("kg/m³", 2440).name, "kg/m³");
 }
 
 /* Checks that a distant particle changes neither rectangle nor range of colours, and is counted as outside. */
@@ -223,12 +223,12 @@ static void solids_are_seen_from_outside(void **state)
     struct view v = {.from = {-6e-3, -6e-3}, .to = {6e-3, 6e-3}, .top = 1};
     int shown = 0, dark = 0;
     c.mirrors = 1, c.mirror[0] = (struct shown_mirror){.axis = 0, .at = 4.6e-3}; /* hides 0.4 spacings */
-    cubes_paint_particles(pixel, PIXELS, PIXELS, &v, &c, MAP_DAMAGE);
+    image_paint_particles_as_cubes(pixel, PIXELS, PIXELS, &v, &c, MAP_DAMAGE);
     for (int q = 0; q < PIXELS * PIXELS; q++)
         shown += pixel[q].alpha > 0, dark += pixel[q].green < 100 && pixel[q].alpha;
     assert_true(abs(shown - 96 * 100) <= 2 * 101); /* less than ten of twelve spacings wide, and the gaps */
     assert_int_equal(dark, 0);                     /* its damage is hidden */
-    cubes_paint_particles(pixel, PIXELS, PIXELS, &v, &c, MAP_CRACKS);
+    image_paint_particles_as_cubes(pixel, PIXELS, PIXELS, &v, &c, MAP_CRACKS);
     for (int q = 0; q < PIXELS * PIXELS; q++) dark += pixel[q].green < 100 && pixel[q].alpha;
     assert_true(dark >= 100 && dark <= 144); /* one particle, ten pixels wide */
     memory_free(pixel), plotted_particles_free(&c), frame_free(&f);
@@ -248,7 +248,7 @@ static void pixels_count(const struct plotted_particles *c, double half, int *pa
     struct colour *pixel = NEW("test.pixel", PIXELS * PIXELS, struct colour);
     const struct view v = {.from = {-half, -half}, .to = {half, half}, .top = 1};
     *painted = *blank = 0;
-    raster_paint_particles(pixel, PIXELS, PIXELS, &v, c, MAP_DAMAGE);
+    image_paint_particles_in_plane(pixel, PIXELS, PIXELS, &v, c, MAP_DAMAGE);
     for (int q = 0; q < PIXELS * PIXELS; q++) *(pixel[q].alpha ? painted : blank) += 1;
     memory_free(pixel);
 }
@@ -381,7 +381,7 @@ static void slits_are_lines_of_the_body(void **state)
         plotted_particles_select_from_frame(&c, &f, &(struct projection){.normal = -1, .scene = &scene});
         const struct view v = {
             .from = {far - 15e-3, -15e-3}, .to = {far + 15e-3, 15e-3}, .top = 1, .notches = 1, .notch = &slit};
-        raster_paint_particles(pixel, PIXELS, PIXELS, &v, &c, MAP_DAMAGE);
+        image_paint_particles_in_plane(pixel, PIXELS, PIXELS, &v, &c, MAP_DAMAGE);
         for (int q = 0; q < PIXELS * PIXELS; q++) {
             line += pixel[q].alpha && pixel[q].green < 100 && abs(2 * (q / PIXELS) + 1 - PIXELS) == 1;
             blank += !pixel[q].alpha && q / PIXELS >= PIXELS / 2 && q / PIXELS < PIXELS * 3 / 5 && q % PIXELS > 20 &&
@@ -392,7 +392,7 @@ static void slits_are_lines_of_the_body(void **state)
         else
             assert_true(blank == 0 && line >= 48 && line <= 2 * 50); /* 12 spacings of 4 pixels, 1 or 2 high */
         for (int size = 8 * PIXELS; size > 20; size /= 2) {          /* lines of more than 3 pixels to less than 2 */
-            raster_paint_particles(pixel, size, size, &v, &c, MAP_DAMAGE);
+            image_paint_particles_in_plane(pixel, size, size, &v, &c, MAP_DAMAGE);
             assert_true(abs(columns_with_line(pixel, size) - size * 12 / 30) <= 1 + (size <= PIXELS));
         }
         plotted_particles_free(&c), frame_free(&f);
@@ -415,15 +415,15 @@ static void rigid_bodies_are_shown(void **state)
         f.dim = dim;
         plotted_particles_select_from_frame(
             &c, &f, &(struct projection){.outside = true, .camera = camera_along_axis(2, 1), .normal = -1});
-        struct rigid_shown *r = NEW("test.rigid", 1, struct rigid_shown);
-        *r = (struct rigid_shown){
+        struct plotted_rigid_body *r = NEW("test.rigid", 1, struct plotted_rigid_body);
+        *r = (struct plotted_rigid_body){
             .shape = &shape,
             .at = {.centre = {2e-3, 1e-3, 0}, .x = {8e-3, 0, 0}, .turn = {{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}}};
         r->bounded = region_compute_bounding_box_if_finite(&shape, dim, r->low, r->high);
         c.dim = dim, c.rigids = 1, c.rigid = r;
         assert_true(fabs(view_make_around_particles(&c, 1).to[0] - 9e-3) < 1.1 * SPACING);
         const struct view v = {.from = {-10e-3, -10e-3}, .to = {10e-3, 10e-3}, .top = 1};
-        raster_paint_particles(pixel, PIXELS, PIXELS, &v, &c, MAP_DAMAGE);
+        image_paint_particles_in_plane(pixel, PIXELS, PIXELS, &v, &c, MAP_DAMAGE);
         for (int q = 0; q < PIXELS * PIXELS; q++) {
             const double x = (q % PIXELS + 0.5) / 6 - 10, y = (q / PIXELS + 0.5) / 6 - 10; /* [spacing] */
             const bool here = pixel[q].alpha && pixel[q].red < 130;
@@ -471,9 +471,9 @@ static void words_have_units(void **state)
     const char *names[] = {"--field", "--times", "--slice"};
     char what[256];
     real value;
-    assert_true(length_read(&value, "4mm", what, sizeof what) && value == 4e-3);
-    assert_true(time_read(&value, "10us", what, sizeof what) && value == 10e-6);
-    assert_false(time_read(&value, "10mm", what, sizeof what));
+    assert_true(length_parse_with_unit(&value, "4mm", what, sizeof what) && value == 4e-3);
+    assert_true(time_parse_with_unit(&value, "10us", what, sizeof what) && value == 10e-6);
+    assert_false(time_parse_with_unit(&value, "10mm", what, sizeof what));
     assert_string_equal(word_propose_similar("--slcie", names, 3).text, "; did you mean --slice?");
     assert_string_equal(word_propose_similar("--palette", names, 3).text, ";");
 }

@@ -18,7 +18,7 @@ static void ledger_of_a_known_field(void **state)
         kinetic += 1.5 * (square(b.p.v[0][i]) + 1);
         moving += 3 * hypot(b.p.v[0][i], 1);
     }
-    diagnostics_make(&w);
+    diagnostics_initialise(&w);
     assert_near(particles_kinetic_energy(&b.p), kinetic, kinetic * ROUND_OFF);
     real none[DIM_MAX] = {0};
     diagnostics_update_momentum(&w, &b.p, NULL, 0, none);
@@ -87,8 +87,8 @@ static void ledger_survives_a_restart(void **state)
     struct archive out = {.saving = true, .exchange = tape_exchange, .file = &tape}, in = out;
     const real none[DIM_MAX] = {0};
     body_make(&b, 1, (const int[]){2});
-    diagnostics_make(&w);
-    diagnostics_make(&restored);
+    diagnostics_initialise(&w);
+    diagnostics_initialise(&restored);
     for (int i = 0; i < 2; i++) b.p.mass[i] = 1, b.p.v[0][i] = i == 0 ? 10 : -10;
     diagnostics_update_momentum(&w, &b.p, NULL, 0, none);
     diagnostics_update_energy_balance(&w, 0, &(struct energy){.kinetic = 100}, 0);
@@ -119,7 +119,7 @@ static void strain_energy_of_material_points(void **state)
     for (int dim = 1; dim <= 3; dim++) {
         struct body b;
         struct material m = steel(space[dim]);
-        int n = symmetric_component_count(dim);
+        int n = symmetric_tensor_component_count(dim);
         real C[SYM_MAX * SYM_MAX], stress[SYM_MAX] = {0}, density = 0, half[SYM_MAX * SYM_MAX] = {0};
         material_stiffness_matrix(&m, dim, C);
         for (int i = 0; i < n; i++) {
@@ -153,7 +153,7 @@ static void first_break_is_booked_once(void **state)
     struct body b;
     struct diagnostics w;
     body_make(&b, 2, (const int[]){10, 10});
-    diagnostics_make(&w);
+    diagnostics_initialise(&w);
     diagnostics_record_broken_bonds(&w, &b.p, 3.015, 0, 1);
     assert_true(isnan(w.break_time));
     b.p.flag[0] = FLAG_LOST_BOND; /* of a bond with a driven particle */
@@ -179,7 +179,7 @@ static void first_break_is_booked_once(void **state)
     assert_near(w.driven_time, 5, 0);
 
     struct diagnostics other;
-    diagnostics_make(&other);
+    diagnostics_initialise(&other);
     assert_false(diagnostics_record_broken_bonds(&other, &b.p, 2.2, 2, 1) && isnan(other.break_time));
     assert_int_equal(other.break_ends, 3); /* none of the three within 2.2 of another */
     assert_near(other.break_position[0], 8.5, ROUND_OFF);
@@ -187,7 +187,7 @@ static void first_break_is_booked_once(void **state)
     struct diagnostics again;
     struct store s = {0};
     struct archive a = {.saving = true, .exchange = store_exchange, .file = &s};
-    diagnostics_make(&again);
+    diagnostics_initialise(&again);
     assert_ok(diagnostics_save_or_load(&w, &a));
     a.saving = false;
     assert_ok(diagnostics_save_or_load(&again, &a));
@@ -205,19 +205,19 @@ static void alarm_names_the_first_runaway(void **state)
     struct body b;
     body_make(&b, 2, (const int[]){60, 50});
     b.p.v[0][17] = 5000, b.p.v[1][17] = 1500; /* |v| = 5220.2 */
-    assert_ok(diagnostics_check_divergence(&b.p, true, true, 5232, 123, 4.1e-6));
+    assert_ok(diagnostics_check_particles_for_divergence(&b.p, true, true, 5232, 123, 4.1e-6));
     b.p.v[0][17] = 6.1e5, b.p.v[1][17] = 0;
     b.p.v[0][2500] = NAN;
-    assert_int_equal(diagnostics_check_divergence(&b.p, true, true, 5232, 123, 4.1e-6), FAILED);
+    assert_int_equal(diagnostics_check_particles_for_divergence(&b.p, true, true, 5232, 123, 4.1e-6), FAILED);
     assert_string_equal(status_message(),
                         "unstable at step 123, t = 4.1e-06 s: particle 17 at (17.5, 0.5) m moves at 6.1e+05 m/s, "
                         "faster than the wave speed 5232 m/s");
     b.p.v[0][17] = 0;
-    assert_failed(diagnostics_check_divergence(&b.p, true, true, 5232, 123, 4.1e-6),
+    assert_failed(diagnostics_check_particles_for_divergence(&b.p, true, true, 5232, 123, 4.1e-6),
                   "particle 2500 at (40.5, 41.5) m has a position or velocity that is not a finite number");
     b.p.v[0][2500] = 0;
     b.p.x[1][2999] = INFINITY;
-    assert_failed(diagnostics_check_divergence(&b.p, true, true, 5232, 123, 4.1e-6), "particle 2999");
+    assert_failed(diagnostics_check_particles_for_divergence(&b.p, true, true, 5232, 123, 4.1e-6), "particle 2999");
     body_free(&b);
 }
 

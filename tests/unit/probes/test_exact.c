@@ -51,7 +51,7 @@ static void step_bar_by_characteristics(void **state)
         for (int step = 1; step <= TRANSITS * CELLS + 7; step++) {
             waves_step(&w, &e, impedance, dx / c);
             for (int k = 0; k < CELLS; k++) {
-                struct exact_values v = exact_solution_at(&e, -0.5 + (k + 0.5) * dx, step * dx / c);
+                struct exact_values v = bar_exact_solution_at_position(&e, -0.5 + (k + 0.5) * dx, step * dx / c);
                 assert_near(v.stress, 0.5 * (w.right[k] + w.left[k]), 1e-12 * 3);
                 assert_near(v.velocity, (w.left[k] - w.right[k]) / (2 * impedance), 1e-13);
                 assert_near(v.displacement, w.displacement[k], 1e-12);
@@ -93,20 +93,24 @@ static void step_bar_fronts_and_plateaus(void **state)
                 {0.001, 0.9, -1, 0, 1, false, 0, 0}};
     for (size_t k = 0; k < COUNT_OF(want); k++) {
         real from, to;
-        assert_int_equal(exact_compute_stress_fronts(&e, want[k].t, f), 1);
+        assert_int_equal(bar_exact_solution_compute_stress_fronts(&e, want[k].t, f), 1);
         assert_near(f[0].position, want[k].place, 1e-12);
         assert_int_equal(f[0].ahead, want[k].ahead);
         assert_near(f[0].before, want[k].before, 1e-12);
         assert_near(f[0].behind, want[k].behind, 1e-12);
-        assert_near(exact_solution_at(&e, f[0].position + 1e-6 * f[0].ahead, want[k].t).stress, f[0].before, 1e-12);
-        assert_near(exact_solution_at(&e, f[0].position - 1e-6 * f[0].ahead, want[k].t).stress, f[0].behind, 1e-12);
-        assert_int_equal(exact_find_constant_stress_range(&e, want[k].t, EXACT_PLATEAU, &from, &to), want[k].plateau);
-        assert_false(exact_find_constant_stress_range(&e, want[k].t, EXACT_PRECURSOR, &(real){0}, &(real){0}));
+        assert_near(bar_exact_solution_at_position(&e, f[0].position + 1e-6 * f[0].ahead, want[k].t).stress,
+                    f[0].before, 1e-12);
+        assert_near(bar_exact_solution_at_position(&e, f[0].position - 1e-6 * f[0].ahead, want[k].t).stress,
+                    f[0].behind, 1e-12);
+        assert_int_equal(bar_exact_solution_find_constant_stress_range(&e, want[k].t, EXACT_PLATEAU, &from, &to),
+                         want[k].plateau);
+        assert_false(
+            bar_exact_solution_find_constant_stress_range(&e, want[k].t, EXACT_PRECURSOR, &(real){0}, &(real){0}));
         if (!want[k].plateau) continue;
         assert_near(from, want[k].from, 1e-12);
         assert_near(to, want[k].to, 1e-12);
     }
-    assert_near(exact_solution_at(&e, 1, 0.0125).displacement, 1.25e-4, 1e-18);
+    assert_near(bar_exact_solution_at_position(&e, 1, 0.0125).displacement, 1.25e-4, 1e-18);
 }
 
 /* ---- plastic bar: jump conditions -------------------------------------------------------------------------------- */
@@ -121,10 +125,10 @@ static void plastic_bar_jumps(void **state)
         struct exact_front f[EXACT_FRONTS];
         const real t = 0.0075, speed[2] = {100, 70.710678118654755}, place[2] = {0.25, 1 - 0.0075 * 70.710678118654755};
         e.loaded = side, e.load = -1, e.reflection[0] = -side, e.reflection[1] = side;
-        assert_int_equal(exact_compute_stress_fronts(&e, t, f), 2);
+        assert_int_equal(bar_exact_solution_compute_stress_fronts(&e, t, f), 2);
         for (int k = 0; k < 2; k++) {
-            struct exact_values a = exact_solution_at(&e, f[k].position + 1e-9 * f[k].ahead, t);
-            struct exact_values b = exact_solution_at(&e, f[k].position - 1e-9 * f[k].ahead, t);
+            struct exact_values a = bar_exact_solution_at_position(&e, f[k].position + 1e-9 * f[k].ahead, t);
+            struct exact_values b = bar_exact_solution_at_position(&e, f[k].position - 1e-9 * f[k].ahead, t);
             real along = f[k].ahead * speed[k]; /* velocity of the front */
             assert_int_equal(f[k].ahead, -side);
             assert_near(f[k].position, side > 0 ? place[k] : 1 - place[k], 1e-12);
@@ -134,29 +138,30 @@ static void plastic_bar_jumps(void **state)
             assert_near(a.stress, f[k].before, 0);
             assert_near(b.stress, f[k].behind, 0);
         }
-        struct exact_values first = exact_solution_at(&e, side > 0 ? 0.37 : 0.63, t);
-        struct exact_values second = exact_solution_at(&e, side > 0 ? 0.7 : 0.3, t);
+        struct exact_values first = bar_exact_solution_at_position(&e, side > 0 ? 0.37 : 0.63, t);
+        struct exact_values second = bar_exact_solution_at_position(&e, side > 0 ? 0.7 : 0.3, t);
         assert_near(first.stress, -0.5, 0);
         assert_near(first.strain, -5e-5, 1e-18);
         assert_near(second.stress, -1, 0);
         assert_near(second.strain, -1.5e-4, 1e-18);
         real from, to, h = 1e-5; /* velocity is the rate of displacement */
         for (real X = 0.3; X < 0.71; X += 0.1)
-            assert_near((exact_solution_at(&e, X, t + h).displacement - exact_solution_at(&e, X, t - h).displacement) /
+            assert_near((bar_exact_solution_at_position(&e, X, t + h).displacement -
+                         bar_exact_solution_at_position(&e, X, t - h).displacement) /
                             (2 * h),
-                        exact_solution_at(&e, X, t).velocity, 1e-12);
-        assert_true(exact_find_constant_stress_range(&e, t, EXACT_PRECURSOR, &from, &to));
+                        bar_exact_solution_at_position(&e, X, t).velocity, 1e-12);
+        assert_true(bar_exact_solution_find_constant_stress_range(&e, t, EXACT_PRECURSOR, &from, &to));
         assert_near(side > 0 ? from : 1 - to, 0.32, 5e-4); /* the windows of the published figures, to a tenth of a
                                                             * spacing */
         assert_near(side > 0 ? to : 1 - from, 0.42, 5e-4); /* of 5e-3 */
-        assert_true(exact_find_constant_stress_range(&e, t, EXACT_PLATEAU, &from, &to));
+        assert_true(bar_exact_solution_find_constant_stress_range(&e, t, EXACT_PLATEAU, &from, &to));
         assert_near(side > 0 ? from : 1 - to, 0.55, 5e-4);
         assert_near(side > 0 ? to : 1 - from, 0.9, 5e-4);
-        assert_true(isnan(exact_solution_at(&e, 0.5, 0.0101).stress) &&
-                    exact_compute_stress_fronts(&e, 0.0101, f) == 0);
+        assert_true(isnan(bar_exact_solution_at_position(&e, 0.5, 0.0101).stress) &&
+                    bar_exact_solution_compute_stress_fronts(&e, 0.0101, f) == 0);
         e.load = -0.4; /* no plastic front below the yield stress */
-        assert_int_equal(exact_compute_stress_fronts(&e, t, f), 1);
-        assert_near(exact_solution_at(&e, 0.5, t).strain, -4e-5, 1e-18);
+        assert_int_equal(bar_exact_solution_compute_stress_fronts(&e, t, f), 1);
+        assert_near(bar_exact_solution_at_position(&e, 0.5, t).strain, -4e-5, 1e-18);
     }
 }
 
@@ -169,9 +174,11 @@ static void plastic_bar_jumps(void **state)
 static void check_smooth(const struct exact *e, real X, real t, real scale, real tolerance, bool wave)
 {
     real c = sqrt(e->young / e->density), h = 1e-3 * scale, k = h / c;
-    struct exact_values here = exact_solution_at(e, X, t);
-    real right = exact_solution_at(e, X + h, t).displacement, left = exact_solution_at(e, X - h, t).displacement;
-    real later = exact_solution_at(e, X, t + k).displacement, earlier = exact_solution_at(e, X, t - k).displacement;
+    struct exact_values here = bar_exact_solution_at_position(e, X, t);
+    real right = bar_exact_solution_at_position(e, X + h, t).displacement,
+         left = bar_exact_solution_at_position(e, X - h, t).displacement;
+    real later = bar_exact_solution_at_position(e, X, t + k).displacement,
+         earlier = bar_exact_solution_at_position(e, X, t - k).displacement;
     assert_near((later - earlier) / (2 * k), here.velocity, tolerance * c);
     assert_near((right - left) / (2 * h), here.strain, tolerance);
     assert_near(here.stress, e->young * here.strain, 1e-12 * e->young * tolerance);
@@ -193,14 +200,14 @@ static void pulses_obey_the_wave_equation(void **state)
                           .pulses = 2};
         for (real X = 0.02; X < 1; X += 0.0531) {
             real first = exp(-square((X - 0.3) / 0.05)), second = exp(-square((X - 0.6) / 0.03));
-            struct exact_values v = exact_solution_at(&e, X, 0);
+            struct exact_values v = bar_exact_solution_at_position(&e, X, 0);
             assert_near(v.velocity, 2 * first + second, 1e-9);         /* along their characteristics */
             assert_near(v.strain, (-2 * first + second) / 100, 1e-11); /* f' = -v/c */
             for (real t = 1e-3; t < 0.05; t += 1.713e-3) check_smooth(&e, X, t, 0.03, 4e-8, true);
         }
         for (real t = 0; t < 0.05; t += 1e-3) /* boundary conditions */
             for (int end = 0; end < 2; end++) {
-                struct exact_values v = exact_solution_at(&e, end, t);
+                struct exact_values v = bar_exact_solution_at_position(&e, end, t);
                 assert_near(e.reflection[end] > 0 ? v.velocity : 100 * v.strain, 0, 1e-9);
             }
     }
@@ -217,9 +224,10 @@ static void manufactured_is_its_formula(void **state)
                       .period = 0.02,
                       .wavelength = 0.5,
                       .origin = 0.1};
-    assert_near(exact_solution_at(&e, 0.225, 0.01).displacement, 1e-3, 1e-15); /* a quarter wave later, at its peak */
+    assert_near(bar_exact_solution_at_position(&e, 0.225, 0.01).displacement, 1e-3,
+                1e-15); /* a quarter wave later, at its peak */
     for (real X = 0; X < 1; X += 0.07) {
-        struct exact_values v = exact_solution_at(&e, X, 0);
+        struct exact_values v = bar_exact_solution_at_position(&e, X, 0);
         assert_near(fabs(v.displacement) + fabs(v.velocity) + fabs(v.stress), 0, 0);
         for (real t = 1e-3; t < 0.03; t += 2.3e-3) check_smooth(&e, X, t, 0.05, 1e-8, false);
     }
@@ -347,12 +355,12 @@ static void measured(struct lab *b, enum exact_form form, real t, struct figures
     for (int i = 0; i < 200; i++) stress[i] = b->p.stress[0][i];
     struct exact e = unit_bar(form);
     for (int i = 0; i < 200; i++) { /* the exact motion; the stress is set by the test */
-        struct exact_values v = exact_solution_at(&e, b->p.X[0][i], t);
+        struct exact_values v = bar_exact_solution_at_position(&e, b->p.X[0][i], t);
         b->p.x[0][i] = b->p.X[0][i] + v.displacement, b->p.v[0][i] = v.velocity + 0.25, b->p.stress[0][i] += v.stress;
     }
     b->o.t = b->o.t_velocity = t;
     probes_visit_results(&s, &b->o, keep, f);
-    probes_begin_sample_before_step(&s, &b->o);
+    probes_sample_position_dependent_values(&s, &b->o);
     assert_int_equal(s.columns, bar_probe_value_count(form));
     for (int k = 0; k < s.columns; k++) { /* columns are the figures */
         real value = figure(f, strchr(s.column[k].name, '.') + 1);
@@ -416,7 +424,7 @@ static void bars_drawn_at_the_left(void **state)
     b.load[1].particle = &b.first;
     assert_ok(probes_make(&s, &r, 1, &b.o));
     for (int i = 0; i < 200; i++) {
-        const struct exact_values v = exact_solution_at(&e, 1 - b.p.X[0][i], t);
+        const struct exact_values v = bar_exact_solution_at_position(&e, 1 - b.p.X[0][i], t);
         b.p.x[0][i] = b.p.X[0][i] - v.displacement + 3e-7, b.p.v[0][i] = -v.velocity, b.p.stress[0][i] = v.stress;
     }
     b.o.t = b.o.t_velocity = t;

@@ -69,7 +69,7 @@ static void probes_read_particles_and_regions(void **state)
         {.name = "patch", .kind = PROBE_PATCH},
     };
     assert_ok(probes_make(&s, request, COUNT_OF(request), &o));
-    probes_begin_sample_before_step(&s, &o);
+    probes_sample_position_dependent_values(&s, &o);
     probes_sample_energies(&s, &o);
     int64_t i = particle_at(&b, 3.5, 7.5, 0);
     assert_near(s.value[column_named(&s, "gauge.displacement_x")], 0.035, ROUND_OFF);
@@ -142,7 +142,7 @@ static void probe_of_a_support(void **state)
         load[0].reaction[0] = force[k][0], load[0].reaction[1] = force[k][1];
         load[0].displacement[1] = -0.25 * k;
         o.load_step = k + 1;
-        probes_update_every_step(&s, &o);
+        probes_update_break_spall_and_reaction_probes(&s, &o);
     }
     struct store store = {0};
     struct archive a = {.saving = true, .exchange = store_exchange, .file = &store};
@@ -150,7 +150,7 @@ static void probe_of_a_support(void **state)
     a.saving = false;
     assert_ok(probes_make(&again, &request, 1, &o));
     assert_ok(probes_save_or_load(&again, &a));
-    probes_begin_sample_before_step(&again, &o);
+    probes_sample_position_dependent_values(&again, &o);
     assert_near(again.value[column_named(&again, "reaction.force_x")], -6, 0);
     assert_near(again.value[column_named(&again, "reaction.displacement_y")], -0.75, 0);
     probes_visit_results(&again, &o, figure_keep, &l);
@@ -180,8 +180,8 @@ static void probe_of_two_supports(void **state)
     o.loads = &loads;
     struct probe_request request = {.name = "r", .kind = PROBE_REACTION, .boundary = "grip"};
     assert_ok(probes_make(&s, &request, 1, &o));
-    probes_update_every_step(&s, &o);
-    probes_begin_sample_before_step(&s, &o);
+    probes_update_break_spall_and_reaction_probes(&s, &o);
+    probes_sample_position_dependent_values(&s, &o);
     assert_near(s.value[column_named(&s, "r.force_x")], 3, ROUND_OFF);
     assert_near(s.value[column_named(&s, "r.force_y")], 3, ROUND_OFF);
     assert_near(s.value[column_named(&s, "r.displacement_x")], (3 * 0.4 - 5 * 0.2) / 8, ROUND_OFF);
@@ -235,15 +235,15 @@ static void probe_of_a_turning_body(void **state)
         b.p.x[0][i] = 1.5 + c * x - n * y, b.p.x[1][i] = 1.5 + n * x + c * y;
         b.p.v[0][i] = -1.1 * (b.p.x[1][i] - 1.5), b.p.v[1][i] = 1.1 * (b.p.x[0][i] - 1.5);
     }
-    probes_begin_sample_before_step(&s, &o);
-    probes_complete_sample_after_step(&s, &o, &(struct velocity_time){0, 1});
+    probes_sample_position_dependent_values(&s, &o);
+    probes_sample_velocity_dependent_values(&s, &o, &(struct velocity_time){0, 1});
     assert_near(s.value[column_named(&s, "turn.angle")], 0.3, 1e-12);
     assert_near(s.value[column_named(&s, "turn.stress_max")], 9, ROUND_OFF);
     assert_near(s.value[column_named(&s, "turn.shear_max")], sqrt(5), ROUND_OFF);
     assert_near(s.value[column_named(&s, "turn.angular_momentum_error")], 0.1, 1e-12);
     assert_near(s.value[column_named(&s, "turn.kinetic_energy_error")], 0.21, 1e-12);
     b.p.stress[0][4] = -3, b.p.stress[1][4] = -1, b.p.out_of_plane[7] = -4; /* now the largest is in the plane */
-    probes_begin_sample_before_step(&s, &o);
+    probes_sample_position_dependent_values(&s, &o);
     assert_near(s.value[column_named(&s, "turn.stress_max")], 2 + sqrt(5), ROUND_OFF);
     probes_free(&s);
     body_free(&b);
@@ -265,7 +265,7 @@ static void probe_of_a_tip(void **state)
     for (int k = 0; k < 4; k++) hurt(&b, 10.5 + k, 10.5, 0);
     hurt(&b, 30.5, 5.5, 0), hurt(&b, 31.5, 5.5, 0);
     tips_update_from_damage(&t, &b.p, &b.c, 2);
-    probes_begin_sample_before_step(&s, &o);
+    probes_sample_position_dependent_values(&s, &o);
     assert_near(s.value[column_named(&s, "tip.growth")], 3.5, ROUND_OFF);
     assert_near(s.value[column_named(&s, "right.x")], 31.5, ROUND_OFF);
     probes_visit_results(&s, &o, figure_keep, &l);
@@ -305,12 +305,12 @@ static void bar_cut(struct bar *bar, real plane, real shortest)
     for (int64_t row = 0; row < b->rows; row++) {
         int32_t i = b->particle[row];
         for (int64_t k = 0; k < b->column_count[row / LANES]; k++) {
-            int64_t q = bond_index_for_writing(b, row / LANES, k, (int)(row % LANES));
+            int64_t q = bond_copy_on_write_and_return_array_index(b, row / LANES, k, (int)(row % LANES));
             int32_t j = b->nbr[q];
             bool across = (p->X[0][i] < plane) != (p->X[0][j] < plane);
             if (b->w[q] == 0 || !across || fabs(p->X[0][i] - p->X[0][j]) < shortest - 0.5) continue;
             b->w[q] = 0;
-            bond_column_update_after_bond_change(b, row, q);
+            bond_update_cached_data_after_modification(b, row, q);
             b->broken[row]++;
             p->flag[i] |= FLAG_LOST_BOND | FLAG_CRACKED;
         }
@@ -360,15 +360,15 @@ static void probe_of_a_spall(void **state)
     }
     struct observed_run o = spall_probe_make(&s, &bar);
     bar_cut(&bar, 25, 2);
-    probes_update_every_step(&s, &o);
+    probes_update_break_spall_and_reaction_probes(&s, &o);
     probes_visit_results(&s, &o, figure_keep, &l);
     assert_int_equal(l.n, 0); /* its shortest bond is intact */
     bar_cut(&bar, 25, 1);
     o.t = 2;
-    probes_update_every_step(&s, &o);
+    probes_update_break_spall_and_reaction_probes(&s, &o);
     bar_cut(&bar, 20, 1);
     o.t = 3;
-    probes_update_every_step(&s, &o);
+    probes_update_break_spall_and_reaction_probes(&s, &o);
     probes_visit_results(&s, &o, figure_keep, &l);
     assert_near(figure(&l, "spall", "position"), 25, 1e-12);
     assert_near(figure(&l, "spall", "time"), 2, 0);
@@ -388,7 +388,7 @@ static void probe_of_a_wide_spall(void **state)
     for (int64_t i = 0; i < bar.b.p.n; i++) bar.b.p.kind[i] = KIND_PD;
     struct observed_run o = spall_probe_make(&s, &bar);
     for (int k = 23; k <= 25; k++) bar_cut(&bar, k, 1);
-    probes_update_every_step(&s, &o);
+    probes_update_break_spall_and_reaction_probes(&s, &o);
     probes_visit_results(&s, &o, figure_keep, &l);
     assert_near(figure(&l, "spall", "position"), 24, 1e-12);
     bar_probes_free(&s, &bar);
@@ -409,11 +409,11 @@ static void probe_of_a_spall_knows_the_grid(void **state)
     bar_cut(&bar, 15, 1);
     for (int64_t i = 0; i < p->n; i++)
         if (p->kind[i] == KIND_MPM) p->flag[i] = 0;
-    probes_update_every_step(&s, &o);
+    probes_update_break_spall_and_reaction_probes(&s, &o);
     probes_visit_results(&s, &o, figure_keep, &l);
     assert_int_equal(l.n, 0);
     p->flag[particle_at(&bar.b, 13.5, 0, 0)] = FLAG_LOST_BOND;
-    probes_update_every_step(&s, &o);
+    probes_update_break_spall_and_reaction_probes(&s, &o);
     probes_visit_results(&s, &o, figure_keep, &l);
     assert_near(figure(&l, "spall", "position"), 15, 1e-12);
     bar_probes_free(&s, &bar);
@@ -439,11 +439,11 @@ static void probe_of_a_break(void **state)
     o.horizon = 3, o.kernels = &kernels;
     assert_ok(probes_make(&s, request, 3, &o));
     bar_cut(&bar, 5, 1);
-    probes_update_every_step(&s, &o);
+    probes_update_break_spall_and_reaction_probes(&s, &o);
     memset(p->flag, 0, (size_t)p->n);
     bar_cut(&bar, 25, 3); /* three bonds of length 3: 22.5-25.5, 23.5-26.5, 24.5-27.5 */
     o.t = 2;
-    probes_update_every_step(&s, &o);
+    probes_update_break_spall_and_reaction_probes(&s, &o);
     probes_visit_results(&s, &o, figure_keep, &l);
     assert_near(figure(&l, "all", "first_time"), 1, 0);
     assert_near(figure(&l, "all", "x"), 5, 1e-12);

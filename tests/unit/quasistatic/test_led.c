@@ -26,7 +26,8 @@ static void run(struct solution *a, const char *text)
 {
     memset(a, 0, sizeof *a);
     if (scene_read_text(&a->s, text, strlen(text), "test.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
-    if (engine_set_up_run(&a->e, &a->s, NULL) != OK || engine_run_to_end(&a->e) != OK) fail_msg("%s", status_message());
+    if (run_set_up_from_scene(&a->e, &a->s, NULL) != OK || run_advance_to_end_time(&a->e) != OK)
+        fail_msg("%s", status_message());
 }
 
 /* Creates a plate of 64 spacings with a crack of 2 x 12 at `angle` to the normal of the load, a quarter of a spacing
@@ -51,7 +52,7 @@ static void plate(struct solution *a, real angle, int steps, const char *more)
 
 static void solution_free(struct solution *a)
 {
-    engine_free_run(&a->e);
+    run_free_memory(&a->e);
     scene_free(&a->s);
 }
 

@@ -26,15 +26,15 @@ static const struct sif_crack_tip *solution_begin(struct solution *a, const char
 {
     memset(a, 0, sizeof *a);
     if (scene_read_text(&a->s, text, strlen(text), "test.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
-    if (engine_set_up_run(&a->e, &a->s, NULL) != OK) fail_msg("%s", status_message());
-    assert_true(sif_cracks_initialise_and_can_grow(&a->e));
+    if (run_set_up_from_scene(&a->e, &a->s, NULL) != OK) fail_msg("%s", status_message());
+    assert_true(sif_cracks_find_tips_and_test_can_grow(&a->e));
     assert_int_equal(a->e.statics->sif.n, 1);
     return &a->e.statics->sif.tip[0];
 }
 
 static void solution_free(struct solution *a)
 {
-    engine_free_run(&a->e);
+    run_free_memory(&a->e);
     scene_free(&a->s);
 }
 
@@ -49,7 +49,7 @@ static void field_set(struct run *e, const struct sif_crack_tip *tip, enum space
     const real *a = tip->along;
     for (int64_t i = 0; i < p->n; i++) {
         real X[2], u[2] = {0, 0};
-        sif_plane_project_particle(&e->statics->sif.plane, &e->part, i, X);
+        crack_tip_plane_project_particle(&e->statics->sif.plane, &e->part, i, X);
         for (int d = 0; d < 2; d++) X[d] -= tip->position[d];
         for (int mode = 0; mode < MODES; mode++) {
             struct crack_field f;
@@ -110,8 +110,8 @@ static void test_face_area(void **state)
         real ahead[2];
         snprintf(text, sizeof text, half, k ? 4.0 : 0.0, k ? 4.0 : 0.0);
         const struct sif_crack_tip *tip = solution_begin(&a, text);
-        sif_plane_compute_point_ahead(tip->position, 2.3e-3, tip->last, ahead);
-        const real area = sif_plane_crack_area(&a.e.statics->sif.plane, &a.e.part, tip->position, ahead),
+        crack_tip_plane_compute_point_ahead(tip->position, 2.3e-3, tip->last, ahead);
+        const real area = crack_tip_plane_crack_area(&a.e.statics->sif.plane, &a.e.part, tip->position, ahead),
                    whole = 2.3e-3 * 0.37e-3;
         if (!(fabs(area / (k ? whole : 0.5 * whole) - 1) < 1e-9)) fail_msg("crack %d: %g of its area", k, area / whole);
         solution_free(&a);
@@ -138,8 +138,8 @@ static void test_width(void **state)
         const real from = k ? 0 : -0.5, wide = k ? 4e-3 : 3.5e-3;
         snprintf(text, sizeof text, block, from, from + 4);
         const struct sif_crack_tip *tip = solution_begin(&a, text);
-        sif_plane_compute_point_ahead(tip->position, 2.3e-3, tip->last, ahead);
-        const real area = sif_plane_crack_area(&a.e.statics->sif.plane, &a.e.part, tip->position, ahead);
+        crack_tip_plane_compute_point_ahead(tip->position, 2.3e-3, tip->last, ahead);
+        const real area = crack_tip_plane_crack_area(&a.e.statics->sif.plane, &a.e.part, tip->position, ahead);
         if (!(fabs(area / (2.3e-3 * wide) - 1) < 1e-9)) fail_msg("from %g mm: %g m wide", from, area / 2.3e-3);
         solution_free(&a);
     }

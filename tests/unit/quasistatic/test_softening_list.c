@@ -19,7 +19,7 @@ static void body_make(struct soft_body *s, enum space space)
     particle_cloud_make(
         &s->c, &(struct cloud_plan){.space = space, .count = {7, 6, 5}, .horizon = 2.015, .shake = 0.2, .seed = 4});
     soft_bonds(s, space == SPACE_SOLID ? SOFTENING_BILINEAR : SOFTENING_LINEAR, ONSET, CRITICAL);
-    softening_store_equilibrium_stretches(&s->c.bonds, &s->c.p, &s->c.source.limit);
+    bonds_store_softening_stretches_of_equilibrium(&s->c.bonds, &s->c.p, &s->c.source.limit);
 }
 
 /* Stretches the body c by `strain` along x and moves its particles at random (seed). */
@@ -32,18 +32,18 @@ static void body_move(struct particle_cloud *c, uint64_t seed, real strain)
 }
 
 /* Lists the bonds of s in l at the present positions; k becomes max(k_0, s). */
-static void follow(struct soft_body *s, struct softening_list *l)
+static void follow(struct soft_body *s, struct softening_bond_list *l)
 {
     bonds_open_beyond_onset(&s->c.bonds, &s->c.p, &s->c.source.limit);
-    softening_list_make(l, &s->c.bonds, &s->c.p, 1);
-    softening_list_store_largest_stretches(l, &s->c.bonds, 1);
+    softening_bond_list_collect(l, &s->c.bonds, &s->c.p, 1);
+    softening_bond_list_store_largest_stretches(l, &s->c.bonds, 1);
 }
 
 /* Returns the potential, the sum of phi over all bonds of s in l, at the present positions [J]. */
-static real potential(struct soft_body *s, struct softening_list *l)
+static real potential(struct soft_body *s, struct softening_bond_list *l)
 {
-    softening_list_make(l, &s->c.bonds, &s->c.p, 1);
-    softening_list_store_largest_stretches(l, &s->c.bonds, 1);
+    softening_bond_list_collect(l, &s->c.bonds, &s->c.p, 1);
+    softening_bond_list_store_largest_stretches(l, &s->c.bonds, 1);
     return bond_energy_table[s->c.p.dim][PD_BOND_SOFT](&s->c.bonds, &s->c.p, NULL) + bonds_fracture_energy(&s->c.bonds);
 }
 
@@ -61,12 +61,12 @@ static void test_gradient(void **state)
     const enum space spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_PLANE_STRAIN, SPACE_SOLID};
     for (size_t k = 0; k < COUNT_OF(spaces); k++) {
         struct soft_body s;
-        struct softening_list l = {0};
+        struct softening_bond_list l = {0};
         body_make(&s, spaces[k]);
         struct particles *p = &s.c.p;
         body_move(&s.c, 11, 2e-3);
         follow(&s, &l);
-        softening_store_equilibrium_stretches(&s.c.bonds, p, &s.c.source.limit);
+        bonds_store_softening_stretches_of_equilibrium(&s.c.bonds, p, &s.c.source.limit);
         body_move(&s.c, 12, 2e-3);
         follow(&s, &l);
         forces(&s);
@@ -96,7 +96,7 @@ static void test_gradient(void **state)
 
 /* Creates a body s whose bonds soften, moves it, and lets their largest stretches follow. l: empty; receives the
  * bonds. */
-static void body_soften(struct soft_body *s, struct softening_list *l)
+static void body_soften(struct soft_body *s, struct softening_bond_list *l)
 {
     body_make(s, SPACE_PLANE_STRESS);
     body_move(&s->c, 11, 2e-3);
@@ -109,14 +109,14 @@ static void test_factor(void **state)
 {
     (void)state;
     struct soft_body s;
-    struct softening_list l = {0};
+    struct softening_bond_list l = {0};
     body_soften(&s, &l);
-    const real whole = softening_list_dissipated_energy(&l, 1), wanted = 0.3 * whole;
+    const real whole = softening_bond_list_dissipated_energy(&l, 1), wanted = 0.3 * whole;
     assert_close(bonds_fracture_energy(&s.c.bonds), whole, 1e-6);
-    const real factor = softening_list_factor_for_energy(&l, wanted, 1);
+    const real factor = softening_bond_list_stretch_factor_at_energy(&l, wanted, 1);
     assert_true(factor > 0 && factor < 1);
-    assert_close(softening_list_dissipated_energy(&l, factor), wanted, 1e-9);
-    softening_list_store_largest_stretches(&l, &s.c.bonds, factor);
+    assert_close(softening_bond_list_dissipated_energy(&l, factor), wanted, 1e-9);
+    softening_bond_list_store_largest_stretches(&l, &s.c.bonds, factor);
     assert_close(bonds_fracture_energy(&s.c.bonds), wanted, 1e-5);
     memory_free(l.bond);
     particle_cloud_free(&s.c);
@@ -128,9 +128,9 @@ static void test_undo(void **state)
 {
     (void)state;
     struct soft_body s;
-    struct softening_list l = {0};
+    struct softening_bond_list l = {0};
     body_soften(&s, &l);
-    softening_store_equilibrium_stretches(&s.c.bonds, &s.c.p, &s.c.source.limit);
+    bonds_store_softening_stretches_of_equilibrium(&s.c.bonds, &s.c.p, &s.c.source.limit);
     const real spent = bonds_fracture_energy(&s.c.bonds);
     forces(&s);
     const real force = s.c.p.f[0][0];
@@ -139,7 +139,7 @@ static void test_undo(void **state)
     assert_exact(bonds_fracture_energy(&s.c.bonds), spent);
     follow(&s, &l);
     assert_true(bonds_fracture_energy(&s.c.bonds) > 1.1 * spent);
-    softening_restore_equilibrium_stretches(&s.c.bonds);
+    bonds_restore_softening_stretches_of_equilibrium(&s.c.bonds);
     assert_exact(bonds_fracture_energy(&s.c.bonds), spent);
     body_move(&s.c, 11, 2e-3);
     forces(&s);
@@ -153,11 +153,11 @@ static void test_end(void **state)
 {
     (void)state;
     struct soft_body s;
-    struct softening_list l = {0};
+    struct softening_bond_list l = {0};
     memset(&s, 0, sizeof s);
     particle_cloud_make(&s.c, &(struct cloud_plan){.space = SPACE_LINE, .count = {2}, .horizon = 1});
     soft_bonds(&s, SOFTENING_LINEAR, ONSET, CRITICAL);
-    softening_store_equilibrium_stretches(&s.c.bonds, &s.c.p, &s.c.source.limit);
+    bonds_store_softening_stretches_of_equilibrium(&s.c.bonds, &s.c.p, &s.c.source.limit);
     s.c.p.x[0][1] += 5 * ONSET * CLOUD_SPACING;
     follow(&s, &l);
     forces(&s);

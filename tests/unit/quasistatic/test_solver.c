@@ -54,9 +54,9 @@ static void solve(struct solution *a, const char *text, ...)
     va_end(list);
     memset(a, 0, sizeof *a);
     if (scene_read_text(&a->s, text, strlen(text), "test.yaml", override, n) != OK) fail_msg("%s", status_message());
-    a->made = engine_set_up_run(&a->e, &a->s, NULL);
+    a->made = run_set_up_from_scene(&a->e, &a->s, NULL);
     a->e.report->quiet = true;
-    a->ran = a->made == OK ? engine_run_to_end(&a->e) : a->made;
+    a->ran = a->made == OK ? run_advance_to_end_time(&a->e) : a->made;
 }
 
 static void solved(const struct solution *a)
@@ -70,7 +70,7 @@ static void solved(const struct solution *a)
 
 static void solution_free(struct solution *a)
 {
-    engine_free_run(&a->e);
+    run_free_memory(&a->e);
     scene_free(&a->s);
 }
 

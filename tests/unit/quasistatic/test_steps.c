@@ -184,7 +184,7 @@ static void test_motions(void **state)
         struct solution a;
         solution_make(&a, body[k].scene, STATIC, body[k].method, body[k].frame, NULL);
         solution_done(&a);
-        statics_unknowns_make(&a.e);
+        statics_equation_system_make(&a.e);
         assert_int_equal(a.e.statics->fragments, body[k].pieces);
         if (body[k].pieces > 0) assert_int_equal(a.e.statics->fragment[0].motions, body[k].motions);
         statics_free(a.e.statics);
@@ -249,13 +249,13 @@ static void test_trial(void **state)
         struct trace before, after;
         solution_make(&a, YIELDS, variant[k][0], variant[k][1], k == 3 ? "steps.path=bonds" : "name=same", NULL);
         solution_done(&a);
-        statics_unknowns_make(&a.e);
+        statics_equation_system_make(&a.e);
         assert_int_equal(equilibrium_find_at_time(&a.e, 0.25), OK);
         assert_int_equal(equilibrium_find_at_time(&a.e, 0.9), OK);
-        assert_int_equal(equilibrium_convert_points_and_solve_again(&a.e, 0), OK);
+        assert_int_equal(equilibrium_convert_points_to_pd_and_solve_again(&a.e, 0), OK);
         if (k == 0) assert_true(bond_plastic_work(&a.e.bonds) > 0);
         trace_take(&before, &a.e);
-        assert_int_equal(crack_increment_find(&a.e), OK);
+        assert_int_equal(crack_increment_find_by_trial_equilibria(&a.e), OK);
         assert_true(a.e.statics->next.n > 0 || a.e.statics->sif.n > 0);
         trace_take(&after, &a.e);
         assert_int_equal(before.size, after.size);
@@ -287,7 +287,7 @@ static void test_let_go(void **state)
     solution_make(&a, STACK, NULL);
     solution_done(&a);
     struct particles *p = &a.e.part;
-    statics_unknowns_make(&a.e);
+    statics_equation_system_make(&a.e);
     assert_int_equal(equilibrium_find_at_time(&a.e, 0.6), OK);
     const real rests = contact_elastic_energy(a.e.contact, p), lost = a.e.statics->balance.lost, damped = a.e.damped;
     for (int64_t i = 0; i < p->n; i++)

@@ -41,7 +41,8 @@ static void test_trial_within_trial(void **state)
     struct memory_archive outer, inner;
     (void)state;
     if (scene_read_text(&s, plate, strlen(plate), "plate.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
-    if (engine_set_up_run(&e, &s, NULL) != OK || engine_run_to_end(&e) != OK) fail_msg("%s", status_message());
+    if (run_set_up_from_scene(&e, &s, NULL) != OK || run_advance_to_end_time(&e) != OK)
+        fail_msg("%s", status_message());
     assert_true(bond_slots(&e) > 0);
     array_fill_bytes(e.bonds.plastic_stretch, 0, bond_slots(&e), sizeof *e.bonds.plastic_stretch);
     flow(&e, 0.125);
@@ -56,7 +57,7 @@ static void test_trial_within_trial(void **state)
     flow(&e, 0.5);
     plastic_state_restore(&e.statics->plastic, &e.bonds, &e.part, e.optional);
     expect(&e, 0.125); /* the start of the next solution, not that of the inner trial */
-    engine_free_run(&e);
+    run_free_memory(&e);
     scene_free(&s);
 }
 

@@ -15,12 +15,12 @@ static const double H = 0.25e-3;
 
 /* Makes a film f of FRAMES frames of a plate of NX by NY particles, of which those of row 20 are damaged from x = 10 H
  * on, and part of a crack from 30 H on. */
-static void plate_make(struct film *f)
+static void plate_make(struct run_animation *f)
 {
-    *f = (struct film){.dim = 2, .spacing = H, .frames = FRAMES, .listed = FRAMES, .sets = 1};
-    f->frame = NEW("test.frames", FRAMES, struct film_frame);
+    *f = (struct run_animation){.dim = 2, .spacing = H, .frames = FRAMES, .listed = FRAMES, .sets = 1};
+    f->frame = NEW("test.frames", FRAMES, struct animation_frame);
     f->set = memory_ensure_capacity("test.sets", NULL, 1, sizeof *f->set);
-    struct film_set *s = f->set;
+    struct animation_particle_set *s = f->set;
     const int n = s->n = NX * NY;
     for (int d = 0; d < 2; d++) s->X[d] = NEW("test.X", n, real);
     s->material = NEW("test.material", n, uint8_t), s->body = NEW("test.body", n, uint8_t);
@@ -36,21 +36,21 @@ static void plate_make(struct film *f)
 
 /* Returns the number of bytes of the frames of f that are shown: 4 for displacements, and 4 once for positions, 6 at
  * most for sizes and two fields of the set. */
-static int64_t film_bytes(const struct film *f) { return f->set->groups * (4 * f->used + 10); }
+static int64_t film_bytes(const struct run_animation *f) { return f->set->groups * (4 * f->used + 10); }
 
 static void groups_cover_the_body(void **state)
 {
-    struct film f;
+    struct run_animation f;
     (void)state;
     plate_make(&f);
     for (int levels = 0; levels <= FILM_LEVELS; levels++) {
         double area = 0, moment[2] = {0}, wanted[2] = {0};
         int64_t members = 0, busy = 0;
         f.levels = levels;
-        film_particle_set_form_groups(f.set, &f);
-        const struct film_set *s = f.set;
+        animation_particle_set_merge_into_groups(f.set, &f);
+        const struct animation_particle_set *s = f.set;
         for (int64_t g = 0; g < s->groups; g++) {
-            const double size = film_edge_length_of_group(s, &f, g);
+            const double size = animation_group_drawn_edge_length(s, &f, g);
             const int32_t n = s->first[g + 1] - s->first[g];
             members += n;
             area += size * size;
@@ -73,23 +73,23 @@ static void groups_cover_the_body(void **state)
          * partner; rows 20 and 21 are whole from x = 0 to 10 H alone */
         if (levels == 1) assert_int_equal(s->groups, 17 * 25 + 5 + 2 * 40 + NX);
     }
-    film_free(&f);
+    animation_free(&f);
 }
 
 /* Checks that particles of two materials, fragments or bodies are never one group. */
 static void groups_do_not_mix(void **state)
 {
-    struct film f;
+    struct run_animation f;
     (void)state;
     plate_make(&f);
-    struct film_set *s = f.set;
+    struct animation_particle_set *s = f.set;
     f.levels = FILM_LEVELS;
     for (int i = 0; i < s->n; i++) {
         s->material[i] = i % NX >= 23;
         s->body[i] = i / NX >= 11;
         s->history[i] = (i % NX + i / NX) % 50 > 30;
     }
-    film_particle_set_form_groups(s, &f);
+    animation_particle_set_merge_into_groups(s, &f);
     for (int64_t g = 0; g < s->groups; g++)
         for (int32_t k = s->first[g]; k < s->first[g + 1]; k++) {
             const int32_t i = s->member[k], j = s->member[s->first[g]];
@@ -97,18 +97,18 @@ static void groups_do_not_mix(void **state)
             assert_int_equal(s->body[i], s->body[j]);
             assert_int_equal(s->history[i], s->history[j]);
         }
-    film_free(&f);
+    animation_free(&f);
 }
 
 /* Returns true if every particle of the plate f lies in the cell that is drawn of its group. */
-static bool covers_the_body(const struct film *f)
+static bool covers_the_body(const struct run_animation *f)
 {
-    const struct film_set *s = f->set;
+    const struct animation_particle_set *s = f->set;
     for (int64_t g = 0; g < s->groups; g++)
         for (int32_t k = s->first[g]; k < s->first[g + 1]; k++)
             for (int d = 0; d < 2; d++)
-                if (fabs(s->X[d][s->member[k]] - film_centre_of_group(s, f, g, d)) + 0.49 * H >
-                    film_edge_length_of_group(s, f, g) / 2)
+                if (fabs(s->X[d][s->member[k]] - animation_group_centre_coordinate(s, f, g, d)) + 0.49 * H >
+                    animation_group_drawn_edge_length(s, f, g) / 2)
                     return false;
     return s->first[s->groups] == NX * NY;
 }
@@ -118,9 +118,9 @@ static void budgets_are_kept(void **state)
     (void)state;
     int64_t before = INT64_MAX;
     for (int64_t budget = 1 << 20; budget > 2000; budget /= 2) {
-        struct film f;
+        struct run_animation f;
         plate_make(&f);
-        film_select_within_byte_budget(&f, budget);
+        animation_select_content_within_byte_budget(&f, budget);
         assert_true(film_bytes(&f) <= budget);
         assert_true(f.frame[0].used && f.frame[FRAMES - 1].used);
         assert_true(film_bytes(&f) <= before);
@@ -136,7 +136,7 @@ static void budgets_are_kept(void **state)
                        f.set->state[f.set->member[f.set->first[g]]] == FILM_CRACKED;
         if (f.levels_all == 0) assert_int_equal(cracked, NX - 30);
         assert_true(covers_the_body(&f));
-        film_free(&f);
+        animation_free(&f);
     }
 }
 
@@ -151,7 +151,7 @@ static void rigid_bodies_follow_the_nearest_particle(void **state)
     real X[2][3] = {{0, 4, 2}, {0, -1, 0}}, moved[2];
     float u[2][3] = {{0, 0.5F, 0}, {0, -0.25F, 0.125F}};
     const struct output_frame f = {.n = 3, .dim = 2, .X = {X[0], X[1]}, .u = {u[0], u[1]}};
-    rigid_displacement_of_nearest_particle(&shape, &at, &f, moved);
+    rigid_body_find_nearest_particle_displacement(&shape, &at, &f, moved);
     assert_true(moved[0] == 0.5 && moved[1] == -0.25);
 }
 

@@ -106,7 +106,7 @@ static void test_surface(void **state)
                 {&brick, 2, 2.6 * 1.7, 1e-6},        {&brick, 3, 2.6 * 1.7 * 1.7, 1e-6},
                 {&turned, 3, 2.6 * 1.7 * 1.7, 2e-3}, {&ground, 3, 32, 1e-6}};
     const struct solid_motion motion = {.kind = MOTION_ROTATE, .angle = 0.4, .axis = {1, 2, 3}};
-    assert_true(solid_apply_motion_if_not_too_many_copies(&turned, &motion, 3));
+    assert_true(solid_transform_copies_unless_too_many(&turned, &motion, 3));
     for (size_t k = 0; k < COUNT_OF(body); k++) {
         const struct region region = {.n = 1, .solid = body[k].solid};
         struct rigid_surface s;
@@ -139,7 +139,7 @@ static void test_surface_of_a_plane_afar(void **state)
         real low[] = {-2, -2, -2}, high[] = {2, 3, 2};
         struct rigid_surface s;
         int on_face = 0;
-        assert_false(rigid_compute_shown_box(&region, 3, low, high));
+        assert_false(rigid_compute_plotting_box(&region, 3, low, high));
         if (k > 0) assert_near(low[2], -2.4, 1e-12);
         assert_near(high[1], 3.4, 1e-12);
         rigid_surface_approximate_by_polygons(&s, &region, 3, low, high);
@@ -253,7 +253,7 @@ static void test_driven(void **state)
     assert_near(atan2(r.turn[1][0], r.turn[0][0]), 0.5 * 2 / r.inertia[2][2] * 4, 1e-9);
     assert_near(driven.x[0], 1 + 3 * 1.5, 1e-9);
     /* Integral of (5 + 3 t) v over 2 s, v = 3 t up to 1 s, then 3; by the trapezoidal rule. */
-    assert_near(rigid_work_of_drive_and_weight(&driven), 39, 1e-3);
+    assert_near(rigid_work_of_prescribed_motion_and_weight(&driven), 39, 1e-3);
     assert_near(rigid_signed_distance(&driven, (const real[]){5.5 + 5, 2, 0}, normal), 2, 1e-9);
 }
 
@@ -274,9 +274,9 @@ static void test_points_move(void **state)
         memcpy(r.force, force, sizeof force), memcpy(r.moment, moment, sizeof moment);
         if (k == 0)
             for (int d = 0; d < 3; d++) r.force[d] = r.moment[d] = r.weight[d] = 0;
-        rigid_present_position_of_point(&r, X, before);
+        rigid_compute_current_position_of_point(&r, X, before);
         rigid_advance_one_step(&r, 0, dt, dt);
-        rigid_present_position_of_point(&r, X, after);
+        rigid_compute_current_position_of_point(&r, X, after);
         if (k == 0) start = r.kinetic, memcpy(r.weight, weight, sizeof weight);
         for (int d = 0; d < 3 && k > 0; d++) /* the kinetic energy is that before the last step's motion */
             work += (force[d] * r.increment[d] + moment[d] * r.spin[d] * dt) * (k == 4999 ? 0.5 : 1);
@@ -350,7 +350,7 @@ static void test_record(void **state)
         rigid.dim = body[0].dim = body[1].dim = dim;
         const int n = rigids_list_history_columns(&e, NULL);
         assert_int_equal(rigids_list_history_columns(&e, column), n);
-        rigids_store_motion_for_sample(&rigid, 0);
+        rigids_store_motion_before_step(&rigid, 0);
         rigids_write_history_values(&e, record);
         for (int b = 0; b < 2; b++) {
             const real *const from[] = {body[b].force, body[b].moment, body[b].x, body[b].v};

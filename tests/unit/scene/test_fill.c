@@ -28,7 +28,7 @@ static void boxes_are_filled_in_every_space(void **state)
         if (dim == 3) s.scene.section = s.scene.thickness = 77;
         s.body[0].material = 1;
         s.body[0].velocity[dim - 1] = 3;
-        assert_ok(fill_bodies_with_particles(&p, &s.scene, NULL, EVERYTHING));
+        assert_ok(bodies_fill_with_particles(&p, &s.scene, NULL, EVERYTHING));
         assert_int_equal(p.n, count[dim]);
         assert_int_equal(p.n_of[KIND_MPM], count[dim]);
         for (int i = 0; i < p.n; i++) {
@@ -60,7 +60,7 @@ static void parts_are_of_their_material(void **state)
     struct scene_part part[] = {{{.n = 1, .solid = &disc}, 1}, {{.n = 1, .solid = &seed}, 0}};
     setting_make(&s, SPACE_PLANE_STRESS, (real[]){3, 3});
     s.body[0].parts = 2, s.body[0].part = part;
-    assert_ok(fill_bodies_with_particles(&p, &s.scene, NULL, 0));
+    assert_ok(bodies_fill_with_particles(&p, &s.scene, NULL, 0));
     assert_int_equal(p.n, 36);
     for (int64_t i = 0; i < p.n; i++) {
         const real x = p.X[0][i] - 1.5, y = p.X[1][i] - 1.5;
@@ -80,7 +80,7 @@ static void method_decides_the_kind(void **state)
         struct particles p;
         setting_make(&s, SPACE_PLANE_STRESS, (real[]){2, 2});
         s.scene.method = method[k];
-        assert_ok(fill_bodies_with_particles(&p, &s.scene, NULL, 0));
+        assert_ok(bodies_fill_with_particles(&p, &s.scene, NULL, 0));
         assert_int_equal(p.n_of[method[k] == METHOD_PD ? KIND_PD : KIND_MPM], 16);
         assert_null(p.stretch[0]);
         particles_free(&p);
@@ -106,7 +106,7 @@ static void symmetric_bodies_are_filled_symmetrically(void **state)
         s.solid[0][0] = (struct solid){.kind = SOLID_BALL, .radius = 1};
         s.solid[0][1] = (struct solid){.kind = SOLID_BALL, .subtract = true, .radius = 0.35};
         s.body[0].shape.n = 2;
-        assert_ok(fill_bodies_with_particles(&p, &s.scene, NULL, 0));
+        assert_ok(bodies_fill_with_particles(&p, &s.scene, NULL, 0));
         int count = 0;
         for (int i = -40; i < 40; i++)
             for (int j = -40; j < 40; j++) {
@@ -133,7 +133,7 @@ static void added_solids_continue_the_lattice(void **state)
     setting_make(&s, SPACE_PLANE_STRESS, (real[]){2.1, 1}); /* 4 columns, centred in 2.1 */
     s.solid[0][1] = (struct solid){.kind = SOLID_BOX, .from = {0, -1}, .to = {2.1, 0}};
     s.body[0].shape.n = 2;
-    assert_ok(fill_bodies_with_particles(&p, &s.scene, NULL, 0));
+    assert_ok(bodies_fill_with_particles(&p, &s.scene, NULL, 0));
     assert_int_equal(p.n, 16);
     for (int i = 0; i < 16; i++) {
         assert_near(p.X[0][i], 0.3 + 0.5 * (i % 4), 1e-15);
@@ -145,9 +145,9 @@ static void added_solids_continue_the_lattice(void **state)
     s.body[0].shape.n = 1;
     s.solid[1][0] = (struct solid){.kind = SOLID_BOX, .from = {-INFINITY, -1}, .to = {INFINITY, 0}};
     s.body[1].shape.n = 1;
-    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "body layer: has an infinite shape");
+    assert_refused(bodies_fill_with_particles(&p, &s.scene, NULL, 0), "body layer: has an infinite shape");
     s.solid[1][0].from[0] = 0, s.solid[1][0].to[0] = 2.1;
-    assert_ok(fill_bodies_with_particles(&p, &s.scene, NULL, 0));
+    assert_ok(bodies_fill_with_particles(&p, &s.scene, NULL, 0));
     assert_int_equal(p.n, 16);
     for (int i = 0; i < 16; i++) assert_int_equal(p.body[i], i < 8);
     for (int i = 0; i < 16; i++)
@@ -168,7 +168,7 @@ static void particles_on_surfaces_are_kept(void **state)
     s.solid[0][1] = (struct solid){.kind = SOLID_BOX, .from = {-0.05, 0}, .to = {1.05, 0.3}};
     s.solid[0][2] = (struct solid){.kind = SOLID_BOX, .subtract = true, .from = {0.35, -1}, .to = {0.65, 1}};
     s.body[0].shape.n = 3;
-    assert_ok(fill_bodies_with_particles(&p, &s.scene, NULL, 0));
+    assert_ok(bodies_fill_with_particles(&p, &s.scene, NULL, 0));
     assert_int_equal(p.n, 30); /* 12 columns without 0.45 and 0.55 */
     for (int i = 0; i < 10; i++) assert_near(p.X[0][i], -0.05 + 0.1 * (i < 5 ? i : i + 2), 1e-15);
     particles_free(&p);
@@ -180,12 +180,12 @@ static void irregularity_is_seeded_and_bounded(void **state)
     struct setting s;
     struct particles regular, one, again, other;
     setting_make(&s, SPACE_SOLID, (real[]){5, 5, 5});
-    assert_ok(fill_bodies_with_particles(&regular, &s.scene, NULL, 0));
+    assert_ok(bodies_fill_with_particles(&regular, &s.scene, NULL, 0));
     s.scene.irregularity = 0.4, s.scene.seed = 7;
-    assert_ok(fill_bodies_with_particles(&one, &s.scene, NULL, 0));
-    assert_ok(fill_bodies_with_particles(&again, &s.scene, NULL, 0));
+    assert_ok(bodies_fill_with_particles(&one, &s.scene, NULL, 0));
+    assert_ok(bodies_fill_with_particles(&again, &s.scene, NULL, 0));
     s.scene.seed = 8;
-    assert_ok(fill_bodies_with_particles(&other, &s.scene, NULL, 0));
+    assert_ok(bodies_fill_with_particles(&other, &s.scene, NULL, 0));
     int64_t n = regular.n, same = 0;
     assert_int_equal(n, 1000);
     for (int d = 0; d < 3; d++) {
@@ -220,7 +220,7 @@ static void threads_change_no_bit(void **state)
     s.initial[0].displacement_gradient[1] = 0.01;
     for (int k = 0; k < 2; k++) {
         omp_set_num_threads(k + 1);
-        assert_ok(fill_bodies_with_particles(&p[k], &s.scene, NULL, EVERYTHING));
+        assert_ok(bodies_fill_with_particles(&p[k], &s.scene, NULL, EVERYTHING));
     }
     assert_int_equal(p[0].n, 4800);
     assert_same_particles(&p[0], &p[1], EVERYTHING);
@@ -247,7 +247,7 @@ static void later_initial_entries_overwrite(void **state)
     s.initial[2].body = 1; /* none */
     s.initial[2].velocity[0] = 99;
     s.body[0].velocity[1] = 5;
-    assert_ok(fill_bodies_with_particles(&p, &s.scene, NULL, WITH_GRADIENT));
+    assert_ok(bodies_fill_with_particles(&p, &s.scene, NULL, WITH_GRADIENT));
     for (int i = 0; i < p.n; i++) {
         real x = p.X[0][i], y = p.X[1][i];
         assert_near(p.v[0][i], x > 1 ? 0.5 * (x - 1) - 3 * y : 1, 1e-15);
@@ -271,7 +271,7 @@ static void velocities_by_formulas(void **state)
     struct particles p;
     (void)state;
     if (scene_read_text(&s, text, strlen(text), "test.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
-    assert_ok(fill_bodies_with_particles(&p, &s, NULL, WITH_GRADIENT));
+    assert_ok(bodies_fill_with_particles(&p, &s, NULL, WITH_GRADIENT));
     assert_int_equal(p.n, 12);
     for (int64_t i = 0; i < p.n; i++) {
         const real x = p.X[0][i], y = p.X[1][i], dx = x - 1.7e-3, dy = y - 0.6e-3;
@@ -305,7 +305,7 @@ static void initial_strain_is_hooke(void **state)
             trace += H[a][a];
             for (int b = 0; b < dim; b++) s.initial[0].displacement_gradient[a * dim + b] = H[a][b];
         }
-        assert_ok(fill_bodies_with_particles(&p, &s.scene, NULL, WITH_STRETCH));
+        assert_ok(bodies_fill_with_particles(&p, &s.scene, NULL, WITH_STRETCH));
         const struct material *m = &s.material[0];
         const int pair[SYM_MAX][2] = {{0, 1}, {1, 2}, {2, 0}};
         for (int i = 0; i < p.n; i++) {
@@ -318,7 +318,7 @@ static void initial_strain_is_hooke(void **state)
                 real want = dim == 1 ? m->young * H[0][0] : m->c12 * trace + (m->c11 - m->c12) * H[a][a];
                 assert_near(p.stress[a][i], want, 1e-6); /* relative to 1e6 Pa */
             }
-            for (int c = dim; c < symmetric_component_count(dim); c++) {
+            for (int c = dim; c < symmetric_tensor_component_count(dim); c++) {
                 const int *ab = pair[c - dim];
                 assert_near(p.stress[c][i], m->shear * (H[ab[0]][ab[1]] + H[ab[1]][ab[0]]), 1e-6);
             }
@@ -338,31 +338,31 @@ static void bad_bodies_are_refused(void **state)
     struct setting s;
     struct particles p;
     setting_make(&s, SPACE_PLANE_STRESS, (real[]){1, 0.2}); /* 0.4 of a spacing thick */
-    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "body plate: contains no particle");
+    assert_refused(bodies_fill_with_particles(&p, &s.scene, NULL, 0), "body plate: contains no particle");
     s.solid[0][0].to[1] = 1e300;
-    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "body plate: is too large for particles.spacing");
+    assert_refused(bodies_fill_with_particles(&p, &s.scene, NULL, 0), "body plate: is too large for particles.spacing");
     s.solid[0][0].to[0] = s.solid[0][0].to[1] = 2e8; /* 1.6e17 positions */
-    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "body plate: is too large for particles.spacing");
+    assert_refused(bodies_fill_with_particles(&p, &s.scene, NULL, 0), "body plate: is too large for particles.spacing");
     s.solid[0][0].to[0] = s.solid[0][0].to[1] = 1;
     s.body[0].shape.n = 0;
-    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "body plate: has an infinite shape");
+    assert_refused(bodies_fill_with_particles(&p, &s.scene, NULL, 0), "body plate: has an infinite shape");
     s.body[0].shape.n = 1;
     s.scene.spacing = 0;
-    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0),
+    assert_refused(bodies_fill_with_particles(&p, &s.scene, NULL, 0),
                    "particles.spacing is missing: a shape is filled with particles at this distance; add it");
     s.scene.spacing = 0.5;
     s.scene.bodies = 2;
     s.solid[1][0] = s.solid[0][0]; /* the same position twice */
-    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "both have a particle at (");
+    assert_refused(bodies_fill_with_particles(&p, &s.scene, NULL, 0), "both have a particle at (");
     s.scene.bodies = 1;
     s.scene.initials = 1;
     s.initial[0].sets_strain = true;
     s.initial[0].displacement_gradient[0] = -1.5;
-    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "inside out");
+    assert_refused(bodies_fill_with_particles(&p, &s.scene, NULL, 0), "inside out");
     s.initial[0].displacement_gradient[s.scene.dim + 1] = 3; /* expanded across by as much and more */
-    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "inside out");
+    assert_refused(bodies_fill_with_particles(&p, &s.scene, NULL, 0), "inside out");
     s.scene.bodies = 0;
-    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "the scene has no body");
+    assert_refused(bodies_fill_with_particles(&p, &s.scene, NULL, 0), "the scene has no body");
 }
 
 /* Tests pulses along and across their direction: velocity from its form, displacement from its integral; the stress on
@@ -384,7 +384,7 @@ static void pulses_are_waves(void **state)
                  "initial: [{pulse: {at: [3 mm, 2 mm], direction: [3, 4], width: 9 mm, velocity: 2 m/s%s}}]\n",
                  across[k]);
         if (scene_read_text(&s, text, strlen(text), "test.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
-        assert_ok(fill_bodies_with_particles(&p, &s, NULL, EVERYTHING));
+        assert_ok(bodies_fill_with_particles(&p, &s, NULL, EVERYTHING));
         const real c = sqrt((k ? 0.5 / (1 + nu) : (1 - nu) / ((1 + nu) * (1 - 2 * nu))) * E / rho);
         const real along[] = {k ? -0.8 : 0.6, k ? 0.6 : 0.8};
         for (int64_t i = 0; i < p.n; i++) {

@@ -39,7 +39,7 @@ static void lists_of_others_are_read(void **state)
         assert_ok(particle_list_read_column_names(&head, name, NULL, 2));
         assert_true(head.material && head.mass);
         assert_string_equal(head.note, k == 0 ? "id, z not read" : k == 1 ? "id not read" : k == 2 ? "" : "z not read");
-        assert_ok(fill_bodies_with_particles(&p, &s.scene, NULL, 0));
+        assert_ok(bodies_fill_with_particles(&p, &s.scene, NULL, 0));
         assert_int_equal(p.n, 1);
         assert_close(p.X[0][0], 0.5, 1e-15);
         assert_close(p.X[1][0], 1, 1e-15);
@@ -73,7 +73,7 @@ static void scene_says_unit_and_columns(void **state)
         s.body[0].form = (struct particle_list_form){1e-3, c[k].columns};
         assert_ok(particle_list_read_column_names(&s.body[0].list, name, &s.body[0].form, 2));
         assert_true(s.body[0].list.material && s.body[0].list.volumes);
-        assert_ok(fill_bodies_with_particles(&p, &s.scene, NULL, 0));
+        assert_ok(bodies_fill_with_particles(&p, &s.scene, NULL, 0));
         assert_int_equal(p.n, 1);
         assert_close(p.X[0][0], 0.5, 1e-15);
         assert_close(p.X[1][0], 2e-3, 1e-15);
@@ -117,9 +117,9 @@ static void spacing_of_volumes(void **state)
         snprintf(whole, sizeof whole, text, k ? "1.0005" : "1.0015");
         list_written(&s, name, whole);
         if (k)
-            assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "");
+            assert_refused(bodies_fill_with_particles(&p, &s.scene, NULL, 0), "");
         else
-            assert_ok(fill_bodies_with_particles(&p, &s.scene, NULL, 0));
+            assert_ok(bodies_fill_with_particles(&p, &s.scene, NULL, 0));
         if (!k) particles_free(&p);
         remove(name);
     }
@@ -150,7 +150,7 @@ static void lists_of_programs_are_read(void **state)
         list_written(&s, name, text[k]);
         assert_ok(particle_list_read_column_names(&head, name, NULL, 2));
         assert_true(head.material && head.block == (k != 1 && k != 2) && head.unnamed == (k == 4));
-        assert_ok(fill_bodies_with_particles(&p, &s.scene, NULL, 0));
+        assert_ok(bodies_fill_with_particles(&p, &s.scene, NULL, 0));
         assert_int_equal(p.n, 1);
         assert_close(p.X[0][0], 0.5, 1e-15);
         assert_close(p.X[1][0], 1, 1e-15);
@@ -175,11 +175,11 @@ static void volumes_have_a_default(void **state)
     assert_ok(particle_list_read_column_names(&head, name, NULL, 2));
     assert_string_equal(head.note, "colour not read; no volumes: taken from the spacing");
     assert_true(!head.material && !head.mass);
-    assert_ok(fill_bodies_with_particles(&p, &s.scene, NULL, 0));
+    assert_ok(bodies_fill_with_particles(&p, &s.scene, NULL, 0));
     assert_close(p.volume0[1], 0.5 * 0.5 * 0.1, 1e-15);
     particles_free(&p);
     s.scene.spacing = 0;
-    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0),
+    assert_refused(bodies_fill_with_particles(&p, &s.scene, NULL, 0),
                    "has a list without volumes; add a column volume, or set particles.spacing");
     remove(name);
 }

@@ -32,7 +32,7 @@ static void csv_lists_are_read(void **state)
             "0,2e-3,1,1,-1.5\r\n#\n0, 1e-3 ,\t0.5,0,2.5e-1");
     s.body[0].velocity[0] = 4;
     s.scene.irregularity = 0.5; /* applies to lattices, not to lists */
-    assert_ok(fill_bodies_with_particles(&p, &s.scene, NULL, 0));
+    assert_ok(bodies_fill_with_particles(&p, &s.scene, NULL, 0));
     assert_int_equal(p.n, 2);
     const real want[2][5] = {{0.25, 0.5, 1e-3, 1, 1}, {-1.5, 1, 2e-3, 4, 0}}; /* x, y, volume, mass, id; by row */
     for (int i = 0; i < 2; i++) {
@@ -61,7 +61,7 @@ static void bodies_share_a_list(void **state)
     s.scene.bodies = 2;
     s.body[1].file = name, s.body[1].material = 1;
     s.scene.spacing = 0;
-    assert_ok(fill_bodies_with_particles(&p, &s.scene, NULL, 0));
+    assert_ok(bodies_fill_with_particles(&p, &s.scene, NULL, 0));
     for (int i = 0; i < 3; i++) {
         assert_exact(p.X[0][i], i + 1);
         assert_int_equal(p.body[i], i > 0);
@@ -69,7 +69,7 @@ static void bodies_share_a_list(void **state)
     }
     particles_free(&p);
     s.body[1].file = NULL;
-    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0),
+    assert_refused(bodies_fill_with_particles(&p, &s.scene, NULL, 0),
                    "shared.csv:2: the body with the number 1 (counted from 0 in the order of the scene) does not use "
                    "this file; correct the column body");
     remove(name);
@@ -139,19 +139,19 @@ static void bad_lists_are_refused(void **state)
     setting_make(&s, SPACE_PLANE_STRESS, (real[]){1, 1});
     for (size_t k = 0; k < COUNT_OF(bad_list); k++) {
         list_of(&s, name, bad_list[k].text);
-        assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), bad_list[k].message);
+        assert_refused(bodies_fill_with_particles(&p, &s.scene, NULL, 0), bad_list[k].message);
         assert_null(p.X[0]);
     }
     char *text = memory_new("text", 10001, 1);
     memset(text, '1', 10000);
     list_of(&s, name, text);
-    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "bad.csv:1: this is not a line of text");
+    assert_refused(bodies_fill_with_particles(&p, &s.scene, NULL, 0), "bad.csv:1: this is not a line of text");
     memory_free(text);
     remove(name);
-    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0),
+    assert_refused(bodies_fill_with_particles(&p, &s.scene, NULL, 0),
                    "bad.csv: there is no such file; check the name and the folder");
     s.body[0].file = "points.xyz";
-    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0),
+    assert_refused(bodies_fill_with_particles(&p, &s.scene, NULL, 0),
                    "points.xyz: is not a particle list; give a file that ends in .csv, .h5 or .exo");
 }
 
@@ -175,7 +175,7 @@ static void hdf5_lists_are_read(void **state)
     const int material[3] = {1, 0, 1};
     setting_make(&s, SPACE_PLANE_STRESS, (real[]){1, 1});
     list_of(&s, name, "no HDF5");
-    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0),
+    assert_refused(bodies_fill_with_particles(&p, &s.scene, NULL, 0),
                    "list.h5: this is not an HDF5 file; give one, or a .csv file");
     for (int part = 0; part < 4; part++) {
         hid_t file = H5Fcreate(name, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
@@ -185,10 +185,10 @@ static void hdf5_lists_are_read(void **state)
         if (part == 3) write_table(file, "material", 1, (hsize_t[]){3}, H5T_NATIVE_INT, material);
         H5Fclose(file);
         if (part == 1)
-            assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0),
+            assert_refused(bodies_fill_with_particles(&p, &s.scene, NULL, 0),
                            "volumes has 2 x 1 numbers, but must have 3 x 1");
         if (part == 1) continue;
-        assert_ok(fill_bodies_with_particles(&p, &s.scene, NULL, 0));
+        assert_ok(bodies_fill_with_particles(&p, &s.scene, NULL, 0));
         for (int i = 0; i < 3; i++) {
             assert_exact(p.X[0][i], X[i][0]);
             assert_exact(p.X[1][i], X[i][1]);
@@ -198,7 +198,7 @@ static void hdf5_lists_are_read(void **state)
         particles_free(&p);
     }
     s.scene.dim = 1, s.scene.space = SPACE_LINE;
-    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "two particles at (0, 0, 0) m");
+    assert_refused(bodies_fill_with_particles(&p, &s.scene, NULL, 0), "two particles at (0, 0, 0) m");
     remove(name);
 }
 
@@ -242,7 +242,7 @@ static void hdf5_lists_have_units(void **state)
         if (part >= 2) continue;
         assert_ok(particle_list_read_column_names(&head, name, NULL, 2));
         assert_string_equal(head.note, "further positions not read; no volumes: taken from the spacing");
-        assert_ok(fill_bodies_with_particles(&p, &s.scene, NULL, 0));
+        assert_ok(bodies_fill_with_particles(&p, &s.scene, NULL, 0));
         assert_close(p.X[0][1], 0.5, 1e-15);
         assert_close(p.v[1][1], 4000, 1e-15);
         assert_exact(p.mass[1], 6);
@@ -287,7 +287,7 @@ static void hdf5_lists_are_whole(void **state)
         H5Sclose(space);
         H5Pclose(how);
         H5Fclose(file);
-        assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), said[kind]);
+        assert_refused(bodies_fill_with_particles(&p, &s.scene, NULL, 0), said[kind]);
     }
     remove(name);
     remove("other.h5");
@@ -401,11 +401,11 @@ static void units_of_lists_are_told(void **state)
         write_grains(name, s.scene.dim, &told[k].g);
         assert_ok(particle_list_read_column_names(&s.body[0].list, name, NULL, s.scene.dim));
         if (told[k].says) {
-            assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), told[k].says);
+            assert_refused(bodies_fill_with_particles(&p, &s.scene, NULL, 0), told[k].says);
             assert_null(p.X[0]);
             assert_refused(REFUSED, "a.yaml:7:3: particles: body plate: ");
         } else {
-            assert_ok(fill_bodies_with_particles(&p, &s.scene, NULL, 0));
+            assert_ok(bodies_fill_with_particles(&p, &s.scene, NULL, 0));
             particles_free(&p);
         }
     }
@@ -423,10 +423,10 @@ static void other_bodies_are_neighbours_of_points(void **state)
     s.scene.horizon = 3.015, s.scene.cell = 2, s.scene.bodies = 2;
     s.body[1].file = name;
     write_grains(name, 2, &(struct grains){5, 1, 0, 0, 4, 0});
-    assert_ok(fill_bodies_with_particles(&p, &s.scene, NULL, 0));
+    assert_ok(bodies_fill_with_particles(&p, &s.scene, NULL, 0));
     particles_free(&p);
     s.scene.method = METHOD_PD;
-    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0),
+    assert_refused(bodies_fill_with_particles(&p, &s.scene, NULL, 0),
                    "strewn.csv: body layer: 100 % of its particles have no neighbour");
     remove(name);
 }
@@ -443,7 +443,7 @@ static void bonds_beyond_memory_are_refused(void **state)
     s.scene.method = METHOD_PD, s.scene.spacing = 1, s.scene.horizon = 30;
     s.body[0].file = name;
     write_grains(name, 3, &(struct grains){59, 1, 0, 0, 0.2, 0});
-    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "their bonds need about 1e+03 GB");
+    assert_refused(bodies_fill_with_particles(&p, &s.scene, NULL, 0), "their bonds need about 1e+03 GB");
     remove(name);
 }
 

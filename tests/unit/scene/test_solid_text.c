@@ -143,7 +143,7 @@ static int64_t filled(const char *regions, const char *shape, int dim)
     struct particles p;
     scene_text(text, sizeof text, dim, regions, shape);
     struct scene s = read_ok(text, NULL, 0);
-    if (fill_bodies_with_particles(&p, &s, NULL, 0) != OK) fail_msg("%s in\n%s", status_message(), text);
+    if (bodies_fill_with_particles(&p, &s, NULL, 0) != OK) fail_msg("%s in\n%s", status_message(), text);
     const int64_t n = p.n;
     particles_free(&p);
     scene_free(&s);
@@ -181,7 +181,7 @@ static void test_filled_symmetrically(void **state)
                "[{disc: {centre: [1.1, 0.3], radius: 10}}, {subtract: {box: {from: [7.1, -0.2], to: [12, 0.8]}, "
                "pattern: {ring: {count: 12, centre: [1.1, 0.3]}}}}]");
     struct scene s = read_ok(text, NULL, 0);
-    assert_int_equal(fill_bodies_with_particles(&p, &s, NULL, 0), OK);
+    assert_int_equal(bodies_fill_with_particles(&p, &s, NULL, 0), OK);
     for (int64_t i = 0; i < p.n; i++) quarter[(p.X[0][i] > 1.1) + 2 * (p.X[1][i] > 0.3)]++;
     for (int k = 1; k < 4; k++) assert_int_equal(quarter[k], quarter[0]);
     particles_free(&p);
@@ -207,7 +207,8 @@ static void test_names(void **state)
     assert_int_equal(s.regions, 2);
     assert_string_equal(s.named[1].name, "both");
     assert_int_equal(s.probe->region.n, 1);
-    assert_true(solid_is_of_kind_and_not_moved(s.probe->region.solid, SOLID_BOX) && s.probe->region.solid->to[0] == 1);
+    assert_true(solid_is_untransformed_and_of_kind(s.probe->region.solid, SOLID_BOX) &&
+                s.probe->region.solid->to[0] == 1);
     assert_true(region_contains(&s.boundary->region, (real[]){9.5, 1, 0}, 2, 0));
     assert_false(region_contains(&s.boundary->region, (real[]){11, 1, 0}, 2, 0));
     assert_false(region_contains(&s.initial->region, (real[]){0.5, 1, 0}, 2, 0));

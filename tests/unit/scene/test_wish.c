@@ -17,7 +17,7 @@
     "material: {young: 2e11, poisson: 1/3, density: 8000}\nbody: {box: {from: [0, 0], to: [40 mm, 20 mm]}}\n"
 
 /* Reads a scene with this text from a file, with its wish w. */
-static status wish_of(struct pilot_wish *w, const char *text)
+static status wish_of(struct pilot_requirements *w, const char *text)
 {
     char path[] = "/tmp/cleave-wish-XXXXXX";
     const int file = mkstemp(path);
@@ -25,7 +25,7 @@ static status wish_of(struct pilot_wish *w, const char *text)
     assert_true(file >= 0);
     assert_int_equal(write(file, text, strlen(text)), strlen(text));
     close(file);
-    const status read = scene_read_or_list_pilot_requirements(&s, w, path, NULL, 0);
+    const status read = scene_read_unless_pilot_runs_are_needed(&s, w, path, NULL, 0);
     assert_int_equal(unlink(path), 0);
     if (read == OK && w->wanted) assert_null(s.path);
     if (read == OK && !w->wanted) scene_free(&s);
@@ -35,7 +35,7 @@ static status wish_of(struct pilot_wish *w, const char *text)
 static void a_share_alone(void **state)
 {
     (void)state;
-    struct pilot_wish w;
+    struct pilot_requirements w;
     assert_int_equal(wish_of(&w, PLATE "accuracy: 2 %\n"), OK);
     assert_true(w.wanted && w.has_accuracy && !w.at_rest && w.spacing == 0);
     assert_true(fabs(w.within - 0.02) < 1e-15 && w.budget == 300);
@@ -50,7 +50,7 @@ static void a_share_alone(void **state)
 static void all_that_can_be_given(void **state)
 {
     (void)state;
-    struct pilot_wish w;
+    struct pilot_requirements w;
     assert_int_equal(wish_of(&w, PLATE "accuracy: {of: energy.strain, within: 3 %, budget: 2 min}\nmodel: ospd\n"
                                        "solver: static\nparticles: {spacing: 1 mm}\npd: {surface: volume}\n"),
                      OK);
@@ -65,7 +65,7 @@ static void all_that_can_be_given(void **state)
 static void joined_bodies_are_for_bonds(void **state)
 {
     (void)state;
-    struct pilot_wish w;
+    struct pilot_requirements w;
     assert_int_equal(wish_of(&w, "method: auto\nspace: line\nduration: 3 us\nmaterials:\n"
                                  "  - {name: steel, young: 200 GPa, density: 8000}\n"
                                  "  - {name: light, young: 70 GPa, density: 2700}\nbodies:\n"
@@ -94,7 +94,7 @@ static void other_scenes_have_no_wish(void **state)
         {PLATE "accuracy_table: mine.csv\n", "is no longer a key"},
         {PLATE "accuracy_chart: mine.csv\n", "is no longer a key"},
     };
-    struct pilot_wish w;
+    struct pilot_requirements w;
     for (size_t k = 0; k < COUNT_OF(wrong); k++) {
         assert_int_equal(wish_of(&w, wrong[k].text), REFUSED);
         if (!strstr(status_message(), wrong[k].why)) fail_msg("%s", status_message());

@@ -93,15 +93,15 @@ static struct run *run_make(struct scene *s, const char *body, const char *bound
     snprintf(text, sizeof text, "%s%s%s\ntime: {active_set: %s, step: 0.08 us}\n", body, edges, keys,
              rest ? "true" : "false");
     if (scene_read_text(s, text, strlen(text), "active_set.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
-    assert_ok(engine_set_up_run(e, s, NULL));
+    assert_ok(run_set_up_from_scene(e, s, NULL));
     e->report->quiet = true;
-    assert_ok(report_start_before_first_step(e));
+    assert_ok(report_open_history_and_write_first_frame(e));
     return e;
 }
 
 static void run_free(struct run *e, struct scene *s)
 {
-    engine_free_run(e);
+    run_free_memory(e);
     memory_free(e);
     scene_free(s);
 }
@@ -147,8 +147,8 @@ static int64_t check_same(const char *body, const char *boundary, const char *mo
         strstr(keys, "reference") || strstr(keys, "method: pd") ? on->clock.steps / 10 : ACTIVE_POINTS_STEPS + 1;
     for (int64_t step = 1; step <= on->clock.steps; step++) {
         omp_set_num_threads(1 + (int)(step & 1));
-        assert_ok(engine_adapt_refinement_and_step(on));
-        assert_ok(engine_adapt_refinement_and_step(off));
+        assert_ok(run_adapt_mesh_and_advance_one_step(on));
+        assert_ok(run_adapt_mesh_and_advance_one_step(off));
         assert_true(sleeping(off) == 0);
         if (step == look && !(sleeping(on) >= early)) fail_msg("%s: only %g sleep", keys, sleeping(on));
         if (step % 10 == 0 || step == on->clock.steps) same_bits(on, off);

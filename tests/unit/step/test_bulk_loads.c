@@ -37,9 +37,9 @@ static status run_status(struct finished_run *a, const char *text, va_list list)
 {
     memset(a, 0, sizeof *a);
     TRY(scene_with(&a->s, text, list));
-    TRY(engine_set_up_run(&a->e, &a->s, NULL));
+    TRY(run_set_up_from_scene(&a->e, &a->s, NULL));
     a->e.report->quiet = true;
-    return engine_run_to_end(&a->e);
+    return run_advance_to_end_time(&a->e);
 }
 
 static void run(struct finished_run *a, const char *text, ...)
@@ -53,7 +53,7 @@ static void run(struct finished_run *a, const char *text, ...)
 
 static void run_end(struct finished_run *a)
 {
-    engine_free_run(&a->e);
+    run_free_memory(&a->e);
     scene_free(&a->s);
 }
 
@@ -322,7 +322,7 @@ static void pressure_spares_mirrored_faces(void **state)
                  follow[k % 2], solid ? ", {mirror: {axis: z, at: 0}}" : "");
         run(&a, solid ? CUBE : SQUARE, bodies[solid], text, "duration=1 us", NULL);
         struct load *l = &a.e.loads.load[0];
-        load_sum_force_and_mean_displacement(l, &a.e.part, 0);
+        load_compute_total_force_and_mean_displacement(l, &a.e.part, 0);
         for (int d = 0; d < a.e.part.dim; d++)
             if (!(fabs(l->reaction[d] / (-3 * area[solid][d]) - 1) < 1e-6))
                 fail_msg("%s: %g N along %c", text, l->reaction[d], 'x' + d);

@@ -41,7 +41,7 @@ static status run_make(struct scene_run *a, const char *text, va_list list)
 {
     memset(a, 0, sizeof *a);
     TRY(scene_with(&a->s, text, list));
-    const status s = engine_set_up_run(&a->e, &a->s, NULL);
+    const status s = run_set_up_from_scene(&a->e, &a->s, NULL);
     a->e.report->quiet = true;
     return s;
 }
@@ -57,12 +57,12 @@ static void make(struct scene_run *a, const char *text, ...)
 
 static void run_all(struct scene_run *a)
 {
-    if (engine_run_to_end(&a->e) != OK) fail_msg("%s", status_message());
+    if (run_advance_to_end_time(&a->e) != OK) fail_msg("%s", status_message());
 }
 
 static void run_end(struct scene_run *a)
 {
-    engine_free_run(&a->e);
+    run_free_memory(&a->e);
     scene_free(&a->s);
 }
 
@@ -114,12 +114,12 @@ static void check_places(const char *scene, real from, real size, real duration)
     for (int way = 0; way < WAYS; way++) {
         struct scene_run a;
         make(&a, scene, ways[way][0], ways[way][1], ways[way][2], boundary, NULL);
-        assert_ok(report_start_before_first_step(&a.e));
+        assert_ok(report_open_history_and_write_first_frame(&a.e));
         const real within = from + 2 * a.s.spacing; /* cells of which all nodes are driven */
         real most = 0, far = 0;
         int64_t steps = 0;
         for (; a.e.clock.t < duration; steps++) {
-            if (engine_adapt_refinement_and_step(&a.e) != OK) fail_msg("%s", status_message());
+            if (run_adapt_mesh_and_advance_one_step(&a.e) != OK) fail_msg("%s", status_message());
             const real u = size * square(sin(acos(-1) * a.e.clock.t / (1.7 * duration)));
             run_update_particle_motion_and_stress(&a.e);
             far = real_max(far, fabs(u));

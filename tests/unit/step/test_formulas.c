@@ -31,14 +31,14 @@ static status run_of(struct scene_run *a, const char *text, ...)
     const status s = scene_with(&a->s, text, list);
     va_end(list);
     TRY(s);
-    TRY(engine_set_up_run(&a->e, &a->s, NULL));
+    TRY(run_set_up_from_scene(&a->e, &a->s, NULL));
     a->e.report->quiet = true;
-    return engine_run_to_end(&a->e);
+    return run_advance_to_end_time(&a->e);
 }
 
 static void run_end(struct scene_run *a)
 {
-    engine_free_run(&a->e);
+    run_free_memory(&a->e);
     scene_free(&a->s);
 }
 

@@ -23,11 +23,12 @@ static void run_text(const char *text, bool begins)
     remove_tree("run");
     if (scene_read_text(&s, text, strlen(text), "test.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
     assert_int_equal(output_open(&o, "run", s.text, OUTPUT_OVERWRITE, false), OK);
-    if (engine_set_up_run(&e, &s, &o) != OK) fail_msg("%s", status_message());
+    if (run_set_up_from_scene(&e, &s, &o) != OK) fail_msg("%s", status_message());
     e.report->quiet = true;
-    if ((begins ? report_start_before_first_step(&e) : engine_run_to_end(&e)) != OK) fail_msg("%s", status_message());
-    assert_int_equal(output_wait_for_frame(&o), OK);
-    engine_free_run(&e);
+    if ((begins ? report_open_history_and_write_first_frame(&e) : run_advance_to_end_time(&e)) != OK)
+        fail_msg("%s", status_message());
+    assert_int_equal(output_wait_until_frame_is_written(&o), OK);
+    run_free_memory(&e);
     output_close(&o);
     scene_free(&s);
 }
@@ -43,8 +44,8 @@ static void shown_open(struct shown *a, int frame, int dim)
 {
     char path[64];
     snprintf(path, sizeof path, "run/frames/%06d.hdf", frame);
-    hdf_open(&a->f, path);
-    a->n = hdf_dataset_size(&a->f, "/VTKHDF/Types");
+    hdf_open_for_reading(&a->f, path);
+    a->n = hdf_dataset_element_count(&a->f, "/VTKHDF/Types");
     a->X = calloc((size_t)(a->n * dim), sizeof *a->X);
     hdf_read_rows(&a->f, "/Cleave/reference", HDF_F64, a->n * dim, a->X);
     assert_false(a->f.failed);
@@ -369,16 +370,16 @@ static void only_what_is_asked_for(void **state)
         char whole[sizeof text + 60];
         snprintf(whole, sizeof whole, "%s%s}\n", text, asked ? ", fields: [stress, speed, level]" : "");
         run_text(whole, true);
-        hdf_open(&f, "run/frames/000000.hdf");
+        hdf_open_for_reading(&f, "run/frames/000000.hdf");
         for (int k = 0; k < 9; k++) {
             static const char *const name[] = {"von_mises", "pressure", "principal_stress", "principal_directions",
                                                "strain",    "density",  "plastic_work",     "speed",
                                                "level"};
             char path[64];
             snprintf(path, sizeof path, "/VTKHDF/PointData/%s", name[k]);
-            assert_int_equal(hdf_dataset_size(&f, path) >= 0, asked && k >= 7);
+            assert_int_equal(hdf_dataset_element_count(&f, path) >= 0, asked && k >= 7);
         }
-        assert_true(hdf_dataset_size(&f, "/VTKHDF/PointData/stress") > 0);
+        assert_true(hdf_dataset_element_count(&f, "/VTKHDF/PointData/stress") > 0);
         hdf_close(&f);
     }
 }

@@ -16,11 +16,11 @@
 /* ---- growth rate ------------------------------------------------------------------------------------------------- */
 
 /* Returns exponential growth, tenfold in `tenfold` steps, recorded every `stride` steps up to step 20000. */
-static struct growth_samples rising(real tenfold, int64_t stride)
+static struct quantity_samples rising(real tenfold, int64_t stride)
 {
-    struct growth_samples r = {0};
+    struct quantity_samples r = {0};
     for (int64_t step = 0; step < 20000; step += stride)
-        growth_samples_add(&r, step, pow(10, (real)(step - 20000) / tenfold));
+        quantity_samples_add_value(&r, step, pow(10, (real)(step - 20000) / tenfold));
     return r;
 }
 
@@ -37,18 +37,18 @@ static void pace_of_exponentials(void **state)
         {1000, 700, RISE_SLOW}, {4000, 64, RISE_SLOW}, {1000, 1, RISE_SLOW},
     };
     for (size_t k = 0; k < COUNT_OF(at); k++) {
-        const struct growth_samples r = rising(at[k].tenfold, at[k].stride);
+        const struct quantity_samples r = rising(at[k].tenfold, at[k].stride);
         real steps;
-        assert_int_equal(growth_samples_classify(&r, 20000, 1, &steps), at[k].target_speed);
+        assert_int_equal(quantity_samples_classify_growth_rate(&r, 20000, 1, &steps), at[k].target_speed);
         /* 64 values 16 steps apart: exact. */
         if (at[k].stride == 1)
             assert_true(steps > 990 && steps < 1010);
         else
             assert_near(steps, at[k].tenfold, 1e-6 * at[k].tenfold); /* between values: round-off */
     }
-    const struct growth_samples endless = rising(1e5, 64); /* more than 64 x 64 steps ago */
+    const struct quantity_samples endless = rising(1e5, 64); /* more than 64 x 64 steps ago */
     real steps;
-    assert_int_equal(growth_samples_classify(&endless, 20000, 1, &steps), RISE_SLOW);
+    assert_int_equal(quantity_samples_classify_growth_rate(&endless, 20000, 1, &steps), RISE_SLOW);
     assert_true(isinf(steps));
 }
 
@@ -56,34 +56,35 @@ static void pace_of_few_values(void **state)
 {
     (void)state;
     real steps;
-    struct growth_samples r = {0};
-    assert_int_equal(growth_samples_classify(&r, 10, 1, &steps), RISE_UNSURE);
-    growth_samples_add(&r, 0, 0);
-    assert_int_equal(growth_samples_classify(&r, 10, 1, &steps), RISE_FAST);      /* growth from zero */
-    assert_int_equal(growth_samples_classify(&r, 20000, 1, &steps), RISE_UNSURE); /* at some time within 20000 steps */
-    growth_samples_add(&r, 640, -1e-3);
-    assert_int_equal(growth_samples_classify(&r, 1280, 1, &steps), RISE_FAST);
-    growth_samples_add(&r, 650, 0.5); /* too close to the last: left out */
+    struct quantity_samples r = {0};
+    assert_int_equal(quantity_samples_classify_growth_rate(&r, 10, 1, &steps), RISE_UNSURE);
+    quantity_samples_add_value(&r, 0, 0);
+    assert_int_equal(quantity_samples_classify_growth_rate(&r, 10, 1, &steps), RISE_FAST); /* growth from zero */
+    assert_int_equal(quantity_samples_classify_growth_rate(&r, 20000, 1, &steps),
+                     RISE_UNSURE); /* at some time within 20000 steps */
+    quantity_samples_add_value(&r, 640, -1e-3);
+    assert_int_equal(quantity_samples_classify_growth_rate(&r, 1280, 1, &steps), RISE_FAST);
+    quantity_samples_add_value(&r, 650, 0.5); /* too close to the last: left out */
     assert_int_equal(r.n, 2);
-    growth_samples_add(&r, 1280, 1e-3); /* a background value, or slow growth: undecidable */
-    assert_int_equal(growth_samples_classify(&r, 1920, 1, &steps), RISE_UNSURE);
-    growth_samples_add(&r, 1920, 0.06);
-    assert_int_equal(growth_samples_classify(&r, 2560, 1, &steps), RISE_SLOW);
+    quantity_samples_add_value(&r, 1280, 1e-3); /* a background value, or slow growth: undecidable */
+    assert_int_equal(quantity_samples_classify_growth_rate(&r, 1920, 1, &steps), RISE_UNSURE);
+    quantity_samples_add_value(&r, 1920, 0.06);
+    assert_int_equal(quantity_samples_classify_growth_rate(&r, 2560, 1, &steps), RISE_SLOW);
 }
 
 /* Returns the classified growth rate of x'' = -4 x + damping x' under leap-frog steps dt, whose limit is 1, while the
  * squared velocity grows from 1e-8 to 1. */
 static enum growth_rate pace_of_oscillator(real dt, real damping)
 {
-    struct growth_samples r = {0};
+    struct quantity_samples r = {0};
     real x = 1e-4, v = 0, steps, most = 0;
-    growth_samples_add(&r, 0, 0);
+    quantity_samples_add_value(&r, 0, 0);
     for (int64_t step = 1; step < 1000000; step++) {
         v += dt * (damping * v - 4 * x);
         x += dt * v;
         most = real_max(most, square(v));
-        if (square(v) > 1) return growth_samples_classify(&r, step, square(v), &steps);
-        if (step % RISE_STRIDE == 0) growth_samples_add(&r, step, most), most = 0;
+        if (square(v) > 1) return quantity_samples_classify_growth_rate(&r, step, square(v), &steps);
+        if (step % RISE_STRIDE == 0) quantity_samples_add_value(&r, step, most), most = 0;
     }
     fail_msg("dt = %g does not grow", dt);
     return RISE_UNSURE;
@@ -119,10 +120,10 @@ static void remedy_of(const char *key, const char *value, real tenfold, char *re
     struct bench_overrides o = {0};
     if (key) bench_overrides_append(&o, key, "%s", value);
     assert_ok(bench_engine_make(&e, &s, "plate", plate, bench_overrides_as_array(&o), o.n));
-    const struct growth_samples r = rising(tenfold, 200);
+    const struct quantity_samples r = rising(tenfold, 200);
     e.clock.step = 20000, e.clock.t = 20000 * e.clock.dt;
     e.part.v[0][0] = 1; /* not caused by work of loads */
-    stability_describe_remedy(&e, &r, 1, remedy, REMEDY_LENGTH);
+    run_describe_remedy_for_divergence(&e, &r, 1, remedy, REMEDY_LENGTH);
     bench_engine_free(&e, &s);
 }
 
@@ -162,7 +163,7 @@ static const char *stopped(const char *const *method, const char *const *set)
     for (; *method; method += 2) bench_overrides_append(&o, method[0], "%s", method[1]);
     for (; *set; set += 2) bench_overrides_append(&o, set[0], "%s", set[1]);
     assert_ok(bench_engine_make(&e, &s, "plate", plate, bench_overrides_as_array(&o), o.n));
-    assert_int_equal(engine_run_to_end(&e), FAILED);
+    assert_int_equal(run_advance_to_end_time(&e), FAILED);
     assert_non_null(strstr(status_message(), "unstable at step "));
     bench_engine_free(&e, &s);
     return status_message();
@@ -275,13 +276,13 @@ static void pressures_on_turned_surfaces(void **state)
         for (int k = 0; k < 4; k++) {
             struct large_motion m = {0};
             ring_move(&r, axis, k == 0 ? 9.9 : k == 1 ? -10.1 : k == 2 ? 137 : 0, k == 3 ? 2 : 1);
-            large_motion_warn_of_turned_pressure(&m, &r.part, &r.loads, 0.3, &said);
+            large_motion_warn_of_non_follower_pressure(&m, &r.part, &r.loads, 0.3, &said);
             assert_int_equal(m.turned, k == 1 || k == 2);
         }
     struct large_motion follows = {0};
     ring_move(&r, 2, 50, 1);
     r.boundary.follow = true;
-    large_motion_warn_of_turned_pressure(&follows, &r.part, &r.loads, 0.3, &said);
+    large_motion_warn_of_non_follower_pressure(&follows, &r.part, &r.loads, 0.3, &said);
     assert_false(follows.turned);
     warnings_free(&said);
 }

@@ -24,9 +24,9 @@ static struct run_clock clock_made(struct scene *s)
 {
     static struct run e;
     memset(&e, 0, sizeof e);
-    if (engine_set_up_run(&e, s, NULL) != OK) fail_msg("%s", status_message());
+    if (run_set_up_from_scene(&e, s, NULL) != OK) fail_msg("%s", status_message());
     const struct run_clock clock = e.clock;
-    engine_free_run(&e);
+    run_free_memory(&e);
     scene_free(s);
     return clock;
 }
@@ -51,7 +51,7 @@ static struct run_clock clock_of_file(const char *path)
 
 /* Checks that cells of level 3 move every eighth step: runs have a multiple of eight steps, and end at their
  * duration. */
-static void levels_divide_the_steps(void **state)
+static void mesh_levels_divide_the_steps(void **state)
 {
     (void)state;
     for (int us = 11; us < 16; us++) {
@@ -183,15 +183,15 @@ static void frames_are_nearest(void **state)
     struct scene s;
     static struct run e;
     if (scene_read_text(&s, text, strlen(text), "test.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
-    if (engine_set_up_run(&e, &s, NULL) != OK) fail_msg("%s", status_message());
+    if (run_set_up_from_scene(&e, &s, NULL) != OK) fail_msg("%s", status_message());
     for (int k = 1; k <= 3; k++) assert_int_equal(report_step_number_of_frame(e.scene, &e.clock, k), nearest[k]);
-    engine_free_run(&e);
+    run_free_memory(&e);
     scene_free(&s);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(levels_divide_the_steps),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(mesh_levels_divide_the_steps),
                                        cmocka_unit_test(light_particles_take_short_steps),
                                        cmocka_unit_test(masses_are_of_their_material),
                                        cmocka_unit_test(lattices_of_all_materials),

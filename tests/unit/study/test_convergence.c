@@ -132,11 +132,11 @@ static void intervals_as_defined(void **state)
     static const double mean[][LEVELS] = {{1, 1.4, 2}, {1, 1.1, 0.4}, {1, 3, 3.2}};
     for (int which = 0; which < 3; which++) {
         for (int k = 0; k < LEVELS; k++)
-            c.level[k] = (struct level_figures){spacing[k], mean[which][k], 0.1, error[k], 5};
+            c.level[k] = (struct spacing_level_statistics){spacing[k], mean[which][k], 0.1, error[k], 5};
         const double *m = mean[which];
         const double range = fmax(m[0], fmax(m[1], m[2])) - fmin(m[0], fmin(m[1], m[2]));
         const double plainly = half_width_plainly(spacing, m, error, hypot(range, 0.15));
-        const double width = convergence_interval_half_width(&c, c.level[0].mean, 0.95);
+        const double width = convergence_confidence_interval_half_width(&c, c.level[0].mean, 0.95);
         assert_near(width, plainly, 0.03 * plainly); /* step size of the quadrature */
     }
 }
@@ -160,9 +160,9 @@ static void intervals_hold_what_they_name(void **state)
         for (int k = 0; k < LEVELS; k++) {
             const double h = pow(2, 0.5 * k), noise = hypot(misfit, 0.05) * 0.3 * draw[k];
             const double trend = draw[7] / (pow(2, p) - 1);
-            c.level[k] = (struct level_figures){h, 7 + trend * pow(h, p) + noise, 0, 0.03, 5};
+            c.level[k] = (struct spacing_level_statistics){h, 7 + trend * pow(h, p) + noise, 0, 0.03, 5};
         }
-        held += fabs(c.level[0].mean - 7) <= convergence_interval_half_width(&c, c.level[0].mean, 0.95);
+        held += fabs(c.level[0].mean - 7) <= convergence_confidence_interval_half_width(&c, c.level[0].mean, 0.95);
     }
     assert_true(held >= 0.9 * CASES && held <= 0.98 * CASES); /* the scale is estimated from the means, which costs 3
                                                                * of 100 */
@@ -205,11 +205,11 @@ static void bias_widens_intervals(void **state)
     (void)state;
     struct convergence c;
     assert_true(converge_at(&c, 3, -0.2, 1, 0, 1));
-    const double at = c.level[0].mean, wide = convergence_interval_half_width(&c, at, 0.95);
-    const double half = convergence_interval_half_width(&c, at, 0.5);
+    const double at = c.level[0].mean, wide = convergence_confidence_interval_half_width(&c, at, 0.95);
+    const double half = convergence_confidence_interval_half_width(&c, at, 0.5);
     c.bias = 2;
-    assert_near(convergence_interval_half_width(&c, at, 0.95), hypot(wide, 2), 1e-5);
-    assert_near(convergence_interval_half_width(&c, at, 0.5), hypot(half, 2 * 0.67449 / 1.95996), 1e-5);
+    assert_near(convergence_confidence_interval_half_width(&c, at, 0.95), hypot(wide, 2), 1e-5);
+    assert_near(convergence_confidence_interval_half_width(&c, at, 0.5), hypot(half, 2 * 0.67449 / 1.95996), 1e-5);
 }
 
 static void student_as_published(void **state)
@@ -255,7 +255,7 @@ static void spacings_fit_faces_and_cracks(void **state)
 }
 
 /* Checks that, without positions that a lattice must fit, levels have the ratio sqrt(2). */
-static void levels_are_apart(void **state)
+static void mesh_levels_are_apart(void **state)
 {
     (void)state;
     struct scene_body list = {.file = "list.csv"};
@@ -316,7 +316,7 @@ int main(void)
         cmocka_unit_test(intervals_as_defined),
         cmocka_unit_test(intervals_hold_what_they_name),
         cmocka_unit_test(bias_widens_intervals),
-        cmocka_unit_test(levels_are_apart),
+        cmocka_unit_test(mesh_levels_are_apart),
         cmocka_unit_test(intervals_at_hand),
         cmocka_unit_test(student_as_published),
         cmocka_unit_test(steps_of_a_figure_are_errors),

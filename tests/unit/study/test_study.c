@@ -76,7 +76,7 @@ static void runs_have_names_of_their_own(void **state)
     assert_int_equal(varied_key_parse_values(&k[0], "particles.spacing=1 mm,0.5 mm"), OK);
     assert_int_equal(varied_key_parse_values(&k[1], "method=pd"), OK);
     assert_int_equal(varied_key_parse_values(&k[2], "boundary.0.velocity=[10 m/s, free],[20 m/s, free],a/b"), OK);
-    assert_int_equal(study_add_combinations(&s, k, 3), OK);
+    assert_int_equal(study_add_cases_of_all_value_combinations(&s, k, 3), OK);
     assert_int_equal(s.n, 6);
     assert_string_equal(s.at[0].name, "spacing=1mm,velocity=10m_s,free");
     assert_string_equal(s.at[5].name, "spacing=0.5mm,velocity=a_b");
@@ -108,8 +108,8 @@ static void names_do_not_depend_on_the_order_of_keys(void **state)
         swapped[0] = k[1], swapped[1] = k[0];
         assert_int_equal(study_make(&a, "a.yaml", "a", "sweep"), OK);
         assert_int_equal(study_make(&b, "a.yaml", "a", "sweep"), OK);
-        assert_int_equal(study_add_combinations(&a, k, 2), OK);
-        assert_int_equal(study_add_combinations(&b, swapped, 2), OK);
+        assert_int_equal(study_add_cases_of_all_value_combinations(&a, k, 2), OK);
+        assert_int_equal(study_add_cases_of_all_value_combinations(&b, swapped, 2), OK);
         for (int x = 0; x < 2; x++)
             for (int y = 0; y < 2; y++) assert_string_equal(a.at[2 * x + y].name, b.at[2 * y + x].name);
         assert_int_equal(!strncmp(a.at[3].name, "case-", 5), long_ones);
@@ -135,7 +135,7 @@ static void values_are_short_in_pictures(void **state)
         struct varied_key k;
         char text[LABEL_ROOM];
         assert_int_equal(varied_key_parse_values(&k, wanted[w].text), OK);
-        study_value_label(text, &k, 1);
+        varied_key_write_value_label(text, &k, 1);
         assert_string_equal(text, wanted[w].shown);
         varied_key_free(&k);
     }
@@ -255,7 +255,7 @@ static void many_names_are_found_in_time(void **state)
     assert_int_equal(varied_key_parse_values(&k[0], "a=1:1000:1"), OK);
     assert_int_equal(varied_key_parse_values(&k[1], "b=1:100:1"), OK);
     assert_int_equal(study_make(&s, "a.yaml", "a", "sweep"), OK);
-    assert_int_equal(study_add_combinations(&s, k, 2), OK);
+    assert_int_equal(study_add_cases_of_all_value_combinations(&s, k, 2), OK);
     assert_int_equal(s.n, 100000);
     assert_string_equal(s.at[99999].name, "a=1000,b=100");
     for (int v = 0; v < 2; v++) varied_key_free(&k[v]);
@@ -280,7 +280,7 @@ static void stopped_runs_have_no_figures(void **state)
         struct study_case *c = study_add_case(&s, name[k], &own, 1);
         c->state = (enum case_state[]){CASE_DONE, CASE_STOPPED, CASE_FAILED}[k];
         const struct path run = study_case_folder(&s, c);
-        assert_int_equal(folder_make(run.text), OK);
+        assert_int_equal(folder_create_with_parents(run.text), OK);
         assert_int_equal(file_write_whole(path_join(run.text, "summary.json").text, text, strlen(text)), OK);
     }
     assert_int_equal(study_table_read(&t, &s), OK);
