@@ -1,5 +1,7 @@
 /* The maps of points with linear shapes in 3D: a cell has eight corners, and usually eight points. */
+#ifdef __AVX512F__ /* narrower vectors would keep a row of eight nodes in memory, not in registers */
 #define ROW_NODES 8
+#endif
 #define POINTS_MOST 8
 #define MAP_VARIANTS_TURNING(X) X(3, LINEAR)
 #define MAP_VARIANTS MAP_VARIANTS_TURNING

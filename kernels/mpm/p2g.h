@@ -155,7 +155,7 @@ static ALWAYS_INLINE void p2g_add_point(cell_sums sum, const struct grid *g, con
             for (int e = along; e < dim; e++) {
                 if (extrapolate_velocity)
                     carried += q->slope[d * dim + e][at] * mass *
-                               stencil_point_distance_to_row(s, at, g->h, e, e == 1 ? k1 : k2);
+                               stencil_point_distance_to_row(s, at, g->h, e, e == 1 ? k1 : k2, dim, shape);
                 pushed -= pull[symmetric_component_index(d, e, dim)] *
                           stencil_point_row_transverse_weight_slope(s, at, k1, k2, e, dim, shape);
             }

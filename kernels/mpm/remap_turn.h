@@ -146,8 +146,8 @@ static ALWAYS_INLINE void rotating_remap_scatter_point(turn_rows sum, const stru
         for (int d = 0; d < dim; d++) {
             row_of_nodes given = momentum[d];
             for (int e = along; e < dim; e++)
-                given +=
-                    mass * (slope[d * dim + e][at] * stencil_point_distance_to_row(s, at, g->h, e, e == 1 ? k1 : k2));
+                given += mass * (slope[d * dim + e][at] *
+                                 stencil_point_distance_to_row(s, at, g->h, e, e == 1 ? k1 : k2, dim, shape));
             sum[d][PATCH(dim, shape)] += weight * given;
         }
         if (add_mass) sum[dim][PATCH(dim, shape)] += weight * mass;

@@ -97,17 +97,19 @@ static ALWAYS_INLINE void shape_functions_evaluate_at_row_nodes(const enum shape
 /* ---- nodes of a cell ---------------------------------------------------------------------------------------------
  *
  * The points of a cell share a patch of nodes: rows of four along x, side by side in the directions across. Linear
- * shapes reach only the corners; in two and three dimensions their one row holds all corners of the cell instead, so
- * that no lane of a vector is idle. Bit d of the number of a corner is set on the upper side in direction d. */
+ * shapes reach only the corners; in two and three dimensions a row holds corners of the cell instead, so that no lane
+ * of a vector is idle: all of them, or in 3D with rows of four nodes (ROW_NODES) those of the lower face along z, then
+ * those of the upper one. Bit d of the number of a corner is set on the upper side in direction d. */
 
 enum { ACROSS = 4, ROWS_MAX = ACROSS * ACROSS };
 
 #define HAS_CORNERS(dim, shape) ((shape) == SHAPE_LINEAR && (dim) > 1)
-/* Number of axes along which the nodes of a row differ: all for the corners of a cell, else one (x). */
-#define ROW_DIMS(dim, shape) (HAS_CORNERS(dim, shape) ? (dim) : 1)
+/* Number of axes along which the nodes of a row differ: x alone or, for corners of a cell, as many as a row has room
+ * for. */
+#define ROW_DIMS(dim, shape) (!HAS_CORNERS(dim, shape) ? 1 : ROW_NODES == 8 ? (dim) : 2)
 /* Number of rows of nodes along y and along z, around one cell, that a shape function can reach; and their product. */
 #define ROWS_Y(dim, shape) ((dim) > 1 && !HAS_CORNERS(dim, shape) ? ACROSS : 1)
-#define ROWS_Z(dim, shape) ((dim) > 2 && !HAS_CORNERS(dim, shape) ? ACROSS : 1)
+#define ROWS_Z(dim, shape) ((dim) == ROW_DIMS(dim, shape) || (dim) < 3 ? 1 : HAS_CORNERS(dim, shape) ? 2 : ACROSS)
 #define ROWS(dim, shape) (ROWS_Y(dim, shape) * ROWS_Z(dim, shape))
 
 /* True if loops visit only those rows of nodes that a point touches. This is so in 3D for shapes with three nodes per
@@ -247,19 +249,23 @@ struct node_row_weights {
 #define HALF_WIDTH_MOST 1
 
 /* Computes the weights s->N and slopes s->D of linear shape functions in 2D and 3D, as products of hat functions, for a
- * few points at the positions s->t in the cell. A row then holds all corners of the cell. inverse: 1/h of the node
- * distance h [1/m]. */
+ * few points at the positions s->t in the cell. A row then holds corners of the cell; if two rows along z hold them,
+ * also the factors s->A[2] and s->B[2] of these rows. inverse: 1/h of the node distance h [1/m]. */
 static ALWAYS_INLINE void stencil_compute_corner_weights(struct cell_stencil *s, real inverse, const int dim)
 {
+    const int along = ROW_DIMS(dim, SHAPE_LINEAR);
     for (int k = 0; k < ROW; k++) {
         s->N[k] = points_broadcast(1);
-        for (int d = 0; d < dim; d++) {
+        for (int d = 0; d < along; d++) {
             s->N[k] *= k >> d & 1 ? s->t[d] : 1 - s->t[d];
             s->D[d][k] = points_broadcast(k >> d & 1 ? inverse : -inverse);
-            for (int e = 0; e < dim; e++)
+            for (int e = 0; e < along; e++)
                 if (e != d) s->D[d][k] *= k >> e & 1 ? s->t[e] : 1 - s->t[e];
         }
     }
+    if (along == dim) return;
+    s->A[2][0] = 1 - s->t[2], s->A[2][1] = s->t[2];
+    s->B[2][0] = points_broadcast(-inverse), s->B[2][1] = points_broadcast(inverse);
 }
 
 /* Finds in which rows of nodes along axis d the points of stencil s (node weights of a few points) have weights, for
@@ -350,15 +356,16 @@ static ALWAYS_INLINE struct node_row_weights stencil_row_weights_of_point(const 
 {
     if (!HAS_CORNERS(dim, shape)) return (struct node_row_weights){s->from_N[at], {s->from_D[at]}};
     struct node_row_weights own = {.N = nodes_broadcast(1)};
+    const int along = ROW_DIMS(dim, shape);
     row_of_nodes hat[DIM_MAX], sign[DIM_MAX];
-    for (int d = 0; d < dim; d++) {
+    for (int d = 0; d < along; d++) {
         sign[d] = 2 * cell_corners_upper_side_indicator(d) - 1;
         hat[d] = (1 - cell_corners_upper_side_indicator(d)) + s->t[d][at] * sign[d];
     }
-    for (int d = 0; d < dim; d++) {
+    for (int d = 0; d < along; d++) {
         own.N *= hat[d];
         own.D[d] = sign[d] * (1 / h);
-        for (int e = 0; e < dim; e++)
+        for (int e = 0; e < along; e++)
             if (e != d) own.D[d] *= hat[e];
     }
     return own;
@@ -372,7 +379,7 @@ static ALWAYS_INLINE row_of_points stencil_row_transverse_weights(const struct c
 {
     row_of_points weight = points_broadcast(1);
     if (dim > 1 && !HAS_CORNERS(dim, shape)) weight *= s->A[1][k1];
-    if (dim > 2 && !HAS_CORNERS(dim, shape)) weight *= s->A[2][k2];
+    if (ROWS_Z(dim, shape) > 1) weight *= s->A[2][k2];
     return weight;
 }
 
@@ -384,7 +391,7 @@ static ALWAYS_INLINE row_of_points stencil_row_transverse_weight_slopes(const st
 {
     row_of_points slope = points_broadcast(1);
     if (dim > 1 && !HAS_CORNERS(dim, shape)) slope *= d == 1 ? s->B[1][k1] : s->A[1][k1];
-    if (dim > 2 && !HAS_CORNERS(dim, shape)) slope *= d == 2 ? s->B[2][k2] : s->A[2][k2];
+    if (ROWS_Z(dim, shape) > 1) slope *= d == 2 ? s->B[2][k2] : s->A[2][k2];
     return slope;
 }
 
@@ -395,7 +402,7 @@ static ALWAYS_INLINE real stencil_point_row_transverse_weight(const struct cell_
 {
     real weight = 1;
     if (dim > 1 && !HAS_CORNERS(dim, shape)) weight *= s->A[1][k1][at];
-    if (dim > 2 && !HAS_CORNERS(dim, shape)) weight *= s->A[2][k2][at];
+    if (ROWS_Z(dim, shape) > 1) weight *= s->A[2][k2][at];
     return weight;
 }
 
@@ -408,7 +415,7 @@ static ALWAYS_INLINE real stencil_point_row_transverse_weight_slope(const struct
 {
     real slope = 1;
     if (dim > 1 && !HAS_CORNERS(dim, shape)) slope *= d == 1 ? s->B[1][k1][at] : s->A[1][k1][at];
-    if (dim > 2 && !HAS_CORNERS(dim, shape)) slope *= d == 2 ? s->B[2][k2][at] : s->A[2][k2][at];
+    if (ROWS_Z(dim, shape) > 1) slope *= d == 2 ? s->B[2][k2][at] : s->A[2][k2][at];
     return slope;
 }
 
@@ -438,10 +445,11 @@ static ALWAYS_INLINE row_of_points stencil_all_point_distances_to_node(const str
 }
 
 /* Returns the signed distance [m] along axis d from point number `at` of stencil s (node weights of a few points) to
- * the row of nodes (along x) number k. d: axis y or z, across the rows; h: node distance [m]. */
-static ALWAYS_INLINE real stencil_point_distance_to_row(const struct cell_stencil *s, int at, real h, int d, int k)
+ * the row of nodes number k. d: axis y or z, across the rows; h: node distance [m]; shape: shape function. */
+static ALWAYS_INLINE real stencil_point_distance_to_row(const struct cell_stencil *s, int at, real h, int d, int k,
+                                                        const int dim, const enum shape shape)
 {
-    return (k - 1 - s->t[d][at]) * h;
+    return (k - (HAS_CORNERS(dim, shape) ? 0 : 1) - s->t[d][at]) * h;
 }
 
 #endif
