@@ -159,7 +159,7 @@ struct pilot_requirements;
 status pilot_run_requirements_read(struct reader *r, const struct yaml_node *root, const char *text, size_t length,
                                    struct pilot_requirements *requirements);
 
-/* ---- numbers and units (scene_units.c) --------------------------------------------------------------------------- */
+/* ---- numbers and units (scene_numbers.c, scene_units.c) ---------------------------------------------------------- */
 
 /* Writes the number `value` into `text` with the fewest digits from which the same value, bit for bit, is read again.
  * Returns `text`. */
