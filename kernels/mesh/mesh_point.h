@@ -12,6 +12,9 @@
 #include "base/polar.h"
 #include "kernels/mpm/stress.h"
 
+/* Calls X for 1, 2 and 3 dimensions, to define a function for each. A parallel region is inside each of them. */
+#define DIMENSIONS(X) X(1) X(2) X(3)
+
 /* Replaces the values at the two ends of an edge by the linearly interpolated values at one quarter (*low) and three
  * quarters (*high) of the edge. */
 static ALWAYS_INLINE void interpolate_to_quarter_points(real *low, real *high)
