@@ -105,7 +105,7 @@ nothing "arrays that are copied, filled, compared or sorted without array_copy, 
 
 # Circles of files that call each other, by the symbols of the objects: only these, of these sizes.
 circles="scene/scene_value 7, scene/scene_override 2, contact/contact 7, data/solid 4, scene/scene_echo 4, app/help 4, mesh/mesh 3,
-    geometry/image 3, app/check_advice 3, plot/plot_curves 3, coupling/partial_stress 2, data/hull 2,
+    geometry/image 3, app/check_advice 3, plot/plot_curves 3, data/hull 2,
     geometry/elements_body 2, mesh/levels 2, scene/fill 2, step/report 2"
 grep -v "/bench/" "$work/symbols" | awk -v build="$build/" -v known="$circles" '
     { file = $1; sub(/:$/, "", file); file = substr(file, length(build) + 1); sub(/^src\//, "", file); sub(/\.o$/, "", file)
