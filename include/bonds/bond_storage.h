@@ -237,12 +237,12 @@ struct bonds {
     uint8_t *implicit;                /* [row_blocks] 1: the columns are not written */
     uint8_t *changed; /* [row_blocks] 1: weights have changed since the block of eight rows was made; it follows no
                          stencil */
-    struct bond_holes holes;                   /* free columns of removed blocks of eight rows */
-    struct stencil_table *stencils;            /* all stencils that blocks of eight rows may follow */
-    struct lattice_site_map *site_map; /* particle at each lattice site; NULL: there are no material points */
-    real *plastic_stretch, *plastic_path;      /* [columns 8] s_p and alpha of a bond; NULL if no bond yields [1] */
-    int32_t *pair;            /* [columns 8] pair of materials, index in `yield`; NULL: no bond yields */
-    struct bond_yield yield;  /* yield stretches and hardening by pair of materials */
+    struct bond_holes holes;              /* free columns of removed blocks of eight rows */
+    struct stencil_table *stencils;       /* all stencils that blocks of eight rows may follow */
+    struct lattice_site_map *site_map;    /* particle at each lattice site; NULL: there are no material points */
+    real *plastic_stretch, *plastic_path; /* [columns 8] s_p and alpha of a bond; NULL if no bond yields [1] */
+    int32_t *pair;                        /* [columns 8] pair of materials, index in `yield`; NULL: no bond yields */
+    struct bond_yield yield;              /* yield stretches and hardening by pair of materials */
     real *trigger;            /* [row_blocks 8] lower bound of the stretches at which bonds of the row break [1] */
     float *family_volume;     /* [row_blocks 8] sum of V_j over all initial neighbours of the particle [m^3] */
     float *broken_volume;     /* [row_blocks 8] sum of V_j over the broken bonds [m^3] */

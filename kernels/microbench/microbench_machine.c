@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#define ROWS_IN_PARTS /* vectors of WIDE particles */
 #include "kernels/simd/lanes.h"
 #include "base/memory.h"
 #include "microbench.h"
@@ -31,8 +32,8 @@ struct microbench_lattice {
     real *x[DIM_MAX], *f[DIM_MAX];
 };
 
-/* Computes the forces of all bonds on the eight particles i to i + 7 of the lattice s and stores them in s->f. */
-static ALWAYS_INLINE void stencil_row_block(const struct microbench_lattice *s, int64_t i, const int dim)
+/* Computes the forces of all bonds on the WIDE particles from number i on of the lattice s and stores them in s->f. */
+static ALWAYS_INLINE void stencil_rows(const struct microbench_lattice *s, int64_t i, const int dim)
 {
     const lanes x0 = lanes_load(s->x[0] + i), x1 = dim > 1 ? lanes_load(s->x[1] + i) : x0;
     const lanes x2 = dim > 2 ? lanes_load(s->x[2] + i) : x0;
@@ -63,7 +64,7 @@ static ALWAYS_INLINE void stencil_row_block(const struct microbench_lattice *s, 
         _Pragma("omp parallel for schedule(static)") for (int64_t row = 0; row < rows; row++)                          \
         {                                                                                                              \
             const int64_t i = s->first + row % s->count[1] * s->stride[1] + row / s->count[1] * s->stride[2];          \
-            for (int64_t k = 0; k < s->count[0]; k += LANES) stencil_row_block(s, i + k, D);                           \
+            for (int64_t k = 0; k < s->count[0]; k += WIDE) stencil_rows(s, i + k, D);                                 \
         }                                                                                                              \
     }
 DIM_VARIANTS(SWEEP)

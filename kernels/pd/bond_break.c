@@ -258,7 +258,7 @@ static ALWAYS_INLINE lanes rows_largest(const struct bonds *b, const struct part
     lanes x[DIM_MAX], largest = lanes_broadcast(0);
     for (int d = 0; d < dim; d++) x[d] = lanes_load_or_gather(p->x[d], b->aligned[g] ? row[0] : -1, row);
 #define VISIT(COLUMN) largest = bond_break_largest_of(largest, p, x, COLUMN, dim)
-    FOR_COLUMNS(b, g, VISIT);
+    FOR_COLUMNS(b, g * LANES, VISIT);
 #undef VISIT
     return largest;
 }

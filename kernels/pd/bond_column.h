@@ -1,6 +1,7 @@
 /* Access to the eight bonds of a column of a block of eight rows: one bond of each of eight particles. Bonds of a
  * lattice have data in common; each kind of column reads as few bytes as its bonds allow, and all kinds give equal
- * bits. */
+ * bits. In files that define ROWS_IN_PARTS (lanes.h) a view of a column and the vectors of the functions below have
+ * only the WIDE bonds of a part of these rows. */
 #ifndef CLEAVE_KERNELS_BOND_COLUMN
 #define CLEAVE_KERNELS_BOND_COLUMN
 
@@ -26,85 +27,102 @@ struct bond_column_view {
     const struct stencil_column *stencil; /* COLUMN_STENCIL, WHOLE, UNIT only */
     const real *w;                        /* COLUMN_STENCIL: weights of the lanes [1] */
     enum column_kind kind;
+    int part; /* first of the WIDE rows of the block whose bonds are in a vector: 0, or a multiple of WIDE */
 };
 
 /* Returns a view of the stored column number `column_number` of b (one bond of each of eight particles), and prefetches
  * the column COLUMNS_AHEAD columns behind it. kind: what the eight bonds have in common: nothing (COLUMN_FREE),
- * consecutive neighbours and a tabulated length (SHELL), also one weight (ALIKE). */
+ * consecutive neighbours and a tabulated length (SHELL), also one weight (ALIKE). part: as in struct bond_column_view.
+ */
 static ALWAYS_INLINE struct bond_column_view bond_column_view_stored_bonds(const struct bonds *b, int64_t column_number,
-                                                                           const enum column_kind kind)
+                                                                           const enum column_kind kind, int part)
 {
-    const int64_t q = (column_number + COLUMNS_AHEAD) * LANES;
-    __builtin_prefetch(b->common + column_number + COLUMNS_AHEAD);
-    if (kind == COLUMN_FREE) __builtin_prefetch(b->inverse_length + q), __builtin_prefetch(b->nbr + q);
-    if (kind != COLUMN_ALIKE) __builtin_prefetch(b->w + q);
-    return (struct bond_column_view){b, column_number, b->common[column_number].first, NULL, NULL, kind};
+    const int64_t q = (column_number + COLUMNS_AHEAD) * LANES, first = b->common[column_number].first;
+    if (part == 0) {
+        __builtin_prefetch(b->common + column_number + COLUMNS_AHEAD);
+        if (kind == COLUMN_FREE) __builtin_prefetch(b->inverse_length + q), __builtin_prefetch(b->nbr + q);
+        if (kind != COLUMN_ALIKE) __builtin_prefetch(b->w + q);
+    }
+    return (struct bond_column_view){
+        b, column_number, kind == COLUMN_FREE && first < 0 ? first : first + part, NULL, NULL, kind, part};
 }
 
 /* Returns a view of a column (one bond of each of eight consecutive particles) whose bonds b does not store, but which
  * follow from `stencil`, a bond pattern that many blocks of eight rows of a lattice share. column_in_stencil: number of
  * the column in the stencil; first_particle: first of the eight particles; column_number: index of the column among all
  * columns; kind: what the stencil determines: all but the weights (COLUMN_STENCIL), also the weights (WHOLE), which are
- * 1 (UNIT). */
+ * 1 (UNIT). part: as in struct bond_column_view. */
 static ALWAYS_INLINE struct bond_column_view
 bond_column_view_bonds_of_stencil(const struct bonds *b, int64_t column_number, const struct stencil *stencil,
-                                  int64_t column_in_stencil, int64_t first_particle, const enum column_kind kind)
+                                  int64_t column_in_stencil, int64_t first_particle, const enum column_kind kind,
+                                  int part)
 {
     const struct stencil_column *column = stencil->column + column_in_stencil;
     return (struct bond_column_view){b,
                                      column_number,
-                                     first_particle + column->offset,
+                                     first_particle + column->offset + part,
                                      column,
-                                     kind >= COLUMN_WHOLE ? NULL : stencil->w[column_in_stencil],
-                                     kind};
+                                     kind >= COLUMN_WHOLE ? NULL : stencil->w[column_in_stencil] + part,
+                                     kind,
+                                     part};
 }
 
-/* Calls VISIT(column) for every column with an intact bond in block number ROW_BLOCK of eight rows of the bonds B. A
- * block stores the bonds of eight particles, a column one bond of each. The call is compiled once for each kind of
- * column, with the kind as a constant. */
-#define FOR_COLUMNS(B, ROW_BLOCK, VISIT)                                                                               \
+/* Calls VISIT(column) for every column with an intact bond of the block of eight rows of the bonds B that contains the
+ * WIDE rows from FIRST_ROW, a multiple of WIDE, on: `column` views the bonds of these rows. A block stores the bonds of
+ * eight particles, a column one bond of each. The call is compiled once for each kind of column, with the kind as a
+ * constant. */
+#define FOR_COLUMNS(B, FIRST_ROW, VISIT)                                                                               \
     do {                                                                                                               \
-        const struct stencil *stencil_ = (B)->stencil[ROW_BLOCK];                                                      \
-        const int64_t from_ = (B)->column[ROW_BLOCK], columns_ = (B)->column_count[ROW_BLOCK];                         \
-        const int64_t own_ = (B)->particle[(ROW_BLOCK)*LANES];                                                         \
+        const int64_t block_ = (FIRST_ROW) / LANES;                                                                    \
+        const int part_ = (int)WIDE == (int)LANES ? 0 : (int)((FIRST_ROW) % LANES);                                    \
+        const struct stencil *stencil_ = (B)->stencil[block_];                                                         \
+        const int64_t from_ = (B)->column[block_], columns_ = (B)->column_count[block_];                               \
+        const int64_t own_ = (B)->particle[block_ * LANES];                                                            \
         if (!stencil_)                                                                                                 \
             for (int64_t k_ = from_; k_ < from_ + columns_; k_++)                                                      \
                 if ((B)->common[k_].intact == 0)                                                                       \
                     continue;                                                                                          \
                 else if ((B)->common[k_].alike)                                                                        \
-                    VISIT(bond_column_view_stored_bonds(B, k_, COLUMN_ALIKE));                                         \
+                    VISIT(bond_column_view_stored_bonds(B, k_, COLUMN_ALIKE, part_));                                  \
                 else if ((B)->common[k_].shell)                                                                        \
-                    VISIT(bond_column_view_stored_bonds(B, k_, COLUMN_SHELL));                                         \
+                    VISIT(bond_column_view_stored_bonds(B, k_, COLUMN_SHELL, part_));                                  \
                 else                                                                                                   \
-                    VISIT(bond_column_view_stored_bonds(B, k_, COLUMN_FREE));                                          \
+                    VISIT(bond_column_view_stored_bonds(B, k_, COLUMN_FREE, part_));                                   \
         else if (stencil_->unit)                                                                                       \
             for (int64_t k_ = 0; k_ < columns_; k_++)                                                                  \
-                VISIT(bond_column_view_bonds_of_stencil(B, from_ + k_, stencil_, k_, own_, COLUMN_UNIT));              \
+                VISIT(bond_column_view_bonds_of_stencil(B, from_ + k_, stencil_, k_, own_, COLUMN_UNIT, part_));       \
         else if (stencil_->whole)                                                                                      \
             for (int64_t k_ = 0; k_ < columns_; k_++)                                                                  \
-                VISIT(bond_column_view_bonds_of_stencil(B, from_ + k_, stencil_, k_, own_, COLUMN_WHOLE));             \
+                VISIT(bond_column_view_bonds_of_stencil(B, from_ + k_, stencil_, k_, own_, COLUMN_WHOLE, part_));      \
         else                                                                                                           \
             for (int64_t k_ = 0; k_ < columns_; k_++)                                                                  \
-                VISIT(bond_column_view_bonds_of_stencil(B, from_ + k_, stencil_, k_, own_, COLUMN_STENCIL));           \
+                VISIT(bond_column_view_bonds_of_stencil(B, from_ + k_, stencil_, k_, own_, COLUMN_STENCIL, part_));    \
     } while (0)
 
-/* Calls VISIT(column) for every column of a block of eight rows (the bonds of eight particles) as FOR_COLUMNS does, or
- * VISIT_BRITTLE(column) if MODEL is PD_BOND_SOFT and no bond of the block has begun to soften. */
-#define FOR_COLUMNS_BY_LAW(B, ROW_BLOCK, MODEL, VISIT, VISIT_BRITTLE)                                                  \
+/* Calls VISIT(column) for the columns of WIDE rows from FIRST_ROW on as FOR_COLUMNS does, or VISIT_BRITTLE(column) if
+ * MODEL is PD_BOND_SOFT and no bond of their block of eight rows has begun to soften. */
+#define FOR_COLUMNS_BY_LAW(B, FIRST_ROW, MODEL, VISIT, VISIT_BRITTLE)                                                  \
     do {                                                                                                               \
-        if ((MODEL) != PD_BOND_SOFT || bond_row_block_has_begun_softening(B, ROW_BLOCK))                               \
-            FOR_COLUMNS(B, ROW_BLOCK, VISIT);                                                                          \
+        if ((MODEL) != PD_BOND_SOFT || bond_row_block_has_begun_softening(B, (FIRST_ROW) / LANES))                     \
+            FOR_COLUMNS(B, FIRST_ROW, VISIT);                                                                          \
         else                                                                                                           \
-            FOR_COLUMNS(B, ROW_BLOCK, VISIT_BRITTLE);                                                                  \
+            FOR_COLUMNS(B, FIRST_ROW, VISIT_BRITTLE);                                                                  \
     } while (0)
+
+/* Returns the index in the bond arrays of the first bond of `column` in a vector. */
+static ALWAYS_INLINE int64_t bond_column_first_bond(const struct bond_column_view column)
+{
+    return column.number * LANES + column.part;
+}
 
 /* Returns, one per lane, the values from[j] for the eight particles j to which the bonds of `column` lead (one bond of
  * each of eight particles). from: array with a value for each particle and mirror image. If the column has another kind
  * than COLUMN_FREE, the indices j are consecutive and the values are loaded as one vector, else they are gathered. */
 static ALWAYS_INLINE lanes bond_column_gather_neighbour_values(const struct bond_column_view column, const real *from)
 {
-    return column.kind ? lanes_load(from + column.first)
-                       : lanes_load_or_gather(from, (int32_t)column.first, column.b->nbr + column.number * LANES);
+    return column.kind
+               ? lanes_load(from + column.first)
+               : lanes_load_or_gather(from, (int32_t)column.first, column.b->nbr + bond_column_first_bond(column));
 }
 
 /* Returns component `axis` of the reference bond vectors X_j - X_i [m] of the eight bonds of `column` (one bond of each
@@ -134,15 +152,15 @@ static ALWAYS_INLINE lanes bond_column_inverse_lengths(const struct bond_column_
 {
     if (column.stencil) return lanes_broadcast(column.stencil->inverse_length);
     const struct bond_column *c = &column.b->common[column.number];
-    return column.kind ? lanes_add_ulps(column.b->shell_length[c->shell].inverse, c->excess)
-                       : lanes_load(column.b->inverse_length + column.number * LANES);
+    return column.kind ? lanes_add_ulps(column.b->shell_length[c->shell].inverse, c->excess + column.part)
+                       : lanes_load(column.b->inverse_length + bond_column_first_bond(column));
 }
 
 /* Returns eight bits: bit l (0 to 7) is set if the bond of particle l in `column` (one bond of each of eight particles)
  * is intact. */
 static ALWAYS_INLINE uint8_t bond_column_intact_bits(const struct bond_column_view column)
 {
-    return column.stencil ? column.stencil->intact : column.b->common[column.number].intact;
+    return (column.stencil ? column.stencil->intact : column.b->common[column.number].intact) >> column.part;
 }
 
 /* Returns the weights (factors on the bond forces) [1] of the eight bonds of `column` (one bond of each of eight
@@ -153,8 +171,9 @@ static ALWAYS_INLINE lanes bond_column_weights(const struct bond_column_view col
     if (column.kind == COLUMN_WHOLE) return lanes_broadcast(column.stencil->w);
     if (column.kind == COLUMN_STENCIL) return lanes_load(column.w);
     const struct bond_column *c = &column.b->common[column.number];
-    return column.kind == COLUMN_ALIKE ? lanes_zero_unless_selected(c->intact, lanes_broadcast(c->w))
-                                       : lanes_load(column.b->w + column.number * LANES);
+    return column.kind == COLUMN_ALIKE
+               ? lanes_zero_unless_selected((uint8_t)(c->intact >> column.part), lanes_broadcast(c->w))
+               : lanes_load(column.b->w + bond_column_first_bond(column));
 }
 
 /* Computes the stretch |y|/|xi| - 1 of a bond from its length |y| and inverse reference length, rounded to a multiple
@@ -183,15 +202,15 @@ static ALWAYS_INLINE lanes bond_column_min_where_intact(const struct bond_column
                                        : lanes_min_selected(bond_column_intact_bits(column), a, other);
 }
 
-/* Stores `value`, one value for each of the eight particles of a block of eight rows, in the particle array `to`. row:
- * indices of these particles; rows: number of particles, less than 8 in the last block; aligned: true if the indices
- * are consecutive, so that all eight values are stored at once. */
-static ALWAYS_INLINE void bond_row_block_store_values(real *to, const int32_t *row, int rows, bool aligned, lanes value)
+/* Stores `value`, one value for each particle of WIDE rows, in the particle array `to`. row: indices of these
+ * particles; rows: number of rows from there to the end of all rows, less than WIDE or negative in the last block;
+ * aligned: true if the indices are consecutive, so that all values are stored at once. */
+static ALWAYS_INLINE void bond_rows_store_values(real *to, const int32_t *row, int rows, bool aligned, lanes value)
 {
     if (aligned)
         lanes_store(to + row[0], value);
     else
-        for (int l = 0; l < rows; l++) to[row[l]] = value[l];
+        for (int l = 0; l < WIDE && l < rows; l++) to[row[l]] = value[l];
 }
 
 #endif

@@ -9,6 +9,7 @@
  * step without communication. */
 #include <math.h>
 
+#define ROWS_IN_PARTS
 #include "bond_laws.h"
 #include "bond_column.h"
 #include "bond_core.h"
@@ -45,15 +46,15 @@ static ALWAYS_INLINE struct bond_sums bond_force_column(struct bond_sums sum, co
     const lanes inverse = lanes_inverse_square_root(distance2), w = bond_column_weights(s);
     const lanes stretch = STRETCH_OF(distance2 * inverse, bond_column_inverse_lengths(s));
     if (model == PD_BOND_SOFT)
-        sum.lost += bonds_excess_dissipation_at_softening_kinks(s.b, s.number * LANES, stretch, w,
+        sum.lost += bonds_excess_dissipation_at_softening_kinks(s.b, bond_column_first_bond(s), stretch, w,
                                                                 bond_column_inverse_lengths(s));
     const lanes force =
-        bonds_update_state_and_get_normalised_force(model, s.b, s.number * LANES, stretch, w) * (w * inverse);
+        bonds_update_state_and_get_normalised_force(model, s.b, bond_column_first_bond(s), stretch, w) * (w * inverse);
     if (model != PD_BOND_SOFT)
         sum.stretch = bond_column_max_where_intact(s, sum.stretch, stretch);
     else if (lanes_any_less(sum.trigger, stretch))
-        sum.stretch =
-            bond_column_max_where_intact(s, sum.stretch, stretch - lanes_load_floats(s.b->soft.end + s.number * LANES));
+        sum.stretch = bond_column_max_where_intact(
+            s, sum.stretch, stretch - lanes_load_floats(s.b->soft.end + bond_column_first_bond(s)));
     sum.press = bond_column_min_where_intact(s, sum.press, stretch);
     sum.f0 += force * d0;
     if (dim > 1) sum.f1 += force * d1;
@@ -61,17 +62,17 @@ static ALWAYS_INLINE struct bond_sums bond_force_column(struct bond_sums sum, co
     return sum;
 }
 
-/* Computes the forces of the bonds on the eight particles of row block g (their bonds are stored together) into p->f,
- * without the repulsive cores of bonds (bond_core.h). Returns true if a bond may exceed its breaking limit: if its
- * stretch is above the smallest limit of the bonds of its particle (b->trigger), or, with softening bonds, above 0.
- * *pressed: receives true if a bond is compressed into its core, else false. model: bond law, a compile-time constant.
- * b: all bonds. */
-static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
-                                               const enum pd_model model, bool *pressed)
+/* Computes the forces of the bonds on the particles of WIDE rows, from row `first` on, into p->f, without the repulsive
+ * cores of bonds (bond_core.h). Returns true if a bond may exceed its breaking limit: if its stretch is above the
+ * smallest limit of the bonds of its particle (b->trigger), or, with softening bonds, above 0. *pressed: set to true if
+ * a bond is compressed into its core. model: bond law, a compile-time constant. b: all bonds. */
+static ALWAYS_INLINE bool bond_force_rows(const struct bonds *b, struct particles *p, int64_t first, const int dim,
+                                          const enum pd_model model, bool *pressed)
 {
-    const int32_t *row = b->particle + g * LANES;
+    const int64_t g = first / LANES;
+    const int32_t *row = b->particle + first;
     const bool aligned = b->aligned[g];
-    const int rows = count_of_eight_consecutive_indices_below(g * LANES, b->rows);
+    const int rows = count_of_eight_consecutive_indices_below(first, b->rows);
     const int32_t own = aligned ? row[0] : -1;
     const lanes zero = lanes_broadcast(0), x0 = lanes_load_or_gather(p->x[0], own, row);
     struct bond_sums sum = {x0,
@@ -82,18 +83,29 @@ static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct par
                             zero,
                             lanes_broadcast(-1),
                             zero,
-                            lanes_load(b->trigger + g * LANES),
+                            lanes_load(b->trigger + first),
                             zero};
 #define VISIT(COLUMN) sum = bond_force_column(sum, p, COLUMN, dim, model)
-    FOR_COLUMNS(b, g, VISIT);
+    FOR_COLUMNS(b, first, VISIT);
 #undef VISIT
-    bond_row_block_store_values(p->f[0], row, rows, aligned, sum.f0 * b->stiffness);
-    if (dim > 1) bond_row_block_store_values(p->f[1], row, rows, aligned, sum.f1 * b->stiffness);
-    if (dim > 2) bond_row_block_store_values(p->f[2], row, rows, aligned, sum.f2 * b->stiffness);
-    if (model == PD_BOND_SOFT) bond_row_block_add_excess_dissipation_at_kinks(b, g, sum.lost);
-    *pressed = lanes_mask_any(sum.press < CORE_FROM - 1);
+    bond_rows_store_values(p->f[0], row, rows, aligned, sum.f0 * b->stiffness);
+    if (dim > 1) bond_rows_store_values(p->f[1], row, rows, aligned, sum.f1 * b->stiffness);
+    if (dim > 2) bond_rows_store_values(p->f[2], row, rows, aligned, sum.f2 * b->stiffness);
+    if (model == PD_BOND_SOFT) bond_rows_add_excess_dissipation_at_kinks(b, first, sum.lost);
+    *pressed |= lanes_mask_any(sum.press < CORE_FROM - 1);
     if (b->soft.near && model != PD_BOND_SOFT && lanes_mask_any(sum.stretch > b->soft.gate)) b->soft.near[g] = 1;
     return lanes_mask_any(sum.stretch > (model == PD_BOND_SOFT ? zero : sum.trigger));
+}
+
+/* Computes the forces of the bonds on the eight particles of row block g as bond_force_rows does for a part of them,
+ * and returns its result for all. *pressed: receives true if a bond is compressed into its core, else false. */
+static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
+                                               const enum pd_model model, bool *pressed)
+{
+    bool past = false;
+    *pressed = false;
+    for (int part = 0; part < LANES; part += WIDE) past |= bond_force_rows(b, p, g * LANES + part, dim, model, pressed);
+    return past;
 }
 
 /* Computes the forces of the bonds on the eight particles of row block g (their bonds are stored together) into p->f,

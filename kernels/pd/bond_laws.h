@@ -91,12 +91,12 @@ static ALWAYS_INLINE lanes bonds_excess_dissipation_at_softening_kinks(const str
                         0.5 * w * sum * onset / (span * inverse_length), zero);
 }
 
-/* Adds the energies `lost` of bonds_excess_dissipation_at_softening_kinks, summed for each of the eight rows of block g
- * (the bonds of eight particles), to the fracture energies of these rows: one half, because each bond is in two rows.
- */
-static ALWAYS_INLINE void bond_row_block_add_excess_dissipation_at_kinks(const struct bonds *b, int64_t g, lanes lost)
+/* Adds the energies `lost` of bonds_excess_dissipation_at_softening_kinks, summed for each of the WIDE rows (the bonds
+ * of one particle each) from row number `row` on, to the fracture energies of these rows: one half, because each bond
+ * is in two rows. */
+static ALWAYS_INLINE void bond_rows_add_excess_dissipation_at_kinks(const struct bonds *b, int64_t row, lanes lost)
 {
-    real *energy = b->fracture_energy + g * LANES;
+    real *energy = b->fracture_energy + row;
     if (b->soft.curve->pieces > 1) lanes_store(energy, lanes_load(energy) + 0.5 * b->stiffness * lost);
 }
 

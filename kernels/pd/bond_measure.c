@@ -2,6 +2,7 @@
  * of one particle, a block of eight rows the rows of eight particles, a column one bond of each row. */
 #include <math.h>
 
+#define ROWS_IN_PARTS /* vectors of WIDE rows */
 #include "bond_laws.h"
 #include "bond_column.h"
 #include "bond_core.h"
@@ -38,8 +39,26 @@ static ALWAYS_INLINE lanes bond_energy_column(const struct bond_column_view s, c
     *press = bond_column_min_where_intact(s, *press, stretch);
     const lanes w = bond_column_weights(s), inverse = bond_column_inverse_lengths(s);
     const lanes length = lanes_inverse_square_root(inverse * inverse); /* cheaper than a division */
-    const lanes elastic = bonds_elastic_stretch(model, s.b, s.number * LANES, stretch);
+    const lanes elastic = bonds_elastic_stretch(model, s.b, bond_column_first_bond(s), stretch);
     return lanes_choose(w > 0.0, w * bonds_normalised_energy(model, stretch, elastic) * length, lanes_broadcast(0));
+}
+
+/* Returns in the lanes the elastic energies, divided by the stiffness, of the bonds of WIDE rows (of one particle each)
+ * from row `first` on, without repulsive cores. *pressed: set to true if a bond is compressed into its core. model:
+ * bond law, a compile-time constant. p: all particles. */
+static ALWAYS_INLINE lanes bond_energy_rows(const struct bonds *b, const struct particles *p, int64_t first,
+                                            bool *pressed, const int dim, const enum pd_model model)
+{
+    const int32_t *row = b->particle + first;
+    lanes sum = lanes_broadcast(0), press = lanes_broadcast(0), x[DIM_MAX];
+    for (int d = 0; d < dim; d++) x[d] = lanes_load_or_gather(p->x[d], b->aligned[first / LANES] ? row[0] : -1, row);
+#define VISIT(COLUMN) sum += bond_energy_column(COLUMN, p, x, &press, dim, model)
+#define VISIT_BRITTLE(COLUMN) sum += bond_energy_column(COLUMN, p, x, &press, dim, PD_BOND)
+    FOR_COLUMNS_BY_LAW(b, first, model, VISIT, VISIT_BRITTLE);
+#undef VISIT_BRITTLE
+#undef VISIT
+    *pressed |= lanes_mask_any(press < CORE_FROM - 1);
+    return sum;
 }
 
 /* Returns the elastic energy, divided by the stiffness, of the bonds of the eight particles of row block g, repulsive
@@ -49,17 +68,11 @@ static ALWAYS_INLINE lanes bond_energy_column(const struct bond_column_view s, c
 static ALWAYS_INLINE real bond_energy_row_block(const struct bonds *b, const struct particles *p, int64_t g,
                                                 real *row_energy, const int dim, const enum pd_model model)
 {
-    const int32_t *row = b->particle + g * LANES;
-    lanes sum = lanes_broadcast(0), press = lanes_broadcast(0), x[DIM_MAX];
-    for (int d = 0; d < dim; d++) x[d] = lanes_load_or_gather(p->x[d], b->aligned[g] ? row[0] : -1, row);
-#define VISIT(COLUMN) sum += bond_energy_column(COLUMN, p, x, &press, dim, model)
-#define VISIT_BRITTLE(COLUMN) sum += bond_energy_column(COLUMN, p, x, &press, dim, PD_BOND)
-    FOR_COLUMNS_BY_LAW(b, g, model, VISIT, VISIT_BRITTLE);
-#undef VISIT_BRITTLE
-#undef VISIT
-    real total = lanes_mask_any(press < CORE_FROM - 1)
-                     ? bond_row_block_repulsive_core_energy(b, p, g, row_energy) / (0.5 * b->stiffness)
-                     : 0;
+    real sum[LANES];
+    bool pressed = false;
+    for (int part = 0; part < LANES; part += WIDE)
+        lanes_store(sum + part, bond_energy_rows(b, p, g * LANES + part, &pressed, dim, model));
+    real total = pressed ? bond_row_block_repulsive_core_energy(b, p, g, row_energy) / (0.5 * b->stiffness) : 0;
     for (int l = 0; l < LANES && g * LANES + l < b->rows; l++) total += sum[l];
     for (int l = 0; row_energy && l < LANES && g * LANES + l < b->rows; l++)
         row_energy[g * LANES + l] += 0.5 * b->stiffness * sum[l];
@@ -75,28 +88,29 @@ static ALWAYS_INLINE void bond_stress_column(lanes *sum, const struct bond_colum
 {
     lanes y[DIM_MAX], stretch;
     const lanes inverse = bond_measure_store(s, p, x, y, &stretch, dim);
-    const lanes share = bond_column_weights(s) * bonds_elastic_stretch(model, s.b, s.number * LANES, stretch) * inverse;
+    const lanes share =
+        bond_column_weights(s) * bonds_elastic_stretch(model, s.b, bond_column_first_bond(s), stretch) * inverse;
     for (int d = 0; d < dim; d++) sum[d] += share * y[d] * y[d];
     if (dim > 1) sum[dim] += share * y[0] * y[1];
     if (dim > 2) sum[4] += share * y[1] * y[2], sum[5] += share * y[2] * y[0];
 }
 
-/* Computes the virial stress sigma_i = (1/2V) sum_j F_ij (x) (x_j - x_i) of the peridynamic ones among the eight
- * particles of row block g (their bonds are stored together), into p->stress [Pa]. F_ij is the force of bond i-j on i
- * (Silling & Askari 2005). model: bond law, a compile-time constant. b: all bonds. */
-static ALWAYS_INLINE void bond_stress_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
-                                                const enum pd_model model)
+/* Computes the virial stress sigma_i = (1/2V) sum_j F_ij (x) (x_j - x_i) of the peridynamic ones among the particles
+ * of WIDE rows, from row `first` on, into p->stress [Pa]. F_ij is the force of bond i-j on i (Silling & Askari 2005).
+ * model: bond law, a compile-time constant. b: all bonds. */
+static ALWAYS_INLINE void bond_stress_rows(const struct bonds *b, struct particles *p, int64_t first, const int dim,
+                                           const enum pd_model model)
 {
-    const int32_t *row = b->particle + g * LANES;
+    const int32_t *row = b->particle + first;
     lanes sum[SYM_MAX], x[DIM_MAX];
     for (int s = 0; s < dim * (dim + 1) / 2; s++) sum[s] = lanes_broadcast(0);
-    for (int d = 0; d < dim; d++) x[d] = lanes_load_or_gather(p->x[d], b->aligned[g] ? row[0] : -1, row);
+    for (int d = 0; d < dim; d++) x[d] = lanes_load_or_gather(p->x[d], b->aligned[first / LANES] ? row[0] : -1, row);
 #define VISIT(COLUMN) bond_stress_column(sum, COLUMN, p, x, dim, model)
 #define VISIT_BRITTLE(COLUMN) bond_stress_column(sum, COLUMN, p, x, dim, PD_BOND)
-    FOR_COLUMNS_BY_LAW(b, g, model, VISIT, VISIT_BRITTLE);
+    FOR_COLUMNS_BY_LAW(b, first, model, VISIT, VISIT_BRITTLE);
 #undef VISIT_BRITTLE
 #undef VISIT
-    for (int l = 0; l < LANES && g * LANES + l < b->rows; l++)
+    for (int l = 0; l < WIDE && first + l < b->rows; l++)
         for (int s = 0; s < dim * (dim + 1) / 2 && p->kind[row[l]] == KIND_PD; s++)
             p->stress[s][row[l]] = sum[s][l] * b->stiffness / (2 * p->volume0[row[l]]);
 }
@@ -111,24 +125,24 @@ static ALWAYS_INLINE lanes bond_soften_column(const struct bond_column_view s, c
     lanes y[DIM_MAX], stretch;
     bond_measure_store(s, p, x, y, &stretch, dim);
     const lanes lost = bonds_excess_dissipation_at_softening_kinks(
-        s.b, s.number * LANES, stretch, bond_column_weights(s), bond_column_inverse_lengths(s));
-    bonds_update_softening_and_scale_stretch(s.b, s.number * LANES, stretch);
+        s.b, bond_column_first_bond(s), stretch, bond_column_weights(s), bond_column_inverse_lengths(s));
+    bonds_update_softening_and_scale_stretch(s.b, bond_column_first_bond(s), stretch);
     return lost;
 }
 
-/* Raises the largest stretches so far of the bonds of row block g (the bonds of eight particles, stored together) to
- * the present stretches. Call only if at least one of these bonds has begun to soften. b, p: all bonds and particles.
+/* Raises the largest stretches so far of the bonds of WIDE rows (of one particle each), from row `first` on, to the
+ * present stretches. Call only if at least one bond of their block has begun to soften. b, p: all bonds and particles.
  */
-static ALWAYS_INLINE void bond_soften_row_block(const struct bonds *b, const struct particles *p, int64_t g,
-                                                const int dim)
+static ALWAYS_INLINE void bond_soften_rows(const struct bonds *b, const struct particles *p, int64_t first,
+                                           const int dim)
 {
-    const int32_t *row = b->particle + g * LANES;
+    const int32_t *row = b->particle + first;
     lanes x[DIM_MAX], lost = lanes_broadcast(0);
-    for (int d = 0; d < dim; d++) x[d] = lanes_load_or_gather(p->x[d], b->aligned[g] ? row[0] : -1, row);
+    for (int d = 0; d < dim; d++) x[d] = lanes_load_or_gather(p->x[d], b->aligned[first / LANES] ? row[0] : -1, row);
 #define VISIT(COLUMN) lost += bond_soften_column(COLUMN, p, x, dim)
-    FOR_COLUMNS(b, g, VISIT);
+    FOR_COLUMNS(b, first, VISIT);
 #undef VISIT
-    bond_row_block_add_excess_dissipation_at_kinks(b, g, lost);
+    bond_rows_add_excess_dissipation_at_kinks(b, first, lost);
 }
 
 void bonds_update_softening(struct bonds *b, const struct particles *p)
@@ -136,9 +150,11 @@ void bonds_update_softening(struct bonds *b, const struct particles *p)
 #pragma omp parallel for schedule(static)
     for (int64_t g = 0; g < b->row_blocks; g++) {
         if (!bond_row_block_has_begun_softening(b, g)) continue;
-        if (p->dim == 1) bond_soften_row_block(b, p, g, 1);
-        if (p->dim == 2) bond_soften_row_block(b, p, g, 2);
-        if (p->dim == 3) bond_soften_row_block(b, p, g, 3);
+        for (int64_t first = g * LANES; first < (g + 1) * LANES; first += WIDE) {
+            if (p->dim == 1) bond_soften_rows(b, p, first, 1);
+            if (p->dim == 2) bond_soften_rows(b, p, first, 2);
+            if (p->dim == 3) bond_soften_rows(b, p, first, 3);
+        }
     }
 }
 
@@ -194,8 +210,8 @@ enum { ROW_BLOCK_PER_BLOCK = 64, BLOCKS_AT_ONCE = 256 };
     }                                                                                                                  \
     static void bond_stress_##D##d_##M(const struct bonds *b, struct particles *p)                                     \
     {                                                                                                                  \
-        _Pragma("omp parallel for schedule(static)") for (int64_t g = 0; g < b->row_blocks; g++)                       \
-            bond_stress_row_block(b, p, g, D, PD_##M);                                                                 \
+        _Pragma("omp parallel for schedule(static)") for (int64_t first = 0; first < b->row_blocks * LANES;            \
+                                                          first += WIDE) bond_stress_rows(b, p, first, D, PD_##M);     \
     }
 PD_VARIANTS(INSTANCE)
 

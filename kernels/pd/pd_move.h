@@ -30,7 +30,7 @@ static ALWAYS_INLINE void pd_store_values_of_selected_particles(real *to, const 
     if (consecutive)
         lanes_store(to + list[0], a);
     else
-        for (int l = 0; l < LANES; l++)
+        for (int l = 0; l < WIDE; l++)
             if (movers >> l & 1) to[list[l]] = a[l];
 }
 
@@ -56,7 +56,7 @@ static ALWAYS_INLINE bool pd_leapfrog_step_and_check_divergence(struct particles
     }
     const lanes_mask diverged = lanes_mask_of_diverged_particles(speed2, place, square(m->fastest));
     bool any = consecutive && lanes_mask_any(diverged);
-    for (int l = 0; l < LANES && !consecutive; l++) any |= (movers >> l & 1) && diverged[l];
+    for (int l = 0; l < WIDE && !consecutive; l++) any |= (movers >> l & 1) && diverged[l];
     return any;
 }
 
@@ -70,9 +70,12 @@ static ALWAYS_INLINE bool pd_advance_up_to_eight_particles(struct particles *p, 
 {
     const unsigned movers = pd_select_movable_particles(p, list, n, loaded);
     if (movers == 0) return false;
-    if (movers == UINT8_MAX && list_is_consecutive(list))
-        return pd_leapfrog_step_and_check_divergence(p, list, movers, m, dim, true);
-    return pd_leapfrog_step_and_check_divergence(p, list, movers, m, dim, false);
+    const bool consecutive = movers == UINT8_MAX && list_is_consecutive(list);
+    bool diverged = false;
+    for (int part = 0; part < LANES; part += WIDE)
+        diverged |= consecutive ? pd_leapfrog_step_and_check_divergence(p, list + part, movers, m, dim, true)
+                                : pd_leapfrog_step_and_check_divergence(p, list + part, movers >> part, m, dim, false);
+    return diverged;
 }
 
 #endif

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#define ROWS_IN_PARTS /* vectors of WIDE rows */
 #include "bond_core.h"
 #include "kernels/kernels.h"
 #include "base/polar.h"
@@ -70,20 +71,19 @@ struct own_family {
     lanes share;   /* V/Q, with the weighted volume of a full neighbourhood if the moduli refer to it [m] */
 };
 
-/* Returns the moduli and weighted volumes of the neighbourhoods (all bonds) of the eight particles of row block g. b,
- * p: all bonds and particles. */
-static ALWAYS_INLINE struct own_family own_family_of(const struct bonds *b, const struct particles *p, int64_t g)
+/* Returns the moduli and weighted volumes of the neighbourhoods (all bonds) of the particles of WIDE rows, from row
+ * `first` on. b, p: all bonds and particles. */
+static ALWAYS_INLINE struct own_family own_family_of(const struct bonds *b, const struct particles *p, int64_t first)
 {
-    const int32_t *row = b->particle + g * LANES;
-    const int32_t own = b->aligned[g] ? row[0] : -1;
+    const int32_t *row = b->particle + first;
+    const int32_t own = b->aligned[first / LANES] ? row[0] : -1;
     const struct state_modulus *m = &b->state.modulus[p->material[row[0]]];
-    const lanes Q = lanes_load(b->state.weighted + g * LANES),
-                inverse = lanes_choose(Q > 0.0, 1.0 / Q, lanes_broadcast(0));
+    const lanes Q = lanes_load(b->state.weighted + first), inverse = lanes_choose(Q > 0.0, 1.0 / Q, lanes_broadcast(0));
     const lanes share = b->state.share > 0 ? lanes_choose(Q > 0.0, lanes_broadcast(b->state.share), lanes_broadcast(0))
                                            : lanes_load_or_gather(p->volume0, own, row) * inverse;
     struct own_family f = {lanes_broadcast(m->A), lanes_broadcast(m->B), inverse, share};
-    if (own >= 0 && eight_bytes_are_equal(p->material + own)) return f;
-    for (int l = 0; l < LANES; l++) m = &b->state.modulus[p->material[row[l]]], f.A[l] = m->A, f.B[l] = m->B;
+    if (own >= 0 && eight_bytes_are_equal(p->material + b->particle[first / LANES * LANES])) return f;
+    for (int l = 0; l < WIDE; l++) m = &b->state.modulus[p->material[row[l]]], f.A[l] = m->A, f.B[l] = m->B;
     return f;
 }
 
@@ -93,28 +93,29 @@ struct family_state {
     lanes pressure, spring, rotation[ROTATION];
 };
 
-/* Stores the states *k (pressure, spring stiffness and rotation) of the neighbourhoods of the eight particles of row
- * block g (their bonds are stored together) in b->state. model: state-based model, a compile-time constant. */
-static ALWAYS_INLINE void precompute_store(struct bonds *b, int64_t g, const struct family_state *k,
+/* Stores the states *k (pressure, spring stiffness and rotation) of the neighbourhoods of the particles of WIDE rows,
+ * from row `first` on, in b->state. model: state-based model, a compile-time constant. */
+static ALWAYS_INLINE void precompute_store(struct bonds *b, int64_t first, const struct family_state *k,
                                            const enum pd_model model)
 {
-    const int32_t *row = b->particle + g * LANES;
-    const int rows = count_of_eight_consecutive_indices_below(g * LANES, b->rows);
+    const int32_t *row = b->particle + first;
+    const int rows = count_of_eight_consecutive_indices_below(first, b->rows);
+    const bool aligned = b->aligned[first / LANES];
     struct state *t = &b->state;
-    bond_row_block_store_values(t->pressure, row, rows, b->aligned[g], k->pressure);
-    bond_row_block_store_values(t->spring, row, rows, b->aligned[g], k->spring);
+    bond_rows_store_values(t->pressure, row, rows, aligned, k->pressure);
+    bond_rows_store_values(t->spring, row, rows, aligned, k->spring);
     for (int c = 0; state_model_has_rotations(model) && c < ROTATION; c++)
-        bond_row_block_store_values(t->rotation[c], row, rows, b->aligned[g], k->rotation[c]);
+        bond_rows_store_values(t->rotation[c], row, rows, aligned, k->rotation[c]);
 }
 
 /* ---- bonded material points -------------------------------------------------------------------------------------- */
 
-/* Returns a mask with lane l set if particle l of row block g (the bonds of eight particles) is a material point with
- * bonds, not a peridynamic particle. b, p: all bonds and particles. */
-static ALWAYS_INLINE lanes_mask ends_of(const struct bonds *b, const struct particles *p, int64_t g)
+/* Returns a mask with lane l set if the particle of row `first` + l is a material point with bonds, not a peridynamic
+ * particle. b, p: all bonds and particles. */
+static ALWAYS_INLINE lanes_mask ends_of(const struct bonds *b, const struct particles *p, int64_t first)
 {
     lanes_mask end;
-    for (int l = 0; l < LANES; l++) end[l] = -(int64_t)(p->kind[b->particle[g * LANES + l]] == KIND_MPM);
+    for (int l = 0; l < WIDE; l++) end[l] = -(int64_t)(p->kind[b->particle[first + l]] == KIND_MPM);
     return end;
 }
 
@@ -157,27 +158,27 @@ static ALWAYS_INLINE void ends_moment(struct particles *p, const int32_t *row, i
     const lanes_mask any = end & ((sum->moved != 0) | (turned != 0.0)); /* exactly zero where nothing has moved */
     for (int k = dim == 2 ? 2 : 0, c = 0; k < 3; k++, c++) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
-        bond_row_block_store_values(p->end_moment[c], row, rows, own >= 0,
-                                    lanes_choose(any, N[j][i] - N[i][j], lanes_broadcast(0)));
+        bond_rows_store_values(p->end_moment[c], row, rows, own >= 0,
+                               lanes_choose(any, N[j][i] - N[i][j], lanes_broadcast(0)));
     }
 }
 
-/* For the bonds b, corrects the states *k (pressure, spring stiffness, rotation) of those of the eight particles of row
- * block g that are material points: adds the mean strain of the point's mesh cell to the pressure, and replaces the
- * rotation by that of the cell. Stores the reactions of the bonds on the cells in p->end_pull and p->end_moment. f:
- * moduli and weighted volumes of the eight neighbourhoods; sum: sums over their bonds; model: state-based model, a
+/* For the bonds b, corrects the states *k (pressure, spring stiffness, rotation) of those particles of WIDE rows, from
+ * row `first` on, that are material points: adds the mean strain of the point's mesh cell to the pressure, and replaces
+ * the rotation by that of the cell. Stores the reactions of the bonds on the cells in p->end_pull and p->end_moment. f:
+ * moduli and weighted volumes of the neighbourhoods; sum: sums over their bonds; model: state-based model, a
  * compile-time constant. */
-static __attribute__((noinline)) void ends_update(struct bonds *b, struct particles *p, int64_t g,
+static __attribute__((noinline)) void ends_update(struct bonds *b, struct particles *p, int64_t first,
                                                   const struct own_family *f, const struct family_sums *sum,
                                                   struct family_state *k, const int dim, const enum pd_model model)
 {
-    const lanes_mask end = ends_of(b, p, g);
-    const int32_t *row = b->particle + g * LANES, own = b->aligned[g] ? row[0] : -1;
-    const int rows = count_of_eight_consecutive_indices_below(g * LANES, b->rows);
+    const lanes_mask end = ends_of(b, p, first);
+    const int32_t *row = b->particle + first, own = b->aligned[first / LANES] ? row[0] : -1;
+    const int rows = count_of_eight_consecutive_indices_below(first, b->rows);
     k->pressure +=
         f->A * f->share * lanes_choose(end, lanes_load_or_gather(p->end_strain, own, row), lanes_broadcast(0));
-    const lanes pull = lanes_choose(end, k->pressure * lanes_load(b->state.weighted + g * LANES), lanes_broadcast(0));
-    bond_row_block_store_values(p->end_pull, row, rows, own >= 0, pull);
+    const lanes pull = lanes_choose(end, k->pressure * lanes_load(b->state.weighted + first), lanes_broadcast(0));
+    bond_rows_store_values(p->end_pull, row, rows, own >= 0, pull);
     if (!state_model_has_rotations(model)) return;
     lanes rotation[ROTATION];
     ends_rotate(p, row, own, k->spring, false, rotation, dim);
@@ -187,38 +188,37 @@ static __attribute__((noinline)) void ends_update(struct bonds *b, struct partic
 
 /* ---- all rows ---------------------------------------------------------------------------------------------------- */
 
-/* Computes pressure, spring stiffness and rotation of the neighbourhoods (all bonds) of the eight particles of row
- * block g, and stores them in b->state. The states of material points with bonds include the contribution of their
- * mesh cell. sum: sums over the bonds of each particle; model: state-based model, a compile-time constant. p: all
- * particles. */
-static ALWAYS_INLINE void precompute_by_family(struct bonds *b, struct particles *p, int64_t g,
+/* Computes pressure, spring stiffness and rotation of the neighbourhoods (all bonds) of the particles of WIDE rows,
+ * from row `first` on, and stores them in b->state. The states of material points with bonds include the contribution
+ * of their mesh cell. sum: sums over the bonds of each particle; model: state-based model, a compile-time constant. p:
+ * all particles. */
+static ALWAYS_INLINE void precompute_by_family(struct bonds *b, struct particles *p, int64_t first,
                                                const struct family_sums *sum, const int dim, const enum pd_model model)
 {
-    const struct own_family f = own_family_of(b, p, g);
+    const struct own_family f = own_family_of(b, p, first);
     struct family_state k;
     k.pressure = f.A * sum->extension * f.inverse * f.share, k.spring = f.B * f.share;
     if (state_model_has_rotations(model)) family_rotation(k.rotation, sum->moment, sum->moved, k.spring, dim);
-    if (__builtin_expect(p->end_strain && !bond_row_block_has_eight_pd_particles(b, g), 0)) {
+    if (__builtin_expect(p->end_strain && !bond_row_block_has_eight_pd_particles(b, first / LANES), 0)) {
         const struct family_sums seen =
             *sum; /* copies for a function that is not inlined: the originals stay in registers */
         const struct own_family own = f;
         struct family_state both = k;
-        ends_update(b, p, g, &own, &seen, &both, dim, model);
+        ends_update(b, p, first, &own, &seen, &both, dim, model);
         k = both;
     }
-    precompute_store(b, g, &k, model);
+    precompute_store(b, first, &k, model);
 }
 
-/* Computes the states (pressure, spring stiffness, rotation) of the eight particles of row block g from sums over
- * their bonds: the first of the two loops of the force. Sets b->state.past[g] if a bond may exceed its breaking limit,
- * and b->state.pressed[g] if a bond is compressed into its repulsive core, else clears them. If bonds break, the
- * states stored are means of those with and without the breaking bonds (state_last.h). limit: breaking limits; model:
- * state-based model, a compile-time constant. p: all particles. */
-static ALWAYS_INLINE void precompute_row_block(struct bonds *b, struct particles *p, const struct bond_limit *limit,
-                                               int64_t g, const int dim, const enum pd_model model)
+/* Computes the states (pressure, spring stiffness, rotation) of the particles of WIDE rows, from row `first` on, from
+ * sums over their bonds. Sets *past to true if a bond may exceed its breaking limit, and *pressed if a bond is
+ * compressed into its repulsive core. model: state-based model, a compile-time constant. b, p: all bonds and particles.
+ */
+static ALWAYS_INLINE void precompute_rows(struct bonds *b, struct particles *p, int64_t first, bool *past,
+                                          bool *pressed, const int dim, const enum pd_model model)
 {
-    const int32_t *row = b->particle + g * LANES;
-    const int32_t own = b->aligned[g] ? row[0] : -1;
+    const int32_t *row = b->particle + first;
+    const int32_t own = b->aligned[first / LANES] ? row[0] : -1;
     lanes x[DIM_MAX], X[DIM_MAX];
     struct family_sums sum;
     sum.extension = lanes_broadcast(0), sum.stretch = lanes_broadcast(-1), sum.press = lanes_broadcast(0);
@@ -229,12 +229,25 @@ static ALWAYS_INLINE void precompute_row_block(struct bonds *b, struct particles
         if (state_model_has_rotations(model)) X[d] = lanes_load_or_gather(p->X[d], own, row);
     }
 #define VISIT(COLUMN) precompute_column(&sum, p, COLUMN, x, X, dim, model)
-    FOR_COLUMNS(b, g, VISIT);
+    FOR_COLUMNS(b, first, VISIT);
 #undef VISIT
-    b->state.past[g] = lanes_mask_any(sum.stretch > lanes_load(b->trigger + g * LANES));
-    b->state.pressed[g] = lanes_mask_any(sum.press < CORE_FROM - 1);
-    precompute_by_family(b, p, g, &sum, dim, model);
-    if (b->state.past[g] && !limit->softening) bond_row_block_blend_states_for_breaking_bonds(b, p, limit, g);
+    *past |= lanes_mask_any(sum.stretch > lanes_load(b->trigger + first));
+    *pressed |= lanes_mask_any(sum.press < CORE_FROM - 1);
+    precompute_by_family(b, p, first, &sum, dim, model);
+}
+
+/* Computes the states (pressure, spring stiffness, rotation) of the eight particles of row block g from sums over
+ * their bonds: the first of the two loops of the force. Sets b->state.past[g] if a bond may exceed its breaking limit,
+ * and b->state.pressed[g] if a bond is compressed into its repulsive core, else clears them. If bonds break, the
+ * states stored are means of those with and without the breaking bonds (state_last.h). limit: breaking limits; model:
+ * state-based model, a compile-time constant. p: all particles. */
+static ALWAYS_INLINE void precompute_row_block(struct bonds *b, struct particles *p, const struct bond_limit *limit,
+                                               int64_t g, const int dim, const enum pd_model model)
+{
+    bool past = false, pressed = false;
+    for (int part = 0; part < LANES; part += WIDE) precompute_rows(b, p, g * LANES + part, &past, &pressed, dim, model);
+    b->state.past[g] = past, b->state.pressed[g] = pressed;
+    if (past && !limit->softening) bond_row_block_blend_states_for_breaking_bonds(b, p, limit, g);
 }
 
 /* Sets the states (pressure, spring stiffness, rotation) of mirror images in b->state to the states of the particles of
@@ -270,7 +283,7 @@ struct state_sums {
  * with bond vector Y, weight w, pressure P, spring stiffness g and q = (|Y| - r)/|Y|, which takes two products fewer
  * than the stretch. With rotations the effective displacement Y - R xi is computed as (Y - xi) - (R - 1) xi, which is
  * exactly 0 where nothing has moved; the part of the rotations of the eight particles themselves is added in
- * force_row_block. p: all particles. */
+ * force_rows. p: all particles. */
 static ALWAYS_INLINE void force_column(struct state_sums *sum, const struct particles *p,
                                        const struct bond_column_view column, const int dim, const enum pd_model model)
 {
@@ -303,15 +316,15 @@ static ALWAYS_INLINE void force_column(struct state_sums *sum, const struct part
         sum->f[d] += f[d]; /* one addition per column: shortest chain of dependent additions */
 }
 
-/* Computes the forces of all bonds on the eight particles of row block g (their bonds are stored together) into p->f,
- * without repulsive cores, from the states of the neighbourhoods in b->state (pressure, spring stiffness and
+/* Computes the forces of all bonds on the particles of WIDE rows, from row `first` on, into p->f, without repulsive
+ * cores, from the states of the neighbourhoods in b->state (pressure, spring stiffness and
  * rotation). model: state-based model, a compile-time constant. */
-static ALWAYS_INLINE void force_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
-                                          const enum pd_model model)
+static ALWAYS_INLINE void force_rows(const struct bonds *b, struct particles *p, int64_t first, const int dim,
+                                     const enum pd_model model)
 {
-    const int32_t *row = b->particle + g * LANES;
-    const int32_t own = b->aligned[g] ? row[0] : -1;
-    const int rows = count_of_eight_consecutive_indices_below(g * LANES, b->rows);
+    const int32_t *row = b->particle + first;
+    const int32_t own = b->aligned[first / LANES] ? row[0] : -1;
+    const int rows = count_of_eight_consecutive_indices_below(first, b->rows);
     const struct state *t = &b->state;
     struct state_sums sum;
     sum.pressure = lanes_load_or_gather(t->pressure, own, row), sum.spring = lanes_load_or_gather(t->spring, own, row);
@@ -320,14 +333,14 @@ static ALWAYS_INLINE void force_row_block(const struct bonds *b, struct particle
         if (state_model_has_rotations(model)) sum.X[d] = lanes_load_or_gather(p->X[d], own, row);
     }
 #define VISIT(COLUMN) force_column(&sum, p, COLUMN, dim, model)
-    FOR_COLUMNS(b, g, VISIT);
+    FOR_COLUMNS(b, first, VISIT);
 #undef VISIT
     if (state_model_has_rotations(model)) {
         lanes rotation[ROTATION];
         for (int c = 0; c < ROTATION; c++) rotation[c] = lanes_load_or_gather(t->rotation[c], own, row);
         encoded_rotation_subtract_product_with_vector(sum.f, rotation, sum.arm, dim);
     }
-    for (int d = 0; d < dim; d++) bond_row_block_store_values(p->f[d], row, rows, own >= 0, sum.f[d]);
+    for (int d = 0; d < dim; d++) bond_rows_store_values(p->f[d], row, rows, own >= 0, sum.f[d]);
 }
 
 /* Computes the forces of the bonds on the eight particles of row block g (their bonds are stored together) into p->f,
@@ -337,7 +350,7 @@ static ALWAYS_INLINE void force_row_block(const struct bonds *b, struct particle
 static ALWAYS_INLINE int64_t force_and_break(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                                              int64_t g, const int dim, const enum pd_model model)
 {
-    force_row_block(b, p, g, dim, model);
+    for (int part = 0; part < LANES; part += WIDE) force_rows(b, p, g * LANES + part, dim, model);
     if (__builtin_expect(b->state.pressed[g], 0)) bond_row_block_add_repulsive_core_forces(b, p, g);
     if (!b->state.past[g]) return 0;
     return bond_break_row_block(b, p, limit, g);

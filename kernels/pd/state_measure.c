@@ -5,6 +5,7 @@
  *                       deformed vectors y, not xi: the stress rotates with the body */
 #include <math.h>
 
+#define ROWS_IN_PARTS /* vectors of WIDE rows */
 #include "bond_core.h"
 #include "bond_last.h"
 #include "kernels/kernels.h"
@@ -20,12 +21,12 @@ struct own_state {
     lanes x[DIM_MAX], X[DIM_MAX], pressure, spring, rotation[ROTATION];
 };
 
-/* Returns positions and states (pressure, spring stiffness, rotation) of the eight particles of p in block g of eight
- * rows of b. rotates: true in models with rotations of particles; otherwise `rotation` is not set. */
-static ALWAYS_INLINE struct own_state own_state_of(const struct bonds *b, const struct particles *p, int64_t g,
+/* Returns positions and states (pressure, spring stiffness, rotation) of the particles of p in WIDE rows of b, from row
+ * `first` on. rotates: true in models with rotations of particles; otherwise `rotation` is not set. */
+static ALWAYS_INLINE struct own_state own_state_of(const struct bonds *b, const struct particles *p, int64_t first,
                                                    const int dim, const bool rotates)
 {
-    const int32_t *row = b->particle + g * LANES, own = b->aligned[g] ? row[0] : -1;
+    const int32_t *row = b->particle + first, own = b->aligned[first / LANES] ? row[0] : -1;
     const struct state *t = &b->state;
     struct own_state s;
     s.pressure = lanes_load_or_gather(t->pressure, own, row), s.spring = lanes_load_or_gather(t->spring, own, row);
@@ -68,6 +69,19 @@ static ALWAYS_INLINE lanes own_force_column(const struct own_state *s, const str
     return lanes_choose(w > 0.0, 0.5 * w * energy, lanes_broadcast(0));
 }
 
+/* Returns in the lanes the elastic energies of the neighbourhoods of WIDE particles, those of the rows from `first` on,
+ * without repulsive cores [J]. model: state-based model, a compile-time constant. b, p: all bonds and particles. */
+static ALWAYS_INLINE lanes energy_rows(const struct bonds *b, const struct particles *p, int64_t first, const int dim,
+                                       const enum pd_model model)
+{
+    const struct own_state s = own_state_of(b, p, first, dim, state_model_has_rotations(model));
+    lanes sum = lanes_broadcast(0), T[DIM_MAX], y[DIM_MAX];
+#define VISIT(COLUMN) sum += own_force_column(&s, COLUMN, p, T, y, dim, state_model_has_rotations(model))
+    FOR_COLUMNS(b, first, VISIT);
+#undef VISIT
+    return sum;
+}
+
 /* Returns the elastic energy of the neighbourhoods of the eight particles of row block g (their bonds are stored
  * together), repulsive cores included [J]; 0 if the block is inactive (at rest). row_energy: [b->rows] the energy of
  * each neighbourhood is added to it [J]; NULL if it is not wanted. model: state-based model, a compile-time constant.
@@ -76,12 +90,9 @@ static ALWAYS_INLINE real energy_row_block(const struct bonds *b, const struct p
                                            real *row_energy, const int dim, const enum pd_model model)
 {
     if (b->active.level[g] == 0) return 0;
-    const struct own_state s = own_state_of(b, p, g, dim, state_model_has_rotations(model));
-    lanes sum = lanes_broadcast(0), T[DIM_MAX], y[DIM_MAX];
-    real total = b->state.pressed[g] ? bond_row_block_repulsive_core_energy(b, p, g, row_energy) : 0;
-#define VISIT(COLUMN) sum += own_force_column(&s, COLUMN, p, T, y, dim, state_model_has_rotations(model))
-    FOR_COLUMNS(b, g, VISIT);
-#undef VISIT
+    real sum[LANES], total = b->state.pressed[g] ? bond_row_block_repulsive_core_energy(b, p, g, row_energy) : 0;
+    for (int part = 0; part < LANES; part += WIDE)
+        lanes_store(sum + part, energy_rows(b, p, g * LANES + part, dim, model));
     for (int l = 0; l < LANES && g * LANES + l < b->rows; l++) total += sum[l];
     for (int l = 0; row_energy && l < LANES && g * LANES + l < b->rows; l++) row_energy[g * LANES + l] += sum[l];
     return total;
@@ -101,20 +112,20 @@ static ALWAYS_INLINE void stress_column(lanes *sum, const struct own_state *s, c
     if (dim > 2) sum[4] += 0.5 * (T[1] * y[2] + T[2] * y[1]), sum[5] += 0.5 * (T[2] * y[0] + T[0] * y[2]);
 }
 
-/* Computes the stress of the peridynamic ones among the eight particles of row block g (their bonds are stored
- * together), into p->stress [Pa], from the states of their neighbourhoods (pressure, spring stiffness and rotation).
- * model: state-based model, a compile-time constant. b: all bonds. */
-static ALWAYS_INLINE void stress_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
-                                           const enum pd_model model)
+/* Computes the stress of the peridynamic ones among the particles of WIDE rows, from row `first` on, into p->stress
+ * [Pa], from the states of their neighbourhoods (pressure, spring stiffness and rotation). model: state-based model, a
+ * compile-time constant. b: all bonds. */
+static ALWAYS_INLINE void stress_rows(const struct bonds *b, struct particles *p, int64_t first, const int dim,
+                                      const enum pd_model model)
 {
-    const struct own_state s = own_state_of(b, p, g, dim, state_model_has_rotations(model));
-    const int32_t *row = b->particle + g * LANES;
+    const struct own_state s = own_state_of(b, p, first, dim, state_model_has_rotations(model));
+    const int32_t *row = b->particle + first;
     lanes sum[SYM_MAX];
     for (int c = 0; c < dim * (dim + 1) / 2; c++) sum[c] = lanes_broadcast(0);
 #define VISIT(COLUMN) stress_column(sum, &s, COLUMN, p, dim, model)
-    FOR_COLUMNS(b, g, VISIT);
+    FOR_COLUMNS(b, first, VISIT);
 #undef VISIT
-    for (int l = 0; l < LANES && g * LANES + l < b->rows; l++)
+    for (int l = 0; l < WIDE && first + l < b->rows; l++)
         for (int c = 0; c < dim * (dim + 1) / 2 && p->kind[row[l]] == KIND_PD; c++)
             p->stress[c][row[l]] = sum[c][l] / p->volume0[row[l]];
 }
@@ -139,8 +150,8 @@ struct row_block_sum {
     }                                                                                                                  \
     static void state_stress_##D##d_##M(const struct bonds *b, struct particles *p)                                    \
     {                                                                                                                  \
-        _Pragma("omp parallel for schedule(static)") for (int64_t g = 0; g < b->row_blocks; g++)                       \
-            stress_row_block(b, p, g, D, PD_##M);                                                                      \
+        _Pragma("omp parallel for schedule(static)") for (int64_t first = 0; first < b->row_blocks * LANES;            \
+                                                          first += WIDE) stress_rows(b, p, first, D, PD_##M);          \
     }
 STATE_VARIANTS(INSTANCE)
 

@@ -1,6 +1,6 @@
-/* Eight doubles as one value. Uses the compiler's vector extension, so one source becomes AVX-512, AVX2 or SSE code.
- * Where one AVX-512 instruction replaces several, its intrinsic is used, beside a version for narrower vectors. That
- * version works on sign bits, because comparing eight doubles takes eight comparisons there. */
+/* Eight doubles, or four (WIDE), as one value. Uses the compiler's vector extension, so one source becomes AVX-512,
+ * AVX2 or SSE code. Where one instruction replaces several, its intrinsic is used, beside a version for vectors wider
+ * than a register. That version works on sign bits, because comparing eight doubles takes eight comparisons there. */
 #ifndef CLEAVE_KERNELS_LANES
 #define CLEAVE_KERNELS_LANES
 
@@ -8,26 +8,36 @@
 
 #include "data/particles.h"
 
-#ifdef __AVX512F__
+#ifdef __AVX__
 #include <immintrin.h>
 #endif
 
-/* Vectors of eight (LANES) numbers: aligned doubles, doubles at any address, floats, masks (all bits of a lane set or
- * clear), bit patterns of doubles, and 16-bit integers. */
-typedef real lanes __attribute__((vector_size(LANES * sizeof(real))));
-typedef real lanes_anywhere __attribute__((vector_size(LANES * sizeof(real)), aligned(sizeof(real)), may_alias));
-typedef float lanes_floats __attribute__((vector_size(LANES * sizeof(float)), aligned(sizeof(float)), may_alias));
-typedef int64_t lanes_mask __attribute__((vector_size(LANES * sizeof(int64_t))));
-typedef uint64_t lanes_bits __attribute__((vector_size(LANES * sizeof(uint64_t))));
-typedef int16_t lanes_units __attribute__((vector_size(LANES * sizeof(int16_t)), may_alias));
+/* Number of lanes of a vector: eight, or four in files that define ROWS_IN_PARTS and process the eight rows of a block
+ * (bonds of eight particles) in parts of WIDE rows. With AVX2 a vector of eight doubles needs two registers, and the
+ * compiler keeps such pairs in memory. */
+#if defined ROWS_IN_PARTS && defined __AVX2__ && !defined __AVX512F__
+#define LANES_WIDE 4
+#else
+#define LANES_WIDE 8
+#endif
+enum { WIDE = LANES_WIDE };
 
-/* Returns the eight numbers from[0] .. from[7]; `from` need not be aligned. */
+/* Vectors of WIDE numbers: aligned doubles, doubles at any address, floats, masks (all bits of a lane set or clear),
+ * bit patterns of doubles, and 16-bit integers. */
+typedef real lanes __attribute__((vector_size(WIDE * sizeof(real))));
+typedef real lanes_anywhere __attribute__((vector_size(WIDE * sizeof(real)), aligned(sizeof(real)), may_alias));
+typedef float lanes_floats __attribute__((vector_size(WIDE * sizeof(float)), aligned(sizeof(float)), may_alias));
+typedef int64_t lanes_mask __attribute__((vector_size(WIDE * sizeof(int64_t))));
+typedef uint64_t lanes_bits __attribute__((vector_size(WIDE * sizeof(uint64_t))));
+typedef int16_t lanes_units __attribute__((vector_size(WIDE * sizeof(int16_t)), may_alias));
+
+/* Returns the numbers from[0] .. from[WIDE - 1]; `from` need not be aligned. */
 static ALWAYS_INLINE lanes lanes_load(const real *from) { return (lanes) * (const lanes_anywhere *)from; }
 
-/* Stores the eight entries of a in to[0] .. to[7]; `to` need not be aligned. */
+/* Stores the entries of a in to[0] .. to[WIDE - 1]; `to` need not be aligned. */
 static ALWAYS_INLINE void lanes_store(real *to, lanes a) { *(lanes_anywhere *)to = a; }
 
-/* Returns the eight floats from[0] .. from[7] as doubles; `from` need not be aligned. */
+/* Returns the floats from[0] .. from[WIDE - 1] as doubles; `from` need not be aligned. */
 static ALWAYS_INLINE lanes lanes_load_floats(const float *from)
 {
 #ifdef __AVX512F__
@@ -37,20 +47,22 @@ static ALWAYS_INLINE lanes lanes_load_floats(const float *from)
 #endif
 }
 
-/* Stores the eight entries of a, rounded to floats, in to[0] .. to[7]; `to` need not be aligned. */
+/* Stores the entries of a, rounded to floats, in to[0] .. to[WIDE - 1]; `to` need not be aligned. */
 static ALWAYS_INLINE void lanes_store_floats(float *to, lanes a)
 {
     *(lanes_floats *)to = __builtin_convertvector(a, lanes_floats);
 }
 
-/* Returns a vector whose eight entries are a. */
-static ALWAYS_INLINE lanes lanes_broadcast(real a) { return (lanes){a, a, a, a, a, a, a, a}; }
+/* Returns a vector whose entries are all a. */
+static ALWAYS_INLINE lanes lanes_broadcast(real a) { return a - (lanes){0}; }
 
-/* Returns a vector whose lane l (entry) is from[index[l]]. index: eight numbers, aligned to 32 bytes. */
+/* Returns a vector whose lane l (entry) is from[index[l]]. index: WIDE numbers, aligned to 4 WIDE bytes. */
 static ALWAYS_INLINE lanes lanes_gather(const real *from, const int32_t *index)
 {
 #ifdef __AVX512F__
     return (lanes)_mm512_i32gather_pd(_mm256_load_si256((const __m256i *)index), from, sizeof(real));
+#elif LANES_WIDE == 4
+    return (lanes){from[index[0]], from[index[1]], from[index[2]], from[index[3]]};
 #else
     return (lanes){from[index[0]], from[index[1]], from[index[2]], from[index[3]],
                    from[index[4]], from[index[5]], from[index[6]], from[index[7]]};
@@ -72,8 +84,8 @@ static ALWAYS_INLINE const int32_t *list_get_eight_padded_entries(const int32_t 
  * copies of list[0] may follow the ascending ones, as list_get_eight_padded_entries fills them up. */
 static ALWAYS_INLINE bool list_is_consecutive(const int32_t *list) { return list[LANES - 1] - list[0] == LANES - 1; }
 
-/* Returns eight values of the array `from`: from[first] .. from[first + 7] or, if first < 0, from[index[0]] ..
- * from[index[7]]. */
+/* Returns WIDE values of the array `from`: from[first] .. from[first + WIDE - 1] or, if first < 0, from[index[0]] ..
+ * from[index[WIDE - 1]]. */
 static ALWAYS_INLINE lanes lanes_load_or_gather(const real *from, int32_t first, const int32_t *index)
 {
     return first >= 0 ? lanes_load(from + first) : lanes_gather(from, index);
@@ -82,7 +94,11 @@ static ALWAYS_INLINE lanes lanes_load_or_gather(const real *from, int32_t first,
 /* Returns in each lane the entry of a if the mask is set in this lane, else the entry of b. */
 static ALWAYS_INLINE lanes lanes_choose(lanes_mask mask, lanes a, lanes b)
 {
+#if LANES_WIDE == 4
+    return (lanes)_mm256_blendv_pd((__m256d)b, (__m256d)a, (__m256d)mask);
+#else
     return (lanes)((mask & (lanes_mask)a) | (~mask & (lanes_mask)b));
+#endif
 }
 
 /* Returns the mask of the lanes in which the sign bit of a is set. */
@@ -91,7 +107,7 @@ static ALWAYS_INLINE lanes_mask lanes_negative(lanes a) { return (lanes_mask) - 
 /* Returns the mask of the lanes in which a < b. */
 static ALWAYS_INLINE lanes_mask lanes_less(lanes a, lanes b)
 {
-#ifdef __AVX512F__
+#if defined __AVX512F__ || LANES_WIDE == 4
     return a < b;
 #else
     return lanes_negative(a - b);
@@ -103,6 +119,8 @@ static ALWAYS_INLINE lanes lanes_max(lanes a, lanes b)
 {
 #ifdef __AVX512F__
     return (lanes)_mm512_max_pd((__m512d)a, (__m512d)b);
+#elif LANES_WIDE == 4
+    return (lanes)_mm256_max_pd((__m256d)a, (__m256d)b);
 #else
     return lanes_choose(lanes_less(b, a), a, b);
 #endif
@@ -113,6 +131,8 @@ static ALWAYS_INLINE lanes lanes_min(lanes a, lanes b)
 {
 #ifdef __AVX512F__
     return (lanes)_mm512_min_pd((__m512d)a, (__m512d)b);
+#elif LANES_WIDE == 4
+    return (lanes)_mm256_min_pd((__m256d)a, (__m256d)b);
 #else
     return lanes_choose(lanes_less(a, b), a, b);
 #endif
@@ -129,22 +149,29 @@ static ALWAYS_INLINE lanes lanes_absolute(lanes a)
 static ALWAYS_INLINE lanes_mask lanes_mask_from_bits(uint8_t bits)
 {
     const uint64_t a = bits;
+#if LANES_WIDE == 4
+    const lanes_bits each = {1, 2, 4, 8};
+    return ((lanes_bits){a, a, a, a} & each) == each;
+#else
     return (lanes_mask) - (-((lanes_bits){a, a, a, a, a, a, a, a} & (lanes_bits){1, 2, 4, 8, 16, 32, 64, 128}) >> 63);
+#endif
 }
 
-/* Returns eight bits: bit l (0 to 7) is set if lane l is set in the mask `mask`. */
+/* Returns WIDE bits: bit l is set if lane l is set in the mask `mask`. */
 static ALWAYS_INLINE unsigned lanes_mask_bits(lanes_mask mask)
 {
 #ifdef __AVX512F__
     return _mm512_test_epi64_mask((__m512i)mask, (__m512i)mask);
+#elif LANES_WIDE == 4
+    return _mm256_movemask_pd((__m256d)mask);
 #else
     unsigned bits = 0;
-    for (int l = 0; l < LANES; l++) bits |= (unsigned)(mask[l] & 1) << l;
+    for (int l = 0; l < WIDE; l++) bits |= (unsigned)(mask[l] & 1) << l;
     return bits;
 #endif
 }
 
-/* Returns in each lane l (0 to 7) the entry of a if bit l is set in `bits`, else 0. */
+/* Returns in each lane l the entry of a if bit l is set in `bits`, else 0. */
 static ALWAYS_INLINE lanes lanes_zero_unless_selected(uint8_t bits, lanes a)
 {
 #ifdef __AVX512F__
@@ -154,46 +181,52 @@ static ALWAYS_INLINE lanes lanes_zero_unless_selected(uint8_t bits, lanes a)
 #endif
 }
 
-/* Stores entry l of a at to[l] for all l (0 to 7) whose bit is set in `bits`; other elements of `to`, which need not be
+/* Stores entry l of a at to[l] for all lanes l whose bit is set in `bits`; other elements of `to`, which need not be
  * aligned, stay unchanged. */
 static ALWAYS_INLINE void lanes_store_selected(uint8_t bits, real *to, lanes a)
 {
 #ifdef __AVX512F__
     _mm512_mask_storeu_pd(to, bits, (__m512d)a);
 #else
-    for (int l = 0; l < LANES; l++)
+    for (int l = 0; l < WIDE; l++)
         if (bits >> l & 1) to[l] = a[l];
 #endif
 }
 
-/* Returns in each lane l (0 to 7) the larger of the entries of a and b if bit l is set in `bits`, else the entry of
+/* Returns in each lane l the larger of the entries of a and b if bit l is set in `bits`, else the entry of
  * a. */
 static ALWAYS_INLINE lanes lanes_max_selected(uint8_t bits, lanes a, lanes b)
 {
 #ifdef __AVX512F__
     return (lanes)_mm512_mask_max_pd((__m512d)a, bits, (__m512d)a, (__m512d)b);
+#elif LANES_WIDE == 4
+    return lanes_choose(lanes_mask_from_bits(bits), lanes_max(a, b), a);
 #else
     return lanes_choose(lanes_mask_from_bits(bits) & lanes_negative(a - b), b, a);
 #endif
 }
 
-/* Returns in each lane l (0 to 7) the smaller of the entries of a and b if bit l is set in `bits`, else the entry of
+/* Returns in each lane l the smaller of the entries of a and b if bit l is set in `bits`, else the entry of
  * a. */
 static ALWAYS_INLINE lanes lanes_min_selected(uint8_t bits, lanes a, lanes b)
 {
 #ifdef __AVX512F__
     return (lanes)_mm512_mask_min_pd((__m512d)a, bits, (__m512d)a, (__m512d)b);
+#elif LANES_WIDE == 4
+    return lanes_choose(lanes_mask_from_bits(bits), lanes_min(a, b), a);
 #else
     return lanes_choose(lanes_mask_from_bits(bits) & lanes_negative(b - a), b, a);
 #endif
 }
 
-/* Returns a vector whose lane l (0 to 7) is a plus units[l] units in the last place. units: eight integers, aligned to
- * 16 bytes. */
+/* Returns a vector whose lane l is a plus units[l] units in the last place. units: WIDE integers, aligned to 2 WIDE
+ * bytes. */
 static ALWAYS_INLINE lanes lanes_add_ulps(real a, const int16_t *units)
 {
 #ifdef __AVX512F__
     const lanes_mask more = (lanes_mask)_mm512_cvtepi16_epi64(_mm_load_si128((const __m128i *)units));
+#elif LANES_WIDE == 4
+    const lanes_mask more = (lanes_mask)_mm256_cvtepi16_epi64(_mm_loadl_epi64((const __m128i *)units));
 #else
     const lanes_mask more = __builtin_convertvector(*(const lanes_units *)units, lanes_mask);
 #endif
@@ -205,9 +238,11 @@ static ALWAYS_INLINE bool lanes_mask_any(lanes_mask mask)
 {
 #ifdef __AVX512F__
     return _mm512_test_epi64_mask((__m512i)mask, (__m512i)mask) != 0;
+#elif LANES_WIDE == 4
+    return _mm256_movemask_pd((__m256d)mask) != 0;
 #else
     int64_t any = 0;
-    for (int l = 0; l < LANES; l++) any |= mask[l];
+    for (int l = 0; l < WIDE; l++) any |= mask[l];
     return any != 0;
 #endif
 }
@@ -261,7 +296,7 @@ static ALWAYS_INLINE lanes lanes_square_root(lanes a)
 static ALWAYS_INLINE lanes lanes_square_root(lanes a)
 {
     lanes y;
-    for (int l = 0; l < LANES; l++) y[l] = sqrt(a[l]);
+    for (int l = 0; l < WIDE; l++) y[l] = sqrt(a[l]);
     return y;
 }
 
