@@ -3,7 +3,8 @@
  *                                 `plastic_strain` [1] and the temperature [K], and stores its derivative by the
  *                                 plastic strain in *slope [Pa]
  *     flow_stress_integral_NAME   returns the integral of the yield stress from 0 to `plastic_strain` [J/m^3]
- *     plastic_strain_bound_NAME   returns the plastic strain at which the yield stress is `stress` [Pa], or an upper
+ *     plastic_strain_bound_at_stress_NAME
+ *                                 returns the plastic strain at which the yield stress is `stress` [Pa], or an upper
  *                                 bound of it; INFINITY if there is none
  * The yield stress is a concave function of the plastic strain. */
 #ifndef CLEAVE_KERNELS_FLOW_LINEAR

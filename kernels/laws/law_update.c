@@ -6,6 +6,7 @@
  * where the trial relative stress is s - g X: the law of the back stress is integrated along a constant direction of
  * flow, so that steps of any size are exact where the direction does not change. In plane stress xi_xx + xi_yy stands
  * for s_xx + s_yy - 3 (X_xx + X_yy), for which q^2 = (xi_xx + xi_yy)^2/4 + 3 (xi_xx - xi_yy)^2/4 + 3 xi_xy^2. */
+#define ROWS_IN_PARTS /* vectors of WIDE points */
 #include "law_update.h"
 
 #include "flows.h"
@@ -26,6 +27,15 @@ enum { STEPS_PLANE_STRESS = 8 };
  * whose strength is 0. */
 #define LEAST_YIELD 1e-10
 
+/* State of WIDE of WIDE points: members as in struct law_points. */
+struct part_points {
+    lanes s[SYM_MAX], before[SYM_MAX], volume_before, volume;
+    real duration;
+    lanes a, back[SYM_MAX], temperature, work;
+    bool thins;
+    lanes_mask active;
+};
+
 /* Returns the number of components of the relative stress (stress less back stress) that relative_stress computes in
  * `space`: 6 in 3D, 4 in plane strain, 3 in plane stress, 1 in 1D. */
 static ALWAYS_INLINE int components(const enum space space)
@@ -40,11 +50,11 @@ static ALWAYS_INLINE int tensor_components(const enum space space)
     return space == SPACE_LINE ? 1 : space == SPACE_SOLID ? 6 : 4;
 }
 
-/* Computes the relative stress s - g X of eight points [Pa], with the trial stress s (p->s) and the back stress X
+/* Computes the relative stress s - g X of WIDE points [Pa], with the trial stress s (p->s) and the back stress X
  * (p->back). xi: receives components(space) entries: in 3D and plane strain the deviator of s - g X in the order xx yy
  * zz xy yz zx; in plane stress the components xx + yy, xx - yy and xy, in 1D the component xx, in both after X_zz has
  * been subtracted from the normal components of X, which is deviatoric. g: factor on the back stress [1]. */
-static ALWAYS_INLINE void relative_stress(const struct law_points *p, lanes g, lanes *xi, const enum space space)
+static ALWAYS_INLINE void relative_stress(const struct part_points *p, lanes g, lanes *xi, const enum space space)
 {
     if (space == SPACE_LINE) {
         xi[0] = p->s[0] - 1.5 * g * p->back[0];
@@ -60,7 +70,7 @@ static ALWAYS_INLINE void relative_stress(const struct law_points *p, lanes g, l
     for (int c = 0; c < components(space); c++) xi[c] = p->s[c] - (c < 3 ? mean : lanes_broadcast(0)) - g * p->back[c];
 }
 
-/* Computes the product 3/2 x:y [Pa^2] of two relative stresses (stress less back stress) of eight points, as the sum of
+/* Computes the product 3/2 x:y [Pa^2] of two relative stresses (stress less back stress) of WIDE points, as the sum of
  * two parts that plastic flow reduces at different rates. x, y: components(space) entries in the order of
  * relative_stress [Pa]. *even: receives the part of the component xx + yy in plane stress, the whole product in 1D,
  * otherwise 0; *odd: receives the part of all other components. */
@@ -76,7 +86,7 @@ static ALWAYS_INLINE void relative_product(const lanes *x, const lanes *y, lanes
         for (int c = 0; c < components(space); c++) *odd += (c < 3 ? 1.5 : 3.0) * x[c] * y[c];
 }
 
-/* The equation from which plastic flow of eight points follows, for the unknown t = da/q [1/Pa]: da is the increment of
+/* The equation from which plastic flow of WIDE points follows, for the unknown t = da/q [1/Pa]: da is the increment of
  * equivalent plastic strain, q the equivalent relative stress (stress less back stress). q(t)^2 = even/(1 + A t)^2 +
  * odd/(1 + B t)^2. even, odd: the two parts of the squared trial value of q [Pa^2]; A, B: stiffnesses by which they
  * fall [Pa]; q: equivalent relative stress at t = 0 [Pa]. */
@@ -84,12 +94,12 @@ struct flow_equation {
     lanes even, odd, A, B, q;
 };
 
-/* Returns the yield equation of eight points (struct flow_equation): how the equivalent relative stress q falls with t
+/* Returns the yield equation of WIDE points (struct flow_equation): how the equivalent relative stress q falls with t
  * = da/q, da being the increment of plastic strain. law: flow law of the points; p: their trial stress and back stress.
  * g: factor on the back stress X [1]; stiffness: kinematic hardening modulus that acts over the step [Pa]. xi: receives
  * the relative stress s - g X [Pa] (relative_stress). space: compile-time constant, as in all functions of this
  * file. */
-static ALWAYS_INLINE struct flow_equation equation_at(const struct law *law, const struct law_points *p, lanes g,
+static ALWAYS_INLINE struct flow_equation equation_at(const struct law *law, const struct part_points *p, lanes g,
                                                       lanes stiffness, lanes *xi, const enum space space)
 {
     struct flow_equation e;
@@ -111,7 +121,7 @@ static ALWAYS_INLINE lanes single_rate(const struct flow_equation *e, const enum
     return space == SPACE_LINE ? e->A : e->B;
 }
 
-/* Returns for eight points the equivalent relative stress q [Pa] (of stress less back stress) that remains after
+/* Returns for WIDE points the equivalent relative stress q [Pa] (of stress less back stress) that remains after
  * plastic flow. e: yield equation; t: increment of plastic strain, divided by q [1/Pa]. *fall: in plane stress receives
  * -q dq/dt [Pa^3], else is not set. space: compile-time constant. */
 static ALWAYS_INLINE lanes equation_stress(const struct flow_equation *e, lanes t, lanes *fall, const enum space space)
@@ -123,7 +133,7 @@ static ALWAYS_INLINE lanes equation_stress(const struct flow_equation *e, lanes 
         lanes_max(e->even * u * u + e->odd * v * v, lanes_broadcast(1e-200))); /* points without stress */
 }
 
-/* Solves 1 - slope t - bound/q(t) = 0 for eight points and returns t [1/Pa], or 0 for a point with q(0) below `bound`
+/* Solves 1 - slope t - bound/q(t) = 0 for WIDE points and returns t [1/Pa], or 0 for a point with q(0) below `bound`
  * (no flow). With t = da/q, the increment da of plastic strain divided by the equivalent relative stress q, the
  * equation means q = bound + slope da. e: yield equation q(t); bound: yield stress at the start [Pa]; slope: its
  * derivative by the plastic strain [Pa]. In plane stress t follows from Newton's method, started at t = 0, else from a
@@ -142,14 +152,14 @@ static ALWAYS_INLINE lanes equation_solve(const struct flow_equation *e, lanes b
     return t;
 }
 
-/* Returns for eight points the kinematic hardening modulus [Pa] that acts over a small step: C - gamma (3/2) xi:X/q. C
+/* Returns for WIDE points the kinematic hardening modulus [Pa] that acts over a small step: C - gamma (3/2) xi:X/q. C
  * and gamma are modulus and recall constant of the Armstrong-Frederick law (law->kinematic); the recall of the back
  * stress X (p->back) moves the yield surface back. xi: trial relative stress [Pa], in the order of relative_stress; q:
  * its equivalent stress [Pa]. space: compile-time constant. */
-static ALWAYS_INLINE lanes effective_modulus(const struct law *law, const struct law_points *p, const lanes *xi,
+static ALWAYS_INLINE lanes effective_modulus(const struct law *law, const struct part_points *p, const lanes *xi,
                                              lanes q, const enum space space)
 {
-    struct law_points back = {.s = {lanes_broadcast(0)}};
+    struct part_points back = {.s = {lanes_broadcast(0)}};
     lanes x[SYM_MAX], even, odd;
     if (!(law->kinematic.recall > 0)) return lanes_broadcast(law->kinematic.modulus);
     for (int c = 0; c < SYM_MAX; c++) back.s[c] = lanes_broadcast(0), back.back[c] = -p->back[c];
@@ -159,13 +169,13 @@ static ALWAYS_INLINE lanes effective_modulus(const struct law *law, const struct
 }
 
 /* Change of the back stress X with recall (Armstrong-Frederick law) in a step along a constant direction N of plastic
- * flow, d eps_p = N da, for eight points: X = left X_n + (2/3) C added N da, with X_n at the start of the step and the
+ * flow, d eps_p = N da, for WIDE points: X = left X_n + (2/3) C added N da, with X_n at the start of the step and the
  * kinematic modulus C. left, added: factors [1]. */
 struct flow_recall {
     lanes left, added;
 };
 
-/* Returns for eight points the factors of the change of the back stress over an increment `more` of plastic strain [1]
+/* Returns for WIDE points the factors of the change of the back stress over an increment `more` of plastic strain [1]
  * by the Armstrong-Frederick law: left = exp(-x), the factor on the previous back stress, and added = (1 - exp(-x))/x,
  * the factor on the new part, with x = recall more. Below x = 1e-4 `added` is computed by its series. recall: constant
  * gamma of the law, > 0 [1]. */
@@ -177,7 +187,7 @@ static ALWAYS_INLINE struct flow_recall recall_after(real recall, lanes more)
     return (struct flow_recall){left, lanes_choose(small, series, (1.0 - left) / least)};
 }
 
-/* Returns for eight points the solution w > 0 of w + log w = z, for the rate term of the flow law. Three Newton steps
+/* Returns for WIDE points the solution w > 0 of w + log w = z, for the rate term of the flow law. Three Newton steps
  * start from w = z if z is above 0.3, else from w = exp z. The relative error is at most 2.1e-5 (near z = 0.3), and
  * 2e-10 above z = 3 and below -2. The caller linearises once more about w, which squares this error. */
 static ALWAYS_INLINE lanes omega(lanes z)
@@ -188,7 +198,7 @@ static ALWAYS_INLINE lanes omega(lanes z)
     return w;
 }
 
-/* Accounts for the strain-rate dependence of the flow law of eight points in a small step. *bound [Pa] and *slope [Pa]:
+/* Accounts for the strain-rate dependence of the flow law of WIDE points in a small step. *bound [Pa] and *slope [Pa]:
  * on entry the yield stress of slow flow at the start of the step and its derivative by the plastic strain; on return
  * the tangent of the yield stress at the plastic strain rate of the step. With the increment da of plastic strain over
  * the duration dt (p->duration) the yield stress is
@@ -197,7 +207,7 @@ static ALWAYS_INLINE lanes omega(lanes z)
  * `omega` gives a first estimate of da. The rate is that of the plastic strain, not of the total strain, because the
  * latter falls to 0 where loads reverse, and the plastic strain would then depend on the size of the step. trial: yield
  * equation at the start of the step. space: compile-time constant. */
-static ALWAYS_INLINE void linearise_rate(const struct law *law, const struct law_points *p,
+static ALWAYS_INLINE void linearise_rate(const struct law *law, const struct part_points *p,
                                          const struct flow_equation *trial, lanes *bound, lanes *slope,
                                          const enum space space)
 {
@@ -215,12 +225,12 @@ static ALWAYS_INLINE void linearise_rate(const struct law *law, const struct law
     *slope = lanes_choose(fast, rise, *slope);
 }
 
-/* Returns the plastic flow t = da/q [1/Pa] of eight points in a small step, by one linearised evaluation (da: increment
+/* Returns the plastic flow t = da/q [1/Pa] of WIDE points in a small step, by one linearised evaluation (da: increment
  * of plastic strain, q: equivalent relative stress). law: flow law; p: state of the points; trial, xi: yield equation
  * and relative stress [Pa] of the trial state; bound: yield stress at the start of the step [Pa]; slope: its derivative
  * by the plastic strain [Pa], used only up to law->steepest. *back: receives the factors by which the back stress
  * changes in the step (recall_after). space: compile-time constant. */
-static ALWAYS_INLINE lanes solve_explicit(const struct law *law, const struct law_points *p,
+static ALWAYS_INLINE lanes solve_explicit(const struct law *law, const struct part_points *p,
                                           const struct flow_equation *trial, const lanes *xi, lanes bound, lanes slope,
                                           struct flow_recall *back, const enum space space)
 {
@@ -236,19 +246,19 @@ static ALWAYS_INLINE lanes solve_explicit(const struct law *law, const struct la
     return t;
 }
 
-/* Returns the temperatures of eight points [K] after an increment `more` of plastic strain [1] in a load step, without
+/* Returns the temperatures of WIDE points [K] after an increment `more` of plastic strain [1] in a load step, without
  * conduction of heat. law: flow law; p: state of the points at the start of the step. */
-static ALWAYS_INLINE lanes temperature_after(const struct law *law, const struct law_points *p, lanes more)
+static ALWAYS_INLINE lanes temperature_after(const struct law *law, const struct part_points *p, lanes more)
 {
     if (!(law->heating > 0)) return p->temperature;
     return johnson_cook_adiabatic_temperature(law, p->a, p->a + more, p->temperature);
 }
 
-/* Returns the plastic flow t = da/q [1/Pa] of eight points in a step of any size, by iteration to round-off (da:
+/* Returns the plastic flow t = da/q [1/Pa] of WIDE points in a step of any size, by iteration to round-off (da:
  * increment of plastic strain, q: equivalent relative stress). law: flow law; p: trial state of the points; bound:
  * yield stress at the start of the step [Pa]. *back: receives the factors by which the back stress changes in the step
  * (recall_after). space: compile-time constant. */
-static ALWAYS_INLINE lanes solve_load_step(const struct law *law, const struct law_points *p, lanes bound,
+static ALWAYS_INLINE lanes solve_load_step(const struct law *law, const struct part_points *p, lanes bound,
                                            struct flow_recall *back, const enum space space)
 {
     const real C = law->kinematic.modulus, recall = law->kinematic.recall;
@@ -270,14 +280,14 @@ static ALWAYS_INLINE lanes solve_load_step(const struct law *law, const struct l
     return t;
 }
 
-/* Applies plastic flow to eight points: computes their increments of plastic strain, strain = 3/2 t xi [1] (components
+/* Applies plastic flow to WIDE points: computes their increments of plastic strain, strain = 3/2 t xi [1] (components
  * xx yy zz xy yz zx), and changes their stress p->s and back stress p->back accordingly. xi: relative stress (stress
  * minus back stress) at the end of the step [Pa], as relative_stress stores it: in 3D and plane strain the deviator in
  * the same order, in plane stress xx + yy, xx - yy and xy, in 1D the uniaxial stress; t: increment of equivalent
  * plastic strain, divided by the equivalent relative stress [1/Pa]; back: the back stress becomes back->left times
  * itself plus back->added times its linear increment. law: elastic and kinematic constants; space: compile-time
  * constant. */
-static ALWAYS_INLINE void flow_apply(const struct law *law, struct law_points *p, const lanes *xi, lanes t,
+static ALWAYS_INLINE void flow_apply(const struct law *law, struct part_points *p, const lanes *xi, lanes t,
                                      const struct flow_recall *back, lanes *strain, const enum space space)
 {
     const real C = 2.0 / 3 * law->kinematic.modulus, twice = 2 * law->shear;
@@ -297,10 +307,10 @@ static ALWAYS_INLINE void flow_apply(const struct law *law, struct law_points *p
         p->back[c] = back->left * p->back[c] + back->added * (C * strain[c]);
 }
 
-/* Returns for eight points the plastic work of a small step per reference volume [J/m^3], by the trapezoidal rule:
+/* Returns for WIDE points the plastic work of a small step per reference volume [J/m^3], by the trapezoidal rule:
  * strain : (s_0 v_0 + s_1 v_1)/2, with the stresses s_0, s_1 and the relative volumes v_0, v_1 at the start and at the
  * end of the step (in p). strain: increments of plastic strain [1], xx yy zz xy yz zx. space: compile-time constant. */
-static ALWAYS_INLINE lanes trapezoid(const struct law_points *p, const lanes *strain, const enum space space)
+static ALWAYS_INLINE lanes trapezoid(const struct part_points *p, const lanes *strain, const enum space space)
 {
     lanes work = lanes_broadcast(0);
     const int last = tensor_components(space);
@@ -309,10 +319,10 @@ static ALWAYS_INLINE lanes trapezoid(const struct law_points *p, const lanes *st
     return work;
 }
 
-/* Returns for eight points the integral of the yield stress over the plastic strain in a load step [J/m^3], in which
+/* Returns for WIDE points the integral of the yield stress over the plastic strain in a load step [J/m^3], in which
  * the plastic strain grows by `more` [1]. law: flow law; p: state at the end of the step, but with the temperature at
  * its start. */
-static ALWAYS_INLINE lanes isotropic_work(const struct law *law, const struct law_points *p, lanes more)
+static ALWAYS_INLINE lanes isotropic_work(const struct law *law, const struct part_points *p, lanes more)
 {
     if (law->heating > 0)
         return (johnson_cook_adiabatic_temperature(law, p->a - more, p->a, p->temperature) - p->temperature) /
@@ -321,13 +331,13 @@ static ALWAYS_INLINE lanes isotropic_work(const struct law *law, const struct la
            law_flow_stress_integral(law, p->a - more, p->temperature);
 }
 
-/* Returns for eight points the plastic work of a load step per reference volume [J/m^3]: the integrals of yield stress
+/* Returns for WIDE points the plastic work of a load step per reference volume [J/m^3]: the integrals of yield stress
  * and back stress along the path on which the trial stress grows in proportion, at a constant direction of flow. The
  * integral of the back stress over the increment a of plastic strain is X:N b + (C/gamma) (a - b), b = (1
  * - exp(-gamma a))/gamma; without recall (gamma = 0) X:N a + C a^2/2. law: flow law; p: state at the end of the step;
  * back: back stress X at its start [Pa]; more: increment a [1]; strain: increments of the components of plastic strain
  * [1], xx yy zz xy yz zx. space: compile-time constant. */
-static ALWAYS_INLINE lanes path_work(const struct law *law, const struct law_points *p, const lanes *back, lanes more,
+static ALWAYS_INLINE lanes path_work(const struct law *law, const struct part_points *p, const lanes *back, lanes more,
                                      const lanes *strain, const enum space space)
 {
     const real C = law->kinematic.modulus, recall = law->kinematic.recall;
@@ -341,11 +351,11 @@ static ALWAYS_INLINE lanes path_work(const struct law *law, const struct law_poi
     return work + along * added + C / recall * more * (1.0 - added);
 }
 
-/* Maps the trial stresses of eight points back to the yield surface, and updates their plastic state: stress, back
+/* Maps the trial stresses of WIDE points back to the yield surface, and updates their plastic state: stress, back
  * stress, plastic strain, work, temperature. law: flow law; p: trial state of the points, of which only those in the
  * mask p->active may yield. space, mode: compile-time constants, mode LAW_EXPLICIT for small steps or LAW_LOAD_STEP for
  * steps of any size. Returns a mask with bit l set if point l yields; the other points are not changed. */
-static ALWAYS_INLINE unsigned points_return(const struct law *law, struct law_points *p, const enum space space,
+static ALWAYS_INLINE unsigned points_return(const struct law *law, struct part_points *p, const enum space space,
                                             const enum law_mode mode)
 {
     lanes xi[SYM_MAX], strain[SYM_MAX], back[SYM_MAX], slope, fall;
@@ -381,8 +391,50 @@ static ALWAYS_INLINE unsigned points_return(const struct law *law, struct law_po
     return lanes_mask_bits(yields);
 }
 
+/* Returns the WIDE entries of the vector a from number `part` on. */
+static ALWAYS_INLINE lanes vector_load_part(const eight_lanes *a, int part)
+{
+    return lanes_load((const real *)a + part);
+}
+
+/* Returns the state of the WIDE points from number `part` on of the eight points *p. */
+static ALWAYS_INLINE struct part_points points_load_part(const struct law_points *p, int part)
+{
+    struct part_points q = {.duration = p->duration, .thins = p->thins};
+    for (int c = 0; c < SYM_MAX; c++) {
+        q.s[c] = vector_load_part(&p->s[c], part), q.before[c] = vector_load_part(&p->before[c], part);
+        q.back[c] = vector_load_part(&p->back[c], part);
+    }
+    q.volume_before = vector_load_part(&p->volume_before, part), q.volume = vector_load_part(&p->volume, part);
+    q.a = vector_load_part(&p->a, part), q.temperature = vector_load_part(&p->temperature, part),
+    q.work = vector_load_part(&p->work, part);
+    q.active = (lanes_mask)lanes_load((const real *)&p->active + part);
+    return q;
+}
+
+/* Stores those members of *q, the state of WIDE points, that points_return changes, in the entries from number `part`
+ * on of the eight points *p. */
+static ALWAYS_INLINE void points_store_part(struct law_points *p, const struct part_points *q, int part)
+{
+    for (int c = 0; c < SYM_MAX; c++)
+        lanes_store((real *)&p->s[c] + part, q->s[c]), lanes_store((real *)&p->back[c] + part, q->back[c]);
+    lanes_store((real *)&p->volume + part, q->volume), lanes_store((real *)&p->a + part, q->a);
+    lanes_store((real *)&p->temperature + part, q->temperature), lanes_store((real *)&p->work + part, q->work);
+}
+
+/* Defines a function that calls points_return for the eight points *p, WIDE of them at a time. */
 #define UPDATE(name, space, mode)                                                                                      \
-    static unsigned name(const struct law *law, struct law_points *p) { return points_return(law, p, space, mode); }
+    static unsigned name(const struct law *law, struct law_points *p)                                                  \
+    {                                                                                                                  \
+        unsigned yields = 0;                                                                                           \
+        for (int part = 0; part < LANES; part += WIDE) {                                                               \
+            struct part_points q = points_load_part(p, part);                                                          \
+            const unsigned bits = points_return(law, &q, space, mode);                                                 \
+            if (bits) points_store_part(p, &q, part);                                                                  \
+            yields |= bits << part;                                                                                    \
+        }                                                                                                              \
+        return yields;                                                                                                 \
+    }
 UPDATE(update_line, SPACE_LINE, LAW_EXPLICIT)
 UPDATE(update_plane_stress, SPACE_PLANE_STRESS, LAW_EXPLICIT)
 UPDATE(update_plane_strain, SPACE_PLANE_STRAIN, LAW_EXPLICIT)

@@ -16,18 +16,18 @@
 /* State of eight material points at the end of a step, input and output of law_update. Tensors have the components xx
  * yy zz xy yz zx in every space. */
 struct law_points {
-    lanes s[SYM_MAX];      /* trial stress, replaced by the stress [Pa]; in plane stress zz is 0 */
-    lanes before[SYM_MAX]; /* stress at the start of the step, rotated by its spin [Pa] */
+    eight_lanes s[SYM_MAX];      /* trial stress, replaced by the stress [Pa]; in plane stress zz is 0 */
+    eight_lanes before[SYM_MAX]; /* stress at the start of the step, rotated by its spin [Pa] */
     /* volume at the start and at the end of the step, divided by the reference volume [1] */
-    lanes volume_before, volume;
-    real duration;       /* of an explicit step [s]; 0: the rate has no effect */
-    lanes a;             /* accumulated equivalent plastic strain, updated [1] */
-    lanes back[SYM_MAX]; /* back stress X, deviatoric, rotated by the spin of the step; updated [Pa] */
-    lanes temperature;   /* updated [K] */
-    lanes work;          /* plastic work per reference volume, updated [J/m^3] */
-    bool thins;          /* explicit steps in plane stress and 1D: `volume` is corrected by the change of thickness or
-                            cross-section due to plastic strain */
-    lanes_mask active;   /* lanes whose points have this law; the points of other lanes are not changed */
+    eight_lanes volume_before, volume;
+    real duration;             /* of an explicit step [s]; 0: the rate has no effect */
+    eight_lanes a;             /* accumulated equivalent plastic strain, updated [1] */
+    eight_lanes back[SYM_MAX]; /* back stress X, deviatoric, rotated by the spin of the step; updated [Pa] */
+    eight_lanes temperature;   /* updated [K] */
+    eight_lanes work;          /* plastic work per reference volume, updated [J/m^3] */
+    bool thins;        /* explicit steps in plane stress and 1D: `volume` is corrected by the change of thickness or
+                          cross-section due to plastic strain */
+    eight_mask active; /* lanes whose points have this law; the points of other lanes are not changed */
 };
 
 /* law_place[dim][c]: index of component c of particles.stress among the six components xx yy zz xy yz zx of struct

@@ -12,13 +12,6 @@
 
 /* ---- whole cells ------------------------------------------------------------------------------------------------- */
 
-/* Returns the vector `now` shifted by one lane, with the last entry of `before` in front: {before[7], now[0], ..,
- * now[6]}. */
-static ALWAYS_INLINE lanes shifted(lanes before, lanes now)
-{
-    return VECTOR_PICK(lanes_mask, before, now, 7, 8, 9, 10, 11, 12, 13, 14);
-}
-
 /* Defines cells_flow_1, _2 and _3, which call cells_return_mapping for dimension D. The functions are not inlined,
  * because return mapping point by point (mesh_flow.h) would use registers that the code for elastic cells needs. */
 #define FLOW(D)                                                                                                        \
@@ -41,75 +34,47 @@ static ALWAYS_INLINE void cells_flow_of(const struct mesh *mesh, const struct pa
     (dim == 1 ? cells_flow_1 : dim == 2 ? cells_flow_2 : cells_flow_3)(mesh, p, m, cell, s);
 }
 
+/* Arguments of run_flow_cells: elastic constants of all materials, and whether strains are finite. */
+struct run_flow {
+    const struct mesh *mesh;
+    const struct particles *p;
+    const struct elastic *elastic;
+    bool finite;
+};
+
 /* Computes the forces of eight cells whose points yield [N], and updates the plastic state of the points in p. The
  * cells are number k to k + 7 in `run`, a row of consecutive cells along x. u[c][i]: displacement of corner c along
- * axis i [m]; f[c][i]: receives the force on corner c along axis i; m: elastic constants of all materials; finite:
- * true for finite strain. mesh: mesh of the undeformed body. */
-static ALWAYS_INLINE void run_flow(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
-                                   const struct mesh_cell_run *run, int64_t k, lanes u[CORNERS_MAX][3],
-                                   lanes f[CORNERS_MAX][3], const int dim, const bool finite)
+ * axis i [m]; f[c][i]: receives the force on corner c along axis i. */
+static ALWAYS_INLINE void run_flow_cells(const struct run_flow *a, const struct mesh_cell_run *run, int64_t k,
+                                         lanes u[CORNERS_MAX][3], lanes f[CORNERS_MAX][3], const int dim)
 {
-    const bool rotates = finite && dim > 1;
+    const bool rotates = a->finite && dim > 1;
+    const struct mesh *mesh = a->mesh;
     struct mesh_cell s;
     int32_t cell[LANES];
     cell_compute_rotation_strain_and_modes(&s, mesh->grid.h, u, dim, rotates);
     mesh_cell_run_get_indices_of_eight_cells(run, k, cell);
-    cells_flow_of(mesh, p, m, cell, &s, dim);
+    cells_flow_of(mesh, a->p, a->elastic, cell, &s, dim);
     if (rotates) cell_stress_balance_moments_at_finite_strain(&s, (lanes[3]){{0}}, dim);
     cell_compute_corner_forces(&s, mesh->grid.h, mesh->volume * (1 << dim), f, dim, rotates);
 }
 
-/* Adds the forces of the cells of `run`, a row of consecutive cells along x, to the nodes of the mesh. Sets
- * run->stressed if the principal stress at a point of an elastic row may exceed the conversion stress, at which
- * material points become peridynamic particles. all: elastic constants of all materials; finite: true for finite
- * strain; flows: true for a row whose points yield, for which run->stressed becomes false. Neighbouring cells share
- * nodes: the forces on the upper corners along x of eight cells are shifted by one lane and added to those on the
- * lower corners of the next cells, so that each node is written once. p: all particles. */
-static ALWAYS_INLINE void run_force(const struct mesh *mesh, const struct particles *p, struct mesh_cell_run *run,
-                                    const struct elastic *all, const int dim, const bool finite, const bool flows)
-{
-    const struct grid *g = &mesh->grid;
-    const struct elastic *m = &all[run->material];
-    const real volume = mesh->volume * (1 << dim);
-    const bool balanced = elastic_is_isotropic_in_2d(m, dim);
-    const int64_t row = run->cell / g->count[0], start = run->cell - row * g->count[0];
-    const uint8_t *levels = mesh_activity_levels_of_node_blocks_in_row(mesh, row);
-    lanes carried[CORNERS_MAX][3], tension = lanes_broadcast(-INFINITY);
-    for (int c = 0; c < 1 << dim; c++)
-        for (int i = 0; i < dim; i++) carried[c][i] = lanes_broadcast(0);
-    for (int64_t k = 0; k < run->cells; k += LANES) {
-        const int64_t I = run->cell + k;
-        lanes u[CORNERS_MAX][3], f[CORNERS_MAX][3];
-        if (mesh_eight_nodes_are_at_rest(levels, start + k)) continue; /* forces carried from the cells before are 0 */
-        mesh_cell_run_load_corner_displacements(mesh, run, k, u, dim);
-        if (flows)
-            run_flow(mesh, p, all, run, k, u, f, dim, finite);
-        else
-            whole_cells_compute_corner_forces(m, g->h, volume, u, f, &tension, dim, finite, balanced);
-        for (int c = 0; c < 1 << dim; c += 2)
-            for (int i = 0; i < dim; i++) {
-                real *to = g->force[i] + I + mesh->corner[c];
-                lanes_store(to, lanes_load(to) + (f[c][i] + shifted(carried[c][i], f[c + 1][i])));
-                carried[c][i] = f[c + 1][i];
-            }
-    }
-    if (run->cells % LANES == 0) /* else the upper corners of the last cell are in the last vector */
-        for (int c = 0; c < 1 << dim; c += 2)
-            for (int i = 0; i < dim; i++)
-                g->force[i][run->cell + run->cells + mesh->corner[c]] += carried[c][i][LANES - 1];
-    run->stressed = false;
-    for (int l = 0; l < LANES; l++) run->stressed |= tension[l] > m->trigger;
-}
-
-/* Defines for dimension D and strain measure FINITE (true: finite strain) three functions: forces of one row of cells
- * that yields, of the rows of one band (a group of layers of cells), and of all bands. Rows that yield have a function
- * of their own, since its code would use registers that elastic rows need. The parallel region is inside, so that D and
- * FINITE are compile-time constants in it. */
+/* Defines for dimension D and strain measure FINITE (true: finite strain) functions that add the forces of a row of
+ * cells that yields, of the rows of one band (a group of layers of cells), and of all bands. Rows that yield have a
+ * function of their own, since its code would use registers that elastic rows need. The parallel region is inside, so
+ * that D and FINITE are compile-time constants in it. */
 #define BANDS(D, FINITE)                                                                                               \
+    static void run_flow_cells_##D##_##FINITE(void *context, const struct mesh_cell_run *run, int64_t k,               \
+                                              lanes u[CORNERS_MAX][3], lanes f[CORNERS_MAX][3])                        \
+    {                                                                                                                  \
+        run_flow_cells(context, run, k, u, f, D);                                                                      \
+    }                                                                                                                  \
     static NEVER_INLINE void run_flow_##D##_##FINITE(const struct mesh *mesh, const struct particles *p,               \
                                                      struct mesh_cell_run *run, const struct elastic *m)               \
     {                                                                                                                  \
-        run_force(mesh, p, run, m, D, FINITE, true);                                                                   \
+        struct run_flow a = {mesh, p, m, FINITE};                                                                      \
+        mesh_cell_run_add_forces(mesh, run, run_flow_cells_##D##_##FINITE, &a, D);                                     \
+        run->stressed = false;                                                                                         \
     }                                                                                                                  \
     static NEVER_INLINE void band_force_##D##_##FINITE(const struct mesh *mesh, const struct particles *p,             \
                                                        int64_t band, const struct elastic *m)                          \
@@ -118,7 +83,7 @@ static ALWAYS_INLINE void run_force(const struct mesh *mesh, const struct partic
             if (mesh_points_can_yield(p) && m[mesh->run[r].material].law)                                              \
                 run_flow_##D##_##FINITE(mesh, p, &mesh->run[r], m);                                                    \
             else                                                                                                       \
-                run_force(mesh, p, &mesh->run[r], m, D, FINITE, false);                                                \
+                mesh_elastic_run_force(mesh, &mesh->run[r], &m[mesh->run[r].material], FINITE);                        \
     }                                                                                                                  \
     static void bands_force_##D##_##FINITE(struct mesh *mesh, const struct particles *p, const struct elastic *m)      \
     {                                                                                                                  \

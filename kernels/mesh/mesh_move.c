@@ -1,6 +1,7 @@
 /* Motion of the nodes of the mesh: velocities and displacements, walls, dashpots and mirror nodes. */
 #include <math.h>
 
+#define ROWS_IN_PARTS /* vectors of WIDE nodes */
 #include "kernels/dashpot.h"
 #include "kernels/kernels.h"
 #include "kernels/simd/lanes.h"
@@ -76,7 +77,8 @@ static void row_clear(const struct mesh *mesh, int64_t row, real *force)
     const struct mesh_row_blocks blocks = mesh_block_range_with_mass_in_node_row(mesh, row);
     const uint8_t *levels = mesh_activity_levels_of_node_blocks_in_row(mesh, row);
     for (int64_t b = blocks.first; (b = mesh_next_active_block(levels, b, blocks.end)) < blocks.end; b++)
-        lanes_store(force + row * mesh->grid.count[0] + b * LANES, lanes_broadcast(0));
+        for (int part = 0; part < LANES; part += WIDE)
+            lanes_store(force + row * mesh->grid.count[0] + b * LANES + part, lanes_broadcast(0));
 }
 
 void mesh_clear(struct mesh *mesh)
@@ -86,7 +88,7 @@ void mesh_clear(struct mesh *mesh)
         for (int d = 0; d < mesh->grid.dim; d++) row_clear(mesh, r, mesh->grid.force[d]);
 }
 
-/* Advances velocity and displacement of the nodes of one row of the mesh by a leap-frog step, eight nodes at a time,
+/* Advances velocity and displacement of the nodes of one row of the mesh by a leap-frog step, WIDE nodes at a time,
  * except in blocks of nodes that are at rest. row: number of the row of nodes along x, from 0; dt: time over which
  * velocities move the nodes [s]; dt_velocity: time over which forces change the velocities [s]. Entries beyond the
  * last node have neither force nor mass and stay at rest. Returns the square of the largest velocity component
@@ -101,17 +103,18 @@ static real row_move(struct mesh *mesh, int64_t row, real dt, real dt_velocity)
     for (int d = 0; d < mesh->grid.dim; d++) {
         real *velocity = mesh->grid.velocity[d], *displacement = mesh->displacement[d];
         const real *force = mesh->grid.force[d], *inverse = mesh->inverse_mass;
-        for (int64_t b = blocks.first; (b = mesh_next_active_block(levels, b, blocks.end)) < blocks.end; b++) {
-            const int64_t I = start + b * LANES;
-            const lanes v = lanes_load(velocity + I) + dt_velocity * lanes_load(inverse + I) * lanes_load(force + I);
-            lanes_store(velocity + I, v);
-            lanes_store(displacement + I, ((lanes_load(displacement + I) + dt * v) + mesh->rounding) - mesh->rounding);
-            most = lanes_max(most, v * v);
-            sum += v;
-        }
+        for (int64_t b = blocks.first; (b = mesh_next_active_block(levels, b, blocks.end)) < blocks.end; b++)
+            for (int64_t I = start + b * LANES; I < start + (b + 1) * LANES; I += WIDE) {
+                const lanes change = dt_velocity * lanes_load(inverse + I) * lanes_load(force + I);
+                const lanes v = lanes_load(velocity + I) + change, u = lanes_load(displacement + I) + dt * v;
+                lanes_store(velocity + I, v);
+                lanes_store(displacement + I, (u + mesh->rounding) - mesh->rounding);
+                most = lanes_max(most, v * v);
+                sum += v;
+            }
     }
     real largest = 0, all = 0;
-    for (int l = 0; l < LANES; l++) largest = real_max(largest, most[l]), all += sum[l];
+    for (int l = 0; l < WIDE; l++) largest = real_max(largest, most[l]), all += sum[l];
     return isfinite(all) ? largest : INFINITY;
 }
 
@@ -173,7 +176,7 @@ static void momentum_move(struct mesh *mesh, real dt_velocity)
         for (int d = 0; d < mesh->grid.dim; d++) {
             real *momentum = mesh->grid.momentum[d];
             const real *force = mesh->grid.force[d], *inverse = mesh->inverse_mass;
-            for (int64_t I = mesh->span[2 * r]; I < mesh->span[2 * r + 1]; I += LANES)
+            for (int64_t I = mesh->span[2 * r]; I < mesh->span[2 * r + 1]; I += WIDE)
                 lanes_store(momentum + I,
                             lanes_load(momentum + I) + dt_velocity * lanes_load(inverse + I) * lanes_load(force + I));
         }

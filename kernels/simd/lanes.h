@@ -31,6 +31,11 @@ typedef int64_t lanes_mask __attribute__((vector_size(WIDE * sizeof(int64_t))));
 typedef uint64_t lanes_bits __attribute__((vector_size(WIDE * sizeof(uint64_t))));
 typedef int16_t lanes_units __attribute__((vector_size(WIDE * sizeof(int16_t)), may_alias));
 
+/* Vectors of eight numbers and masks of eight lanes, whatever WIDE is: for structs that files with and without
+ * ROWS_IN_PARTS exchange. */
+typedef real eight_lanes __attribute__((vector_size(LANES * sizeof(real))));
+typedef int64_t eight_mask __attribute__((vector_size(LANES * sizeof(int64_t))));
+
 /* Returns the numbers from[0] .. from[WIDE - 1]; `from` need not be aligned. */
 static ALWAYS_INLINE lanes lanes_load(const real *from) { return (lanes) * (const lanes_anywhere *)from; }
 

@@ -153,7 +153,7 @@ static void rows_arrays(struct bonds *b)
  * one fills these. */
 struct rows_pass {
     struct bonds *b;
-    struct bond_row_inputs maker;
+    struct bond_row_inputs inputs;
     struct bond_row_block_neighbours *
         *found;       /* [row_blocks] neighbours found by search in the first pass, NULL: not kept */
     int64_t *kept;    /* [row_blocks] previous block of eight rows that is taken over, -1: the block is made */
@@ -180,11 +180,11 @@ static bool row_block_inherits(const struct bonds *old, const int32_t *particle,
  * working memory of the thread. */
 static bool is_regular(const struct rows_pass *pass, struct bond_row_block_buffer *room, int64_t g)
 {
-    const struct bond_row_inputs *m = &pass->maker;
+    const struct bond_row_inputs *inputs = &pass->inputs;
     const int32_t *particle = pass->b->particle + g * LANES;
-    return m->map->at && !pass->b->changed[g] && bond_row_block_row_count(pass->b, g) == LANES &&
+    return inputs->map->at && !pass->b->changed[g] && bond_row_block_row_count(pass->b, g) == LANES &&
            particle[LANES - 1] - particle[0] == LANES - 1 &&
-           lattice_bonds_compute_unless_near_crack(m->map, m->source, m->p, particle[0], &room->regular);
+           lattice_bonds_compute_unless_near_crack(inputs->map, inputs->source, inputs->p, particle[0], &room->regular);
 }
 
 /* Increases *reach, the largest difference of indices so far, to |distance| if that is larger. */
@@ -198,7 +198,7 @@ static void reach_widen(int32_t *reach, int32_t distance)
  * room->regular (found from the lattice map), false if they are in room->row (found by search). pass: the bonds. */
 static void note_reach(const struct rows_pass *pass, struct bond_row_block_buffer *room, int64_t g, bool regular)
 {
-    const int32_t *particle = pass->b->particle + g * LANES, n = (int32_t)pass->maker.p->n;
+    const int32_t *particle = pass->b->particle + g * LANES, n = (int32_t)pass->inputs.p->n;
     for (int k = 0; regular && k < room->regular.n; k++)
         if (particle[0] + room->regular.offset[k] < n) reach_widen(&room->reach, room->regular.offset[k]);
     for (int l = 0; !regular && l < bond_row_block_row_count(pass->b, g); l++)
@@ -212,30 +212,30 @@ static void note_reach(const struct rows_pass *pass, struct bond_row_block_buffe
 static int64_t row_block_pass(const struct rows_pass *pass, struct bond_row_block_buffer *room, int64_t g)
 {
     struct bonds *b = pass->b;
-    const struct bond_row_inputs *m = &pass->maker;
+    const struct bond_row_inputs *inputs = &pass->inputs;
     const int rows = bond_row_block_row_count(b, g);
     const int32_t *particle = b->particle + g * LANES;
     int64_t made = 0;
     bool by_offset;
-    if (pass->count) b->changed[g] = row_block_inherits(m->old, particle, rows);
+    if (pass->count) b->changed[g] = row_block_inherits(inputs->old, particle, rows);
     if (is_regular(pass, room, g)) {
         if (pass->count)
             b->column_count[g] = lattice_bonds_count_storage_columns(&room->regular), note_reach(pass, room, g, true);
         else
-            bond_row_block_fill_from_lattice_bonds(b, room, g, m);
+            bond_row_block_fill_from_lattice_bonds(b, room, g, inputs);
         return lattice_bonds_count_directed_bonds(&room->regular);
     }
     if (pass->found && pass->found[g]) bond_rows_restore_found_neighbours(pass->found[g], room->row, rows);
     for (int l = 0; l < rows; l++) {
-        if (!pass->found || !pass->found[g]) bond_row_find_neighbours(&room->row[l], m, particle[l]);
-        if (!pass->count) bond_row_compute_lengths_and_weights(&room->row[l], m, particle[l]);
+        if (!pass->found || !pass->found[g]) bond_row_find_neighbours(&room->row[l], inputs, particle[l]);
+        if (!pass->count) bond_row_compute_lengths_and_weights(&room->row[l], inputs, particle[l]);
         made += room->row[l].n;
     }
     const int columns = bond_row_block_count_columns(room, particle, rows, &by_offset);
     if (pass->count)
         b->column_count[g] = columns, note_reach(pass, room, g, false);
     else
-        bond_row_block_fill_columns_from_rows(b, room, g, rows, by_offset, m->p);
+        bond_row_block_fill_columns_from_rows(b, room, g, rows, by_offset, inputs->p);
     if (pass->count && pass->found) pass->found[g] = bond_rows_save_found_neighbours(room->row, rows);
     return made;
 }
@@ -246,13 +246,13 @@ static int64_t row_block_pass(const struct rows_pass *pass, struct bond_row_bloc
 static void rows_pass_begin(struct rows_pass *pass)
 {
     struct bonds *b = pass->b;
-    const struct bond_row_inputs *m = &pass->maker;
+    const struct bond_row_inputs *inputs = &pass->inputs;
     pass->kept = BARE("bonds.kept", b->row_blocks, int64_t);
     pass->list = BARE("bonds.list", b->row_blocks, int64_t);
 #pragma omp parallel for schedule(static)
     for (int64_t g = 0; g < b->row_blocks; g++) {
-        const int64_t from = pass->kept[g] = bond_row_block_find_equal_in_previous_bonds(b, m, g);
-        if (from >= 0) b->column_count[g] = m->old->column_count[from];
+        const int64_t from = pass->kept[g] = bond_row_block_find_equal_in_previous_bonds(b, inputs, g);
+        if (from >= 0) b->column_count[g] = inputs->old->column_count[from];
     }
     for (int64_t g = 0; g < b->row_blocks; g++)
         if (pass->kept[g] < 0) pass->list[pass->n++] = g;
@@ -264,12 +264,12 @@ static void rows_pass_begin(struct rows_pass *pass)
  * particles [blocks of eight rows]. */
 static void rows_pass(const struct rows_pass *pass)
 {
-    const struct bond_row_inputs *m = &pass->maker;
+    const struct bond_row_inputs *inputs = &pass->inputs;
     int32_t reach = 0;
 #pragma omp parallel reduction(max : reach)
     {
         struct bond_row_block_buffer room = {0};
-        bond_row_block_buffer_make(&room, m->room, m->map);
+        bond_row_block_buffer_make(&room, inputs->room, inputs->map);
 #pragma omp for schedule(static)
         for (int64_t k = 0; k < pass->n; k++)
             pass->b->made[pass->list[k]] = (int32_t)row_block_pass(pass, &room, pass->list[k]);
@@ -281,35 +281,35 @@ static void rows_pass(const struct rows_pass *pass)
 }
 
 /* Copies those blocks of eight rows (the bonds of eight particles) that have not changed from the previous bonds,
- * pass->maker.old, to the new ones, pass->b. Then sets pass->b->n, the number of directed bonds of all blocks. */
+ * pass->inputs.old, to the new ones, pass->b. Then sets pass->b->n, the number of directed bonds of all blocks. */
 static void rows_pass_end(const struct rows_pass *pass)
 {
     struct bonds *b = pass->b;
     int64_t made = 0;
 #pragma omp parallel for schedule(static) reduction(+ : made)
     for (int64_t g = 0; g < b->row_blocks; g++) {
-        if (pass->kept[g] >= 0) bond_row_block_copy_from_previous_bonds(b, pass->maker.old, g, pass->kept[g]);
+        if (pass->kept[g] >= 0) bond_row_block_copy_from_previous_bonds(b, pass->inputs.old, g, pass->kept[g]);
         made += b->made[g];
     }
     b->n = made;
 }
 
 /* Makes all blocks of eight rows (the bonds of eight particles) of b in two passes: the first counts their columns (the
- * k-th bonds of eight rows), the second fills them. maker: input, with the previous bonds, if any. If there are
+ * k-th bonds of eight rows), the second fills them. inputs: input, with the previous bonds, if any. If there are
  * previous bonds, few blocks change; the neighbours that the first pass finds for these are then kept for the second
  * pass. */
-static void bonds_rows_make(struct bonds *b, struct bond_row_inputs maker)
+static void bonds_rows_make(struct bonds *b, struct bond_row_inputs inputs)
 {
-    struct material_pair_table pairs = material_pair_table_compute_micro_moduli(maker.source);
-    maker.pairs = &pairs;
+    struct material_pair_table pairs = material_pair_table_compute_micro_moduli(inputs.source);
+    inputs.pairs = &pairs;
     struct rows_pass pass = {.b = b,
-                             .maker = maker,
+                             .inputs = inputs,
                              .count = true,
-                             .found = maker.old ? NEW("bonds.found", b->row_blocks, struct bond_row_block_neighbours *)
-                                                : NULL};
+                             .found = inputs.old ? NEW("bonds.found", b->row_blocks, struct bond_row_block_neighbours *)
+                                                 : NULL};
     rows_pass_begin(&pass);
     rows_pass(&pass);
-    bonds_allocate_storage_for_row_blocks(b, &pass.maker, pass.kept);
+    bonds_allocate_storage_for_row_blocks(b, &pass.inputs, pass.kept);
     pass.count = false;
     rows_pass(&pass);
     rows_pass_end(&pass);

@@ -165,22 +165,22 @@ static void columns_share(struct bonds *b, struct bonds *old, const int64_t *kep
 }
 
 /* Assigns columns (the k-th bonds of eight rows) to all blocks of eight rows of b, in the arrays of the previous bonds
- * m->old if possible, else in new ones. Blocks with plastic bonds always get new arrays, because their plastic state is
- * archived in the order of the blocks (bonds_archive.c). previous_row_block[row_blocks]: previous block that is kept,
- * or -1; not used without previous bonds. */
-void bonds_allocate_storage_for_row_blocks(struct bonds *b, const struct bond_row_inputs *m,
+ * inputs->old if possible, else in new ones. Blocks with plastic bonds always get new arrays, because their plastic
+ * state is archived in the order of the blocks (bonds_archive.c). previous_row_block[row_blocks]: previous block that
+ * is kept, or -1; not used without previous bonds. */
+void bonds_allocate_storage_for_row_blocks(struct bonds *b, const struct bond_row_inputs *inputs,
                                            const int64_t *previous_row_block)
 {
     for (int64_t g = 0; g < b->row_blocks; g++) b->columns += b->column_count[g];
-    bonds_compute_lattice_shell_lengths(b, m->source->family.spacing);
-    if (m->old && !m->old->plastic_stretch && m->old->room > 0) {
-        columns_fit(b, m->old, previous_row_block);
-        columns_share(b, m->old, previous_row_block);
+    bonds_compute_lattice_shell_lengths(b, inputs->source->family.spacing);
+    if (inputs->old && !inputs->old->plastic_stretch && inputs->old->room > 0) {
+        columns_fit(b, inputs->old, previous_row_block);
+        columns_share(b, inputs->old, previous_row_block);
         return;
     }
     for (int64_t g = 0; g < b->row_blocks; g++) b->column[g] = b->used, b->used += b->column_count[g];
     b->room = b->columns;
-    columns_arrays(b, m->source, m->map->at != NULL);
+    columns_arrays(b, inputs->source, inputs->map->at != NULL);
 }
 
 void bonds_disown_arrays_shared_with_new_bonds(struct bonds *previous, const struct bonds *b)

@@ -4,14 +4,16 @@
 #include "bonds_parts.h"
 #include "base/memory.h"
 
-int64_t bond_row_block_find_equal_in_previous_bonds(const struct bonds *b, const struct bond_row_inputs *m, int64_t g)
+int64_t bond_row_block_find_equal_in_previous_bonds(const struct bonds *b, const struct bond_row_inputs *inputs,
+                                                    int64_t g)
 {
     const int32_t *particle = b->particle + g * LANES;
-    const int64_t first = m->old ? m->old->row_of[particle[0]] : -1;
+    const int64_t first = inputs->old ? inputs->old->row_of[particle[0]] : -1;
     const int rows = bond_row_block_row_count(b, g);
-    if (first < 0 || first % LANES != 0 || bond_row_block_row_count(m->old, first / LANES) != rows) return -1;
+    if (first < 0 || first % LANES != 0 || bond_row_block_row_count(inputs->old, first / LANES) != rows) return -1;
     for (int l = 0; l < rows; l++)
-        if (m->old->row_of[particle[l]] != first + l || !bond_row_previous_neighbours_are_valid(m, particle[l]))
+        if (inputs->old->row_of[particle[l]] != first + l ||
+            !bond_row_previous_neighbours_are_valid(inputs, particle[l]))
             return -1;
     return first / LANES;
 }

@@ -62,9 +62,9 @@ void bonds_allocate_softening_state(struct bonds *b, const struct bonds *previou
                                     const struct particles *p);
 
 /* Sets the softening state of all bonds in `row`, the bonds of the particle with index `particle`. Bonds that exist in
- * maker->old, the previous bonds, keep their state; new bonds have not begun to soften. The neighbours row->nbr must be
- * set. */
-void bond_row_set_softening_state(struct bond_row *row, const struct bond_row_inputs *row_inputs, int32_t particle);
+ * inputs->old, the previous bonds, keep their state; new bonds have not begun to soften. The neighbours row->nbr must
+ * be set. */
+void bond_row_set_softening_state(struct bond_row *row, const struct bond_row_inputs *inputs, int32_t particle);
 
 /* Share of the smallest stretch on a strength surface from which on a stretch counts as near the surface
  * (bonds_strength.c), dimensionless. */
@@ -84,33 +84,31 @@ void bonds_copy_softening_of_row(struct bonds *b, const struct particles *p, con
  * its size differs. Does nothing if all bonds are brittle. */
 status bonds_save_or_load_softening_states(struct bonds *b, struct archive *a);
 
-/* Returns true if the row of particle i in the previous bonds maker->old lists the present neighbours of this particle,
- * so that the neighbours need not be searched for. This requires that such a row exists, and either that
- * maker->fresh[i] is 0 (1: neighbours may differ from those in maker->old), or that the row has all neighbours and the
- * particle is peridynamic. */
-static inline bool bond_row_previous_neighbours_are_valid(const struct bond_row_inputs *row_inputs, int64_t i)
+/* Returns true if the row of particle i in the previous bonds inputs->old lists the present neighbours of this
+ * particle, so that the neighbours need not be searched for. This requires that such a row exists, and either that
+ * inputs->fresh[i] is 0 (1: neighbours may differ from those in inputs->old), or that the row has all neighbours and
+ * the particle is peridynamic. */
+static inline bool bond_row_previous_neighbours_are_valid(const struct bond_row_inputs *inputs, int64_t i)
 {
-    const int64_t before = row_inputs->old ? row_inputs->old->row_of[i] : -1;
-    return before >= 0 &&
-           ((row_inputs->old->whole[before] && row_inputs->p->kind[i] == KIND_PD) || !row_inputs->fresh[i]);
+    const int64_t before = inputs->old ? inputs->old->row_of[i] : -1;
+    return before >= 0 && ((inputs->old->whole[before] && inputs->p->kind[i] == KIND_PD) || !inputs->fresh[i]);
 }
 
 /* Finds the neighbours of the particle with index `particle` and stores their indices in row->nbr (which must have
- * space for maker->room), their number in row->n. row_inputs: inputs of the bonds and the previous bonds, from which
+ * space for inputs->room), their number in row->n. inputs: inputs of the bonds and the previous bonds, from which
  * the neighbours are copied if they are still valid (bond_row_previous_neighbours_are_valid). */
-void bond_row_find_neighbours(struct bond_row *row, const struct bond_row_inputs *row_inputs, int32_t particle);
+void bond_row_find_neighbours(struct bond_row *row, const struct bond_row_inputs *inputs, int32_t particle);
 
 /* Computes lengths and weights (factors on the stiffness) of the bonds from the particle with index `particle` to the
- * neighbours in row->nbr and stores them in `row`. row_inputs: inputs of the bonds and the previous bonds. Bonds that
- * are broken in the previous bonds maker->old are broken in `row`, too; the plastic state of bonds is copied from
+ * neighbours in row->nbr and stores them in `row`. inputs: inputs of the bonds and the previous bonds. Bonds that
+ * are broken in the previous bonds inputs->old are broken in `row`, too; the plastic state of bonds is copied from
  * there. */
-void bond_row_compute_lengths_and_weights(struct bond_row *row, const struct bond_row_inputs *row_inputs,
-                                          int32_t particle);
+void bond_row_compute_lengths_and_weights(struct bond_row *row, const struct bond_row_inputs *inputs, int32_t particle);
 
-/* Returns the number of the previous block of eight rows (bonds of eight particles) in maker->old that equals block
+/* Returns the number of the previous block of eight rows (bonds of eight particles) in inputs->old that equals block
  * `row_block` of b, so that its stored bonds can be used again; -1 if the particles or their neighbours have changed
  * (bonds_keep.c). */
-int64_t bond_row_block_find_equal_in_previous_bonds(const struct bonds *b, const struct bond_row_inputs *row_inputs,
+int64_t bond_row_block_find_equal_in_previous_bonds(const struct bonds *b, const struct bond_row_inputs *inputs,
                                                     int64_t row_block);
 
 /* Copies block `previous_row_block` of eight rows (the bonds of eight particles) of the bonds `previous_bonds` to block
@@ -139,10 +137,10 @@ void bond_rows_restore_found_neighbours(const struct bond_row_block_neighbours *
 
 /* Assigns a range of columns of the arrays of stored bonds to every block of eight rows (the bonds of eight particles)
  * of b and allocates these arrays. A column has eight bonds, one of each particle. previous_row_block[row_blocks]:
- * number of the previous block in maker->old whose columns are used again in place, -1 for a block that is rebuilt;
+ * number of the previous block in inputs->old whose columns are used again in place, -1 for a block that is rebuilt;
  * NULL if there are no previous bonds. Rebuilt blocks use columns of removed blocks if these are enough, else columns
  * behind all others (bonds_columns.c). */
-void bonds_allocate_storage_for_row_blocks(struct bonds *b, const struct bond_row_inputs *maker,
+void bonds_allocate_storage_for_row_blocks(struct bonds *b, const struct bond_row_inputs *inputs,
                                            const int64_t *previous_row_block);
 
 /* Sets the pointers in `previous` to NULL for those arrays that b uses as well, so that they belong to b alone and
@@ -293,10 +291,10 @@ void bond_row_block_fill_columns_from_rows(struct bonds *b, struct bond_row_bloc
                                            int row_count, bool one_offset_per_column, const struct particles *p);
 
 /* Fills block `row_block` of eight rows of b (the bonds of eight particles) from the bonds in buffer->regular, which
- * were found without a search, because its eight particles are consecutive on one lattice. maker: inputs of the bonds
+ * were found without a search, because its eight particles are consecutive on one lattice. inputs: inputs of the bonds
  * and the previous bonds. */
 void bond_row_block_fill_from_lattice_bonds(struct bonds *b, struct bond_row_block_buffer *buffer, int64_t row_block,
-                                            const struct bond_row_inputs *maker);
+                                            const struct bond_row_inputs *inputs);
 
 /* Stores the columns in `buffer` as columns of block `row_block` of eight rows of b (the bonds of eight particles of
  * p), or, if their bonds equal those of a known stencil (a bond pattern of the lattice), makes the block follow that

@@ -267,22 +267,22 @@ static void row_copy(struct bond_row *row, const struct bonds *old, int64_t old_
     row->cut_volume = old->broken_volume[old_row];
 }
 
-void bond_row_find_neighbours(struct bond_row *row, const struct bond_row_inputs *m, int32_t particle)
+void bond_row_find_neighbours(struct bond_row *row, const struct bond_row_inputs *inputs, int32_t particle)
 {
-    if (bond_row_previous_neighbours_are_valid(m, particle))
-        row_copy_neighbours(row, m->old, m->old->row_of[particle]);
+    if (bond_row_previous_neighbours_are_valid(inputs, particle))
+        row_copy_neighbours(row, inputs->old, inputs->old->row_of[particle]);
     else
-        row_search(row, m->map, m->source, m->p, particle, m->room);
+        row_search(row, inputs->map, inputs->source, inputs->p, particle, inputs->room);
 }
 
-void bond_row_compute_lengths_and_weights(struct bond_row *row, const struct bond_row_inputs *m, int32_t particle)
+void bond_row_compute_lengths_and_weights(struct bond_row *row, const struct bond_row_inputs *inputs, int32_t particle)
 {
-    const int64_t before = m->old ? m->old->row_of[particle] : -1;
-    if (m->source->limit.softening) bond_row_set_softening_state(row, m, particle);
-    if (bond_row_previous_neighbours_are_valid(m, particle)) {
-        row_copy(row, m->old, before);
+    const int64_t before = inputs->old ? inputs->old->row_of[particle] : -1;
+    if (inputs->source->limit.softening) bond_row_set_softening_state(row, inputs, particle);
+    if (bond_row_previous_neighbours_are_valid(inputs, particle)) {
+        row_copy(row, inputs->old, before);
         return;
     }
-    row_weigh(row, m->source, m->p, m->pairs, particle);
-    if (before >= 0) row_inherit(row, m->p, m->old, before);
+    row_weigh(row, inputs->source, inputs->p, inputs->pairs, particle);
+    if (before >= 0) row_inherit(row, inputs->p, inputs->old, before);
 }

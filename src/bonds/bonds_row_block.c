@@ -214,12 +214,13 @@ int lattice_bonds_count_directed_bonds(const struct lattice_bonds *bonds)
 /* Fills *column with the bonds from particle i + l to particle j + l, l = 0 .. 7: neighbours, inverse lengths and
  * weights. m: data from which rows are made; bonds: bit l is set if the bond of particle i + l exists; the others
  * become padding, with inverse length and weight 0. */
-static void fill_column(struct column_copy *column, const struct bond_row_inputs *m, int32_t i, int32_t j,
+static void fill_column(struct column_copy *column, const struct bond_row_inputs *inputs, int32_t i, int32_t j,
                         unsigned bonds)
 {
-    const struct bond_source *s = m->source;
+    const struct bond_source *s = inputs->source;
     column->first = j;
-    lattice_bonds_compute_eight_lengths_and_weights(s, m->p, m->pairs, i, j, column->inverse_length, column->w);
+    lattice_bonds_compute_eight_lengths_and_weights(s, inputs->p, inputs->pairs, i, j, column->inverse_length,
+                                                    column->w);
     for (int l = 0; l < LANES; l++) {
         column->nbr[l] = j + l;
         if (!(bonds >> l & 1)) column->inverse_length[l] = column->w[l] = 0;
@@ -227,18 +228,18 @@ static void fill_column(struct column_copy *column, const struct bond_row_inputs
 }
 
 /* Computes trigger[l] for particle i + l, l = 0 .. 7: the smallest stretch at which one of its bonds may break or begin
- * to soften [1]; INFINITY without bonds. bonds: neighbours of these eight particles; m->source, m->p: critical
- * stretches of the materials and relative strengths of the particles. */
-static void regular_triggers(real trigger[LANES], const struct lattice_bonds *bonds, const struct bond_row_inputs *m,
-                             int32_t i)
+ * to soften [1]; INFINITY without bonds. bonds: neighbours of these eight particles; inputs->source, inputs->p:
+ * critical stretches of the materials and relative strengths of the particles. */
+static void regular_triggers(real trigger[LANES], const struct lattice_bonds *bonds,
+                             const struct bond_row_inputs *inputs, int32_t i)
 {
-    const bool alike = m->source->limit.materials <= 1 && !m->p->strength;
+    const bool alike = inputs->source->limit.materials <= 1 && !inputs->p->strength;
     for (int l = 0; l < LANES; l++) {
         trigger[l] = INFINITY;
         for (int k = 0; k < bonds->n && !(alike && trigger[l] < INFINITY); k++)
             if (bonds->bonds[k] >> l & 1)
-                trigger[l] = real_min(trigger[l], bond_stretch_threshold_of_exact_break_test(m->source, m->p, i + l,
-                                                                                             i + bonds->offset[k] + l));
+                trigger[l] = real_min(trigger[l], bond_stretch_threshold_of_exact_break_test(
+                                                      inputs->source, inputs->p, i + l, i + bonds->offset[k] + l));
     }
 }
 
@@ -256,26 +257,26 @@ static bool whole_families(const struct lattice_bonds *bonds)
  * the map of lattice sites. If the particles have bonds to all their neighbours, and a recent block had equal bonds,
  * copies the stencil of that block and the sums over its bonds. m: data from which rows are made. */
 void bond_row_block_fill_from_lattice_bonds(struct bonds *b, struct bond_row_block_buffer *buffer, int64_t g,
-                                            const struct bond_row_inputs *m)
+                                            const struct bond_row_inputs *inputs)
 {
     const struct lattice_bonds *bonds = &buffer->regular;
-    const real *volume = m->p->volume0;
+    const real *volume = inputs->p->volume0;
     const int32_t i = b->particle[g * LANES];
     const bool follows =
         whole_families(bonds) && bond_row_block_share_stencil_of_particle(
-                                     b, g, stencil_cache_particle_with_equal_bonds_or_add(bonds, m->source, i));
+                                     b, g, stencil_cache_particle_with_equal_bonds_or_add(bonds, inputs->source, i));
     real family_volume[LANES] = {0};
     int columns = 0;
-    if (!follows || m->p->strength) regular_triggers(b->trigger + g * LANES, bonds, m, i);
+    if (!follows || inputs->p->strength) regular_triggers(b->trigger + g * LANES, bonds, inputs, i);
     if (follows) return;
     for (int k = 0; k < bonds->n; k++) {
         const int32_t j = i + bonds->offset[k], from = bonds->from[k], to = bonds->to[k];
         for (int l = 0; l < LANES; l++) family_volume[l] += l >= from && l <= to ? volume[j + l] : 0;
-        if (bonds->bonds[k]) fill_column(&buffer->column[columns++], m, i, j, bonds->bonds[k]);
+        if (bonds->bonds[k]) fill_column(&buffer->column[columns++], inputs, i, j, bonds->bonds[k]);
     }
     for (int l = 0; l < LANES; l++) b->family_volume[g * LANES + l] = (float)family_volume[l];
     b->aligned[g] = true;
-    bond_row_block_store_columns_or_stencil(b, buffer, g, m->p);
+    bond_row_block_store_columns_or_stencil(b, buffer, g, inputs->p);
 }
 
 /* Allocates *buffer, the working memory for blocks of eight rows (the bonds of eight particles) whose rows have up to

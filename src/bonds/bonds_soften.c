@@ -87,13 +87,13 @@ void bond_row_block_initialise_softening(struct bonds *b, const struct particles
     __atomic_store_n(&b->clamped.stale, true, __ATOMIC_RELAXED);
 }
 
-void bond_row_set_softening_state(struct bond_row *row, const struct bond_row_inputs *row_inputs, int32_t particle)
+void bond_row_set_softening_state(struct bond_row *row, const struct bond_row_inputs *inputs, int32_t particle)
 {
-    const struct bonds *old = row_inputs->old;
+    const struct bonds *old = inputs->old;
     const int64_t before = old ? old->row_of[particle] : -1;
     for (int k = 0; k < row->n; k++)
         row->soft[k] = bond_softening_state_before_onset(
-            bond_softening_range(row_inputs->p, &row_inputs->source->limit, particle, row->nbr[k]));
+            bond_softening_range(inputs->p, &inputs->source->limit, particle, row->nbr[k]));
     if (before < 0 || !bond_row_block_has_begun_softening(old, before / LANES)) return;
     int n = 0; /* neighbours ascend in both rows */
     for (struct bond_iterator it = bond_iterator_of_row(old, before); bond_iterator_advance(&it);) {

@@ -254,7 +254,7 @@ real bonds_critical_time_step_if_all_peridynamic(const struct particles *p, cons
     array_fill_bytes(kind, KIND_PD, p->n_all, 1);
     all.kind = kind;
     struct lattice_site_map map;
-    const struct bond_row_inputs maker = {
+    const struct bond_row_inputs inputs = {
         .source = s, .p = &all, .pairs = &pairs, .map = &map, .room = bonds_neighbour_count_upper_bound(s)};
     lattice_site_map_make_if_particles_fit_lattice(&map, s, p);
     uint8_t *needed = first_of_classes(s->surface, &map, p->n);
@@ -262,7 +262,7 @@ real bonds_critical_time_step_if_all_peridynamic(const struct particles *p, cons
     {
         struct bond_row row = {0};
         struct lattice_bonds regular;
-        bond_row_buffer_make(&row, maker.room);
+        bond_row_buffer_make(&row, inputs.room);
         lattice_bonds_allocate_for_eight_particles(&regular, &map);
 #pragma omp for schedule(static)
         for (int64_t first = 0; first < p->n; first += LANES) {
@@ -278,8 +278,8 @@ real bonds_critical_time_step_if_all_peridynamic(const struct particles *p, cons
             }
             for (int64_t i = first; i < first + LANES && i < p->n; i++) {
                 if (needed && !needed[i]) continue;
-                bond_row_find_neighbours(&row, &maker, (int32_t)i);
-                bond_row_compute_lengths_and_weights(&row, &maker, (int32_t)i);
+                bond_row_find_neighbours(&row, &inputs, (int32_t)i);
+                bond_row_compute_lengths_and_weights(&row, &inputs, (int32_t)i);
                 largest = real_max(largest, row_stiffness(&row, &all, (int32_t)i, stiffness) / p->mass[i]);
             }
         }

@@ -108,7 +108,9 @@ static void test_held(void **state)
 
 /* Faces of a notch of zero width that repeatedly collide. At the beginning and end of contact leap-frog integration
  * gains or loses energy; the accounts of contact_balance.c remove the excess at the next contact. Measured: at most 0.3
- * % above the initial energy, 6 % below; without accounts three times the energy. */
+ * % above the initial energy, 6 % below; without accounts three times the energy. Between these bounds the energy goes
+ * up and down, by round-off differently on each kind of processor: the growth rate fitted to the last 50,000 steps is
+ * up to 1.3e-6 a step (AVX2), which is the way from the lower to the upper bound. */
 static const struct drift_case touching[] = {
     {.c = {MESH("partial stress", "ospd", 0.2, NOTCH), .contact = true}},
     {.c = {MESH("handshake", "mospd", 0.3, NOTCH), .contact = true}},
@@ -121,7 +123,7 @@ static void test_touching(void **state)
     for (size_t k = 0; k < COUNT_OF(touching); k++) {
         struct lasting r;
         assert_ok(drift_run(&touching[k], steps_of(100000), &r));
-        if (!(r.largest < 0.01 && r.least > -0.1 && r.rate < 1e-6))
+        if (!(r.largest < 0.01 && r.least > -0.1 && r.rate < 2e-6))
             fail_msg("notch %zu: energy %+.2e, %.2e at most, %.2e a step", k, r.end, r.largest, r.rate);
     }
 }
