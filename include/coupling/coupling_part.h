@@ -72,9 +72,9 @@ void notch_describe_as_slit_or_cut_bonds(const struct notches *n, int crack_numb
  * beside slits and voids; frame: the mesh, whose motion particles receive first; spacing: of the particles [m];
  * time_ahead: time until the next call [s]; p, loads: particles and loads. Returns true if n has such slits or voids,
  * whether or not points were marked. */
-bool flag_points_at_closing_slits_for_conversion(const struct notches *n, struct lagrangian_mesh *frame,
-                                                 struct particles *p, const struct loads *loads, real spacing,
-                                                 real time_ahead);
+bool mark_points_at_closing_slits_to_become_peridynamic(const struct notches *n, struct lagrangian_mesh *frame,
+                                                        struct particles *p, const struct loads *loads, real spacing,
+                                                        real time_ahead);
 
 /* Makes the particles on both sides of narrow voids peridynamic, so that common nodes of a grid do not join the two
  * sides. p: the particles; v: voids (narrow gaps of a body); NULL: nothing is done. include_mesh_particles: true to

@@ -81,8 +81,8 @@ int64_t diagnostics_count_clusters_of_new_bond_breaks(const struct particles *p,
  * middle of a cluster of particles of p that lost bonds and are at most `horizon`, the length of the longest bond [m],
  * apart. Returns true if driven particles (particles with prescribed motion) lost bonds in this step for the first time
  * in the run. */
-bool diagnostics_record_broken_bonds(struct diagnostics *w, const struct particles *p, real horizon,
-                                     int64_t broken_bond_count, real t);
+bool diagnostics_count_broken_bonds_and_record_first(struct diagnostics *w, const struct particles *p, real horizon,
+                                                     int64_t broken_bond_count, real t);
 
 /* Searches for particles of p whose position or velocity is not finite or whose speed exceeds `max_speed`, the fastest
  * wave speed of the scene [m/s]. check_peridynamic: search the peridynamic particles too; check_mesh_points: search the

@@ -55,7 +55,7 @@ static ALWAYS_INLINE void run_flow_cells(const struct run_flow *a, const struct 
     cell_compute_rotation_strain_and_modes(&s, mesh->grid.h, u, dim, rotates);
     mesh_cell_run_get_indices_of_eight_cells(run, k, cell);
     cells_flow_of(mesh, a->p, a->elastic, cell, &s, dim);
-    if (rotates) cell_stress_balance_moments_at_finite_strain(&s, (lanes[3]){{0}}, dim);
+    if (rotates) cell_add_skew_stress_balancing_moment_finite_strain(&s, (lanes[3]){{0}}, dim);
     cell_compute_corner_forces(&s, mesh->grid.h, mesh->volume * (1 << dim), f, dim, rotates);
 }
 
@@ -149,9 +149,9 @@ static ALWAYS_INLINE void partial_force(struct mesh *mesh, const struct particle
         mesh_partial_cells_compute_stress(mesh, p, group, &s, dim);
     if (mesh->ends && p->end_rotation[0]) mesh_partial_cells_add_bond_moments(mesh, p, group, moment, dim);
     if (rotates)
-        cell_stress_balance_moments_at_finite_strain(&s, moment, dim);
+        cell_add_skew_stress_balancing_moment_finite_strain(&s, moment, dim);
     else if (dim > 1 && mesh->ends && p->end_rotation[0])
-        cell_stress_balance_moments_at_small_strain(&s, moment, dim);
+        cell_add_skew_stress_balancing_moment_small_strain(&s, moment, dim);
     cell_compute_corner_forces(&s, mesh->grid.h, mesh->volume * (1 << dim), f, dim, rotates);
     lanes *out = (lanes *)mesh->partial_force + group * (1 << dim) * dim;
     for (int c = 0; c < 1 << dim; c++)

@@ -320,8 +320,8 @@ static ALWAYS_INLINE lanes cell_elastic_energy(const struct mesh_cell *s, real v
  * stresses and of bonds. moment: on entry the moment of bonds at the points of the cell, per volume about each axis
  * [Pa]; on return the total moment, including that of the stresses: the antisymmetric part of P U^T, summed over all
  * modes (U = 1 + e, e: mean strain). */
-static ALWAYS_INLINE void cell_stress_balance_moments_at_finite_strain(struct mesh_cell *s, lanes *moment,
-                                                                       const int dim)
+static ALWAYS_INLINE void cell_add_skew_stress_balancing_moment_finite_strain(struct mesh_cell *s, lanes *moment,
+                                                                              const int dim)
 {
     for (int k = dim == 2 ? 2 : 0; k < 3; k++) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
@@ -335,8 +335,8 @@ static ALWAYS_INLINE void cell_stress_balance_moments_at_finite_strain(struct me
 /* Adds to the stress s->P of eight cells, at small strain, an antisymmetric part. It makes the corner forces balance
  * the moments that state-based bonds exert on the material points of the cells. moment: these moments, per volume about
  * each axis [Pa]; in 2D moment[2] only. */
-static ALWAYS_INLINE void cell_stress_balance_moments_at_small_strain(struct mesh_cell *s, const lanes *moment,
-                                                                      const int dim)
+static ALWAYS_INLINE void cell_add_skew_stress_balancing_moment_small_strain(struct mesh_cell *s, const lanes *moment,
+                                                                             const int dim)
 {
     lanes none[3][3];
     for (int a = 0; a < 3; a++)

@@ -22,7 +22,8 @@ static ALWAYS_INLINE void mesh_cell_run_load_corner_displacements(const struct m
 }
 
 /* Returns true if the problem is 2D (dim = 2) and the elastic constants m are isotropic. The stresses in a cell with
- * all its points, of one material, then have no moment, and cell_stress_balance_moments_at_finite_strain is not needed.
+ * all its points, of one material, then have no moment, and cell_add_skew_stress_balancing_moment_finite_strain is not
+ * needed.
  */
 static ALWAYS_INLINE bool elastic_is_isotropic_in_2d(const struct elastic *m, const int dim)
 {
@@ -43,7 +44,7 @@ static ALWAYS_INLINE void whole_cells_compute_corner_forces(const struct elastic
     cell_compute_rotation_strain_and_modes(&s, h, u, dim, rotates);
     cell_compute_stress_and_hourglass_forces(m, &s, dim);
     *tension = lanes_max(*tension, cell_largest_principal_stress_upper_bound(m, &s, s.P, dim));
-    if (rotates && !stress_has_no_moment) cell_stress_balance_moments_at_finite_strain(&s, (lanes[3]){{0}}, dim);
+    if (rotates && !stress_has_no_moment) cell_add_skew_stress_balancing_moment_finite_strain(&s, (lanes[3]){{0}}, dim);
     cell_compute_corner_forces(&s, h, volume, f, dim, rotates);
 }
 

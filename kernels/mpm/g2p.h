@@ -186,7 +186,7 @@ static ALWAYS_INLINE void points_interpolate_velocity_linear(const struct grid *
 /* Motion of a few points of a cell, one per lane, between interpolation and update. point: numbers of the points; x:
  * positions [m]; velocity [m/s]; L: velocity gradients dv_a/dx_b at [a dim + b] [1/s]. */
 struct points_motion {
-    int32_t point[POINT_NUMBERS]; /* from points_fill_lanes_from_list */
+    int32_t point[POINT_NUMBERS]; /* from points_copy_list_indices_to_lanes */
     row_of_points x[DIM_MAX], velocity[DIM_MAX], L[DIM_MAX * DIM_MAX];
 };
 

@@ -62,7 +62,7 @@ static ALWAYS_INLINE void p2g_add_skew_stress_force(cell_sums sum, const struct 
 
 /* Stress that a few points of a cell transmit to the grid, one per lane. */
 struct points_stress {
-    int32_t point[POINT_NUMBERS];  /* numbers of the points (points_fill_lanes_from_list) */
+    int32_t point[POINT_NUMBERS];  /* numbers of the points (points_copy_list_indices_to_lanes) */
     row_of_points stress[SYM_MAX]; /* symmetric components [Pa] */
     row_of_points volume;          /* [m^3] */
 };
@@ -89,7 +89,7 @@ static ALWAYS_INLINE void points_load_stress(struct points_stress *s, const stru
                                              const struct transfer_data *t, const int32_t *list, int n, const int dim)
 {
     const int components = dim * (dim + 1) / 2;
-    points_fill_lanes_from_list(s->point, list, n, dim);
+    points_copy_list_indices_to_lanes(s->point, list, n, dim);
     s->volume = points_load(p->volume, s->point, dim);
     for (int c = 0; c < components; c++)
         s->stress[c] = t->momentum_only ? points_broadcast(0) : points_load(p->stress[c], s->point, dim);

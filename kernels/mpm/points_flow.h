@@ -5,8 +5,8 @@
 #include "kernels/laws/law_update.h"
 #include "stress.h"
 
-/* Length of an array with the numbers of eight points, which ends with the entry PAIRED of points_fill_lanes_from_list;
- * 0 where there are not eight points at once. */
+/* Length of an array with the numbers of eight points, which ends with the entry PAIRED of
+ * points_copy_list_indices_to_lanes; 0 where there are not eight points at once. */
 enum { FLOW_NUMBERS = LANES + 1 };
 
 /* List of n points of materials that yield, which wait for their return mapping, with the input data of the mapping.
@@ -150,9 +150,9 @@ static ALWAYS_INLINE void flow_clear_conversion_flags_below_threshold(struct par
 /* Stores the stress normal to the plane (plane strain) or the volume (plane stress, 1D) of those of the points
  * point[LANES] of p that have yielded. flowed: bit l is set if point[l] has yielded; m: material of the points; e:
  * their state after the return mapping. */
-static NEVER_INLINE void flow_store_out_of_plane_stress_or_volume(struct particles *p, const struct elastic *m,
-                                                                  const struct law_points *e, unsigned flowed,
-                                                                  const int32_t *point)
+static NEVER_INLINE void points_store_stress_normal_to_plane_or_volume(struct particles *p, const struct elastic *m,
+                                                                       const struct law_points *e, unsigned flowed,
+                                                                       const int32_t *point)
 {
     const lanes across = e->s[2] - m->poisson * (e->s[0] + e->s[1]);
     for (int l = 0; l < LANES; l++)
@@ -171,7 +171,7 @@ static ALWAYS_INLINE void flow_store_stress_and_plastic_state(struct particles *
 {
     const lanes_mask own = lanes_mask_from_bits((uint8_t)flowed);
     for (int c = 0; c < dim * (dim + 1) / 2; c++) stress[c] = lanes_choose(own, e->s[law_place[dim][c]], stress[c]);
-    if (m->space != SPACE_SOLID) flow_store_out_of_plane_stress_or_volume(p, m, e, flowed, point);
+    if (m->space != SPACE_SOLID) points_store_stress_normal_to_plane_or_volume(p, m, e, flowed, point);
     flow_scatter_values_to_points(p->plastic_strain, point, e->a),
         flow_scatter_values_to_points(p->plastic_work, point, e->work);
     if (p->temperature) flow_scatter_values_to_points(p->temperature, point, e->temperature);

@@ -127,9 +127,9 @@ static ALWAYS_INLINE int points_count_of_next_batch(int points_left, const int d
     return int_min(points_left, AT_ONCE(dim));
 }
 
-/* Length of the arrays that points_fill_lanes_from_list fills: the numbers of POINTS points, then at PAIRED not 0 if
- * the points come in pairs of consecutive numbers, as neighbours along x have: two of them are then loaded or stored at
- * once. */
+/* Length of the arrays that points_copy_list_indices_to_lanes fills: the numbers of POINTS points, then at PAIRED not 0
+ * if the points come in pairs of consecutive numbers, as neighbours along x have: two of them are then loaded or stored
+ * at once. */
 enum { PAIRED = POINTS, POINT_NUMBERS = POINTS + 1 };
 
 /* Returns the index in a list of n points (n <= AT_ONCE, points processed together) of the point that vector lane
@@ -144,7 +144,7 @@ static ALWAYS_INLINE int points_list_index_of_lane(int lane, int n)
  * one per lane, with repeated points in further lanes (points_list_index_of_lane). Sets point[PAIRED] to 1 if the
  * points are pairs of consecutive indices, else to 0. list: must have POINTS entries, of which those from n on are not
  * used, unless n is 1. */
-static ALWAYS_INLINE void points_fill_lanes_from_list(int32_t *point, const int32_t *list, int n, const int dim)
+static ALWAYS_INLINE void points_copy_list_indices_to_lanes(int32_t *point, const int32_t *list, int n, const int dim)
 {
     if (n == 1) {
         for (int k = 0; k < POINTS; k++) point[k] = list[0];
@@ -192,8 +192,8 @@ static ALWAYS_INLINE row_of_points points_load_consecutive_pairs(const real *fro
 }
 
 /* Returns a vector whose lane k, 0 <= k < POINTS, is from[point[k]], the value of a point in the particle array `from`.
- * point: as set by points_fill_lanes_from_list, the indices of the points (in 1D of at most two, which further lanes
- * repeat), then in point[PAIRED] not 0 if they are pairs of consecutive indices, which are loaded together. */
+ * point: as set by points_copy_list_indices_to_lanes, the indices of the points (in 1D of at most two, which further
+ * lanes repeat), then in point[PAIRED] not 0 if they are pairs of consecutive indices, which are loaded together. */
 static ALWAYS_INLINE row_of_points points_load(const real *from, const int32_t *point, const int dim)
 {
     if (dim > 1 && point[PAIRED]) return points_load_consecutive_pairs(from, point);
@@ -209,8 +209,8 @@ static ALWAYS_INLINE row_of_points points_load(const real *from, const int32_t *
 }
 
 /* Stores lane k of the vector a in to[point[k]], 0 <= k < POINTS. to: particle array; point: as set by
- * points_fill_lanes_from_list, the indices of the points, then in point[PAIRED] not 0 if they are pairs of consecutive
- * indices. Lanes that hold the same point must have equal values. */
+ * points_copy_list_indices_to_lanes, the indices of the points, then in point[PAIRED] not 0 if they are pairs of
+ * consecutive indices. Lanes that hold the same point must have equal values. */
 static ALWAYS_INLINE void points_store(real *to, const int32_t *point, row_of_points a, const int dim)
 {
     if (dim > 1 && point[PAIRED]) {

@@ -227,7 +227,7 @@ static ALWAYS_INLINE row_of_points corners_interpolate_value_and_slope(const str
  * node is N, which depends on the position of the node in its row, times the factors A of the row in the directions
  * across. */
 struct cell_stencil {
-    int32_t point[POINT_NUMBERS];                /* indices of the points (points_fill_lanes_from_list) */
+    int32_t point[POINT_NUMBERS];                /* indices of the points (points_copy_list_indices_to_lanes) */
     row_of_points x[DIM_MAX];                    /* position [m] */
     row_of_points t[DIM_MAX];                    /* position in the cell, in cell edges from the lower node [1] */
     row_of_points N[ROW], D[DIM_MAX][ROW];       /* of the nodes of a row: weights [1], slopes along it [1/m] */
@@ -321,7 +321,7 @@ static ALWAYS_INLINE void cell_stencil_compute_weights(struct cell_stencil *s, c
                                                        const enum shape shape)
 {
     const real inverse = 1 / g->h;
-    points_fill_lanes_from_list(s->point, list, n, dim);
+    points_copy_list_indices_to_lanes(s->point, list, n, dim);
     for (int d = 0; d < dim; d++) {
         s->x[d] = points_load(p->x[d], s->point, dim);
         s->t[d] = (s->x[d] - g->anchor[d]) * inverse - c->place[d] + g->ahead[d]; /* grid_coordinate_in_cells */

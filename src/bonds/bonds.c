@@ -222,7 +222,7 @@ static int64_t row_block_pass(const struct rows_pass *pass, struct bond_row_bloc
         if (pass->count)
             b->column_count[g] = lattice_bonds_count_storage_columns(&room->regular), note_reach(pass, room, g, true);
         else
-            bond_row_block_fill_from_lattice_bonds(b, room, g, inputs);
+            bond_row_block_fill_by_bonds_found_on_lattice(b, room, g, inputs);
         return lattice_bonds_count_directed_bonds(&room->regular);
     }
     if (pass->found && pass->found[g]) bond_rows_restore_found_neighbours(pass->found[g], room->row, rows);

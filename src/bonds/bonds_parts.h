@@ -293,8 +293,8 @@ void bond_row_block_fill_columns_from_rows(struct bonds *b, struct bond_row_bloc
 /* Fills block `row_block` of eight rows of b (the bonds of eight particles) from the bonds in buffer->regular, which
  * were found without a search, because its eight particles are consecutive on one lattice. inputs: inputs of the bonds
  * and the previous bonds. */
-void bond_row_block_fill_from_lattice_bonds(struct bonds *b, struct bond_row_block_buffer *buffer, int64_t row_block,
-                                            const struct bond_row_inputs *inputs);
+void bond_row_block_fill_by_bonds_found_on_lattice(struct bonds *b, struct bond_row_block_buffer *buffer,
+                                                   int64_t row_block, const struct bond_row_inputs *inputs);
 
 /* Stores the columns in `buffer` as columns of block `row_block` of eight rows of b (the bonds of eight particles of
  * p), or, if their bonds equal those of a known stencil (a bond pattern of the lattice), makes the block follow that

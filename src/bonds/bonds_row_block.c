@@ -256,8 +256,8 @@ static bool whole_families(const struct lattice_bonds *bonds)
 /* Fills block g of eight rows (the bonds of eight particles) of b from the bonds in buffer->regular, which follow from
  * the map of lattice sites. If the particles have bonds to all their neighbours, and a recent block had equal bonds,
  * copies the stencil of that block and the sums over its bonds. m: data from which rows are made. */
-void bond_row_block_fill_from_lattice_bonds(struct bonds *b, struct bond_row_block_buffer *buffer, int64_t g,
-                                            const struct bond_row_inputs *inputs)
+void bond_row_block_fill_by_bonds_found_on_lattice(struct bonds *b, struct bond_row_block_buffer *buffer, int64_t g,
+                                                   const struct bond_row_inputs *inputs)
 {
     const struct lattice_bonds *bonds = &buffer->regular;
     const real *volume = inputs->p->volume0;

@@ -54,8 +54,8 @@ bool conversion_flag_points_near_contact(struct run *e)
                                                      APPROACH_REACH * e->scene->spacing);
     }
     return e->scene->contact_between == CONTACT_ALL &&
-           flag_points_at_closing_slits_for_conversion(&e->coupling->notches, e->frame, &e->part, &e->loads,
-                                                       e->scene->spacing, APPROACH_STEPS * e->clock.dt);
+           mark_points_at_closing_slits_to_become_peridynamic(&e->coupling->notches, e->frame, &e->part, &e->loads,
+                                                              e->scene->spacing, APPROACH_STEPS * e->clock.dt);
 }
 
 void conversion_update_mesh_after_conversion(struct run *e, int64_t converted_count)

@@ -82,9 +82,9 @@ void notch_describe_as_slit_or_cut_bonds(const struct notches *n, int crack_numb
  * before the faces touch: moves these points of p with the mesh of the reference frame `frame` first. loads: with the
  * mirror images of the points; spacing: of the particles [m]; time_ahead: time until the next call [s]. Returns true if
  * n has faces. */
-bool flag_points_at_closing_slits_for_conversion(const struct notches *n, struct lagrangian_mesh *frame,
-                                                 struct particles *p, const struct loads *loads, real spacing,
-                                                 real time_ahead)
+bool mark_points_at_closing_slits_to_become_peridynamic(const struct notches *n, struct lagrangian_mesh *frame,
+                                                        struct particles *p, const struct loads *loads, real spacing,
+                                                        real time_ahead)
 {
     if (n->faces == 0) return false;
     lagrangian_mesh_update_motion_of_listed_points(frame, p, loads, n->face, n->faces);

@@ -146,7 +146,7 @@ void run_warn_of_solids_without_effect_on_bodies(const struct scene *s, struct w
 
 /* Adds warnings to *warnings about surfaces of scene s (the input file), read from files, whose closed shells overlap
  * or are inside one another, so that a part of the body is enclosed twice. */
-void run_warn_of_overlapping_surface_shells(const struct scene *s, struct warnings *warnings);
+void run_warn_of_overlapping_closed_surface_files(const struct scene *s, struct warnings *warnings);
 
 /* Adds a warning to *warnings about each body of scene s (the input file) that moves in one direction from the start
  * and meets no other body, rigid bodies included, within the duration. This is judged by the bounding boxes of the

@@ -281,7 +281,7 @@ void run_warn_of_suspicious_input(struct run *e)
     run_warn_of_conflicting_supports(s, &e->loads, &e->part, to);
     if (e->grid->field) run_warn_of_supports_between_grid_nodes(s, &e->loads, &e->part, &e->grid->field[0].grid, to);
     run_warn_of_solids_without_effect_on_bodies(s, to);
-    run_warn_of_overlapping_surface_shells(s, to);
+    run_warn_of_overlapping_closed_surface_files(s, to);
     run_warn_of_bodies_too_thin_to_correct_faces(s, &e->part, &e->tables.surface, to);
     run_warn_of_bodies_that_never_meet(s, &e->part, to);
     run_warn_of_overlapping_bodies(s, &e->part, to);

@@ -95,7 +95,7 @@ void run_warn_of_solids_without_effect_on_bodies(const struct scene *s, struct w
     }
 }
 
-void run_warn_of_overlapping_surface_shells(const struct scene *s, struct warnings *warnings)
+void run_warn_of_overlapping_closed_surface_files(const struct scene *s, struct warnings *warnings)
 {
     for (const struct shape_file *f = s->shapes; f; f = f->next) {
         const struct hull *h = &f->geometry.whole;

@@ -212,7 +212,7 @@ static void cells_from_levels(struct mesh_levels *l, const struct particles *p, 
     mesh_levels_compute_coarse_cells_and_masses(l, p);
     mesh_levels_find_ghost_and_hanging_nodes(l);
     mesh_levels_add_masses_of_dependent_nodes(l, false);
-    mesh_levels_find_uniform_cell_rows_and_node_spans(l);
+    mesh_levels_find_one_material_cell_runs_and_node_ranges(l);
     mesh_levels_classify_cells_by_distance_to_coarse(l);
 }
 
@@ -258,7 +258,7 @@ status mesh_levels_save_or_load(struct mesh_levels *l, const struct particles *p
     ARCHIVE_VALUE(a, "levels/any_wanted", l->any_wanted);
     ARCHIVE_VALUE(a, "levels/changes", l->changes);
     if (!a->saving) {
-        if (!mesh_levels_coarse_cells_are_uniform_and_filled(l))
+        if (!mesh_levels_coarse_cells_are_consistent_and_filled(l))
             return status_set(FAILED, "cannot resume: the refinement levels in the checkpoint do not form a valid "
                                       "mesh; it is damaged, start again with --overwrite");
         cells_from_levels(l, p, source);

@@ -190,7 +190,7 @@ void mesh_levels_add_masses_of_dependent_nodes(struct mesh_levels *l, bool trans
     }
 }
 
-void mesh_levels_find_uniform_cell_rows_and_node_spans(struct mesh_levels *l)
+void mesh_levels_find_one_material_cell_runs_and_node_ranges(struct mesh_levels *l)
 {
     for (int level = 1; level <= l->n; level++) mesh_find_uniform_cell_rows_and_node_spans(&l->at[level].mesh);
     mesh_find_node_spans_with_mass(l->fine);

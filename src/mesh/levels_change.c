@@ -274,7 +274,7 @@ void mesh_levels_change_refinement(struct mesh_levels *l, const struct particles
     nodes_sample(l);
     merged_cells_correct(l, before);
     mesh_levels_add_masses_of_dependent_nodes(l, true);
-    mesh_levels_find_uniform_cell_rows_and_node_spans(l);
+    mesh_levels_find_one_material_cell_runs_and_node_ranges(l);
     velocities_make(l);
     for (int k = 1; k <= l->n; k++) mesh_levels_interpolate_motion_of_hanging_nodes(l, k);
     mesh_levels_copy_motion_to_ghost_nodes(l);

@@ -147,7 +147,7 @@ void mesh_levels_compute_coarsest_admissible_levels(const struct mesh_levels *l,
     for (int level = 0; level <= l->n; level++) memory_free(map[level].ok);
 }
 
-bool mesh_levels_coarse_cells_are_uniform_and_filled(const struct mesh_levels *l)
+bool mesh_levels_coarse_cells_are_consistent_and_filled(const struct mesh_levels *l)
 {
     const struct grid *g = &l->fine->grid;
     int64_t k[DIM_MAX] = {0}, covered = 0, coarse = 0;

@@ -132,7 +132,7 @@ void mesh_levels_add_masses_of_dependent_nodes(struct mesh_levels *l, bool trans
 /* Finds the runs of all coarsening levels of l (rows of consecutive cells of equal material), the spans of nodes with
  * mass, and the active blocks of nodes (eight nodes each, included in computations). To be called after
  * mesh_levels_add_masses_of_dependent_nodes. */
-void mesh_levels_find_uniform_cell_rows_and_node_spans(struct mesh_levels *l);
+void mesh_levels_find_one_material_cell_runs_and_node_ranges(struct mesh_levels *l);
 
 /* Interpolates displacement and velocity of coarse cells of the mesh l to nodes of level 0 (the finest) inside them
  * that belong to no cell of level 0. all_nodes: true for all such nodes, false for those with particles in an adjacent
@@ -148,7 +148,7 @@ void mesh_levels_compute_momenta_from_velocities(struct mesh_levels *l);
 /* Returns true if the coarse cells of the mesh l are consistent: the fine cells that make up a coarse cell all state
  * the level of this coarse cell (l->level: 0 for a fine cell that is not part of one, k for a cell 2^k times as long),
  * and each of them is completely filled with material. */
-bool mesh_levels_coarse_cells_are_uniform_and_filled(const struct mesh_levels *l);
+bool mesh_levels_coarse_cells_are_consistent_and_filled(const struct mesh_levels *l);
 
 /* Stores in l->safe for each cell of level 0 (the finest) how far it is from coarse cells: less than l->safe_cells,
  * less than l->roomy_cells, or more (enum levels_distance). Material points become peridynamic particles only at a

@@ -101,8 +101,8 @@ static bool driven_breaks(const struct particles *p)
     return any != 0;
 }
 
-bool diagnostics_record_broken_bonds(struct diagnostics *w, const struct particles *p, real horizon,
-                                     int64_t broken_bond_count, real t)
+bool diagnostics_count_broken_bonds_and_record_first(struct diagnostics *w, const struct particles *p, real horizon,
+                                                     int64_t broken_bond_count, real t)
 {
     w->bonds_broken += broken_bond_count;
     if (broken_bond_count == 0) return false;

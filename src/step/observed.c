@@ -83,7 +83,8 @@ void run_record_broken_bonds_of_step(struct run *e, int64_t broken_bond_count)
         snprintf(when, sizeof when, "in load step %lld", (long long)e->clock.load_step);
     else
         snprintf(when, sizeof when, "at %.4g s", t);
-    if (diagnostics_record_broken_bonds(e->diagnostics, &e->part, e->source.family.horizon, broken_bond_count, t))
+    if (diagnostics_count_broken_bonds_and_record_first(e->diagnostics, &e->part, e->source.family.horizon,
+                                                        broken_bond_count, t))
         say_torn(&e->warnings, &e->loads, &e->part, when);
     if (scene_is_dynamic(e->scene)) run_update_break_and_reaction_probes(e);
     o.t = t;

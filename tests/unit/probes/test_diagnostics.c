@@ -154,19 +154,19 @@ static void first_break_is_booked_once(void **state)
     struct diagnostics w;
     body_make(&b, 2, (const int[]){10, 10});
     diagnostics_initialise(&w);
-    diagnostics_record_broken_bonds(&w, &b.p, 3.015, 0, 1);
+    diagnostics_count_broken_bonds_and_record_first(&w, &b.p, 3.015, 0, 1);
     assert_true(isnan(w.break_time));
     b.p.flag[0] = FLAG_LOST_BOND; /* of a bond with a driven particle */
-    diagnostics_record_broken_bonds(&w, &b.p, 3.015, 2, 2);
+    diagnostics_count_broken_bonds_and_record_first(&w, &b.p, 3.015, 2, 2);
     assert_true(isnan(w.break_time));
     b.p.flag[particle_at(&b, 2.5, 3.5, 0)] |= FLAG_CRACKED;
     b.p.flag[particle_at(&b, 4.5, 4.5, 0)] |= FLAG_CRACKED;
-    diagnostics_record_broken_bonds(&w, &b.p, 3.015, 4, 3);
+    diagnostics_count_broken_bonds_and_record_first(&w, &b.p, 3.015, 4, 3);
     assert_near(w.break_time, 3, 0);
     assert_near(w.break_position[0], 3.5, ROUND_OFF);
     assert_near(w.break_position[1], 4, ROUND_OFF);
     b.p.flag[particle_at(&b, 8.5, 8.5, 0)] |= FLAG_CRACKED;
-    diagnostics_record_broken_bonds(&w, &b.p, 3.015, 2, 4);
+    diagnostics_count_broken_bonds_and_record_first(&w, &b.p, 3.015, 2, 4);
     assert_near(w.break_time, 3, 0);
     assert_near(w.break_position[0], 3.5, ROUND_OFF);
     assert_int_equal(w.bonds_broken, 8);
@@ -174,13 +174,13 @@ static void first_break_is_booked_once(void **state)
     assert_int_equal(w.break_ends, 1);
     assert_true(isnan(w.driven_time));
     b.p.flag[0] |= FLAG_DRIVEN;
-    assert_true(diagnostics_record_broken_bonds(&w, &b.p, 3.015, 2, 5));
-    assert_false(diagnostics_record_broken_bonds(&w, &b.p, 3.015, 2, 6));
+    assert_true(diagnostics_count_broken_bonds_and_record_first(&w, &b.p, 3.015, 2, 5));
+    assert_false(diagnostics_count_broken_bonds_and_record_first(&w, &b.p, 3.015, 2, 6));
     assert_near(w.driven_time, 5, 0);
 
     struct diagnostics other;
     diagnostics_initialise(&other);
-    assert_false(diagnostics_record_broken_bonds(&other, &b.p, 2.2, 2, 1) && isnan(other.break_time));
+    assert_false(diagnostics_count_broken_bonds_and_record_first(&other, &b.p, 2.2, 2, 1) && isnan(other.break_time));
     assert_int_equal(other.break_ends, 3); /* none of the three within 2.2 of another */
     assert_near(other.break_position[0], 8.5, ROUND_OFF);
 
