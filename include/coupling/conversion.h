@@ -16,9 +16,10 @@
 /* Counts and times of conversion (material point to peridynamic particle) and reversion (the opposite) since the
  * start. */
 struct conversion {
-    real first_time;                  /* time of the first conversion [s], NAN: none so far */
-    real first_place[DIM_MAX];        /* reference position of the particle that triggered the first conversion [m] */
-    int64_t start, converted, events; /* peridynamic particles at t = 0; conversions since; passes with conversions */
+    real first_time;           /* time of the first conversion [s], NAN: none so far */
+    real first_place[DIM_MAX]; /* reference position of the particle that triggered the first conversion [m] */
+    int64_t start;             /* peridynamic particles in the first line of history.csv; before, those of the set-up */
+    int64_t converted, events; /* conversions after the set-up; passes with conversions */
     int64_t peak_bonds; /* largest number of stored bonds at a time, each counted once for each of its particles that
                            has a row */
     int64_t peak;       /* largest number of peridynamic particles at a time */

@@ -256,8 +256,9 @@ static void sample_energies(struct run *e)
 }
 
 /* Completes a sample of run e with the quantities that require velocities after the step, and writes it as a line of
- * history.csv. now: time of these velocities and factor on them; kinetic, work: kinetic energy and external work of the
- * sample [J]. If an energy is not finite, writes no line and sets e->stability->lost. */
+ * history.csv. The number of peridynamic particles of the first sample is that of the start in the summary. now: time
+ * of these velocities and factor on them; kinetic, work: kinetic energy and external work of the sample [J]. If an
+ * energy is not finite, writes no line and sets e->stability->lost. */
 static void sample_write(struct run *e, const struct velocity_time *now, real kinetic, real work)
 {
     struct sampling *sampling = &e->report->sampling;
@@ -265,6 +266,7 @@ static void sample_write(struct run *e, const struct velocity_time *now, real ki
     struct observed_run o = observed_run_make_read_only_view(e);
     probes_sample_velocity_dependent_values(&e->probing->probes, &o, now);
     probes_warn_of_meaningless_sif(&e->probing->probes, scene_is_single_equilibrium(e->scene), o.t, &e->warnings);
+    if (!e->diagnostics->started) e->coupling->conversion.start = sampling->pd;
     if (scene_is_dynamic(e->scene)) {
         momentum_now(&e->part, e->frame, e->diagnostics->now.momentum);
         momentum_at(sampling, now, e->clock.t, e->part.dim, e->diagnostics->now.momentum);

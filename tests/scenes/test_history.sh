@@ -41,6 +41,14 @@ between "balance" "$(column "$work/rub" balance_error 1)" -0.01 0.01
 seconds=$(compute "$(figure "$work/rub" setup_seconds) + $(figure "$work/rub" loop_seconds) + $(figure "$work/rub" output_seconds)")
 near "set-up, loop and output [s]" "$seconds" "$(figure "$work/rub" wall_seconds)" 0.02
 
+# Points of bodies that touch convert at t = 0: the summary counts them at the start as the first line of the history does.
+sed -e 's/^method:.*/method: adaptive/' -e 's/5.01 mm/5 mm/; s/9.01 mm/9 mm/' -e 's/duration: .*/duration: 1 us/' -e 's/friction: 0.3/convert: true/' \
+    "$work/rub.yaml" >"$work/touch.yaml"
+holds "run" "$cleave" run "$work/touch.yaml" -t 1 -o "$work/touch" >"$work/said" 2>&1
+between "share that converts at t = 0" "$(column "$work/touch" pd_share 0)" 0.2 0.99
+near "share at the start" "$(figure "$work/touch" conversion.pd_share_start)" "$(column "$work/touch" pd_share 0)" 1e-8
+is "particles at the start" "$(figure "$work/touch" particles_pd_start)" "$(column "$work/touch" particles_pd 0)"
+
 # Of a run that is stopped twice, the times are sums over its processes.
 "$cleave" run "$work/rub.yaml" -t 1 -o "$work/halt" -s duration=0.4s -s time.wall=0.3 >"$work/said" 2>&1
 is "stopped" $? 130
