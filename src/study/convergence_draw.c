@@ -40,13 +40,10 @@ status scalar_results_check_replaceable(const char *folder)
 /* ---- results over the spacing ------------------------------------------------------------------------------------ */
 
 /* Returns the lower end of the 95 % interval of the result f at spacing level k (runs with one particle spacing), in
- * the unit of the result. That of a positive time, length of a crack or speed of its tip is not below 0, as none of
- * these can be. */
+ * the unit of the result: the mean less the uncertainty, as in converge.csv, also below 0. */
 static double interval_begin(const struct scalar_result_study *f, int k)
 {
-    const double begin = f->c.level[k].mean - f->c.uncertainty[k];
-    const bool positive = strcmp(f->unit, "s") == 0 || strstr(f->name, "length") || strstr(f->name, "speed");
-    return positive && f->c.level[k].mean >= 0 ? fmax(begin, 0) : begin;
+    return f->c.level[k].mean - f->c.uncertainty[k];
 }
 
 /* Sends three data blocks of the result f, a number in summary.json of the runs of the study s, to gnuplot's stream

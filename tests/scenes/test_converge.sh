@@ -117,12 +117,12 @@ is "both ends are drawn, no line between them" "$(awk '/^\$w/ { last = "" } /^(E
 # Means of single runs are the runs; spacings are in millimetres.
 points() { awk -v set="\$$1" '$1 == set { at = 1; next } $1 == "EOD" { at = 0 } at { print $1, $2 }' drawn | sort -g; }
 is "means of single runs" "$(points m0)" "$(points r0)"
-# Upper bars (lower ones of times end at 0) are those of pages: uncertainty_K of converge.csv, by scatter and spacing, over the mean.
-is "bars that converge.csv does not have, of" "$(awk -F'[ ,]' '$1 == "$m0" { at = 1; next } $1 == "EOD" { at = 0 } at && NF == 4 { x[++n] = $1; bar[n] = $4 / $2 - 1; below += $3 < 0 || $3 > $2 }
+# Bars are those of pages: uncertainty_K of converge.csv, by scatter and spacing, over the mean; as much below it, also below 0.
+is "bars that converge.csv does not have, of" "$(awk -F'[ ,]' '$1 == "$m0" { at = 1; next } $1 == "EOD" { at = 0 } at && NF == 4 { x[++n] = $1; bar[n] = $4 / $2 - 1; uneven += ($2 - $3) / ($4 - $2) < 0.999999 || ($2 - $3) / ($4 - $2) > 1.000001 }
     FNR == 1 && FILENAME != "drawn" { gsub(/ \[m\]/, ""); for (k = 1; k <= NF; k++) name[k] = $k; next }
     FILENAME != "drawn" { for (k = 1; k <= NF; k++) if (name[k] ~ /^spacing_[0-9]/) for (j = 1; j <= n; j++)
         if ((d = 1e3 * $k / x[j] - 1) * d < 1e-10 && (d = $(k + 3) / $(k + 1) - bar[j]) * d < 1e-14 && bar[j] > 0) seen[j] = 1 }
-    END { for (j = 1; j <= n; j++) missing += !seen[j]; print missing + 0, (n > 1), below + 0 }' drawn tips/converge.csv)" "0 1 0"
+    END { for (j = 1; j <= n; j++) missing += !seen[j]; print missing + 0, (n > 1), uneven + 0 }' drawn tips/converge.csv)" "0 1 0"
 spacing=$(sed -n 's/^ *spacing: \([0-9.e-]*\).*/\1/p' "$(ls -d tips/spacing*/ | head -n 1)scene.yaml")
 holds "a spacing in mm: $spacing m" grep -q "^$(compute "1e3 * $spacing" | cut -c 1-5)" drawn
 
