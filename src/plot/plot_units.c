@@ -41,14 +41,31 @@ struct unit unit_for_area(double largest_area)
     return largest_area < 1e5 ? (struct unit){1, "m²"} : (struct unit){1e6, "km²"};
 }
 
+/* Writes the unit `unit_name` of a file, such as J/m^2, to text[capacity] as pictures show it: J/m². A longer text is
+ * cut off. */
+static void unit_name_write_for_picture(char *text, size_t capacity, const char *unit_name)
+{
+    static const char *const sign[][2] = {{" m^(1/2)", "√m"}, {"^2", "²"}, {"^3", "³"}};
+    size_t used = 0;
+    *text = '\0';
+    while (*unit_name && used + 1 < capacity) {
+        size_t k = 0;
+        while (k < COUNT_OF(sign) && strncmp(unit_name, sign[k][0], strlen(sign[k][0])) != 0) k++;
+        const bool found = k < COUNT_OF(sign);
+        used += (size_t)snprintf(text + used, capacity - used, "%.*s", found ? 4 : 1, found ? sign[k][1] : unit_name);
+        unit_name += found ? strlen(sign[k][0]) : 1;
+    }
+}
+
 struct unit unit_with_si_prefix_if_unit_allows_it(const char *unit_name, double largest_value)
 {
-    static const char *const prefixed[] = {"s", "m/s", "N", "J", "Pa", "W", "J/m²", "J/m³", "Pa√m"};
+    static const char *const prefixed[] = {"s", "m/s", "N", "N/m", "J", "Pa", "W", "J/m²", "J/m³", "Pa√m"};
     struct unit u = {1, ""};
-    snprintf(u.name, sizeof u.name, "%s", unit_name);
-    if (strcmp(unit_name, "m") == 0) return unit_for_length(largest_value);
-    if (strcmp(unit_name, "m^2") == 0) return unit_for_area(largest_value);
+    if (strcmp(unit_name, "degree") == 0) return (struct unit){1, "°"};
+    unit_name_write_for_picture(u.name, sizeof u.name, unit_name);
+    if (strcmp(u.name, "m") == 0) return unit_for_length(largest_value);
+    if (strcmp(u.name, "m²") == 0) return unit_for_area(largest_value);
     for (size_t k = 0; k < COUNT_OF(prefixed); k++)
-        if (strcmp(unit_name, prefixed[k]) == 0) return unit_with_si_prefix_for_largest_value(largest_value, unit_name);
+        if (strcmp(u.name, prefixed[k]) == 0) return unit_with_si_prefix_for_largest_value(largest_value, prefixed[k]);
     return u;
 }

@@ -53,13 +53,14 @@ function unitFor(largest, unit) {
         const [, factor, name] = squares.find(([least]) => size >= least);
         return {factor, name};
     }
-    if (!/^(s|m|Pa|J|N|m\/s|W|J\/m\^?[23²³]|N\/m)$/.test(unit)) return {factor: 1, name: unitText(unit)};
+    if (!/^(s|m|Pa|J|N|m\/s|W|J\/m[²³]|N\/m|Pa√m)$/.test(unitText(unit))) return {factor: 1, name: unitText(unit)};
     const [factor, prefix] = prefixes.find(([f]) => size >= f * 0.9995) || [1, ""]; // 0, or round-off
     return {factor, name: prefix + unitText(unit)};
 }
 
 // A unit as it is written: m², not m^2.
-const unitText = (unit) => (unit || "").replace(/\^([23])(?!\d)/g, (all, power) => " ²³"[power - 1]);
+const unitText = (unit) => (unit || "").replace(" m^(1/2)", "√m")
+                               .replace(/\^([23])(?!\d)/g, (all, power) => " ²³"[power - 1]);
 
 const powerOfTen = (power) =>
     "10" + [...String(power)].map((c) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(c)]).join("");

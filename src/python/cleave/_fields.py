@@ -40,7 +40,7 @@ DERIVED: Dict[str, Tuple[str, Callable[[np.ndarray], np.ndarray]]] = {
 # The units are those of `cleave plot` (src/plot/plot_units.c).
 PREFIXES = ((1e24, "Y"), (1e21, "Z"), (1e18, "E"), (1e15, "P"), (1e12, "T"), (1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"),
             (1e-6, "µ"), (1e-9, "n"), (1e-12, "p"), (1e-15, "f"), (1e-18, "a"), (1e-21, "z"), (1e-24, "y"))
-_SCALED = ("m", "Pa", "s", "N", "J", "m/s", "W", "J/m²", "J/m³", "Pa√m")
+_SCALED = ("m", "Pa", "s", "N", "N/m", "J", "m/s", "W", "J/m²", "J/m³", "Pa√m")
 _NEARLY_ONE = 0.9995                     # values from this share of a unit on are shown in it: they are rounded to 1
 
 
