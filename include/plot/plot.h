@@ -268,6 +268,8 @@ struct plotted_particles {
     bool aligned;              /* nearest neighbours lie along the axes at reference positions */
     float *gradient;       /* [n][9] deformation gradient F of each particle, rows along x, y, z [1]; NULL: no visible
                             * deformation */
+    uint8_t *apart;        /* [n] bits of the sides on which a crack or another body begins, as of
+                            * deformation_gradients_fit_to_displacements; NULL: no visible deformation */
     double from[2], to[2]; /* bounding box of the reference positions [m] */
     int mirrors;           /* number of planes of symmetry */
     struct shown_mirror mirror[MIRRORS_SHOWN_MOST];
@@ -291,9 +293,13 @@ status plotted_particles_read(struct plotted_particles *c, const char *folder, c
 /* Computes the deformation gradients F of all particles of the frame f (state at one time), as fits to the
  * displacements of neighbours that no crack separates. spacing: of the particles [m]; displacement_factor: factor on
  * displacements; scene: for its pre-cracks, NULL if they are not known. Returns an allocated array [f->n][9] with F by
- * rows along x, y, z [1], which the caller releases with memory_free, or NULL if no deformation is visible. */
+ * rows along x, y, z [1], which the caller releases with memory_free, or NULL if no deformation is visible.
+ * apart[f->n]: receives for each particle the bits 1 << (2 a + b) of the sides where its lattice neighbour is drawn
+ * apart from it, across a crack or in another body; a: axis, b: 0 towards larger coordinates, 1 towards smaller ones.
+ */
 float *deformation_gradients_fit_to_displacements(const struct output_frame *f, double spacing,
-                                                  double displacement_factor, const struct scene *scene);
+                                                  double displacement_factor, const struct scene *scene,
+                                                  uint8_t *apart);
 
 /* Computes the inverse of the 3 x 3 matrix `matrix` and returns true. Returns false, with undefined `inverse`, if the
  * determinant is 0 or not a number. */

@@ -304,7 +304,8 @@ static void cloud_select(struct plotted_particles *c, const struct output_frame 
     cloud_copy_mirrors(c, projection->scene);
     cloud_allocate(c, f, projection);
     for (int a = 0; a < 2; a++) c->reference[a] = NEW("plot.reference", f->n, double);
-    c->gradient = deformation_gradients_fit_to_displacements(f, c->spacing, c->magnify, projection->scene);
+    c->apart = NEW("plot.apart", f->n, uint8_t);
+    c->gradient = deformation_gradients_fit_to_displacements(f, c->spacing, c->magnify, projection->scene, c->apart);
     for (int64_t i = 0; i < f->n; i++) {
         const double size = f->spacing ? f->spacing[i] : c->spacing;
         if (f->fragment && f->fragment[i] >= c->fragments) c->fragments = f->fragment[i] + 1;
@@ -312,6 +313,7 @@ static void cloud_select(struct plotted_particles *c, const struct output_frame 
         if (f->spacing) c->size[c->n] = (float)size;
         cloud_place(c, f, i);
         if (c->gradient) memmove(c->gradient + 9 * c->n, c->gradient + 9 * i, 9 * sizeof *c->gradient);
+        c->apart[c->n] = c->apart[i];
         c->damage[c->n] = f->damage[i];
         if (f->fragment) c->fragment[c->n] = f->fragment[i];
         if (c->value) c->value[c->n] = projection->value[i];
@@ -367,6 +369,7 @@ void plotted_particles_free(struct plotted_particles *c)
     memory_free(c->value);
     memory_free(c->colour);
     memory_free(c->gradient);
+    memory_free(c->apart);
     memory_free(c->rigid);
     *c = (struct plotted_particles){0};
 }

@@ -15,8 +15,9 @@
  * largest length at which a pair is drawn as connected [spacings]. JUMP, JUMP_TIMES: a pair is drawn apart if its
  * elongation exceeds JUMP plus JUMP_TIMES the median of the pairs of its particle, because material points may separate
  * without damage. LOOSE: share of lost bonds above which a particle is rubble, whose drawn size does not depend on its
- * neighbours. */
+ * neighbours. ACROSS: a neighbour is on one side of its particle if it is at most so far from the axis [spacings]. */
 #define NEAR_REACH 1.5
+#define ACROSS 0.3
 #define STRAIN_SEEN 0.02
 #define PARTED 0.1
 #define PARTED_MORE 1.5
@@ -117,11 +118,33 @@ static double parted_limit(const struct pairs *p)
     return limit;
 }
 
+/* Returns the bit of the side of a particle on which its neighbour with the relative reference position xi[3] is, as
+ * of deformation_gradients_fit_to_displacements; 0 for a diagonal neighbour. own: spacing of the particle [m]. */
+static unsigned side_bit(const double *xi, double own)
+{
+    unsigned bit = 0;
+    int across = 0;
+    for (int d = 0; d < 3; d++) {
+        if (fabs(xi[d]) < ACROSS * own) continue;
+        bit = 1U << (2 * d + (xi[d] < 0)), across++;
+    }
+    return across == 1 ? bit : 0;
+}
+
+/* Returns true if the neighbours i and j of the output frame p->f, which are not drawn as connected, have a gap between
+ * them: rubble, which moves as it likes, has none. */
+static bool gap_between(const struct pairs *p, int64_t i, int64_t j)
+{
+    return fmaxf(p->f->damage[i], p->f->damage[j]) <= LOOSE;
+}
+
 /* Computes the deformation gradient F[9] of particle i of the output frame p->f, rows along x, y, z, as the
  * least-squares fit to its connected neighbours (Silling et al. 2007 with unit weights). Displacements are magnified
- * by p->magnify. In directions that the neighbours do not span, F is the identity. near: work list for neighbours. */
-static void gradient_of(const struct pairs *p, struct neighbour_list *near, int64_t i, float *F)
+ * by p->magnify. In directions that the neighbours do not span, F is the identity. near: work list for neighbours.
+ * Returns the bits of the sides on which the neighbour is drawn apart (deformation_gradients_fit_to_displacements). */
+static unsigned gradient_of(const struct pairs *p, struct neighbour_list *near, int64_t i, float *F)
 {
+    unsigned apart = 0;
     const struct output_frame *f = p->f;
     const double own = f->spacing ? f->spacing[i] : p->spacing, open = 0.02 * square(own);
     double K[3][3] = {{open, 0, 0}, {0, open, 0}, {0, 0, open}}, M[3][3] = {{0}}, inverted[3][3];
@@ -130,9 +153,12 @@ static void gradient_of(const struct pairs *p, struct neighbour_list *near, int6
     for (int k = 0; k < near->n; k++) {
         const int64_t j = near->at[k];
         double xi[3] = {0}, u[3] = {0};
-        if (!connected(p, i, j, jump)) continue;
         for (int d = 0; d < f->dim; d++)
             xi[d] = (double)f->X[d][j] - f->X[d][i], u[d] = (double)f->u[d][j] - f->u[d][i];
+        if (!connected(p, i, j, jump)) {
+            if (gap_between(p, i, j)) apart |= side_bit(xi, own);
+            continue;
+        }
         for (int a = 0; a < 3; a++)
             for (int b = 0; b < 3; b++) K[a][b] += xi[a] * xi[b], M[a][b] += u[a] * xi[b];
     }
@@ -143,6 +169,7 @@ static void gradient_of(const struct pairs *p, struct neighbour_list *near, int6
             for (int k = 0; k < 3 && fits; k++) sum += p->magnify * M[a][k] * inverted[k][b];
             F[3 * a + b] = isfinite(sum) ? (float)sum : (float)(a == b);
         }
+    return apart;
 }
 
 /* Returns true if the displacements in the output frame f differ along one axis by more than STRAIN_SEEN spacings, so
@@ -159,7 +186,7 @@ static bool may_be_deformed(const struct output_frame *f, double spacing)
 }
 
 float *deformation_gradients_fit_to_displacements(const struct output_frame *f, double spacing,
-                                                  double displacement_factor, const struct scene *scene)
+                                                  double displacement_factor, const struct scene *scene, uint8_t *apart)
 {
     if (f->dim < 2 || !(spacing > 0) || !may_be_deformed(f, spacing / displacement_factor)) return NULL;
     struct pairs p = {.f = f,
@@ -178,7 +205,7 @@ float *deformation_gradients_fit_to_displacements(const struct output_frame *f, 
     {
         struct neighbour_list near = {0};
 #pragma omp for schedule(static)
-        for (int64_t i = 0; i < f->n; i++) gradient_of(&p, &near, i, F + 9 * i);
+        for (int64_t i = 0; i < f->n; i++) apart[i] = (uint8_t)gradient_of(&p, &near, i, F + 9 * i);
         memory_free(near.at);
     }
     cells_free(&p.cells);

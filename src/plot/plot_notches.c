@@ -18,13 +18,14 @@ static const double LINE_HALF = 1.0 / 600, LINE_LEAST = 0.7, GAP_SEEN = 1.0 / 40
 static const double BESIDE = 1.05, RUBBLE = 0.65;
 
 /* Displacements of the faces of a pre-crack, by sections of one spacing along it. u[side][2 * section + axis]: sum of
- * the displacements of the particles beside the section [m]; weight[side][section]: their number, by nearness. */
+ * the displacements of the particles beside the section [m]; weight[side][section]: their number, by nearness;
+ * place[side][section]: sum of their coordinates along the pre-crack [m], weighted alike. */
 struct faces {
     double from[2], along[2], length, section;
     double begin, end; /* part of the length along which there are particles [m] */
     bool in_mirror;    /* in a plane of symmetry: the body has one of the faces */
     int sections;
-    double *u[2], *weight[2];
+    double *u[2], *weight[2], *place[2];
 };
 
 /* Returns the coordinate of the point X[2] [m] along the straight pre-crack f, from its first end [m]. Stores the
@@ -85,26 +86,39 @@ static void face_add_motion(struct faces *f, const struct plotted_particles *c, 
     const double near = 1 / (0.1 + fabs(off) / reach);
     for (int a = 0; a < 2; a++) f->u[side][2 * at + a] += near * u[a];
     f->weight[side][at] += near;
+    f->place[side][at] += near * s;
     f->begin = fmin(f->begin, fmax(s - 0.5 * reach / BESIDE, 0)),
     f->end = fmax(f->end, fmin(s + 0.5 * reach / BESIDE, f->length));
 }
 
+/* Returns the section of a face of the pre-crack f from which, with the section `own`, the displacement at the distance
+ * s [m] along it is interpolated: the next one on the side of s or, where no particle is beside that, the other one;
+ * `own` if there is neither. side: face, 0 or 1. */
+static int other_section(const struct faces *f, int side, int own, double s)
+{
+    const int step = s < f->place[side][own] / f->weight[side][own] ? -1 : 1;
+    for (int k = -1; k <= 1; k += 2) {
+        const int next = own - k * step;
+        if (next >= 0 && next < f->sections && f->weight[side][next] > 0) return next;
+    }
+    return own;
+}
+
 /* Computes the drawn position x[2] [m] of the point at the distance s [m] along pre-crack f on one of its faces: the
- * initial position plus the mean displacement of the particles beside the face, which is interpolated linearly between
- * the middles of the sections into which the face is divided. side: face, 0 or 1. Returns false if no particle is
- * beside the section at s. */
+ * initial position plus the mean displacement of the particles beside the face, which is linear between the mean
+ * positions of the particles of the sections into which the face is divided, and beyond the last of them up to the end
+ * of the face. side: face, 0 or 1. Returns false if no particle is beside the section at s. */
 static bool face_at(const struct faces *f, int side, double s, double *x)
 {
-    const double middle = s / f->section - 0.5;
-    const int low = (int)fmin(fmax(floor(middle), 0), f->sections - 1), high = (int)fmin(low + 1, f->sections - 1);
     const int own = (int)fmin(fmax(s / f->section, 0), f->sections - 1);
-    if (!(f->weight[side][own] > 0)) return false;
-    const int at[2] = {f->weight[side][low] > 0 ? low : own, f->weight[side][high] > 0 ? high : own};
-    const double part = fmin(fmax(middle - low, 0), 1);
-    for (int a = 0; a < 2; a++) {
-        x[a] = f->from[a] + s * f->along[a];
-        for (int k = 0; k < 2; k++) x[a] += (k ? part : 1 - part) * f->u[side][2 * at[k] + a] / f->weight[side][at[k]];
-    }
+    const double *weight = f->weight[side];
+    if (!(weight[own] > 0)) return false;
+    const int other = other_section(f, side, own, s);
+    const double from = f->place[side][own] / weight[own], to = f->place[side][other] / weight[other];
+    const double part = other == own ? 0 : (s - from) / (to - from);
+    for (int a = 0; a < 2; a++)
+        x[a] = f->from[a] + s * f->along[a] + (1 - part) * f->u[side][2 * own + a] / weight[own] +
+               part * f->u[side][2 * other + a] / weight[other];
     return true;
 }
 
@@ -179,8 +193,7 @@ static void faces_paint(struct colour *pixel, int width, int height, const struc
 }
 
 /* Initialises *f as the two faces of the straight pre-crack `crack`, without displacements. Each face is divided into
- * equal sections, at most `section` long [m]. Allocates the arrays of displacements and weights, which the caller
- * frees. */
+ * equal sections, at most `section` long [m]. Allocates the arrays of sums, which the caller frees. */
 static void faces_make(struct faces *f, const struct crack *crack, double section)
 {
     *f = (struct faces){.from = {crack->corner[0][0], crack->corner[0][1]}};
@@ -193,6 +206,7 @@ static void faces_make(struct faces *f, const struct crack *crack, double sectio
     for (int side = 0; side < 2; side++) {
         f->u[side] = NEW("plot.faces", 2 * (int64_t)f->sections, double);
         f->weight[side] = NEW("plot.faces", f->sections, double);
+        f->place[side] = NEW("plot.faces", f->sections, double);
     }
 }
 
@@ -222,6 +236,7 @@ void image_paint_precrack_faces(struct colour *pixel, int width, int height, con
         faces_move_between_particles(&f, c);
         for (int64_t i = 0; i < c->n; i++) face_add_motion(&f, c, i);
         faces_paint(pixel, width, height, v, &f, map == MAP_DAMAGE ? FACE : GAP);
-        for (int side = 0; side < 2; side++) memory_free(f.u[side]), memory_free(f.weight[side]);
+        for (int side = 0; side < 2; side++)
+            memory_free(f.u[side]), memory_free(f.weight[side]), memory_free(f.place[side]);
     }
 }

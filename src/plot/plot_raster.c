@@ -23,18 +23,35 @@ struct canvas {
 };
 
 /* Shape of a particle in the map: the deformation gradient F along the axes of the map, its inverse, and the half width
- * or radius of the undeformed particle [m]. square: a square; else a disc. */
+ * or radius of the undeformed particle [m]. square: a square; else a disc. side[k]: distances of its sides from the
+ * centre along axis k, towards larger and smaller coordinates [m]; of a disc the radius. */
 struct outline {
-    double F[2][2], inverse[2][2], half;
+    double F[2][2], inverse[2][2], half, side[2][2];
     bool square;
 };
 
-static struct outline outline_of(const struct plotted_particles *c, int64_t i)
+/* Returns true if a crack or another body begins beside particle i of c, on side b of the axis `axis` of the map (0:
+ * towards larger coordinates, 1: smaller ones). */
+static bool is_apart(const struct plotted_particles *c, int64_t i, const double *axis, int b)
+{
+    for (int m = 0; m < 3 && c->apart; m++)
+        if (fabs(axis[m]) > 0.9) return c->apart[i] >> (2 * m + (axis[m] < 0 ? !b : b)) & 1;
+    return false;
+}
+
+/* Returns the shape of particle i of c. A side on which a crack or another body begins is half a spacing from the
+ * centre, so that a gap is as wide as it is, and at most half a pixel more, so that a gap below a pixel is no dotted
+ * line. pixel: edge of a pixel [m]. */
+static struct outline outline_of(const struct plotted_particles *c, int64_t i, double pixel)
 {
     const double wide = c->size ? c->size[i] - c->spacing : 0; /* additional width of a coarse cell's point */
     const double *axis[2] = {c->camera.right, c->camera.up};
     struct outline s = {.F = {{1, 0}, {0, 1}}, .square = c->aligned};
     s.half = c->aligned ? SQUARE * c->spacing + 0.5 * wide : DISC * (c->spacing + wide);
+    for (int k = 0; k < 4; k++) {
+        const bool apart = s.square && is_apart(c, i, axis[k / 2], k % 2);
+        s.side[k / 2][k % 2] = apart ? fmin(s.half, 0.5 * (c->spacing + wide + pixel)) : s.half;
+    }
     for (int k = 0; k < 4 && c->gradient; k++) {
         double sum = 0;
         for (int m = 0; m < 9; m++) sum += axis[k / 2][m / 3] * (double)c->gradient[9 * i + m] * axis[k % 2][m % 3];
@@ -60,8 +77,11 @@ static double distance_within(const struct outline *s, const double *off, double
 {
     double xi[2];
     for (int k = 0; k < 2; k++) xi[k] = s->inverse[k][0] * off[0] + s->inverse[k][1] * off[1];
-    const double far = s->square ? fmax(fabs(xi[0]), fabs(xi[1])) : hypot(xi[0], xi[1]);
-    return far <= s->half + beside ? hypot(xi[0], xi[1]) : INFINITY;
+    const double far = hypot(xi[0], xi[1]);
+    double outside = s->square ? -INFINITY : far - s->half; /* distance from the nearest side, negative inside */
+    for (int k = 0; k < 2 && s->square; k++)
+        outside = fmax(outside, fmax(xi[k] - s->side[k][0], -xi[k] - s->side[k][1]));
+    return outside <= beside ? far : INFINITY;
 }
 
 /* Limits the range *low .. *high [m] along axis k of the map that particle i of c covers to the side of each plane of
@@ -87,7 +107,7 @@ static void paint_particle(struct canvas *v, const struct view *view, const stru
 {
     double at[2], reach[2], off[2];
     int from[2], to[2], size[2] = {v->width, v->height};
-    const struct outline outline = outline_of(c, i);
+    const struct outline outline = outline_of(c, i, 1 / v->per_metre[0]);
     const bool fine = c->spacing * v->per_metre[0] < 1.5; /* several particles per pixel: show the most damaged one */
     const double beside = fine ? INFINITY : 1e-3 * c->spacing;
     for (int k = 0; k < 2; k++) {
