@@ -45,7 +45,7 @@ struct unit unit_for_area(double largest_area)
  * cut off. */
 static void unit_name_write_for_picture(char *text, size_t capacity, const char *unit_name)
 {
-    static const char *const sign[][2] = {{" m^(1/2)", "√m"}, {"^2", "²"}, {"^3", "³"}};
+    static const char *const sign[][2] = {{" m^(1/2)", "√m"}, {" m^0.5", "√m"}, {"^2", "²"}, {"^3", "³"}};
     size_t used = 0;
     *text = '\0';
     while (*unit_name && used + 1 < capacity) {

@@ -74,7 +74,8 @@ static void unit_part(struct plotted_key *k)
     const char *unit;
     k->numbers = varied_key_values_are_numbers_of_one_unit(&k->shown, &unit);
     if (!k->numbers) return;
-    snprintf(k->unit, sizeof k->unit, "%s", *unit ? unit : scene_key_unit(k->given.key));
+    const struct unit shown = unit_with_si_prefix_if_unit_allows_it(*unit ? unit : scene_key_unit(k->given.key), 1);
+    snprintf(k->unit, sizeof k->unit, "%.*s", UNIT_ROOM - 1, shown.name);
     for (int v = 0; v < k->shown.values; v++) {
         char *text = k->shown.value[v];
         value_text_split_number_and_unit(text, &unit);
