@@ -29,6 +29,15 @@ struct value_range {
  * column_index[column_count]. */
 struct value_range history_value_range(const struct history *history, const int *column_index, int column_count);
 
+/* Returns true if two curves of `history`, the columns with the indices column_index[0] and column_index[1], less
+ * shift[0] and shift[1], would hide each other: they differ in no row by more than the width of a line. axis_extent:
+ * largest minus smallest value of the axis. */
+bool history_curves_coincide(const struct history *history, const int column_index[2], const double shift[2],
+                             double axis_extent);
+
+/* Dashes of a curve that coincides with one drawn before, which is seen between the dashes, in gnuplot's notation. */
+#define DASHES_OVER_CURVE "dt (7,7)"
+
 /* Writes the time and the columns with the indices column_index[column_count] of the history series->h to gnuplot (the
  * stream `gnuplot`) as the data block $data. Values of column_index[k] are divided by factor[k]. Long histories are
  * reduced to a few thousand rows, the last one included. */

@@ -32,6 +32,21 @@ struct value_range history_value_range(const struct history *history, const int 
     return e;
 }
 
+bool history_curves_coincide(const struct history *history, const int column_index[2], const double shift[2],
+                             double axis_extent)
+{
+    static const double LINE_WIDE = 0.004; /* width of a line divided by the length of an axis [1] */
+    bool any = false;
+    for (int64_t i = 0; i < history->rows; i++) {
+        double value[2];
+        for (int k = 0; k < 2; k++) value[k] = history_value_at(history, i, column_index[k]) - shift[k];
+        if (isfinite(value[0]) != isfinite(value[1]) || fabs(value[1] - value[0]) > LINE_WIDE * axis_extent)
+            return false;
+        any |= isfinite(value[0]);
+    }
+    return any;
+}
+
 void curves_write_gnuplot_data_block(FILE *gnuplot, const struct series *series, const int *column_index,
                                      const double *factor, int column_count)
 {
@@ -215,11 +230,23 @@ static void write_energy(FILE *to, const struct energies *e, int k)
     if (e->shift[k] > 0) fprintf(to, "-%.12g", e->shift[k] / e->joule.factor);
 }
 
+/* Returns true if the curve of energy number k (from 0) of e, which is not the external work, coincides with one that
+ * is drawn before. h: history with the values. */
+static bool energy_hides_another(const struct energies *e, const struct history *h, int k)
+{
+    for (int m = 0; m < k; m++)
+        if (e->row[m] != &ledger[LEDGER_WORK] &&
+            history_curves_coincide(h, (int[]){e->column[m], e->column[k]}, (double[]){e->shift[m], e->shift[k]},
+                                    e->high - e->low))
+            return true;
+    return false;
+}
+
 /* Writes to gnuplot the command that plots all energies selected in e, and as a dashed line their sum without the
  * external work. The external work, which the sum covers where the energy balance closes, is a broad band below all
  * other curves. A kinetic energy from which the start is subtracted is named so in the key (legend), and its start is
- * missing in the sum, too. */
-static void plot_energies(FILE *to, const struct energies *e)
+ * missing in the sum, too. A curve that coincides with one drawn before is dashed. h: history with the values. */
+static void plot_energies(FILE *to, const struct energies *e, const struct history *h)
 {
     fputs("plot ", to);
     for (int work = 1; work >= 0; work--)
@@ -227,7 +254,8 @@ static void plot_energies(FILE *to, const struct energies *e)
             if ((e->row[k] == &ledger[LEDGER_WORK]) == work) {
                 fputs("$data using 1:(", to);
                 write_energy(to, e, k);
-                fprintf(to, ") with lines lw %s lc rgb '%s' title '%s', ", work ? "6" : "2.2",
+                fprintf(to, ") with lines lw %s %s lc rgb '%s' title '%s', ", work ? "6" : "2.2",
+                        !work && energy_hides_another(e, h, k) ? DASHES_OVER_CURVE : "",
                         work ? WORK_COLOUR : e->row[k]->colour, e->label[k]);
             }
     fputs("$data using 1:(0", to);
@@ -299,7 +327,7 @@ static status draw_energy(struct output_picture sheet, const char *title, const 
     curves_write_panel_margins(g.to, &l, 0, end);
     curves_write_vertical_tics(g.to, "y", e.low / e.joule.factor, e.high / e.joule.factor, end);
     if (balance >= 0) fputs("set multiplot\nset format x ''\nunset xlabel\n", g.to);
-    plot_energies(g.to, &e);
+    plot_energies(g.to, &e, s->h);
     if (balance >= 0) {
         fputs("undefine $data\n", g.to);
         curves_write_gnuplot_data_block(g.to, s, &balance, &percent, 1);

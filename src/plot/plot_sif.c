@@ -69,17 +69,32 @@ static void find_factors(struct factors *f, const struct history *h)
     for (int k = 0; k < 2 * f->n; k++) f->factor[k] = f->unit.factor;
 }
 
+/* Returns true if factor number k (from 0) of f is shown on the curve of one before, such as those of both ends of a
+ * crack in a symmetric body. h: history with the values; extent: extent of the axis [Pa m^(1/2)]. */
+static bool factor_hides_another(const struct factors *f, const struct history *h, int k, double extent)
+{
+    for (int m = 0; m < k; m++)
+        if (f->shown[m] && history_curves_coincide(h, (int[]){f->column[m], f->column[k]}, (double[]){0, 0}, extent))
+            return true;
+    return false;
+}
+
 /* Writes the gnuplot command that plots the stress-intensity factors f to `to`. With one probe each mode has a colour;
- * with several probes each probe has a colour, and K_II is dashed. */
-static void plot_factors(FILE *to, const struct factors *f)
+ * with several probes each probe has a colour, and K_II is dashed, as is a curve that coincides with one before. h:
+ * history with the values; extent: extent of the axis [Pa m^(1/2)]. */
+static void plot_factors(FILE *to, const struct factors *f, const struct history *h, double extent)
 {
     fputs("plot 0 with lines lw 0.8 lc rgb '#888888'", to);
     for (int k = 0; k < f->n; k++)
         for (int m = 0; m < 2; m++) {
             if (!f->shown[2 * k + m]) continue;
             fprintf(to, ", $data using 1:%d with lines lw %s%s lc rgb '%s' title '%s%sK_%s'", 2 + 2 * k + m,
-                    m == 0 ? "2.4" : "2", m == 1 && f->n > 1 ? " dt (9,4)" : "", curve_colour[f->n > 1 ? k : m],
-                    f->n > 1 ? f->name[k] : "", f->n > 1 ? ": " : "", m == 0 ? "I" : "II");
+                    m == 0 ? "2.4" : "2",
+                    factor_hides_another(f, h, 2 * k + m, extent) ? " " DASHES_OVER_CURVE
+                    : m == 1 && f->n > 1                          ? " dt (9,4)"
+                                                                  : "",
+                    curve_colour[f->n > 1 ? k : m], f->n > 1 ? f->name[k] : "", f->n > 1 ? ": " : "",
+                    m == 0 ? "I" : "II");
         }
     putc('\n', to);
 }
@@ -129,7 +144,7 @@ status sif_curves_draw(const char *title, const struct series *series)
     curves_write_panel_margins(g.to, &l, 0, end);
     curves_write_vertical_tics(g.to, "y", fmin(of.low, 0) / f.unit.factor, fmax(of.high, 0) / f.unit.factor, end);
     if (spread > 0) fputs("set multiplot\nset format x ''\nunset xlabel\n", g.to);
-    plot_factors(g.to, &f);
+    plot_factors(g.to, &f, series->h, fmax(of.high, 0) - fmin(of.low, 0));
     if (spread > 0) {
         fputs("set offsets\nundefine $data\n", g.to);
         curves_write_gnuplot_data_block(g.to, series, f.spread, f.percent, f.n);

@@ -202,6 +202,17 @@ function measurePanel(panel, over, zoom) {
     panel.range = padded(low, high);
 }
 
+// Pattern of a curve that coincides with one drawn before, which is seen between the dashes [CSS pixel].
+const OVER_CURVE = [7, 7];
+
+// Does curve k of a panel coincide with one drawn before, within the width of a line?
+function hidesAnother(panel, k) {
+    const own = panel.columns[k], wide = 0.004 * (panel.range[1] - panel.range[0]), {isFinite} = Number;
+    const near = (a, b) => (isFinite(a) ? Math.abs(a - b) <= wide : !isFinite(b));
+    return varies(own) &&
+        panel.columns.slice(0, k).some((c) => c.values.every((v, i) => near(v - c.shift, own.values[i] - own.shift)));
+}
+
 function drawPanel(context, panel, over, zoom, xUnit, area, lowest) {
     const unit = panel.shownUnit, a = axesOf(area, zoom, panel.range);
     const names = panel.columns.length === 1 ? curveName(panel.columns[0]) : "";
@@ -214,6 +225,7 @@ function drawPanel(context, panel, over, zoom, xUnit, area, lowest) {
         context.strokeStyle = curveColours[k % curveColours.length];
         if (c.mark) c.mark.style.background = context.strokeStyle;
         context.lineWidth = 1.7;
+        context.setLineDash(hidesAnother(panel, k) ? OVER_CURVE : []);
         context.beginPath();
         let pen = false;
         for (let i = 0; i < c.values.length; i++) {
@@ -224,6 +236,7 @@ function drawPanel(context, panel, over, zoom, xUnit, area, lowest) {
         }
         context.stroke();
     });
+    context.setLineDash([]);
     context.restore();
     if (panel.columns.length > 1) drawKey(context, panel, a);
     panel.axes = a;
@@ -234,7 +247,8 @@ function drawKey(context, panel, a) {
     panel.columns.forEach((c, k) => {
         const name = curveName(c);
         context.fillStyle = curveColours[k % curveColours.length];
-        context.fillRect(x, a.top - 16, 14, 3);
+        context.fillRect(x, a.top - 16, hidesAnother(panel, k) ? 5 : 14, 3);
+        context.fillRect(x + 9, a.top - 16, 5, 3);
         context.fillStyle = "#1d2330";
         context.fillText(name, x + 19, a.top - 10);
         x += context.measureText(name).width + 38;

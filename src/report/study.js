@@ -45,7 +45,7 @@ const at = (row, name) => row[study.columns.indexOf(name)];
 function unitOfKey(key) {
     const cells = study.rows.map((row) => at(row, key)),
           plain = cells.every((c) => c !== "" && Number.isFinite(Number(c)));
-    return plain ? study.units[key] || "" : (cells[0].match(/[^0-9.eE+-]+.*$/) || [""])[0].trim();
+    return unitText(plain ? study.units[key] || "" : (cells[0].match(/[^0-9.eE+-]+.*$/) || [""])[0].trim());
 }
 
 // Returns the name of a varied key with its unit if its values are numbers without one.
@@ -217,10 +217,23 @@ function drawStudy() {
     study.area = area, study.xUnit = xUnit, study.yUnit = unit;
 }
 
-// Draws a line through the points of each series, with a gap where a value is missing, and points alone over words.
+// Do the points `own` of a series coincide with those of one drawn before, wherever both have values? lists: of points.
+function hidesSeries(own, lists, tall) {
+    return lists.some((list) => {
+        const at = new Map(list.filter((p) => Number.isFinite(p.y)).map((p) => [p.x, p.y]));
+        const common = own.filter((p) => Number.isFinite(p.y) && at.has(p.x));
+        return common.length > 0 && common.every((p) => Math.abs(p.y - at.get(p.x)) <= 0.004 * tall);
+    });
+}
+
+// Draws a line through the points of each series, with a gap where a value is missing, and points alone over words. A
+// series that coincides with one before is dashed, and its points are rings.
 function drawSeries(context, area, points) {
+    const drawn = [], tall = Math.abs(area.y1 - area.y0);
     [...new Set(points.map((p) => p.series))].forEach((series, k) => {
-        const own = points.filter((p) => p.series === series);
+        const own = points.filter((p) => p.series === series), over = hidesSeries(own, drawn, tall);
+        drawn.push(own);
+        context.setLineDash(over ? OVER_CURVE : []);
         context.strokeStyle = context.fillStyle = curveColours[k % curveColours.length];
         context.lineWidth = 1.5;
         context.beginPath();
@@ -231,9 +244,11 @@ function drawSeries(context, area, points) {
             pen = next;
         }
         context.stroke();
+        context.setLineDash([]);
         for (const p of own) {
             if (!Number.isFinite(p.y)) continue;
-            context.beginPath(), context.arc(area.x(p.x), area.y(p.y), 4, 0, 7), context.fill();
+            context.beginPath(), context.arc(area.x(p.x), area.y(p.y), over ? 7 : 4, 0, 7);
+            over ? context.stroke() : context.fill();
             if (p.error)
                 context.beginPath(), context.moveTo(area.x(p.x), area.y(p.y - p.error)),
                     context.lineTo(area.x(p.x), area.y(p.y + p.error)), context.stroke();

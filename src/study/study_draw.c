@@ -126,20 +126,43 @@ static void plot_mean_of_seeds(FILE *to, const struct study_picture *p, int pane
                 k == 0 ? 1 : 2);
 }
 
+/* Returns true if line number `line` of panel number `panel` of the picture p coincides with one drawn before: at every
+ * value that both have, their means differ by less than the width of a line. */
+static bool line_hides_another(const struct study_picture *p, int panel, int line)
+{
+    static const double LINE_WIDE = 0.004; /* divided by the length of the axis [1] */
+    const int values = p->key[p->across].shown.values;
+    const struct figure_statistics *point = p->point[panel], *own = point + line * values;
+    double low, high;
+    study_panel_find_value_range(p, panel, &low, &high);
+    for (int l = 0; l < line; l++) {
+        int common = 0;
+        bool apart = false;
+        for (int v = 0; v < values; v++) {
+            if (own[v].runs == 0 || point[l * values + v].runs == 0) continue;
+            common++;
+            apart |= fabs(own[v].mean - point[l * values + v].mean) > LINE_WIDE * (high - low);
+        }
+        if (common > 0 && !apart) return true;
+    }
+    return false;
+}
+
 /* Sends the gnuplot command that plots the points of panel number `panel` of the picture p to the stream `to`. The
- * points are joined by lines if the values along the horizontal axis are numbers. */
+ * points are joined by lines if the values along the horizontal axis are numbers. A line that coincides with one drawn
+ * before is dashed, and its points are rings. */
 static void plot_panel(FILE *to, const struct study_picture *p, int panel)
 {
     fputs("plot ", to);
     for (int l = 0; l < p->lines; l++) {
+        const bool over = line_hides_another(p, panel, l);
+        const char *ring = over ? "pt 6 ps 1.6" : p->chance ? "pt 7 ps 0.7" : "pt 7 ps 0.9";
         if (l > 0) fputs(", ", to);
         if (p->numbers && !p->seeds)
-            fprintf(to, "$p%d_%d using 1:2 smooth unique with lines lw 1.6 lc rgb '%s' notitle, ", panel, l,
-                    curve_colour[l]);
-        fprintf(to,
-                p->chance ? "$p%d_%d using 1:2:3 with yerrorbars pt 7 ps 0.7 lw 1.4 lc rgb '%s' notitle"
-                          : "$p%d_%d using 1:2 with points pt 7 ps 0.9 lc rgb '%s' notitle",
-                panel, l, curve_colour[l]);
+            fprintf(to, "$p%d_%d using 1:2 smooth unique with lines lw 1.6%s lc rgb '%s' notitle, ", panel, l,
+                    over ? " dt (7,7)" : "", curve_colour[l]);
+        fprintf(to, "$p%d_%d using %s %s lw 1.4 lc rgb '%s' notitle", panel, l,
+                p->chance ? "1:2:3 with yerrorbars" : "1:2 with points", ring, curve_colour[l]);
     }
     if (p->seeds) plot_mean_of_seeds(to, p, panel);
     putc('\n', to);

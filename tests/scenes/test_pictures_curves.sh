@@ -47,10 +47,27 @@ absent "an unknown figure is refused before any run" "$(ls -d unvaried 2>/dev/nu
 # Numbers of a key without a unit are in SI, which the axis says, and so does the page.
 : >all
 "$cleave" sweep strip.yaml -s materials.0.energy_release_rate=10,20 --of energy.kinetic -o tough >out 2>err
-holds "the unit of a key: $(cat err)" grep -a -q "set label 'energy release rate of glass \[J/m^2\]'" all
+holds "the unit of a key: $(cat err)" grep -a -q "set label 'energy release rate of glass \[J/m²\]'" all
 "$cleave" report tough -o new/page/tough.html >out 2>err
 is "report into a folder that is not there: $(cat err)" $? 0
 holds "the page has the unit of the key" grep -q '"materials.0.energy_release_rate": "J/m^2"' new/page/tough.html
+
+# Curves that coincide are both seen: the second one is dashed, in a sweep with rings. Others are not.
+mkdir twin
+cat >twin/history.csv <<'END'
+time [s],step,kinetic [J],strain [J],external_work [J],damped [J],left.K_I [Pa m^(1/2)],left.K_II [Pa m^(1/2)],right.K_I [Pa m^(1/2)],right.K_II [Pa m^(1/2)]
+0,0,0,0,0,0,0,0,0,0
+1,1,1,1.001,2.4,0.4,1e6,4e5,1.001e6,2e5
+2,2,2,2.001,5.1,1.1,2e6,5e5,2.001e6,1e5
+END
+: >all
+"$cleave" plot twin -o twins/ $small >out 2>err
+holds "the second of two energies is dashed: $(cat err)" grep -a -q "with lines lw 2.2 dt (7,7) lc rgb '#[0-9a-f]*' title 'strain'" all
+is "energies and factors that are dashed" "$(grep -a -o 'dt (7,7)' all | wc -l | tr -d ' ')" 2
+holds "the second of two factors is dashed" grep -a -q "dt (7,7) lc rgb '#[0-9a-f]*' title 'right: K_I'" all
+: >all
+"$cleave" sweep strip.yaml -s materials.0.energy_release_rate=1e9,2e9 -s particles.spacing=1mm,2mm --of energy.kinetic -o alike >out 2>err
+holds "a line of a sweep over another one: $(cat err)" grep -a -q '^plot .*pt 7 ps 0.9 .*dt (7,7) .*pt 6 ps 1.6' all
 
 # Load over displacement of a rigid body that moves, from its columns; metres where they are meant; a bar has no length of cracks.
 mkdir pressed
