@@ -290,6 +290,10 @@ void plotted_particles_select_from_frame(struct plotted_particles *c, const stru
 status plotted_particles_read(struct plotted_particles *c, const char *folder, const struct listed_frame *frame,
                               const struct projection *projection);
 
+/* Returns true if n particles appear to be on a lattice along the axes: for 90 % of a sample the nearest neighbour is
+ * within 8 degrees of an axis. X[dim][n]: reference positions along the axes [m]. */
+bool particles_are_on_lattice(double *const *X, int dim, int64_t n);
+
 /* Computes the deformation gradients F of all particles of the frame f (state at one time), as fits to the
  * displacements of neighbours that no crack separates. spacing: of the particles [m]; displacement_factor: factor on
  * displacements; scene: for its pre-cracks, NULL if they are not known. Returns an allocated array [f->n][9] with F by

@@ -85,9 +85,7 @@ static bool lies_along(double *const *X, int dim, int64_t n, int64_t i)
     return across < 0.14 * along; /* tan 8 degrees */
 }
 
-/* Returns true if n particles appear to be on a lattice along the axes: for 90 % of a sample the nearest neighbour is
- * along an axis. X[dim][n]: reference positions along the axes [m]. */
-static bool is_aligned(double *const *X, int dim, int64_t n)
+bool particles_are_on_lattice(double *const *X, int dim, int64_t n)
 {
     int64_t samples = sample_count(n), along = 0;
     for (int64_t k = 0; k < samples; k++) along += lies_along(X, dim, n, k * n / samples);
@@ -319,7 +317,7 @@ static void cloud_select(struct plotted_particles *c, const struct output_frame 
         if (c->value) c->value[c->n] = projection->value[i];
         c->kind[c->n++] = f->kind[i];
     }
-    c->aligned = !c->position[2] && is_aligned(c->reference, 2, c->n);
+    c->aligned = !c->position[2] && particles_are_on_lattice(c->reference, 2, c->n);
 }
 
 static bool has_lists(const struct scene *s)
@@ -336,7 +334,7 @@ void plotted_particles_select_from_frame(struct plotted_particles *c, const stru
     float *size = NULL;
     if (projection && has_lists(projection->scene))
         size = frame_estimate_graded_particle_sizes(f, frame_particle_spacing(f));
-    if (size && is_aligned(f->X, f->dim, f->n)) sized.spacing = size;
+    if (size && particles_are_on_lattice(f->X, f->dim, f->n)) sized.spacing = size;
     cloud_select(c, &sized, projection);
     memory_free(size);
 }

@@ -250,6 +250,7 @@ static void write_film_set(struct html_page *p, const struct run_animation *f, c
     json_begin_object_or_list(&p->json, NULL, '{');
     json_write_integer(&p->json, "particles", s->n);
     json_write_integer(&p->json, "n", s->groups);
+    json_write_integer(&p->json, "scattered", f->dim == 2 && !particles_are_on_lattice(s->X, f->dim, s->n));
     json_begin_object_or_list(&p->json, "X", '[');
     for (int d = 0; d < f->dim; d++) write_positions(p, f, s, d);
     json_end_object_or_list(&p->json, ']');

@@ -13,7 +13,8 @@ const view = {
     y: 0,
     centre: null,
     turn: null,
-    x_of: null
+    x_of: null,
+    cells: null
 };
 const BAR = 104;         // room for the colour bar [CSS pixel]
 const FOOT = [0, 0, 34, 66];  // strip below a body of so many dimensions, for its time, scale and axes [CSS pixel]
@@ -147,7 +148,8 @@ function paintFrame(to, frame, ratio) {
     const dark = byId("cracks").checked && !showsCracks(view.field) && damage;
     const colour = (i) => (dark && damage[i] > CRACK_CODE ? INK : lut[codes[i]]);
     if (film.dim === 2) {
-        paintPlane(to, {x: view.x, y: view.y, scale: view.scale * ratio}, set, view.x_of, colour, damage);
+        view.cells = cellShapes(set, view.x_of, damage, () => true);
+        paintPlane(to, {x: view.x, y: view.y, scale: view.scale * ratio}, set, view.x_of, view.cells, colour);
         return;
     }
     const axis = Number(byId("cut").value), ghost = byId("ghost").checked && damage;

@@ -3,7 +3,7 @@
 const ALONG = 0.55;  // a face ends so far beyond the last particle beside it [spacings]
 
 // Returns the faces of all pre-cracks, each a list of points [x, y, particle beside it on this side of the line, or -1
-// where there is none within 1.2 spacings, and within ALONG along the line].
+// where there is none within 1.2 spacings, and within ALONG along the line, dx, dy of the line].
 function facesOf(set) {
     if (set.faces) return set.faces;
     const [X, Y] = set.X, wide = set.size.reduce((a, b) => Math.max(a, b), 0),
@@ -36,7 +36,7 @@ function facesOf(set) {
                 const steps = Math.min(Math.ceil(8 * Math.hypot(dx, dy) / fine), 8000) || 1;
                 for (let s = 0; s <= steps; s++) {
                     const [x, y] = [a[0] + dx * s / steps, a[1] + dy * s / steps];
-                    face.push([x, y, beside(x, y, [-side * dy, side * dx])]);
+                    face.push([x, y, beside(x, y, [-side * dy, side * dx]), dx, dy]);
                 }
             }
             set.faces.push(face);
@@ -44,25 +44,36 @@ function facesOf(set) {
     return set.faces;
 }
 
+// Returns where the point [x, y, i] of a face is drawn: on the side of particle i, as it is drawn, if the line [dx, dy]
+// of the pre-crack is along an axis.
+function facePoint(set, [x, y, i, dx, dy]) {
+    const {edges, shift} = view.cells, share = [(x - set.X[0][i]) / set.size[i], (y - set.X[1][i]) / set.size[i]];
+    if (dx === 0) share[0] = 0.5 * Math.sign(share[0]);
+    if (dy === 0) share[1] = 0.5 * Math.sign(share[1]);
+    return [0, 1].map((d) => view.x_of[d][i] + shift[2 * i + d] + share[0] * edges[4 * i + d] +
+                share[1] * edges[4 * i + 2 + d]);
+}
+
 // Draws the faces of the pre-cracks of a frame over the body. to: size of the picture [pixel]; ratio: pixels per CSS
 // pixel.
 function drawPreCracks(context, to, frame, ratio) {
-    const u = frame.u.map(arrayOf), scale = film.reach.map((r) => view.magnify * r / 32767);
+    const set = particlesOf(film, film.sets[frame.set]);
     context.save();
     context.beginPath();
     context.rect(0, 0, to.width / ratio, to.height / ratio);
     context.clip();
     context.strokeStyle = "#18202a";
     context.lineWidth = 1.4;
-    for (const face of facesOf(particlesOf(film, film.sets[frame.set]))) {
+    for (const face of facesOf(set)) {
         let pen = false;
         context.beginPath();
-        for (const [x, y, i] of face) {
-            if (i >= 0)
-                context[pen ? "lineTo" : "moveTo"](
-                    to.width / ratio / 2 + (x + scale[0] * u[0][i] - view.x) * view.scale,
-                    to.height / ratio / 2 - (y + scale[1] * u[1][i] - view.y) * view.scale);
-            pen = i >= 0;
+        for (const point of face) {
+            if (point[2] >= 0) {
+                const [x, y] = facePoint(set, point);
+                context[pen ? "lineTo" : "moveTo"](to.width / ratio / 2 + (x - view.x) * view.scale,
+                    to.height / ratio / 2 - (y - view.y) * view.scale);
+            }
+            pen = point[2] >= 0;
         }
         context.stroke();
     }
