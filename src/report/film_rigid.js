@@ -1,6 +1,9 @@
 // Rigid bodies in the frames: outlines in the plane, shaded surfaces in space.
 
-const RIGID = [120, 120, 126], RIGID_BESIDE = 0.3;  // colour; share of the longest edge
+const RIGID = [120, 120, 126];  // colour
+// Shares of the longest edge of the body: a rigid body is shown whole where it extends at most RIGID_WHOLE beyond the
+// body in space, and else up to RIGID_BESIDE beyond it.
+const RIGID_WHOLE = 1, RIGID_BESIDE = 0.3;
 
 // Reads points, relative to the centre, and faces of a rigid body once.
 function rigidOf(body) {
@@ -104,13 +107,18 @@ function paintTriangle(to, a, b, c) {
         }
 }
 
-// Extends a box by the rigid bodies of a frame, by up to 0.3 of its longest edge.
+// Extends a box by the rigid bodies of a frame: by the whole of each or, of a large one, by 0.3 of its longest edge.
 function boxWithRigids({low, high}, frame) {
-    const room = RIGID_BESIDE * Math.max(...high.map((h, d) => h - low[d])), from = low.slice(), to = high.slice();
-    forRigids(frame, view.magnify, (body, x) => x.forEach((values, d) => {
-        for (const value of values)
-            from[d] = Math.min(from[d], Math.max(value, low[d] - room)),
-            to[d] = Math.max(to[d], Math.min(value, high[d] + room));
-    }));
+    const longest = Math.max(...high.map((h, d) => h - low[d])), from = low.slice(), to = high.slice();
+    forRigids(frame, view.magnify, (body, x) => {
+        const over = (values, most) => values.reduce((a, v) => most(a, v)), ends = x.map(
+            (values) => [over(values, Math.min), over(values, Math.max)]);
+        const beyond = Math.max(...ends.map(([a, b], d) => Math.max(low[d] - a, b - high[d])));
+        const room = (film.dim === 3 && beyond <= RIGID_WHOLE * longest ? RIGID_WHOLE : RIGID_BESIDE) * longest;
+        ends.forEach(([a, b], d) => {
+            from[d] = Math.min(from[d], Math.max(a, low[d] - room));
+            to[d] = Math.max(to[d], Math.min(b, high[d] + room));
+        });
+    });
     return {low: from, high: to};
 }

@@ -36,10 +36,38 @@ function cutOff() {
     return owner.some((i, at) => i >= 0 && (at < width || at >= width * (height - 1) || (at + 1) % width < 2));
 }
 
+// Number of points of rigid bodies that are outside the stage.
+function rigidOutside() {
+    let n = 0;
+    forRigids(film.frames[view.frame], view.magnify, (body, x) => {
+        const along = (row, k) => row.reduce((sum, c, d) => sum + c * (x[d][k] - view.centre[d]), 0) * view.scale;
+        for (let k = 0; k < x[0].length; k++)
+            n += Math.abs(along(view.turn[0], k)) > (byId("view").clientWidth - BAR) / 2 ||
+                Math.abs(along(view.turn[1], k)) > view.height / 2;
+    });
+    return n;
+}
+
+// Four cells of two spacings below sixteen of one, turned by 0.5: the largest error of their edges, relative to their
+// sizes, and the number of faces between cells of different size.
+function resized() {
+    const X = [[], [], []], size = [], [c, s] = [Math.cos(0.5), Math.sin(0.5)], turn = [[c, 0, s], [0, 1, 0], [-s, 0, c]];
+    for (const [cells, edge, z] of [[2, 2, 1], [4, 1, 2.5]])
+        for (let k = 0; k < cells * cells; k++) {
+            const place = [(k % cells + 0.5) * edge, (Math.floor(k / cells) + 0.5) * edge, z];
+            place.forEach((v, d) => X[d].push(v)), size.push(edge);
+        }
+    const set = {n: size.length, X, size, beside: neighbours(X, size, []), other: otherNeighbours(X, size, [])};
+    const x = turn.map((row) => size.map((_, i) => row.reduce((sum, e, d) => sum + e * X[d][i], 0)));
+    const {edges, joins} = cellShapes(set, x, null, () => true);
+    const off = edges.map((e, at) => Math.abs(e / size[Math.floor(at / 9)] - turn[at % 3][Math.floor(at / 3) % 3]));
+    return [Math.max(...off), joins.filter((j) => j === RESIZED).length];
+}
+
 // Number of faces of cubes that are painted although a parted neighbour still covers them: a dotted lattice.
 function bareFaces() {
     const frame = film.frames[view.frame], set = particlesOf(film, film.sets[frame.set]), sides = [0, 1, 2, 3, 4, 5];
-    const cubes = deformedCubes(set, view.x_of, damageOf(frame), () => true);
+    const cubes = cellShapes(set, view.x_of, damageOf(frame), () => true);
     const bare = (i, s) => set.beside[s][i] >= 0 && !covered(set, view.x_of, cubes, i, s >> 1, s & 1);
     return Array.from(set.X[0]).reduce((n, _, i) => n + sides.filter((s) => bare(i, s)).length, 0);
 }
@@ -53,8 +81,7 @@ function magnified(factor) {
         Math.abs(y[i] - view.y) * view.scale < view.height / 2;
     const share = Array.from(x.keys()).filter(shown).length / set.n;
     const faces = facesOf(set).slice(0, 2).map((face) => {
-        const [px, py, i] = face.find((p) => p[0] > 0.004 && p[2] >= 0);
-        return [px + x[i] - set.X[0][i], py + y[i] - set.X[1][i]];
+        return facePoint(set, face.find((p) => p[0] > 0.004 && p[2] >= 0));
     });
     const red = faces.map(([px, py]) => Math.min(...[-1, 0, 1].map((k) => colourAt(px, py + k / view.scale)[0])));
     return {share, apart: faces.length ? Math.abs(faces[0][1] - faces[1][1]) : 0, red: Math.max(...red)};
@@ -100,6 +127,8 @@ async function probeFilm(seen) {
         turnBy(1, 1.2);
         drawFilm();
         seen.cut_off = cutOff();
+        seen.rigid_outside = rigidOutside();
+        seen.resized = resized();
         seen.painted_turned = painted();
         send("cut", "input", "1");
         send("cut_at", "input", "0.3");
