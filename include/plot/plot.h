@@ -182,9 +182,9 @@ struct unit unit_for_length(double largest_length);
 struct unit unit_for_area(double largest_area);
 
 /* Returns a unit for values up to `largest_value` (in SI units). If `unit_name` is a unit that takes prefixes (s, m,
- * m^2, m/s, N, N/m, J, Pa, W, J/m², J/m³, Pa√m), it has the prefix with which `largest_value` has one to three digits
- * before the decimal point; else it is the unit itself. unit_name: unit without prefix, as in pictures or as in files:
- * J/m^2 becomes J/m², Pa m^(1/2) becomes Pa√m, degree becomes °. */
+ * m^2, m/s, N, N/m, J, Pa, W, J/m², J/m³, Pa√m), it has the prefix with which `largest_value` has one to three
+ * digits before the decimal point; else it is the unit itself. unit_name: unit without prefix, as in pictures or as in
+ * files: J/m^2 becomes J/m², Pa m^(1/2) becomes Pa√m, degree becomes °. */
 struct unit unit_with_si_prefix_if_unit_allows_it(const char *unit_name, double largest_value);
 
 /* ---- fields ------------------------------------------------------------------------------------------------------ */

@@ -51,7 +51,8 @@ function rigidOutside() {
 // Four cells of two spacings below sixteen of one, turned by 0.5: the largest error of their edges, relative to their
 // sizes, and the number of faces between cells of different size.
 function resized() {
-    const X = [[], [], []], size = [], [c, s] = [Math.cos(0.5), Math.sin(0.5)], turn = [[c, 0, s], [0, 1, 0], [-s, 0, c]];
+    const X = [[], [], []], size = [], [c, s] = [Math.cos(0.5), Math.sin(0.5)];
+    const turn = [[c, 0, s], [0, 1, 0], [-s, 0, c]];
     for (const [cells, edge, z] of [[2, 2, 1], [4, 1, 2.5]])
         for (let k = 0; k < cells * cells; k++) {
             const place = [(k % cells + 0.5) * edge, (Math.floor(k / cells) + 0.5) * edge, z];
