@@ -17,6 +17,11 @@ static const double LINE_HALF = 1.0 / 600, LINE_LEAST = 0.7, GAP_SEEN = 1.0 / 40
  * particle has no part of a face. */
 static const double BESIDE = 1.05, RUBBLE = 0.65;
 
+/* OBLIQUE: product of the direction cosines of a line from which it is not along the lattice; TRIMMED: largest distance
+ * from a face up to which the image is changed so that the face is straight [spacings]; BEYOND: so far beyond the face
+ * squares are blanked before it is filled, so that no sliver of them is left [pixel]. */
+static const double OBLIQUE = 0.02, TRIMMED = 0.9, BEYOND = 1.5;
+
 /* Displacements of the faces of a pre-crack, by sections of one spacing along it. u[side][2 * section + axis]: sum of
  * the displacements of the particles beside the section [m]; weight[side][section]: their number, by nearness;
  * place[side][section]: sum of their coordinates along the pre-crack [m], weighted alike. */
@@ -162,6 +167,78 @@ static void line_paint(struct colour *pixel, int width, int height, const double
                 pixel[(int64_t)row * width + column] = c;
 }
 
+/* Computes the points x[2][2] of both faces of the pre-crack f at the distance s along it [m], in pixels of an image of
+ * width x height that shows the rectangle of the view v; is[side] receives whether the face has a point there. inside:
+ * as of faces_complete [m]. */
+static void faces_find_pixels(const struct faces *f, const struct view *v, int width, int height, double s,
+                              double inside, double x[2][2], bool is[2])
+{
+    for (int side = 0; side < 2; side++) is[side] = face_at(f, side, s, x[side]);
+    faces_complete(f, x, is, inside);
+    for (int side = 0; side < 2; side++)
+        for (int a = 0; a < 2 && is[side]; a++)
+            x[side][a] = (x[side][a] - v->from[a]) * (a ? height : width) / (v->to[a] - v->from[a]);
+}
+
+/* Returns the pixel of pixel[height][width] that contains the point x[2] [pixel], NULL if it is outside the image. */
+static struct colour *pixel_at(struct colour *pixel, int width, int height, const double *x)
+{
+    if (!(x[0] >= 0 && x[1] >= 0 && x[0] < width && x[1] < height)) return NULL;
+    return &pixel[(int64_t)x[1] * width + (int64_t)x[0]];
+}
+
+/* Fills the pixels without a particle from the point x[2] on in the direction n[2] (unit vector), up to the body, in
+ * the colour of the pixel behind the last of them. Fills nothing if the body is not within `reach` [pixel]. */
+static void fill_up_to_body(struct colour *pixel, int width, int height, const double *x, const double *n, double reach)
+{
+    double last = -1;
+    for (double at = 0; at <= reach; at += 0.5) {
+        const struct colour *p = pixel_at(pixel, width, height, (double[]){x[0] + at * n[0], x[1] + at * n[1]});
+        if (p && !p->alpha) last = at;
+    }
+    const double behind = last + 1.5;
+    const struct colour *body = pixel_at(pixel, width, height, (double[]){x[0] + behind * n[0], x[1] + behind * n[1]});
+    if (last < 0 || !body || !body->alpha) return;
+    const struct colour colour = *body;
+    for (double at = 0; at <= last; at += 0.5) {
+        struct colour *p = pixel_at(pixel, width, height, (double[]){x[0] + at * n[0], x[1] + at * n[1]});
+        if (p && !p->alpha) *p = colour;
+    }
+}
+
+/* Makes both faces of the open pre-crack f straight if it is oblique to the lattice. The squares of particles lie
+ * partly beyond its line: blanks the pixels between the faces, and fills those between a face and the particles of its
+ * side. pixel[height][width]: image of the view v; per_metre: pixels per metre; spacing: of the particles [m]. */
+static void faces_trim(struct colour *pixel, int width, int height, const struct view *v, const struct faces *f,
+                       double per_metre, double spacing)
+{
+    const double reach = TRIMMED * spacing * per_metre, step = 0.25 / per_metre;
+    const int steps = (int)fmin((f->end - f->begin) / step, 8.0 * (width + height));
+    if (fabs(f->along[0] * f->along[1]) < OBLIQUE) return;
+    for (int fill = 0; fill < 2; fill++)
+        for (int k = 0; k <= steps; k++) {
+            const double s = f->begin + (f->end - f->begin) * k / fmax(steps, 1);
+            const double other = s + (s < 0.5 * f->length ? 1 : -1) * f->section; /* for the direction of a face */
+            double x[2][2], y[2][2];
+            bool is[2], was[2];
+            faces_find_pixels(f, v, width, height, s, 0, x, is);
+            faces_find_pixels(f, v, width, height, other, 0, y, was);
+            for (int side = 0; side < 2 && is[0] && is[1] && was[0] && was[1]; side++) {
+                const double sign = (other > s) == (side == 0) ? 1 : -1,
+                             t[2] = {y[side][0] - x[side][0], y[side][1] - x[side][1]};
+                const double n[2] = {-sign * t[1] / hypot(t[0], t[1]),
+                                     sign * t[0] / hypot(t[0], t[1])}; /* into the body */
+                const double open = (x[side][0] - x[!side][0]) * n[0] + (x[side][1] - x[!side][1]) * n[1];
+                for (double at = -BEYOND; at < fmin(open, reach) && open > 1 && !fill; at += 0.5) {
+                    struct colour *p =
+                        pixel_at(pixel, width, height, (double[]){x[side][0] - at * n[0], x[side][1] - at * n[1]});
+                    if (p) *p = (struct colour){255, 255, 255, 0};
+                }
+                if (fill && open > 1) fill_up_to_body(pixel, width, height, x[side], n, reach);
+            }
+        }
+}
+
 /* Paints both faces of the deformed pre-crack f as lines in `colour` into the image pixel[height][width], which shows
  * the rectangle of the view v. Fills the gap between the faces only where it is too narrow to be seen. The round ends
  * of the lines end where the faces do. */
@@ -177,11 +254,7 @@ static void faces_paint(struct colour *pixel, int width, int height, const struc
         const double s = f->begin + round + (f->end - f->begin - 2 * round) * k / steps;
         double x[2][2];
         bool is[2];
-        for (int side = 0; side < 2; side++) is[side] = face_at(f, side, s, x[side]);
-        faces_complete(f, x, is, round);
-        for (int side = 0; side < 2; side++)
-            for (int a = 0; a < 2 && is[side]; a++)
-                x[side][a] = (x[side][a] - v->from[a]) * (a ? height : width) / (v->to[a] - v->from[a]);
+        faces_find_pixels(f, v, width, height, s, round, x, is);
         const bool shut =
             is[0] && is[1] && hypot(x[1][0] - x[0][0], x[1][1] - x[0][1]) < GAP_SEEN * line_scale(width, height);
         for (int side = 0; side < 2; side++) {
@@ -235,6 +308,7 @@ void image_paint_precrack_faces(struct colour *pixel, int width, int height, con
         f.in_mirror = crack_is_in_mirror(&v->notch[k], c);
         faces_move_between_particles(&f, c);
         for (int64_t i = 0; i < c->n; i++) face_add_motion(&f, c, i);
+        faces_trim(pixel, width, height, v, &f, width / (v->to[0] - v->from[0]), c->spacing);
         faces_paint(pixel, width, height, v, &f, map == MAP_DAMAGE ? FACE : GAP);
         for (int side = 0; side < 2; side++)
             memory_free(f.u[side]), memory_free(f.weight[side]), memory_free(f.place[side]);

@@ -115,12 +115,42 @@ static void narrow_cracks_are_open(void **state)
     memory_free(pixel);
 }
 
+/* Checks that both faces of an oblique pre-crack that opens by 1.5 spacings are straight: the pixels between them are
+ * blank, and the body has no other gap. */
+static void oblique_cracks_are_open(void **state)
+{
+    (void)state;
+    const double open = 1.5 * SPACING;
+    real end[2][DIM_MAX] = {{-16e-3, -8e-3}, {16e-3, 8e-3}};
+    struct crack slit = {.n = 2, .corner = end};
+    struct scene scene = {.dim = 2, .cracks = 1, .crack = &slit};
+    struct colour *pixel = NEW("test.pixel", FINE * FINE, struct colour);
+    struct output_frame f = block_make(30, 30, 1, 2);
+    struct plotted_particles c;
+    int wrong = 0, blank = 0;
+    for (int64_t i = 0; i < f.n; i++) f.u[1][i] = f.X[1][i] > 0.5 * f.X[0][i] ? (float)open : 0;
+    plotted_particles_select_from_frame(&c, &f, &(struct projection){.normal = -1, .scene = &scene});
+    const struct view v = {.from = {-10e-3, -10e-3}, .to = {10e-3, 10e-3}, .top = 1, .notches = 1, .notch = &slit};
+    image_paint_particles_in_plane(pixel, FINE, FINE, &v, &c, MAP_DAMAGE);
+    for (int q = 0; q < FINE * FINE; q++) {
+        const double x = (q % FINE + 0.5) * 20e-3 / FINE - 10e-3, y = (q / FINE + 0.5) * 20e-3 / FINE - 10e-3;
+        const double above = (y - 0.5 * x) / open; /* 0 on the lower face, 1 on the upper one */
+        blank += !pixel[q].alpha;
+        if (fabs(above) > 0.1 && fabs(above - 1) > 0.1)
+            wrong += pixel[q].alpha ? above > 0 && above < 1 : above < 0 || above > 1;
+    }
+    assert_true(fabs(blank * 20e-3 / FINE / FINE / open - 1) < 0.05);
+    assert_true(wrong < 5);
+    memory_free(pixel), plotted_particles_free(&c), frame_free(&f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(graded_lists_are_closed),
         cmocka_unit_test(long_rigid_bodies_are_cut_off),
         cmocka_unit_test(narrow_cracks_are_open),
+        cmocka_unit_test(oblique_cracks_are_open),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
