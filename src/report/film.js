@@ -14,7 +14,8 @@ const view = {
     centre: null,
     turn: null,
     x_of: null,
-    cells: null
+    cells: null,
+    faces: null
 };
 const BAR = 104;         // room for the colour bar [CSS pixel]
 const FOOT = [0, 0, 34, 66];  // strip below a body of so many dimensions, for its time, scale and axes [CSS pixel]
@@ -127,7 +128,7 @@ function drawFilm() {
         context.putImageData(to.image, 0, 0);
         if (film.dim === 2) {
             drawRigids(context, to, frame, ratio);
-            drawPreCracks(context, to, frame, ratio);
+            drawPreCracks(context, to, ratio);
         } else
             drawTriad(context, [width - BAR - 60, height - foot / 2]);
         drawScaleBar(context, width - BAR, height - foot / 2);
@@ -149,7 +150,10 @@ function paintFrame(to, frame, ratio) {
     const colour = (i) => (dark && damage[i] > CRACK_CODE ? INK : lut[codes[i]]);
     if (film.dim === 2) {
         view.cells = cellShapes(set, view.x_of, damage, () => true);
-        paintPlane(to, {x: view.x, y: view.y, scale: view.scale * ratio}, set, view.x_of, view.cells, colour);
+        const plane = {x: view.x, y: view.y, scale: view.scale * ratio};
+        paintPlane(to, plane, set, view.x_of, view.cells, colour);
+        view.faces = facesOf(set).map((face) => faceLine(set, face, damage));
+        trimFaces(to, plane, set);
         return;
     }
     const axis = Number(byId("cut").value), ghost = byId("ghost").checked && damage;

@@ -88,6 +88,19 @@ function magnified(factor) {
     return {share, apart: faces.length ? Math.abs(faces[0][1] - faces[1][1]) : 0, red: Math.max(...red)};
 }
 
+// Of the points between the faces of the first pre-crack that are more than three pixels apart: how many are on a
+// particle, and how many there are.
+function facesShut() {
+    const ratio = buffer.height / view.height, shown = [0, 0], [a, b] = view.faces;
+    a.forEach((p, k) => {
+        if (!p || !b[k] || Math.hypot(p[0] - b[k][0], p[1] - b[k][1]) * view.scale * ratio < 3) return;
+        const px = Math.floor(buffer.width / 2 + ((p[0] + b[k][0]) / 2 - view.x) * view.scale * ratio),
+              py = Math.floor(buffer.height / 2 - ((p[1] + b[k][1]) / 2 - view.y) * view.scale * ratio);
+        shown[0] += buffer.owner[py * buffer.width + px] >= 0, shown[1]++;
+    });
+    return shown;
+}
+
 async function probeFilm(seen) {
     seen.frames = film.frames.length;
     seen.shown_at_first = view.frame;
@@ -117,6 +130,7 @@ async function probeFilm(seen) {
     if (film.dim === 2) seen.crack_von_mises = colourAt(0.01, 0.0102), seen.whole_von_mises = colourAt(0.035, 0.004);
     if (film.dim === 2) {
         seen.magnified = magnified(200);
+        seen.faces_shut = (page.cracks || []).length ? facesShut() : [0, 0];
         send("field", "change", "fragment");
         seen.dark_fragments = view.field.name === "fragment" && !byId("cracks").disabled;
     }

@@ -211,7 +211,8 @@ awk 'BEGIN { print "x [mm],y [mm],volume [mm^3]"; for (r = 5.5; r < 12; r++) for
 sed -e '/^cracks/d' -e '/^boundary/d' -e 's/^name: .*/name: ring/' -e 's/^duration: .*/duration: 1 us/' plate.yaml >ring.yaml
 sed -i -e 's/^body: .*/bodies: [{name: ring, particles: ring.csv}]/' -e 's/frames: 5/frames: 1/' ring.yaml
 if [ -n "$browser" ]; then
-    for name in metal steps notched ring table; do
+    sed -e 's/^name: .*/name: slanted/' -e 's/rate: 3 J/rate: 3000 J/' -e 's/from: .-1 mm, 10 mm., to: .15 mm, 10 mm./from: [6.1 mm, 7 mm], to: [17 mm, 13.3 mm]/' plate.yaml >slanted.yaml
+    for name in metal steps notched ring table slanted; do
         "$cleave" run $name.yaml -o $name -q --report >out 2>err
         seen $name
     done
@@ -221,6 +222,8 @@ if [ -n "$browser" ]; then
     # Cells of different size meet, and a table far wider than the body is on the stage as it is turned.
     says notched "s['resized'][0] < 0.06 and s['resized'][1] == 20"
     says table "s['problems'] == [] and s['turned'] and s['rigid_outside'] == 0"
+    # No squares of particles are between the faces of an open crack, which here is oblique to the lattice.
+    says slanted "s['problems'] == [] and s['faces_shut'][0] == 0 and s['faces_shut'][1] > 40 and s['slits'] < 60"
     says steps "s['problems'] == [] and s['over'] == 'load step' and s['when_first'] == 'frame 0, load step 0' and s['first_field'] == 'von_mises'"
     says steps "', critical ' not in s['origin']"
     # A crack of a bar has no length, and columns without values are not named.
