@@ -30,8 +30,8 @@ struct value_range {
 struct value_range history_value_range(const struct history *history, const int *column_index, int column_count);
 
 /* Returns true if two curves of `history`, the columns with the indices column_index[0] and column_index[1], less
- * shift[0] and shift[1], would hide each other: they differ in no row by more than the width of a line. axis_extent:
- * largest minus smallest value of the axis. */
+ * shift[0] and shift[1], hide each other: away from 0 they differ by less than the width of a line, in all rows or in
+ * more than a fourth of them. axis_extent: largest minus smallest value of the axis. */
 bool history_curves_coincide(const struct history *history, const int column_index[2], const double shift[2],
                              double axis_extent);
 

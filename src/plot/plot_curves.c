@@ -35,16 +35,17 @@ struct value_range history_value_range(const struct history *history, const int 
 bool history_curves_coincide(const struct history *history, const int column_index[2], const double shift[2],
                              double axis_extent)
 {
-    static const double LINE_WIDE = 0.004; /* width of a line divided by the length of an axis [1] */
-    bool any = false;
+    /* LINE_WIDE: width of a line divided by the length of an axis; PART: share of the samples [1] */
+    static const double LINE_WIDE = 0.004, PART = 0.25;
+    const double wide = LINE_WIDE * axis_extent;
+    int64_t apart = 0, hidden = 0;
     for (int64_t i = 0; i < history->rows; i++) {
         double value[2];
         for (int k = 0; k < 2; k++) value[k] = history_value_at(history, i, column_index[k]) - shift[k];
-        if (isfinite(value[0]) != isfinite(value[1]) || fabs(value[1] - value[0]) > LINE_WIDE * axis_extent)
-            return false;
-        any |= isfinite(value[0]);
+        if (isfinite(value[0]) != isfinite(value[1]) || fabs(value[1] - value[0]) > wide) apart++;
+        if (fabs(value[1] - value[0]) <= wide && fabs(value[0]) > 3 * wide) hidden++;
     }
-    return any;
+    return hidden > 0 && (apart == 0 || (double)hidden > PART * (double)history->rows);
 }
 
 void curves_write_gnuplot_data_block(FILE *gnuplot, const struct series *series, const int *column_index,
@@ -254,8 +255,8 @@ static void plot_energies(FILE *to, const struct energies *e, const struct histo
             if ((e->row[k] == &ledger[LEDGER_WORK]) == work) {
                 fputs("$data using 1:(", to);
                 write_energy(to, e, k);
-                fprintf(to, ") with lines lw %s %s lc rgb '%s' title '%s', ", work ? "6" : "2.2",
-                        !work && energy_hides_another(e, h, k) ? DASHES_OVER_CURVE : "",
+                fprintf(to, ") with lines lw %s%s lc rgb '%s' title '%s', ", work ? "6" : "2.2",
+                        !work && energy_hides_another(e, h, k) ? " " DASHES_OVER_CURVE : "",
                         work ? WORK_COLOUR : e->row[k]->colour, e->label[k]);
             }
     fputs("$data using 1:(0", to);

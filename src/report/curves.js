@@ -129,12 +129,19 @@ function columnsToBegin() {
         ...history_.columns.filter((c) => varies(c) && c.name === "crack_length")];
 }
 
+// Is a constant round-off beside the other values of its unit?
+function isRoundOff(c) {
+    const alike = history_.columns.filter((o) => o.unit === c.unit);
+    const ends = alike.flatMap((o) => [o.low, o.high]).filter(Number.isFinite);
+    return Math.abs(c.low) < 1e-15 * Math.max(...ends.map(Math.abs));
+}
+
 function showColumns() {
     const groups = new Map(), constant = [];
     columnsByWeight().forEach((c) => {
         if (history_.columns.indexOf(c) < 2 && /^(time|step|load_step)$/.test(c.name)) return;
         if (!(c.high >= c.low)) return; // no values
-        if (!varies(c)) return constant.push(labelOf(c) + " = " + quantity(c.low, c.unit));
+        if (!varies(c)) return constant.push(labelOf(c) + " = " + quantity(isRoundOff(c) ? 0 : c.low, c.unit));
         if (!groups.has(c.unit)) groups.set(c.unit, []);
         groups.get(c.unit).push(c);
     });
@@ -205,12 +212,19 @@ function measurePanel(panel, over, zoom) {
 // Pattern of a curve that coincides with one drawn before, which is seen between the dashes [CSS pixel].
 const OVER_CURVE = [7, 7];
 
-// Does curve k of a panel coincide with one drawn before, within the width of a line?
+// Does curve k of a panel hide one drawn before? As in cleave plot: away from 0 they differ by less than the width of a
+// line, in all samples or in more than a fourth of them.
 function hidesAnother(panel, k) {
     const own = panel.columns[k], wide = 0.004 * (panel.range[1] - panel.range[0]), {isFinite} = Number;
-    const near = (a, b) => (isFinite(a) ? Math.abs(a - b) <= wide : !isFinite(b));
-    return varies(own) &&
-        panel.columns.slice(0, k).some((c) => c.values.every((v, i) => near(v - c.shift, own.values[i] - own.shift)));
+    return panel.columns.slice(0, k).some((c) => {
+        let [apart, hidden] = [0, 0];
+        c.values.forEach((value, i) => {
+            const off = Math.abs(value - c.shift - own.values[i] + own.shift);
+            if (isFinite(value) !== isFinite(own.values[i]) || off > wide) apart++;
+            if (off <= wide && Math.abs(value - c.shift) > 3 * wide) hidden++;
+        });
+        return hidden > 0 && (apart === 0 || hidden > 0.25 * c.values.length);
+    });
 }
 
 function drawPanel(context, panel, over, zoom, xUnit, area, lowest) {
