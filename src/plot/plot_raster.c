@@ -23,8 +23,8 @@ struct canvas {
 };
 
 /* Shape of a particle in the map: the deformation gradient F along the axes of the map, its inverse, and the half width
- * or radius of the undeformed particle [m]. square: a square; else a disc. side[k]: distances of its sides from the
- * centre along axis k, towards larger and smaller coordinates [m]; of a disc the radius. */
+ * or radius of the undeformed particle [m], of a square the largest of side. square: a square; else a disc. side[k]:
+ * distances of the sides of a square from its centre along axis k, towards larger and smaller coordinates [m]. */
 struct outline {
     double F[2][2], inverse[2][2], half, side[2][2];
     bool square;
@@ -40,8 +40,8 @@ static bool is_apart(const struct plotted_particles *c, int64_t i, const double 
 }
 
 /* Returns the shape of particle i of c. A side on which a crack or another body begins is half a spacing from the
- * centre, so that a gap is as wide as it is, and at most half a pixel more, so that a gap below a pixel is no dotted
- * line. pixel: edge of a pixel [m]. */
+ * centre, so that a gap is as wide as it is, and half a pixel more, so that a gap below a pixel is no dotted line.
+ * pixel: edge of a pixel [m]. */
 static struct outline outline_of(const struct plotted_particles *c, int64_t i, double pixel)
 {
     const double wide = c->size ? c->size[i] - c->spacing : 0; /* additional width of a coarse cell's point */
@@ -50,8 +50,9 @@ static struct outline outline_of(const struct plotted_particles *c, int64_t i, d
     s.half = c->aligned ? SQUARE * c->spacing + 0.5 * wide : DISC * (c->spacing + wide);
     for (int k = 0; k < 4; k++) {
         const bool apart = s.square && is_apart(c, i, axis[k / 2], k % 2);
-        s.side[k / 2][k % 2] = apart ? fmin(s.half, 0.5 * (c->spacing + wide + pixel)) : s.half;
+        s.side[k / 2][k % 2] = apart ? 0.5 * (c->spacing + wide + pixel) : SQUARE * c->spacing + 0.5 * wide;
     }
+    for (int k = 0; k < 4 && s.square; k++) s.half = fmax(s.half, s.side[k / 2][k % 2]);
     for (int k = 0; k < 4 && c->gradient; k++) {
         double sum = 0;
         for (int m = 0; m < 9; m++) sum += axis[k / 2][m / 3] * (double)c->gradient[9 * i + m] * axis[k % 2][m % 3];
