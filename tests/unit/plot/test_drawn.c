@@ -115,6 +115,29 @@ static void narrow_cracks_are_open(void **state)
     memory_free(pixel);
 }
 
+/* Checks that a crack that opens by less than a pixel, 0.1 to 0.4 spacings of 2.1 pixels a spacing, is no dotted line:
+ * no pixel is blank, whereas at eight times the resolution some are. */
+static void gaps_below_a_pixel_are_closed(void **state)
+{
+    (void)state;
+    struct colour *pixel = NEW("test.pixel", FINE * FINE, struct colour);
+    struct output_frame f = block_make(30, 30, 1, 2);
+    struct plotted_particles c;
+    for (int64_t i = 0; i < f.n; i++) {
+        f.u[1][i] = f.X[1][i] > 0 ? (float)(0.25 * SPACING + 0.01 * f.X[0][i]) : 0;
+        f.damage[i] = fabs(f.X[1][i]) < SPACING ? 0.4F : 0;
+    }
+    plotted_particles_select_from_frame(&c, &f, NULL);
+    const struct view v = {.from = {-14e-3, -14e-3}, .to = {14e-3, 14e-3}, .top = 1};
+    for (int size = 60; size <= 480; size *= 8) {
+        int blank = 0;
+        image_paint_particles_in_plane(pixel, size, size, &v, &c, MAP_DAMAGE);
+        for (int q = 0; q < size * size; q++) blank += !pixel[q].alpha;
+        assert_true(size == 60 ? blank == 0 : blank > size);
+    }
+    memory_free(pixel), plotted_particles_free(&c), frame_free(&f);
+}
+
 /* Checks that both faces of an oblique pre-crack that opens by 1.5 spacings are straight: the pixels between them are
  * blank, and the body has no other gap. */
 static void oblique_cracks_are_open(void **state)
@@ -147,9 +170,8 @@ static void oblique_cracks_are_open(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(graded_lists_are_closed),
-        cmocka_unit_test(long_rigid_bodies_are_cut_off),
-        cmocka_unit_test(narrow_cracks_are_open),
+        cmocka_unit_test(graded_lists_are_closed), cmocka_unit_test(long_rigid_bodies_are_cut_off),
+        cmocka_unit_test(narrow_cracks_are_open),  cmocka_unit_test(gaps_below_a_pixel_are_closed),
         cmocka_unit_test(oblique_cracks_are_open),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
