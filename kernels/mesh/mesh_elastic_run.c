@@ -30,7 +30,6 @@ struct elastic_run {
         for (int l = 0; l < WIDE; l++) run->stressed |= a.tension[l] > m->trigger;                                     \
     }
 
-#define MESH_FORCES(X) X(1, 0) X(2, 0) X(2, 1) X(3, 0) X(3, 1)
 MESH_FORCES(RUN)
 
 void mesh_elastic_run_force(const struct mesh *mesh, struct mesh_cell_run *run, const struct elastic *m, bool finite)

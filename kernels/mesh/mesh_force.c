@@ -184,8 +184,6 @@ static ALWAYS_INLINE void cuts_add(struct mesh *mesh, const int dim)
 
 enum { FEW = 16 }; /* number of groups that one thread computes in less time than a thread team; empirical */
 
-/* Calls X(dimensions, finite strain) for each instance of the forces. */
-
 #define CUTS(D, FINITE)                                                                                                \
     static NEVER_INLINE void cut_force_##D##_##FINITE(struct mesh *mesh, const struct particles *p,                    \
                                                       const struct elastic *m, int64_t k)                              \
@@ -202,7 +200,6 @@ enum { FEW = 16 }; /* number of groups that one thread computes in less time tha
 
 /* ---- entry point ------------------------------------------------------------------------------------------------- */
 
-#define MESH_FORCES(X) X(1, 0) X(2, 0) X(2, 1) X(3, 0) X(3, 1)
 MESH_FORCES(BANDS)
 MESH_FORCES(CUTS)
 

@@ -5,6 +5,9 @@
 
 #include "mesh_law.h"
 
+/* Calls X(dimensions, finite strain) for each instance of the forces of cells. */
+#define MESH_FORCES(X) X(1, 0) X(2, 0) X(2, 1) X(3, 0) X(3, 1)
+
 /* Loads the displacements u[c][i] [m] of corner c along axis i of WIDE mesh cells: those number k .. k + WIDE - 1,
  * counted from 0, of `run`, a row of consecutive cells. Vector lanes beyond the last cell are set to 0. */
 static ALWAYS_INLINE void mesh_cell_run_load_corner_displacements(const struct mesh *mesh,
