@@ -254,9 +254,8 @@ static ALWAYS_INLINE lanes bond_break_largest_of(lanes largest, const struct par
  * and particles. */
 static ALWAYS_INLINE lanes rows_largest(const struct bonds *b, const struct particles *p, int64_t g, const int dim)
 {
-    const int32_t *row = b->particle + g * LANES;
     lanes x[DIM_MAX], largest = lanes_broadcast(0);
-    for (int d = 0; d < dim; d++) x[d] = lanes_load_or_gather(p->x[d], b->aligned[g] ? row[0] : -1, row);
+    bond_rows_load_positions(b, p, g * LANES, x, dim);
 #define VISIT(COLUMN) largest = bond_break_largest_of(largest, p, x, COLUMN, dim)
     FOR_COLUMNS(b, g * LANES, VISIT);
 #undef VISIT

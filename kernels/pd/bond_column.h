@@ -202,6 +202,14 @@ static ALWAYS_INLINE lanes bond_column_min_where_intact(const struct bond_column
                                        : lanes_min_selected(bond_column_intact_bits(column), a, other);
 }
 
+/* Loads the positions x[dim] [m] of the particles of WIDE rows of b, from row `first` on. p: all particles. */
+static ALWAYS_INLINE void bond_rows_load_positions(const struct bonds *b, const struct particles *p, int64_t first,
+                                                   lanes *x, const int dim)
+{
+    const int32_t *row = b->particle + first, own = b->aligned[first / LANES] ? row[0] : -1;
+    for (int d = 0; d < dim; d++) x[d] = lanes_load_or_gather(p->x[d], own, row);
+}
+
 /* Stores `value`, one value for each particle of WIDE rows, in the particle array `to`. row: indices of these
  * particles; rows: number of rows from there to the end of all rows, less than WIDE or negative in the last block;
  * aligned: true if the indices are consecutive, so that all values are stored at once. */

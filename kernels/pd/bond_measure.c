@@ -49,9 +49,8 @@ static ALWAYS_INLINE lanes bond_energy_column(const struct bond_column_view s, c
 static ALWAYS_INLINE lanes bond_energy_rows(const struct bonds *b, const struct particles *p, int64_t first,
                                             bool *pressed, const int dim, const enum pd_model model)
 {
-    const int32_t *row = b->particle + first;
     lanes sum = lanes_broadcast(0), press = lanes_broadcast(0), x[DIM_MAX];
-    for (int d = 0; d < dim; d++) x[d] = lanes_load_or_gather(p->x[d], b->aligned[first / LANES] ? row[0] : -1, row);
+    bond_rows_load_positions(b, p, first, x, dim);
 #define VISIT(COLUMN) sum += bond_energy_column(COLUMN, p, x, &press, dim, model)
 #define VISIT_BRITTLE(COLUMN) sum += bond_energy_column(COLUMN, p, x, &press, dim, PD_BOND)
     FOR_COLUMNS_BY_LAW(b, first, model, VISIT, VISIT_BRITTLE);
@@ -104,7 +103,7 @@ static ALWAYS_INLINE void bond_stress_rows(const struct bonds *b, struct particl
     const int32_t *row = b->particle + first;
     lanes sum[SYM_MAX], x[DIM_MAX];
     for (int s = 0; s < dim * (dim + 1) / 2; s++) sum[s] = lanes_broadcast(0);
-    for (int d = 0; d < dim; d++) x[d] = lanes_load_or_gather(p->x[d], b->aligned[first / LANES] ? row[0] : -1, row);
+    bond_rows_load_positions(b, p, first, x, dim);
 #define VISIT(COLUMN) bond_stress_column(sum, COLUMN, p, x, dim, model)
 #define VISIT_BRITTLE(COLUMN) bond_stress_column(sum, COLUMN, p, x, dim, PD_BOND)
     FOR_COLUMNS_BY_LAW(b, first, model, VISIT, VISIT_BRITTLE);
@@ -136,9 +135,8 @@ static ALWAYS_INLINE lanes bond_soften_column(const struct bond_column_view s, c
 static ALWAYS_INLINE void bond_soften_rows(const struct bonds *b, const struct particles *p, int64_t first,
                                            const int dim)
 {
-    const int32_t *row = b->particle + first;
     lanes x[DIM_MAX], lost = lanes_broadcast(0);
-    for (int d = 0; d < dim; d++) x[d] = lanes_load_or_gather(p->x[d], b->aligned[first / LANES] ? row[0] : -1, row);
+    bond_rows_load_positions(b, p, first, x, dim);
 #define VISIT(COLUMN) lost += bond_soften_column(COLUMN, p, x, dim)
     FOR_COLUMNS(b, first, VISIT);
 #undef VISIT
