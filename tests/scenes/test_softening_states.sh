@@ -70,7 +70,7 @@ done
 same() { if cmp "$work/$1/history.csv" "$work/$2/history.csv"; then pass; else fail "$1 and $2 differ"; fi; }
 "$cleave" run "$work/drive.yaml" -o "$work/two" -t 2 -q 2>"$work/two.err" || fail "two: $(cat "$work/two.err")"
 same drive two
-part=$(compute "0.3 * $(figure "$work/two" wall_seconds)")
+part=$(compute "0.1 * $(figure "$work/two" wall_seconds)")
 "$cleave" run "$work/drive.yaml" -o "$work/cut" -t 2 -q -s time.wall="$part" 2>/dev/null
 is "cut" $? 130
 "$cleave" run "$work/drive.yaml" -o "$work/cut" -t 1 -q --resume 2>"$work/cut.err" || fail "cut: $(cat "$work/cut.err")"
