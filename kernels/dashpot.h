@@ -1,17 +1,18 @@
-/* Velocity change by a dashpot: force -k (v_old + v_new)/2 within a leap-frog step, v_old and v_new being the
- * velocities at the ends of the step. All other forces are known, so the mean velocity has a closed form for any step
- * size: (v_old + change/2)/(1 + k dt/(2 m)), `change` due to the other forces. The work of its impulse, -k dt mean^2,
- * is never positive. */
+/* Computes the velocity change by a dashpot: a force -k (v_old + v_new)/2 in a leap-frog step, with the dashpot rate k
+ * [kg/s] and the velocities v_old and v_new at both ends of the step. Since all other forces are known, the mean
+ * velocity has a closed form for any step dt: mean = (v_old + change/2)/(1 + k dt/(2 m)), with the mass m and the
+ * velocity change `change` by all other forces. The work of the impulse -k dt mean is -k dt mean^2, which is never
+ * positive. */
 #ifndef CLEAVE_KERNELS_DASHPOT
 #define CLEAVE_KERNELS_DASHPOT
 
 #include "data/grid.h"
 
 /* Returns the impulse [N s] of a dashpot along axis `axis` on a node or particle in a step, by the implicit mean
- * velocity (v_old + v_new)/2. Adds impulse and dissipated energy to *a, and a quarter of the impulse times the change
- * of velocity to a->kick, which is excluded from the correction of the kinetic energy in energy balances. rate_dt:
- * dashpot rate times the duration of the step, k dt [kg]; mass [kg]; old_velocity: velocity v_old [m/s];
- * velocity_change: velocity change by all other forces [m/s]. */
+ * velocity (v_old + v_new)/2. Adds impulse and dissipated energy [J] to *a. Adds a quarter of impulse times velocity
+ * change to a->kick [J], which energy balances exclude from the correction of the kinetic energy. rate_dt: dashpot rate
+ * times duration of the step, k dt [kg]; mass [kg]; old_velocity: velocity v_old [m/s]; velocity_change: velocity
+ * change by all other forces [m/s]. */
 static inline real dashpot_compute_and_add_impulse(struct dashpot_effect *a, int axis, real rate_dt, real mass,
                                                    real old_velocity, real velocity_change)
 {
@@ -22,10 +23,9 @@ static inline real dashpot_compute_and_add_impulse(struct dashpot_effect *a, int
     return impulse;
 }
 
-/* Corrects a->energy, the energy that dashpots dissipate, and a->kick, a quarter of the sum of impulse times change of
- * velocity [J], to which dashpot_compute_and_add_impulse has added, if the velocity at the end of the step is
- * afterwards changed by a further `velocity_change` [m/s], along the same axis. impulse: of the dashpot on the body, as
- * dashpot_compute_and_add_impulse has returned it [N s]. */
+/* Corrects the energies in *a if a velocity is changed by a further `velocity_change` [m/s] after the call of
+ * dashpot_compute_and_add_impulse, along the same axis: a->energy, dissipated by dashpots, and a->kick, a quarter of
+ * the sum of impulse times velocity change [J]. impulse: result of dashpot_compute_and_add_impulse [N s]. */
 static inline void dashpot_correct_energy_for_velocity_change(struct dashpot_effect *a, real impulse,
                                                               real velocity_change)
 {

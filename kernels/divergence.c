@@ -1,5 +1,6 @@
-/* Test in every step whether any particle has diverged, i.e. is too fast or has a position or velocity that is not
- * finite. diagnostics.c finds the particle when the run stops for it. Reads 32 bytes per particle in 2D. */
+/* Tests in every time step whether a particle has diverged, i.e. is too fast or has a position or velocity that is not
+ * finite. If one has, the run stops, and diagnostics.c finds the particle. The test reads 32 bytes per particle in
+ * 2D. */
 #include "divergence.h"
 #include "kernels.h"
 #include "kernels/simd/variants.h"

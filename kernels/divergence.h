@@ -1,4 +1,4 @@
-/* Test for diverged particles. */
+/* Tests whether particles have diverged. */
 #ifndef CLEAVE_KERNELS_DIVERGENCE
 #define CLEAVE_KERNELS_DIVERGENCE
 

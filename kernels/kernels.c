@@ -1,4 +1,5 @@
-/* Selection of the kernels of a run, once, at set-up; and the table of a set of kernels. */
+/* Selects the kernels (inner loops of forces and transfers) of a run by dimension, model, shape function and transfer
+ * scheme, once at set-up. Defines the table of all kernels that are compiled for one set of machine instructions. */
 #include "kernels/simd/set.h"
 
 void kernels_choose(struct kernels *k, int dim, enum pd_model model, enum shape shape, enum transfer transfer)

@@ -1,6 +1,7 @@
-/* The hot loops: declares every kernel with what it reads, writes and returns. Each kernel has one body and many
- * instances (simd/variants.h). Plain references for tests: tests/support/reference.h (bond kernels), the tests of grid
- * and mesh (their kernels). Kernels cannot fail; they use no files, scenes, allocation or clocks. */
+/* Declares the kernels (the functions of the hot loops): what each reads, writes and returns. A kernel is written once
+ * and compiled for each combination of dimension and model or shape function (simd/variants.h). Tests compare kernels
+ * with plain code: those of bonds in tests/support/reference.h, those of grid and mesh in their tests. Kernels cannot
+ * fail; they use no files, scenes, allocation or clocks. */
 #ifndef CLEAVE_KERNELS_KERNELS
 #define CLEAVE_KERNELS_KERNELS
 
@@ -13,8 +14,8 @@
 #include "data/transfer_order.h"
 #include "data/turning.h"
 
-/* Shape functions of the material points on the background grid; and schemes (FLIP, APIC) by which velocities are
- * transferred between points and grid. */
+/* Shape functions of the material points on the background grid: linear, GIMP, cpGIMP, quadratic and cubic B-spline
+ * (kernels/mpm/shape.h). */
 enum shape { SHAPE_LINEAR, SHAPE_GIMP, SHAPE_CPGIMP, SHAPE_QUADRATIC, SHAPE_CUBIC, SHAPES };
 /* Transfer of velocities from the grid to points: changes of velocity (FLIP), or velocities and their gradient
  * (APIC). */
@@ -85,8 +86,8 @@ static inline bool point_has_own_state_based_bonds(const struct partial_stress *
     return any;
 }
 
-/* Inputs of the transfers between particles and grid, besides particles and grid themselves; all pointers are kept by
- * reference. */
+/* Inputs of the transfers between particles and grid besides the particles and the grid themselves. All pointers are
+ * borrowed. */
 struct transfer_data {
     const struct transfer_order *order;   /* order in which points are processed: by colour, block and cell */
     const struct partial_stress *partial; /* share of their stress that bonded points leave to bonds */
@@ -260,16 +261,16 @@ typedef void p2g_fn(struct grid *g, const struct particles *p, const struct tran
  * is p2g). transfer: points sorted by cell, step sizes. */
 typedef void musl_remap_fn(struct grid *g, struct particles *p, const struct transfer_data *transfer);
 
-/* First half of the grid-to-particle-to-grid remapping of MUSL for points in rotating groups (data/turning.h).
- * Interpolates the change dv of the nodal velocities in this step (in g->force [m/s]) to the points of p, v_p += sum N
- * dv, and stores in transfer->turn the angular momentum [kg m^2/s] that each point loses in this interpolation, for its
- * group. 2D and 3D. */
+/* Interpolates the change dv of the nodal velocities in this step (g->force [m/s]) to the points of p in rotating
+ * groups (data/turning.h): v_p += sum N dv, with the shape function N of a node. Stores in transfer->turn the angular
+ * momentum [kg m^2/s] that each point loses in this interpolation and its group must receive. First half of the
+ * remapping of MUSL (grid to particles to grid); 2D and 3D. */
 typedef void rotating_remap_gather_fn(const struct grid *g, struct particles *p, const struct transfer_data *transfer);
 
-/* Second half of the remapping of MUSL for points in rotating groups (data/turning.h). Adds the momentum m N (v_p + w x
- * (x_I - x_p)) of the points of p to the nodes x_I of g, with the spin w of the point's group in transfer->turn [1/s],
- * to second order in w dt (mpm/turn.h). If weights are computed ahead of the actual positions (g->ahead), adds their
- * mass, too. 2D and 3D. */
+/* Adds the momentum m N (v_p + w x (x_I - x_p)) of the points of p in rotating groups (data/turning.h) to the nodes x_I
+ * of g, with mass m, velocity v_p and position x_p of a point, shape function N, and the spin w of its group in
+ * transfer->turn [1/s]; to second order in w dt (mpm/turn.h). Adds the masses, too, if weights are computed ahead of
+ * the actual positions (g->ahead). Second half of the remapping of MUSL; 2D and 3D. */
 typedef void rotating_remap_scatter_fn(struct grid *g, const struct particles *p, const struct transfer_data *transfer);
 
 /* Moves the points of p with the nodal velocities of g, x_p += dt sum N v, and updates their stress, volume, plastic
@@ -324,15 +325,15 @@ KERNEL_TABLE(rotating_remap_scatter_fn, turn_scatter_table, [SHAPES]);
 KERNEL_TABLE(g2p_fn, g2p_table, [SHAPES][TRANSFERS]);
 KERNEL_TABLE(spread_to_nodes_fn, spread_table, [SHAPES]);
 
-/* Computes mass, centre, inertia and angular velocity (spin) of each group of t (neighbouring points that rotate
- * together, data/turning.h) from its points (of p) on the grid, before a step, and stores in t->turn, for each point,
- * the angular velocity of its group [1/s]. spacing: of the particles [m]. */
+/* Computes mass, centre, inertia and angular velocity (spin) of each group of t, before a step. A group consists of
+ * neighbouring points that rotate together (data/turning.h); sums are over its points of p on the grid. Stores in
+ * t->turn, for each point, the spin of its group [1/s]. spacing: of the particles [m]. */
 KERNEL(void, corotating_groups_compute_spins, (struct corotating_groups *t, struct particles *p, real spacing));
 
-/* Gives each group of t (points that rotate together, data/turning.h) the angular momentum that its points (of p) have
- * lost in the transfer from the grid (t->turn [kg m^2/s]), as a rotation about its centre of mass: adds this rotation
- * to the velocities of its points. Then stores in t->turn, for each point, the new angular velocity of its group [1/s].
- * Positions must be those of corotating_groups_compute_spins. */
+/* Returns lost angular momentum to the points of each group of t (points that rotate together, data/turning.h): adds up
+ * what its points (of p) have lost in the transfer from the grid (t->turn [kg m^2/s]), and adds a rotation about its
+ * centre of mass with this angular momentum to their velocities. Then stores in t->turn, for each point, the new
+ * angular velocity of its group [1/s]. Positions must be those of corotating_groups_compute_spins. */
 KERNEL(void, corotating_groups_restore_angular_momentum, (struct corotating_groups *t, struct particles *p));
 
 /* Stores in k the kernels for bodies of `dim` dimensions with the given peridynamic model, shape function of the grid

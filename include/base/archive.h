@@ -1,12 +1,12 @@
-/* State that must survive a restart, described once for saving and restoring. A module lists its state in one function
- * `x_archive(x, a)`; the same function saves and restores. checkpoint.c connects the archive to a file. */
+/* Archives of the state that must survive a restart. Each module lists its state in one function X_save_or_load(x, a),
+ * which both saves and restores it. checkpoint.c connects the archive to a file. */
 #ifndef CLEAVE_ARCHIVE
 #define CLEAVE_ARCHIVE
 
 #include "base.h"
 
-/* Part of the state of a run that an archive holds. A state function saves and restores nothing if none of its state
- * belongs to the scope of the archive. */
+/* Parts of the state of a run that an archive can contain. A state function X_save_or_load(x, a) saves and restores
+ * nothing if none of the state of its module belongs to the part a->scope. */
 enum archive_scope {
     ARCHIVE_ALL,      /* everything that a resumed run needs */
     ARCHIVE_REBUILD,  /* state passed on when a body is rebuilt with other particles, except particles, bonds, nodes and

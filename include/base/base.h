@@ -1,13 +1,15 @@
-/* Room `base`: numbers, status, memory, threads, archives, warnings. It contains no mechanics and uses no other room;
- * every room may call it.
+/* Room `base` (a room is a folder of include/ and src/): number types, status codes, memory, threads,
+ * archives, warnings. It contains no mechanics and uses no other room; every room may call it.
  *
- * Number types, status, and the conventions of every file.
+ * This header: number types, status codes, and the conventions of all files.
  *
- * Units: SI everywhere inside the program (m, kg, s, Pa, J); units of the scene are converted when it is read.
- * Components: arrays of components are `real *x[DIM_MAX]`; only the first `dim` are allocated and used. Symmetric
- * tensors store dim (dim + 1) / 2 components in the order
+ * Units: SI everywhere inside the program (m, kg, s, Pa, J); values of the input file are converted when it
+ * is read.
+ *
+ * Components: a vector field is stored as one array per component, `real *x[DIM_MAX]`; only the first `dim`
+ * arrays are allocated and used. Symmetric tensors store dim (dim + 1) / 2 components in the order
  *     1D: xx      2D: xx yy xy      3D: xx yy zz xy yz zx
- * with tensor (not engineering) shear for strains. */
+ * with tensor (not engineering) shear components for strains. */
 #ifndef CLEAVE_BASE
 #define CLEAVE_BASE
 
@@ -20,11 +22,12 @@
 
 typedef double real;
 
-/* Largest numbers: of coordinates; of components of a symmetric tensor; room for a name, and for a long one, with its
- * final 0 [byte]. */
+/* Defines sizes of arrays. DIM_MAX: largest number of coordinates; SYM_MAX: largest number of components of a symmetric
+ * tensor; NAME_MAX_LENGTH, LONG_NAME_LENGTH: capacity of a name and of a long name, with the terminating 0 [byte]. */
 enum { DIM_MAX = 3, SYM_MAX = 6, NAME_MAX_LENGTH = 64, LONG_NAME_LENGTH = 256 };
 
-/* Attributes of functions; number of elements of an array. */
+/* Define compiler attributes of functions, ALWAYS_INLINE and NEVER_INLINE, and COUNT_OF(a), the number of elements of
+ * the array a (not a pointer). */
 #define ALWAYS_INLINE inline __attribute__((always_inline))
 #define NEVER_INLINE __attribute__((noinline)) /* for large functions called from several places: compiled once */
 #define COUNT_OF(a) (sizeof(a) / sizeof((a)[0]))
@@ -75,8 +78,8 @@ void status_message_append_line(const char *format, ...) __attribute__((format(p
  * failure. */
 const char *status_message(void);
 
-/* Capacity [bytes], with the final zero byte, of the text `file:line:column: key: ` at the beginning of a message about
- * a scene; the text is empty if the position is unknown. */
+/* Capacity [byte], with the terminating 0, of the text `file:line:column: key: ` at the beginning of a message about an
+ * input file. The text is empty if the position in the file is unknown. */
 enum { PLACE_LENGTH = 512 };
 
 /* Prepends `location`, a position in the input file such as `file:line:column: key: `, to the message set by
@@ -85,8 +88,8 @@ enum { PLACE_LENGTH = 512 };
 status status_message_prepend_location(const char *location, status s);
 
 /* Ends the program by invariant_report_violation_and_abort if `condition` is false. For conditions that hold in every
- * run of a correct program; unlike assert of C it is part of every build. What a scene, a file or the system can cause
- * is a status instead. */
+ * run of a correct program; unlike assert of C it is part of every build. A function whose failure an input file,
+ * another file or the system can cause returns a status instead. */
 #define INVARIANT(condition)                                                                                           \
     ((condition) ? (void)0 : invariant_report_violation_and_abort(#condition, __FILE__, __LINE__, __func__))
 

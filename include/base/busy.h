@@ -1,4 +1,4 @@
-/* Other programs on the machine: by how much they make a computation take longer than its processor time. */
+/* Measures the load of the machine by other programs, and how much longer a computation takes because of it. */
 #ifndef CLEAVE_BUSY
 #define CLEAVE_BUSY
 

@@ -9,9 +9,9 @@
  * each word are compared. */
 int edit_distance(const char *a, const char *b);
 
-/* Returns true if `word` is probably `other_word` misspelt, or the reverse. With n the length of the shorter word (at
- * least 2, both together at least 5 letters), the edit distance must be at most 1, or 2 if n >= 8 or if n >= 5 and the
- * first and the last letters are equal. */
+/* Returns true if `word` is probably `other_word` misspelt, or the reverse. The shorter word must have at least 2
+ * letters, both together at least 5. Their edit distance must be at most 1. It may be 2 if the shorter word has at
+ * least 8 letters, or at least 5 while the first and the last letters of both words are equal. */
 bool word_is_probable_misspelling_of(const char *word, const char *other_word);
 
 #endif

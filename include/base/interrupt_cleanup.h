@@ -4,8 +4,9 @@
 
 #include <stdbool.h>
 
-/* Kinds of temporary files that are removed if a signal ends the process: a picture, a frame of an animation, an
- * animation. LEAVINGS is their number. */
+/* Kinds of temporary files that are removed if a signal ends the process. LEAVING_PICTURE: picture that gnuplot draws;
+ * LEAVING_FRAME: picture of one frame of an animation, or of a report page; LEAVING_FILM: animation. LEAVINGS: number
+ * of kinds. */
 enum cleanup_kind { LEAVING_PICTURE, LEAVING_FRAME, LEAVING_FILM, LEAVINGS };
 
 /* Sets what is cleaned up if SIGINT, SIGTERM or SIGHUP ends this process: first the child with the id

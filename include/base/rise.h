@@ -1,9 +1,9 @@
-/* Growth of a quantity that is bounded in a stable run: records some of its values, and computes from them the duration
- * of the last tenfold increase.
+/* Growth of a quantity that stays bounded in a stable computation: records some of its values, and computes from them
+ * the duration of the last tenfold increase, in time steps.
  *
- * A mode of a leap-frog step dt above its limit dt_c is multiplied by -r in every step, r + 1/r = 4 (dt/dt_c)^2 - 2:
- * its square grows tenfold in RISE_STEPS steps if dt exceeds dt_c by 1.7e-5 dt_c, and faster beyond. Slower growth is
- * not caused by the time step. */
+ * If the time step dt of leap-frog exceeds the critical step dt_c of a vibration mode, every step multiplies the mode
+ * by -r, where r > 1 and r + 1/r = 4 (dt/dt_c)^2 - 2. Its square grows tenfold in RISE_STEPS steps if dt exceeds dt_c
+ * by 1.7e-5 dt_c, and faster beyond. Slower growth is not caused by the time step. */
 #ifndef CLEAVE_RISE
 #define CLEAVE_RISE
 

@@ -4,7 +4,8 @@
 
 #include "base.h"
 
-/* Processor cores, caches and memory of the machine, as far as this process may use them. */
+/* Processor cores, caches and memory of the machine, as far as the affinity mask and the memory limits of this process
+ * allow it to use them. */
 struct machine {
     int cores, threads_allowed; /* physical cores; hardware threads in the process's mask */
     int64_t cache[4];           /* size of one L1d, L2, L3 cache (index 1 .. 3), 0 if unknown [byte] */
@@ -36,16 +37,17 @@ const char *machine_memory_limit_describe_source(void);
 /* Returns the number of physical cores that the process may use. */
 int machine_physical_core_count(void);
 
-/* Divides the cores that this process may use into `share_count` equal parts, for processes that run side by side
- * (cpu_core_partition_bind_calling_thread). Returns NULL if there are fewer cores than shares, or only one share.
- * Release with cpu_core_partition_free. */
+/* Divides the cores that this process may use into `share_count` equal groups, for processes that run side by side:
+ * cpu_core_partition_bind_calling_thread binds each of them to one group. Returns NULL if there are fewer cores than
+ * groups, or only one group. Release with cpu_core_partition_free. */
 struct cpu_core_partition *cpu_core_partition_make(int share_count);
 
-/* Binds the calling thread, and processes that this thread starts later, to the cores of share number `share_number`
- * (from 0) of s; -1 restores the binding that the thread had before. Does nothing if s is NULL. */
+/* Binds the calling thread, and processes that this thread starts later, to group number `share_number` (from 0) of the
+ * cores in the partition s (cpu_core_partition_make). share_number = -1 restores the binding that the thread had before
+ * the first call. Does nothing if s is NULL. */
 void cpu_core_partition_bind_calling_thread(const struct cpu_core_partition *s, int share_number);
 
-/* Releases the shares of cores s. */
+/* Releases the partition s, the division of the processor cores into groups (cpu_core_partition_make). */
 void cpu_core_partition_free(struct cpu_core_partition *s);
 
 /* Returns the time of the wall clock [s], from an arbitrary origin, to measure durations. */
@@ -71,9 +73,9 @@ void reproducible_sums(int64_t term_count, int sum_count,
                        void (*add_block_of_terms)(const void *context, int64_t first, int64_t end, real *sum),
                        const void *context, real *sum);
 
-/* Timed sections of a time step: forces of bonds, particles to grid, motion of grid nodes, grid to particles,
- * conversion of material points, samples of time series, files. timer_name[TIMERS]: names of the sections for
- * tables. */
+/* Sections of a time step that are timed: forces of bonds (TIMER_BONDS), mapping of particles to the grid (SCATTER),
+ * motion of grid nodes (GRID), mapping of the grid to particles (GATHER), conversion of material points (CONVERT),
+ * samples of time series (SAMPLE), files (OUTPUT). timer_name[TIMERS]: name of each section for tables. */
 enum timer { TIMER_BONDS, TIMER_SCATTER, TIMER_GRID, TIMER_GATHER, TIMER_CONVERT, TIMER_SAMPLE, TIMER_OUTPUT, TIMERS };
 extern const char *const timer_name[TIMERS];
 

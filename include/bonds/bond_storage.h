@@ -1,37 +1,43 @@
-/* Storage of bonds. Only src/bonds and kernels/pd use the members of these structures (tests/house.sh); all other files
- * read bonds through the iterator of bonds.h.
+/* Storage of bonds. Only src/bonds and kernels/pd use the members of these structures (tests/house.sh); all
+ * other files read bonds through the iterator of bonds.h.
  *
- * Rows exist only for peridynamic particles (whole neighbourhood) and bonded material points (their peridynamic
- * neighbours), in ascending particle order: memory and time follow the crack, not the body. Eight consecutive rows form
- * a block, which stores its bonds column by column, lane l of a column being a bond of row l; shorter rows are padded
- * (SELL-C layout with C = 8, Kreutzer et al. 2014). Kinds of columns (enum column_kind of kernels/pd/bond_column.h),
- * and the data that a hot loop reads of each:
+ * A bond row contains the bonds of one particle. Rows exist only for peridynamic particles (bonds to all
+ * neighbours) and for material points with bonds (bonds to peridynamic neighbours), in ascending order of the
+ * particles. Memory and time thus depend on the size of the peridynamic zone, not of the body. Eight
+ * consecutive rows form a block (SELL-C layout with C = 8, Kreutzer et al. 2014), which stores its bonds
+ * column by column: a column has eight bonds, lane l of it being a bond of row l of the block; shorter rows
+ * are padded. Kinds of columns (enum column_kind of kernels/pd/bond_column.h), and the data that the loops
+ * over bonds read of each:
  *
- *     block       kind      the eight bonds                                          nbr  1/r  w   common  stencil
- *     stores      FREE      any neighbours, or consecutive ones from first on         x    x   x    first
- *     stores      SHELL     consecutive, lengths of shell k up to round-off                  x     x
- *     stores      ALIKE     as SHELL, intact ones of one weight: four bytes per bond               x
- *     implicit    STENCIL   as in other blocks, each lane with its own weight                              x
- *     implicit    WHOLE     as STENCIL, all lanes present, one weight                                      x
- *     implicit    UNIT      as WHOLE, with weight 1                                                        x
+ *   block     kind     the eight bonds                                           nbr 1/r w  common stencil
+ *   stores    FREE     any neighbours, or consecutive ones from first on         x   x   x  first
+ *   stores    SHELL    consecutive, lengths of shell k up to round-off                   x  x
+ *   stores    ALIKE    as SHELL, intact ones of one weight: four bytes per bond             x
+ *   implicit  STENCIL  as in other blocks, each lane with its own weight                           x
+ *   implicit  WHOLE    as STENCIL, all lanes present, one weight                                   x
+ *   implicit  UNIT     as WHOLE, with weight 1                                                     x
  *
- * In blocks of eight rows that store columns, `nbr`, `inverse_length` and `w` are complete, and `common` is derived
- * from them by bond_column_update_lane_uniform_properties. All kinds give equal bits. Where the rows of a block have
- * neighbours at equal index distances (a lattice), a column has one distance, and its eight neighbours are consecutive.
+ * In blocks of eight rows that store columns, the arrays `nbr`, `inverse_length` and `w` are complete, and
+ * `common` is derived from them by bond_column_update_lane_uniform_properties. All kinds give bitwise equal
+ * forces. Where the eight particles of a block have neighbours at equal index distances (on a lattice), a
+ * column has one distance, and its eight neighbours are consecutive.
  *
- * Most blocks of eight rows of a lattice have equal bonds at equal index distances. They follow one stencil, read from
- * the nearest cache, and store nothing of their own (they are implicit) until one of their bonds is written. Address
- * space is reserved for all columns, but only written columns take memory.
+ * Most blocks of a lattice have equal bonds at equal index distances. They follow one stencil (struct
+ * stencil), which stays in the nearest cache, and are implicit: they store no columns of their own until one
+ * of their bonds is written. Address space is reserved for all columns, but only written columns take memory.
  *
- * When rows are rebuilt, unchanged blocks of eight rows keep their columns; others are placed in the holes of removed
- * blocks, or behind all stored columns.
+ * When rows are rebuilt, unchanged blocks of eight rows keep their columns; others are written to free
+ * columns of removed blocks, or behind all stored columns.
  *
- * Invariants (bonds_describe_first_inconsistency, called by builds with -DCLEAVE_ASSERT whenever rows are made):
+ * Invariants (bonds_describe_first_inconsistency, called by builds with -DCLEAVE_ASSERT whenever rows are
+ * made):
  *     rows ascend by particle, and row_of is the inverse of `particle`;
- *     an implicit block of eight rows follows a stencil, has as many columns as its stencil, and no broken bond;
- *     a bond with w != 0 has inverse_length > 0, and its neighbour, if it has a row, is within `reach` blocks of eight
- * rows; a lane without a bond (inverse_length 0) has w = 0; first >= 0 means that the neighbours of the lanes with a
- * bond are first + lane; common has the intact lanes, and first, of the stored columns. */
+ *     an implicit block of eight rows follows a stencil, has as many columns as this, and no broken bond;
+ *     a bond with w != 0 has inverse_length > 0;
+ *     the neighbour of a bond with w != 0, if it has a row, is within `reach` blocks of eight rows;
+ *     a lane without a bond (inverse_length 0) has w = 0;
+ *     first >= 0 means that the neighbours of the lanes with a bond are first + lane;
+ *     common has the intact lanes, and first, of the stored columns. */
 #ifndef CLEAVE_BOND_STORAGE
 #define CLEAVE_BOND_STORAGE
 
@@ -51,17 +57,18 @@ struct bond_plasticity {
  * member `end` of this bond is then the stretch above which the bond is examined. */
 #define SOFTENING_NEVER 1e30f
 
-/* State of a block of eight rows (the bonds of eight particles) before the next sweep over the bonds. */
+/* Tells whether bonds of a block of eight rows (the bonds of eight particles) must be examined for the onset of
+ * softening before the forces of bonds are computed next. */
 enum softening_due {
     DUE_NOT,       /* no bond of the block of eight rows may begin to soften */
     DUE_NEW,       /* a bond may begin to soften and is to be examined */
     DUE_AGAIN,     /* a bond was examined and may not soften yet; it is examined again if bond_limit.retries */
     DUE_DENIED = 4 /* bit that is set while blocks of eight rows are examined; becomes DUE_AGAIN afterwards */
 };
-/* Softening of bonds (data/softening.h): k is the largest stretch of a bond so far, s_0 and s_f are the stretches at
- * which it begins to soften and breaks, d is its softening, 0 to 1. Arrays [columns 8] have eight entries, one per
- * bond, for each column (one bond of each of eight particles). They are valid in a block of eight rows, the bonds of
- * eight particles, once one of its bonds has begun to soften. */
+/* State of the softening of all bonds (data/softening.h). Of a bond, k is the largest stretch so far, and d (0 to 1) is
+ * the lost fraction of its stiffness; it begins to soften at the stretch s_0 and breaks at s_f. Arrays [columns 8] have
+ * eight entries for each column, one per bond. They are valid in a block of eight rows (the bonds of eight particles)
+ * once one of its bonds has begun to soften. */
 struct softened {
     const struct softening_curve *curve; /* NULL: no bond softens */
     float *most, *onset, *end;           /* [columns 8] largest stretch k, s_0, s_f of each bond [1] */
@@ -152,8 +159,9 @@ struct bond_length {
     real inverse, length, square; /* 1/r [1/m], r [m], r^2 [m^2] */
 };
 
-/* Common properties of the eight bonds of a column, derived from first, w and inverse_length by
- * bond_column_update_lane_uniform_properties: on a lattice the hot loops read only these, four bytes per bond. */
+/* Properties that the eight bonds of one column (one bond of each particle of a block of eight rows) have in common,
+ * derived from the arrays first, w and inverse_length by bond_column_update_lane_uniform_properties. On a lattice the
+ * loops over bonds read only this structure, four bytes per bond. */
 struct bond_column {
     int16_t excess[LANES]; /* |inverse_length| less that of the shell, in units of the last place: positions are
                               rounded; the sum is exact */
@@ -167,8 +175,8 @@ struct bond_column {
                       (softened.begun) */
 };
 
-/* One column of a stencil: eight bonds, one of each of eight consecutive particles, that many blocks of eight rows (the
- * bonds of eight particles) have in common. */
+/* One column of a stencil (struct stencil): a bond of each of eight consecutive particles, all to the neighbour at the
+ * same index distance, as many blocks of eight rows (the bonds of eight particles) have it. */
 struct stencil_column {
     int32_t offset;                  /* index of the neighbours less index of the particles of the rows */
     uint8_t intact, shell;           /* as in struct bond_column */
@@ -179,10 +187,10 @@ struct stencil_column {
     real xi[DIM_MAX], w_xi[DIM_MAX]; /* X_j - X_i, and w times X_j - X_i [m] */
 };
 
-/* Bonds that blocks of eight rows, of eight consecutive particles, share: equal neighbours at equal distances with
- * equal weights (factors on the stiffness), no bond broken. Most blocks of a lattice follow one of few stencils, whose
- * columns stay in the nearest cache. Columns of such blocks are written only when a bond is accessed by index
- * (bond_row_block_copy_bonds_from_stencil). */
+/* Pattern of bonds that many blocks of eight rows (the bonds of eight consecutive particles) have in common: neighbours
+ * at equal index distances and equal reference vectors, equal weights (factors on the stiffness), no broken bond. Most
+ * blocks of a lattice follow one of few stencils, whose columns stay in the nearest cache. Such a block writes columns
+ * of its own only when a bond is accessed by index (bond_row_block_copy_bonds_from_stencil). */
 struct stencil {
     int columns;                   /* number of columns, i.e. of bonds of a row */
     bool whole;                    /* all lanes have all bonds, with one weight */
@@ -194,24 +202,24 @@ struct stencil {
 struct stencil_table;    /* all stencils (bonds_stencils.c) */
 struct lattice_site_map; /* particle at each site of a lattice (bonds_site_map.c) */
 
-/* Free columns of a removed block of eight rows (the bonds of eight particles), to be used when rows are rebuilt:
- * `columns` columns, the first of which is number `column`. */
+/* Range of free columns (eight bonds each) that a removed block of eight rows (the bonds of eight particles) has left:
+ * `columns` columns from column number `column` on. Rebuilt rows are stored there. */
 struct bond_hole {
     int64_t column;
     int32_t columns;
 };
 
-/* List of n free ranges of columns (eight bonds each), whose blocks of eight rows (the bonds of eight particles) were
- * removed: hole[n]. */
+/* List of the ranges of free columns in the bond arrays, hole[n], which removed blocks of eight rows (the bonds of
+ * eight particles) have left. */
 struct bond_holes {
     int64_t n;
     struct bond_hole *hole;
 };
 
-/* The bonds of all particles, in arrays that this structure owns. A row has the bonds of one particle. A block is a
- * group of eight rows stored together, a column a group of eight bonds, one of each row of a block. Lengths of arrays:
- * [columns 8] one entry per bond, [row_blocks 8] one per row, [n_all] one per particle or mirror image (copy beyond a
- * plane of symmetry). */
+/* The bonds of all particles, in arrays that this structure owns. A row has the bonds of one particle; a block has
+ * eight rows, which are stored together; a column of a block has eight bonds, one of each row. Lengths of arrays:
+ * [columns 8] one entry for each bond, [row_blocks 8] for each row, [row_blocks] for each block, [n_all] for each
+ * particle or mirror image (copy beyond a plane of symmetry). */
 struct bonds {
     int64_t rows, row_blocks, columns; /* numbers of rows, of blocks and of columns that all blocks need */
     int64_t used, room;                /* number of columns that are or were in use in the arrays; their capacity */
@@ -257,8 +265,8 @@ struct bonds {
     real stiffness; /* c V V of a bond between reference particles: force = stiffness w s [N] */
 };
 
-/* Returns true if block `row_block` of eight rows of b (the stored bonds of eight particles) has eight rows, all of
- * them of peridynamic particles, so that each row stores the bonds to all neighbours of its particle. */
+/* Returns true if block `row_block` of b (a group of rows, each with the bonds of one particle) has eight rows, all of
+ * peridynamic particles. Each row then contains the bonds to all neighbours of its particle. */
 static inline bool bond_row_block_has_eight_pd_particles(const struct bonds *b, int64_t row_block)
 {
     return eight_bytes_as_word(b->whole + row_block * LANES) == EIGHT_TIMES(1);
@@ -288,9 +296,9 @@ static inline struct bond_softening_state bond_softening_state_read(const struct
                                          softened->whole ? softened->whole[bond] : 0};
 }
 
-/* Stores `state` as the softening state of the bond with index `bond` in the arrays of b. Also sets or clears the bit
- * of this bond that tells that it has begun to soften, in the properties of its column (eight bonds, one of each of
- * eight particles, stored together). */
+/* Stores `state` as the softening state of the bond with index `bond` in the arrays of b. Also updates the bit of this
+ * bond in the properties of its column (eight bonds, one of each of eight particles) that is set if the bond has begun
+ * to soften. */
 static inline void bond_softening_state_write(struct bonds *b, int64_t bond, struct bond_softening_state state)
 {
     struct bond_column *column = &b->common[bond / LANES];
@@ -328,18 +336,19 @@ static inline real bond_weight_before_softening(const struct bonds *b, int64_t r
     return bond_is_softening(b, row_block, bond) ? b->soft.whole[bond] : present_weight;
 }
 
-/* Requests that the bonds of block `row_block` of eight rows of b (the bonds of eight particles) are checked before
- * forces are computed next, because one of them may begin to soften (kernels/pd/bond_begin.c). May be called by several
- * threads at once. */
+/* Requests a check of the bonds of block `row_block` of eight rows of b (the bonds of eight particles), one of which
+ * may begin to soften. The check takes place before forces are computed next (kernels/pd/bond_begin.c). May be called
+ * by several threads at once. */
 static inline void bond_row_block_request_softening_check(struct bonds *b, int64_t row_block)
 {
     if (b->soft.due[row_block] == DUE_NOT) b->soft.due[row_block] = DUE_NEW;
     __atomic_store_n(&b->soft.any_due, true, __ATOMIC_RELAXED); /* several threads may set it */
 }
 
-/* Returns the share 1 - d of its stiffness that the bond with index `bond` in the arrays of b keeps at the stretch
- * `stretch` [1], where d is its softening, 0 to 1. row_block: block of eight rows (the bonds of eight particles) that
- * contains the bond. Returns 1 in state-based models, whose bond weights already contain this factor. */
+/* Returns the fraction 1 - d [1] of the initial stiffness of the bond with index `bond` in the arrays of b that remains
+ * at the stretch `stretch` [1]; d (0 to 1) is the softening. row_block: block of eight rows (the bonds of eight
+ * particles) that contains the bond. Returns 1 in state-based models, whose bond weights already contain this
+ * factor. */
 static inline real bond_remaining_stiffness_fraction(const struct bonds *b, int64_t row_block, int64_t bond,
                                                      real stretch)
 {
@@ -361,8 +370,8 @@ static inline real bond_softening_dissipation_per_particle(const struct bonds *b
            fabs(b->inverse_length[bond]);
 }
 
-/* Marks particle i of p, one of whose bonds in b begins to soften, for conversion to a peridynamic particle if it is a
- * material point, since the stress of a material point does not include the softening of bonds. May be called by
+/* Marks particle i of p, one of whose bonds in b begins to soften, if it is a material point. It is then converted to a
+ * peridynamic particle, since the stress of a material point does not include the softening of bonds. May be called by
  * several threads at once for different particles. */
 static inline void softening_flag_material_point_for_conversion(struct bonds *b, struct particles *p, int32_t i)
 {
@@ -371,19 +380,17 @@ static inline void softening_flag_material_point_for_conversion(struct bonds *b,
     __atomic_store_n(&b->soft.at_points, true, __ATOMIC_RELAXED);
 }
 
-/* Recomputes b->common[column_number], the properties that the eight bonds of a column (one bond of each particle of a
- * block of eight rows) have in common, from their stored weights (factors on the stiffness) and lengths. Required after
- * a change of the weight of a bond or of the sign of its inverse length; usually called through
+/* Recomputes b->common[column_number], the common properties of the eight bonds of a column (one bond of each particle
+ * of a block of eight rows), from their stored weights (factors on the stiffness) and lengths. Required after a change
+ * of the weight of a bond or of the sign of its inverse length; usually called through
  * bond_update_cached_data_after_modification. */
 void bond_column_update_lane_uniform_properties(const struct bonds *b, int64_t column_number);
 
-/* Updates all data that b derives from a bond, after the weight of the bond (factor on its stiffness) or the sign of
- * its inverse length has changed. bond: index of the bond in the bond arrays, from
- * bond_copy_on_write_and_return_array_index; row_number: number of its row, i.e. of the list of bonds of one particle.
- * Recomputes which properties the bond has in common with those of the other seven particles stored beside it in its
- * column (struct bond_column: intact, equal weights, tabulated length), marks its block of eight rows as changed and as
- * following no stencil (pattern of bonds shared by many blocks) any more, and marks the copies of weights in b->clamped
- * as out of date. */
+/* Updates all data of b that depend on a bond, after its weight (factor on its stiffness) or the sign of its inverse
+ * length has changed. Recomputes the common properties of its column (bond_column_update_lane_uniform_properties).
+ * Marks its block of eight rows (the bonds of eight particles) as changed and as following no stencil (pattern of bonds
+ * shared by many blocks). Marks the copies of weights in b->clamped as out of date. row_number: number of the row of
+ * the bond; bond: index of the bond, from bond_copy_on_write_and_return_array_index. */
 void bond_update_cached_data_after_modification(struct bonds *b, int64_t row_number, int64_t bond);
 
 /* Initialises the stored softening state of all bonds of block `row_block` of eight rows of b (the bonds of eight
@@ -391,17 +398,16 @@ void bond_update_cached_data_after_modification(struct bonds *b, int64_t row_num
 void bond_row_block_initialise_softening(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                                          int64_t row_block);
 
-/* Writes the columns of block `row_block` of eight rows of b (the bonds of eight particles), which stored none and
- * followed a stencil (a pattern of bonds shared by many blocks of a lattice), so that its bonds can be changed. Does
- * nothing if the columns are already written. May be called by several threads at once. */
+/* Writes the columns of block `row_block` of eight rows of b (the bonds of eight particles), so that its bonds can be
+ * changed. The block has stored none so far, because it followed a stencil (pattern of bonds shared by many blocks of a
+ * lattice). Does nothing if the columns are already written. May be called by several threads at once. */
 void bond_row_block_copy_bonds_from_stencil(struct bonds *b, int64_t row_block);
 
-/* Returns the index in the bond arrays of b (nbr: neighbours, inverse_length, w: weights, i.e. factors on the
- * stiffness, and others) of bond number `bond_number`, from 0, of one particle, so that the caller may write to this
- * entry. The particle is that of lane `lane` (0 to 7) of block `row_block` of eight rows (the bonds of eight
- * particles). If the block has no entries yet, because it follows a stencil (a pattern of bonds shared by many blocks),
- * its bonds are first copied from the stencil to the arrays. After a change of w or of the sign of inverse_length the
- * caller must call bond_update_cached_data_after_modification. */
+/* Returns the index of a bond in the bond arrays of b (nbr, inverse_length, w and others), so that the caller may write
+ * to this entry. The bond is number `bond_number` (from 0) of the particle in lane `lane` (0 to 7) of block `row_block`
+ * of eight rows (the bonds of eight particles). If the block has no entries yet, because it follows a stencil (pattern
+ * of bonds shared by many blocks), its bonds are first copied from the stencil to the arrays. After a change of w or of
+ * the sign of inverse_length the caller must call bond_update_cached_data_after_modification. */
 static inline int64_t bond_copy_on_write_and_return_array_index(struct bonds *b, int64_t row_block, int64_t bond_number,
                                                                 int lane)
 {

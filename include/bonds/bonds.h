@@ -1,6 +1,7 @@
-/* Room `bonds`: neighbourhoods of particles and the bonds between them. It uses particles, cells, materials and
- * regions, but neither loads nor the step; kernels, coupling, fracture, solver and engine call it. family.h defines
- * which bonds exist, bond_storage.h how they are stored; this header makes and reads them. */
+/* Room `bonds` (folder of include/ and src/): neighbourhoods of particles and the bonds between them. It uses
+ * particles, cells, materials and regions, but neither loads nor the time step; kernels, coupling, fracture, solver and
+ * engine call it. family.h defines which bonds exist, bond_storage.h how they are stored; this header makes and reads
+ * them. */
 #ifndef CLEAVE_BONDS
 #define CLEAVE_BONDS
 
@@ -45,14 +46,14 @@ static inline real gershgorin_bound_largest_eigenvalue(const struct gershgorin_b
 bool precracks_cut_bond_between(const struct crack *precrack, int precrack_count, const struct particles *p,
                                 int64_t particle, int64_t other_particle);
 
-/* Returns an upper bound of the number of neighbours of any particle within the cutoff, to which arrays are allocated:
- * source->room if it is set (> 0), else computed from the numbers of particles in search cells. source: inputs of the
- * bonds (horizon, materials, cracks, mirrors). */
+/* Returns an upper bound of the number of neighbours of any particle within the cutoff, by which callers choose the
+ * length of arrays of neighbours: source->room if it is > 0, else a bound from the numbers of particles in the search
+ * cells. source: inputs of the bonds (horizon, materials, cracks, mirrors). */
 int bonds_neighbour_count_upper_bound(const struct bond_source *source);
 
-/* Computes the neighbour volume V_i^H = sum V_j beta of every particle i of p, as if no pre-crack cut its bonds, where
- * V_j is the volume of neighbour j and beta the fraction of this volume within the horizon. volume[p->n_all]: receives
- * the results [m^3]; source: inputs of the bonds (horizon, materials, cracks, mirrors). */
+/* Computes the neighbour volume V_i^H = sum V_j beta of every particle i of p, as if no pre-crack cut its bonds. V_j is
+ * the volume of neighbour j, and beta the fraction of this volume within the horizon. volume[p->n_all]: receives the
+ * results [m^3]; source: inputs of the bonds (horizon, materials, cracks, mirrors). */
 void bonds_compute_family_volumes(real *volume, const struct particles *p, const struct bond_source *source);
 
 /* Creates b, the bonds of all peridynamic particles and bonded material points of p, from `source` (horizon, materials,
@@ -78,10 +79,10 @@ real bonds_row_stiffness_eigenvalue_upper_bound(const struct bonds *b, const str
 /* Releases all arrays of the bonds b, not b itself. */
 void bonds_free(struct bonds *b);
 
-/* Returns a lower bound [s] of the critical time step 2/omega_max that the particles p would have if all of them were
- * peridynamic and no bond broken, with the block-Gershgorin bound of the largest angular frequency omega_max. source:
- * inputs of the bonds, from which bonds are computed for this purpose; no stored bonds are needed. INFINITY if no
- * particle has a bond. */
+/* Returns a lower bound [s] of the critical time step 2/omega_max of the particles p in the state in which all of them
+ * are peridynamic and no bond is broken. The largest angular frequency omega_max is bounded by block-Gershgorin.
+ * source: inputs of the bonds, from which bonds are computed for this purpose; no stored bonds are needed. Returns
+ * INFINITY if no particle has a bond. */
 real bonds_critical_time_step_if_all_peridynamic(const struct particles *p, const struct bond_source *source);
 
 /* Returns a lower bound [s] of the critical time step 2/omega_max of the existing bonds b of the particles p. Valid
@@ -108,9 +109,9 @@ status bonds_save_or_load(struct bonds *b, struct particles *p, struct archive *
  * subtracting broken bonds from a stored sum would leave round-off when few bonds remain. */
 real state_based_weighted_volume_of_intact_bonds(const struct bonds *b, int64_t row);
 
-/* Recomputes the weighted volume Q = sum w r^2 [m^2] that b stores for every particle of p with bonds, with the weights
- * w (factors on the stiffness) and reference lengths r of its intact bonds. Only for state-based models. source: inputs
- * of the bonds (horizon, materials, cracks, mirrors). */
+/* Recomputes the weighted volume Q = sum w r^2 [m^2] of every particle of p with bonds, and stores it in b. The sum is
+ * over the intact bonds, with weights w (factors on the stiffness) and reference lengths r. Only for state-based
+ * models. source: inputs of the bonds (horizon, materials, cracks, mirrors). */
 void state_based_update_weighted_volumes(struct bonds *b, const struct particles *p, const struct bond_source *source);
 
 /* Checks the stored bonds b against the invariants listed in bond_storage.h. Returns a text that describes the first
@@ -120,22 +121,22 @@ const char *bonds_describe_first_inconsistency(const struct bonds *b);
 /* Returns the energy [J] that the intact bonds of b have dissipated by softening so far. */
 real bonds_dissipated_softening_energy(const struct bonds *b);
 
-/* Returns the energy [J] released by the broken bonds of row `row` of b (all bonds of one particle) since the start,
- * plus half of the energy that the intact bonds of the row have dissipated by softening. The sum over all rows is
- * bonds_fracture_energy. */
+/* Returns the fracture energy [J] of row `row` of b (all bonds of one particle): the energy released by its broken
+ * bonds since the start, plus half of the energy that its intact bonds have dissipated by softening. The sum over all
+ * rows is bonds_fracture_energy. */
 real bonds_row_fracture_energy(const struct bonds *b, int64_t row);
 
-/* Returns true if an intact bond of row `row` of b (all bonds of one particle) has begun to soften, by its stretch or
- * because the strength surface of the material was reached; false if row is -1. */
+/* Returns true if an intact bond of row `row` of b (all bonds of one particle) has begun to soften, because of its
+ * stretch or of the strength surface of the material; false if there is none, or if row is -1. */
 bool bonds_row_has_begun_softening(const struct bonds *b, int64_t row);
 
 /* Starts the softening of bonds of b where the stress of particles p has reached the strength surface of the material,
  * a failure criterion in stress (bonds_strength.c). Computes, at the present positions and for particles with large
- * bond stretches, the ratio U of the stress of the particle to the stress on the strength surface. Where U reaches 1
- * (or the random strength factor of the particle, if it has one), those bonds of the particle that have not begun to
- * soften do so from their present stretch on. Material points at such bonds are marked for conversion to peridynamic
- * particles. Does nothing if no material has a surface. source: inputs of the bonds (horizon, materials, cracks,
- * mirrors). */
+ * bond stretches, the ratio U of the stress of the particle to the stress on the strength surface. The limit of U is 1,
+ * or the random strength factor of the particle, if it has one. Where U reaches its limit, those bonds of the particle
+ * that have not begun to soften do so from their present stretch on. Material points at such bonds are marked for
+ * conversion to peridynamic particles. Does nothing if no material has a surface. source: inputs of the bonds (horizon,
+ * materials, cracks, mirrors). */
 void bonds_start_softening_at_strength_surface(struct bonds *b, struct particles *p, const struct bond_source *source);
 
 /* Computes into stress_ratio[p->n] [1] the ratio of the stress of each particle of p to the stress on the strength
@@ -145,9 +146,9 @@ void bonds_start_softening_at_strength_surface(struct bonds *b, struct particles
 void bonds_compute_stress_to_strength_ratios(const struct bonds *b, const struct particles *p,
                                              const struct bond_source *source, real *stress_ratio);
 
-/* Returns the damage (0 to 1) of the particle of row `row` of b by the softening of its intact bonds: the sum of d V_j
- * divided by the volume of all neighbours, with the softening d (0 to 1) of the bond to neighbour j and the volume V_j
- * of this neighbour in p; 0 if row is -1. */
+/* Returns the damage (0 to 1) of the particle of row `row` of b by the softening of its intact bonds: sum d_j V_j over
+ * these bonds, divided by the volume of all neighbours. d_j: softening (0 to 1) of the bond to neighbour j; V_j: volume
+ * of neighbour j in p. Returns 0 if row is -1. */
 real bonds_row_softening_damage(const struct bonds *b, const struct particles *p, int64_t row);
 
 /* Returns the energy [J] released by all bonds of b broken since the start plus that dissipated by intact bonds which
@@ -191,9 +192,8 @@ static inline int64_t bond_row_block_bond_slots_per_particle(const struct bonds 
     return b->column_count[row_block];
 }
 
-/* Returns the index of the particle to which bond number `column` of the first of the eight particles of block
- * `row_block` of eight rows of b leads, if the bonds number `column` of all eight particles lead to consecutive
- * particles; else -1. */
+/* Returns the index of the first neighbour in column number `column` of block `row_block` of eight rows of b (bond
+ * number `column` of each of eight particles), if the eight neighbours are consecutive particles; else -1. */
 static inline int64_t bond_column_first_neighbour_if_consecutive(const struct bonds *b, int64_t row_block,
                                                                  int64_t column)
 {

@@ -1,5 +1,5 @@
-/* Families: the neighbours of a particle, the weights of their bonds, and the stretches at which bonds break and
- * yield. */
+/* Neighbourhoods (families) of particles: their neighbours, the weights of their bonds, and the stretches at which
+ * bonds break and yield. */
 #ifndef CLEAVE_FAMILY
 #define CLEAVE_FAMILY
 
@@ -9,19 +9,21 @@
 #include "data/softening.h"
 #include "data/voids.h"
 
-/* Part of the volume of a neighbour near the horizon that counts: all (WHOLE), or a part that falls linearly over one
- * spacing (RAMP; CUT_RAMP without neighbours beyond the horizon). This rule and the next ones determine the weights of
- * bonds (keys pd.* of the scene). */
+/* Rule for beta, the fraction of the volume of a neighbour near the horizon that counts (key pd.volume; Seleson 2014).
+ * VOLUME_WHOLE: 1; VOLUME_RAMP: falls linearly from 1 to 0 over one spacing around the horizon; VOLUME_CUT_RAMP: as
+ * VOLUME_RAMP, but without the neighbours beyond the horizon. */
 enum volume_rule { VOLUME_WHOLE, VOLUME_RAMP, VOLUME_CUT_RAMP };
 
-/* How the micro-modulus of bonds follows from the elastic constants: from the sum over a full neighbourhood of the
- * lattice, from the integral over a continuum, or by the rule vmpd of Zeng et al. 2021. */
+/* Rule by which the micro-modulus of bonds follows from the elastic constants (key pd.calibration): from the sum over a
+ * complete neighbourhood of the lattice, from the integral over a continuum, or the rule vmpd of Zeng et al. 2021. */
 enum calibration { CALIBRATION_LATTICE, CALIBRATION_CONTINUUM, CALIBRATION_VMPD };
 
-/* Correction of the weights of bonds near faces: none, by the volume of the neighbours, by moments of the families. */
+/* Rule by which the weights of bonds near faces of a body are corrected (key pd.surface): not at all, by the volume of
+ * the neighbours of both particles, or by moments of the neighbourhoods (bonds/surface.h). */
 enum surface_rule { SURFACE_NONE, SURFACE_VOLUME, SURFACE_MOMENTS };
 
-/* Whether weights depend on the direction of a bond: no, or so that the lattice is isotropic. */
+/* Rule for the dependence of bond weights on the direction of the bond (key pd.weights): none, or such that the elastic
+ * constants of the lattice are isotropic. */
 enum shell_rule { SHELLS_UNIFORM, SHELLS_ISOTROPIC };
 
 /* Influence function omega(r) of a bond of length r, with the horizon delta; in the order of the names: 1,
@@ -52,8 +54,9 @@ struct family {
     real shell_weight[2]; /* isotropic shells: factors on bonds near the axes and near the diagonals [1] */
 };
 
-/* Force that a breaking bond exerts in the step in which its stretch exceeds its limit: its force until the moment
- * within the step at which the stretch passes the limit (MOMENT), or half, all or none of its force. */
+/* Rule for the force of a bond in the time step in which its stretch exceeds the limit, so that it breaks.
+ * LAST_FORCE_MOMENT: the force acts until the moment within the step at which the stretch reaches the limit;
+ * LAST_FORCE_HALF, LAST_FORCE_WHOLE, LAST_FORCE_NONE: half, all or none of the force acts. */
 enum last_force { LAST_FORCE_MOMENT, LAST_FORCE_HALF, LAST_FORCE_WHOLE, LAST_FORCE_NONE };
 
 /* Number of time steps between two examinations of a bond whose stretch exceeds its onset of softening while the stress
@@ -131,9 +134,9 @@ struct state_modulus {
     real A, B;
 };
 
-/* Returns the moduli A and B [Pa] of material m in a state-based model, with which the pressure of a neighbourhood is A
- * times its mean stretch, and the springs of its bonds have the stiffness B, each times volume over weighted volume
- * (kernels/pd/state_laws.h). space: line, plane stress, plane strain or solid; with_rotations: true for the modified
+/* Returns the moduli A and B [Pa] of material m in a state-based model (kernels/pd/state_laws.h). The pressure of a
+ * neighbourhood is A times its mean stretch, and the springs of its bonds have the stiffness B, each multiplied by
+ * volume over weighted volume. space: line, plane stress, plane strain or solid; with_rotations: true for the modified
  * state-based model, in which particles rotate (PD_MOSPD). */
 static inline struct state_modulus state_based_moduli_of_material(const struct material *m, enum space space,
                                                                   bool with_rotations)

@@ -3,8 +3,9 @@
 
 #include "bonds/bonds.h"
 
-/* Row of lattice sites along the first axis, within the cutoff around a particle. site: index of the middle site of the
- * row less the index of the particle's site; half: number of sites on each side of the middle site. */
+/* A row of consecutive lattice sites along the first axis that are within the cutoff of a particle. site: index of the
+ * middle site of the row minus the index of the site of the particle; half: number of sites on each side of the
+ * middle. */
 struct stencil_row {
     int64_t site;
     int half;
@@ -38,9 +39,9 @@ bool lattice_site_map_make_if_particles_fit_lattice(struct lattice_site_map *map
 /* Releases the arrays of `map`, a map from lattice sites to particles. */
 void lattice_site_map_free(struct lattice_site_map *map);
 
-/* Returns a map from lattice sites to particles for bonds that are rebuilt: `existing`, its reference count increased,
- * or, if `existing` is NULL, a new map of p. source: inputs of the bonds (horizon, materials, cracks, mirrors). Release
- * with lattice_site_map_release_reference. */
+/* Returns a map from lattice sites to particles for bonds that are rebuilt: `existing` with one more reference or, if
+ * `existing` is NULL, a new map of the particles p. source: inputs of the bonds (horizon, materials, cracks, mirrors).
+ * Release with lattice_site_map_release_reference. */
 struct lattice_site_map *lattice_site_map_add_reference_or_make(struct lattice_site_map *existing,
                                                                 const struct bond_source *source,
                                                                 const struct particles *p);
@@ -50,9 +51,9 @@ struct lattice_site_map *lattice_site_map_add_reference_or_make(struct lattice_s
 void lattice_site_map_release_reference(struct lattice_site_map *map);
 
 /* Lists in neighbour[], ascending, the particles and mirror images (copies beyond planes of symmetry) of p within the
- * cutoff of the particle with index `particle`, by means of the map `map` from lattice sites to particles. `neighbour`
- * must have room for map->most entries. Returns their number, or -1 if images are among them: these cannot be listed in
- * ascending order, and the caller must search. */
+ * cutoff of the particle with index `particle`. map: map from lattice sites to particles, by which they are found. The
+ * array `neighbour` must have at least map->most entries. Returns the number of neighbours. Returns -1 if images are
+ * among them: these cannot be listed in ascending order, and the caller must search. */
 int lattice_site_map_list_neighbours_of_particle(const struct lattice_site_map *map, const struct particles *p,
                                                  int32_t particle, int32_t *neighbour);
 

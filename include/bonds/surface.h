@@ -1,19 +1,21 @@
-/* Weights of bonds near faces, chosen such that bodies of bonds and neighbourhoods bend, twist and stretch like the
- * continuum.
+/* Weights of bonds near faces, chosen such that bodies of bonds bend, twist and stretch like the continuum.
  *
- * In a field of linear strain the stretch of a bond is n.eps.n at its middle. With w the weight, r the length and n the
- * direction of a bond, the force on particle i is then (sum w nnn):eps_i + (sum w r nnnn)::grad eps/2. A field in
- * equilibrium stays in equilibrium if
+ * In a field of linear strain eps the stretch of a bond is n.eps.n at its middle. With the weight w, the
+ * length r and the direction n of a bond, the force on particle i is then (sum w nnn):eps_i + (sum w r
+ * nnnn)::grad eps/2. A field in equilibrium stays in equilibrium if
  *
- *     sum w nnn = -M A_i/2        A_i: outward area of the cell of i [spacing^(dim - 1)]
- *     sum w r nnnn = (1 + tau_i) M     M: sum of a full neighbourhood of the lattice
+ *     sum w nnn = -M A_i/2             A_i: outward area of the cell of particle i [spacing^(dim - 1)]
+ *     sum w r nnnn = (1 + tau_i) M     M: sum over a complete neighbourhood of the lattice
  *
- * for the strains that a free face can have: those whose stress has no traction on it. The energy of membranes is exact
- * if tau sums to zero; that of bending requires, for every face, tau with the moment alpha = 1/24 + <d^2>/8, d being
- * the distance between the middle of a bond and its particle, normal to the face: the contributions of the cell's
- * second moment of area and of the bonds' lengths where strain varies across them. The factors nearest to 1 within
- * bounds that satisfy both in the mean square are computed once, when bonds are first made (surface_fit.c). They are
- * positive, and so is the energy. Particles with equal surroundings have equal factors. */
+ * for the strains that a free face can have, i.e. those whose stress has no traction on it. Behind a plane
+ * face tau_i is alpha and -alpha in the first two layers of particles (2 alpha, -3 alpha and alpha in three
+ * layers in models with particle rotations), else 0. The energy of membranes is exact, since tau sums to
+ * zero. The energy of bending requires alpha = 1/24 + <d^2>/8, d being the distance [spacings], normal to the
+ * face, between the two particles of a bond: the terms of the cell's second moment of area, and of the strain
+ * that varies along a bond (with particle rotations alpha is empirical). The factors on w nearest to 1,
+ * within bounds, that satisfy both equations in the mean square are computed once, when bonds are first made
+ * (surface_fit.c). They are positive, and so is the energy. Particles with equal surroundings have equal
+ * factors. */
 #ifndef CLEAVE_SURFACE
 #define CLEAVE_SURFACE
 

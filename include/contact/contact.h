@@ -1,21 +1,24 @@
-/* Room `contact`: forces between peridynamic particles that have no bond: crack faces, fragments, bodies, and rigid
- * bodies. The room uses particles, cells, bonds and loads, neither scenes nor the step; the engine uses it.
+/* Room `contact` (folder of include/ and src/): forces between peridynamic particles that have no bond: crack
+ * faces, fragments, different bodies, and rigid bodies. The room uses particles, cells, bonds and loads,
+ * neither scenes (input files) nor the time step; the engine uses it.
  *
- * The law has two forms. Both push faces apart by k times the overlap, with k = 15 c V_i V_j/delta per particle of a
- * face, the usual short-range stiffness of peridynamics (Silling & Askari 2005), here for delta = 3.015 spacings with
- * any horizon: contact is as stiff as a cell of the material. Both derive from an energy, 1/2 k overlap^2.
+ * The contact law has two forms. Both push faces apart by k times the overlap, with k = 15 c V_i V_j/delta
+ * per particle of a face: the usual short-range stiffness of peridynamics (Silling & Askari 2005), with the
+ * micro-modulus c, the volumes V, and delta = 3.015 spacings for any horizon. Contact is thus as stiff as a
+ * cell of the material. Both forms derive from the energy 1/2 k overlap^2.
  *
  *     surface  the position of the smooth face beside a particle follows from the density of its particles
  *              (contact_face.c); contact begins one spacing above the first layer of the face
  *     pair     each pair of particles closer than d, one spacing, is pushed apart along its line of centres
  *              (contact_pair.c); sliding faces interlock like gears
  *
- * Bodies and faces thus touch at their true surfaces. Contact begins later for particles that are closer in the
- * reference configuration, or that are closer when contact becomes possible (bonds broken under pressure), until the
- * gap opens: there is no overlap in the reference configuration or when a bond breaks, and no energy appears.
+ * Bodies and faces thus touch at their true surfaces. If particles are closer than this distance in the
+ * reference configuration, or when contact becomes possible (bonds broken under pressure), contact begins at
+ * their distance then, until the gap opens. There is no overlap in the reference configuration or when a bond
+ * breaks, and no energy appears.
  *
- * Only particles near a face can come into contact: those of the first layer of a body, and those that have lost a
- * bond. */
+ * Only particles near a face can be in contact: those of the first layer of a body, and those that have lost
+ * a bond. */
 #ifndef CLEAVE_CONTACT
 #define CLEAVE_CONTACT
 
@@ -83,18 +86,18 @@ struct contact_face {
     real push, lift, mean;
 };
 
-/* Record of the energy error that leap-frog makes at the begin and end of a contact, from which a correcting force
- * follows (contact_balance.c). */
+/* Account of the energy errors that leap-frog makes when one contact begins or ends between two time steps. While more
+ * energy has been added than removed, a correcting force against the rate of the gap acts (contact_balance.c). */
 struct contact_leapfrog_error_account {
     real gap, older; /* gaps of the last two steps [spacings] */
     real drag;       /* correcting force: derivative of the energy by the gap, against the rate of the gap [J] */
     real account;    /* energy added minus energy removed [J] */
 };
 
-/* The n particles near one rigid body. row: [n] entries of these particles in the contact list (struct contact),
- * ascending; zero: [n] gap at which contact begins, 0 or less [m]; x, turn: position [m] and rotation matrix of the
- * body at the last search; spring, balance: [n] friction and energy correction; touch: [n] 1 if the contact is selected
- * to act in an equilibrium. */
+/* Particles near one rigid body, n in number, that may touch it before the next search; owned by struct contact. row:
+ * [n] entries of these particles in the contact list (struct contact), ascending; zero: [n] gap at which contact
+ * begins, 0 or less [m]; x, turn: position [m] and rotation matrix of the body at the last search; spring, balance: [n]
+ * friction and energy correction; touch: [n] 1 if the contact is selected to act in an equilibrium solution. */
 struct contact_near {
     int64_t n;
     int32_t *row;
@@ -114,9 +117,9 @@ struct contact_term {
     real stiffness;         /* [N/m], form `surface`: [J] */
 };
 
-/* All contact of a run, by the law `law`. Pairs of particles that may come into contact before the next search are
- * listed in rows, one for each listed particle of the body. A pair is in the rows of both its particles, so that each
- * row is computed by one thread. Arrays are owned unless noted. */
+/* All contacts of a run, by the law `law`. Pairs of particles that may be in contact before the next search are stored
+ * in contact rows, one row for each particle that may be in contact (none for mirror images). A pair is in the rows of
+ * both its particles, so that each row is computed by one thread. Arrays are owned unless noted. */
 struct contact {
     struct contact_law law;
     bool made;         /* a search has been done, so that the rows exist */
@@ -191,10 +194,10 @@ void contact_update_pair_list_if_outdated(struct contact *c, const struct partic
                                           struct loads *loads, const struct family *family, int64_t step_number,
                                           int64_t broken_bond_count, int64_t conversion_count);
 
-/* Requests a search for pairs of the contact c before the next time step if one of the particles in
- * particle_list[particle_count] (indices), which have become peridynamic, is at the surface of a body, i.e. has fewer
- * bonds in b than a particle inside a body. family: horizon and lattice. Does nothing if contact is not possible in
- * this run. */
+/* Requests a search for pairs of the contact c before the next time step, if particles at the surface of a body have
+ * become peridynamic. particle_list[particle_count]: indices of the particles that have become peridynamic. A particle
+ * is at the surface if it has fewer bonds in b than a particle inside a body. family: horizon and lattice. Does nothing
+ * if contact is not possible in this run. */
 void contact_request_search_if_particles_at_surface(struct contact *c, const struct bonds *b,
                                                     const struct family *family, const int32_t *particle_list,
                                                     int64_t particle_count);
@@ -254,9 +257,9 @@ void contact_restrict_forces_to_linear_springs(struct contact *c, bool springs_o
  * search for pairs before the next time step. */
 void contact_discard_linear_springs(struct contact *c);
 
-/* Returns true if particles of p or rigid bodies have moved so far since the last search that pairs missing in the list
- * could be in contact, or if no search has been done. Updates c->moved, the largest displacement since the last
- * search. */
+/* Returns true if a search for pairs of the contact c is necessary: none has been done, or particles of p or rigid
+ * bodies have moved so far since the last one that pairs missing in the list could be in contact. Updates c->moved, the
+ * largest displacement since the last search. */
 bool contact_search_is_needed(struct contact *c, const struct particles *p);
 
 /* Returns the largest distance [m] that each particle may move before a new search for pairs of the contact c is due.

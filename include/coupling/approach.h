@@ -5,9 +5,9 @@
 #include "data/particles.h"
 #include "rigid/rigid.h"
 
-/* APPROACH_STEPS: steps between two searches for material points near other bodies; APPROACH_REACH: distance within
- * which points are found [spacings]. Contact begins at one spacing. Faces that approach at a tenth of the wave speed
- * come closer by a quarter of a spacing in five steps, so that no contact is missed. */
+/* Number of time steps between two searches for material points near other bodies (within APPROACH_REACH spacings).
+ * Contact begins at one spacing. Faces that approach at a tenth of the wave speed come closer by a quarter of a spacing
+ * in five steps, so that no contact is missed. */
 enum { APPROACH_STEPS = 5 };
 /* Distance from another body within which material points convert [spacings]. */
 #define APPROACH_REACH 3.0

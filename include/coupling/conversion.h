@@ -1,9 +1,10 @@
-/* Room `coupling`: the coupling of peridynamic particles and material points: conversion, reversion, partial stress,
- * interface damping, slits for pre-cracks. The room uses bonds, loads and kernels; the engine uses it.
+/* Room `coupling` (folder of include/ and src/): coupling of peridynamic particles and material points: conversion of
+ * points to peridynamic particles and back (reversion), partial stress, damping at the interface, pre-cracks as slits
+ * of the mesh. The room uses bonds, loads and kernels; the engine uses it.
  *
- * This header: conversion of material points to peridynamic particles, one pass at the end of a step, and the coupling
- * data that depend on the kinds of particles: bond rows and partial stresses. PD-MPM bonds are the bonds between a
- * peridynamic particle and a material point. */
+ * This header: conversion of material points to peridynamic particles at the end of a time step, and the data that
+ * depend on the kinds of particles: bond rows and partial stresses (parts of the stress of points that bonds carry). A
+ * PD-MPM bond connects a peridynamic particle and a material point. */
 #ifndef CLEAVE_CONVERSION
 #define CLEAVE_CONVERSION
 

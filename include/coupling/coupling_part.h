@@ -8,8 +8,8 @@
 #include "coupling/notch.h"
 #include "run/run.h"
 
-/* State of the coupling of peridynamic particles and material points in a run. PD-MPM bonds are bonds between a
- * peridynamic particle and a material point. */
+/* State of the coupling of peridynamic particles and material points in a run; one instance for each run. A PD-MPM bond
+ * connects a peridynamic particle and a material point. */
 struct coupling_state {
     bool approaches;               /* bodies may be in contact: material points near another body become peridynamic */
     struct partial_stress partial; /* share of their stress that material points leave to bonds */
@@ -24,16 +24,16 @@ struct coupling_state {
     struct region start_region;   /* peridynamic from the start; no solids: empty */
 };
 
-/* Sets how peridynamic particles and material points of run e are coupled: by the method that the input file names
- * (partial stress: material points leave a part of their stress to bonds; hand-shake, Zeng et al. 2022; ...) if
- * particles can convert from material points to peridynamic ones, else by hand-shake. Then computes, for the present
- * bonds, the partial stresses of material points (the parts of their stress that bonds carry) and the interface zone
- * (material points beside peridynamic particles, whose motion is damped). */
+/* Sets how peridynamic particles and material points of run e are coupled. If material points can convert, this is the
+ * method that the input file names (partial stress: material points leave a part of their stress to bonds; hand-shake,
+ * Zeng et al. 2022; ...), else hand-shake. Then computes for the present bonds the partial stresses of material points
+ * (the parts of their stress that bonds carry) and the interface zone (material points beside peridynamic particles,
+ * whose motion is damped). */
 void coupling_set_method_and_compute_partial_stress(struct run *e);
 
 /* Makes the mesh of run e for the bodies in the reference frame (shape functions are evaluated in the undeformed
- * state), with the present partial stresses (parts of the stress that bonds carry) and with pre-cracks as slits (free
- * surfaces of the mesh). caller_sets_nodal_motion: true if the caller sets displacement and velocity of the nodes
+ * state). The mesh includes the present partial stresses (parts of the stress that bonds carry), and pre-cracks as
+ * slits (free surfaces). caller_sets_nodal_motion: true if the caller sets displacement and velocity of the nodes
  * afterwards, false to fit them to those of the particles. Returns REFUSED (unsuitable input) or FAILED (too many
  * nodes), with a message, if no mesh is possible (mesh_make). */
 status coupling_build_total_lagrangian_mesh(struct run *e, bool caller_sets_nodal_motion);
@@ -89,10 +89,10 @@ void convert_particles_beside_voids_to_peridynamic(struct particles *p, const st
 bool mesh_cannot_have_free_surfaces_at_voids(const struct grid *g, const struct scene *s);
 
 /* Adds warnings to `warning_list` for voids of bodies of run e that are too narrow, so that the run treats them as
- * closed: voids whose two sides share nodes of the background grid, such gaps between a body and a plane of symmetry,
- * and gaps of one or two particles in bodies made from particle lists or images, whose surfaces are not known.
- * total_lagrangian_possible: true if the body can be in the reference frame (shape functions in the undeformed state),
- * which is then named as a remedy. */
+ * closed. These are voids whose two sides share nodes of the background grid, and such gaps between a body and a plane
+ * of symmetry. In bodies made from particle lists or images, whose surfaces are not known, they are gaps of one or two
+ * particles. total_lagrangian_possible: true if the body can be in the reference frame (shape functions in the
+ * undeformed state), which is then named as a remedy. */
 void warn_of_voids_treated_as_closed(const struct run *e, bool total_lagrangian_possible,
                                      struct warnings *warning_list);
 
@@ -123,9 +123,9 @@ int64_t run_convert_flagged_points_to_peridynamic(struct run *e, int64_t broken_
 void conversion_update_mesh_after_conversion(struct run *e, int64_t converted_count);
 
 /* Checks that the other settings of scene s (the input file) allow reversion (`conversion.reversion: true`), in which
- * peridynamic particles become material points again. Returns REFUSED, with a message, if the scene has no conversion
- * of material points by stress, another coupling than partial stress or hand-shake, growing cracks, a solver of a
- * single equilibrium, or a material that yields. Returns OK if the scene has no reversion. */
+ * peridynamic particles become material points again. Reversion requires conversion by stress, and partial stress or
+ * hand-shake as coupling. It excludes growing cracks, a solver of a single equilibrium, and materials that yield.
+ * Returns REFUSED, with a message, if one of these conditions is violated. Returns OK if the scene has no reversion. */
 status reversion_check_scene_allows_return_to_mpm(const struct scene *s);
 
 /* Turns peridynamic particles of run e back into material points if their stress has been low for long enough and no

@@ -1,17 +1,21 @@
-/* The interface zone: material points beside peridynamic particles, and the damping of motion there that the grid does
- * not resolve.
+/* The interface zone: material points beside peridynamic particles, and the damping of motion there that the
+ * grid does not resolve.
  *
- * A wave that passes from material points to bonds leaves motion behind that FLIP never damps: points of a cell at the
- * edge that move against each other, or a light node at the edge that oscillates, since bond forces on single points
- * are not smooth in space. Measured in a bar, this is most of the energy that a short pulse loses at the interface. The
- * remedy is fourth-order viscosity in the interface zone alone:
+ * A wave that passes from material points to bonds leaves motion behind that the FLIP transfer does not damp:
+ * points of one cell at the interface move against each other, or a light node there oscillates, since bond
+ * forces on single points are not smooth in space. In a bar this motion is most of the energy that a short
+ * pulse loses at the interface (measured). Fourth-order viscosity in the interface zone alone removes it:
  *
- *     d_i = s sum_j ((v_j - v_i) . e_ij) e_ij                  for i in the zone, j its nearest neighbours
- *     m_j dv_j = -k sum_i m_i s ((d_i - d_j) . e_ij) e_ij      (d = 0 outside the zone),  dv = -k B^T B v
+ *     d_i = s sum_j ((v_j - v_i) . e_ij) e_ij                    i: point of the zone, j: nearest neighbours
+ *     m_j dv_j = -k sum_i s ((m_i d_i - m_j d_j) . e_ij) e_ij    d = 0 outside the zone
  *
- * All exchanges are central and in pairs: they conserve momentum and angular momentum to round-off, leave rigid motion
- * and, in full neighbourhoods, uniform strain rates unchanged, and only dissipate. The loss of long waves is
- * proportional to (wave number x spacing)^4. */
+ * with the velocity v, its change dv and the mass m of a particle, and the unit vector e_ij from i to j. For
+ * equal masses dv = -k B^T B v with the operator B of the first line; s limits the eigenvalues of B to 4, and
+ * k is the strength.
+ *
+ * All exchanges are central and in pairs: they conserve momentum and angular momentum to round-off, leave
+ * rigid motion and, in full neighbourhoods, uniform strain rates unchanged, and only dissipate. The loss of
+ * long waves is proportional to (wave number x spacing)^4. */
 #ifndef CLEAVE_INTERFACE_ZONE
 #define CLEAVE_INTERFACE_ZONE
 

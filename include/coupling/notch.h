@@ -1,5 +1,6 @@
-/* Pre-cracks in a body in the reference frame: either a crack cuts bonds along all its length, or the mesh has a slit
- * and bonds are cut round the ends of the crack alone. */
+/* Representation of pre-cracks in a body in the reference frame (a mesh fixed to the material). Either a pre-crack cuts
+ * bonds along all its length, or the mesh has a slit (free surface) there and bonds are cut round the crack ends
+ * alone. */
 #ifndef CLEAVE_NOTCH
 #define CLEAVE_NOTCH
 
@@ -9,8 +10,8 @@
  * which the material points beside the slit become peridynamic. */
 #define NOTCH_GAP 1e-4
 
-/* How a pre-crack is represented. slit: true: as a slit, i.e. a free surface of the mesh, false: by cut bonds along all
- * its length; reason: why it is no slit, in words, NULL if it is a slit. */
+/* Representation of one pre-crack. slit: true if it is a slit, i.e. a free surface of the mesh, false if it cuts bonds
+ * along all its length; reason: why it is no slit, in words, NULL if it is a slit. */
 struct notch {
     bool slit;
     const char *reason;
@@ -43,19 +44,19 @@ struct notches {
 void notches_choose_slits_or_cut_bonds(struct notches *n, const struct particles *p, const struct bond_source *source,
                                        real tip_radius, const char *reason_against_slits);
 
-/* Makes peridynamic, before step 0, the particles of p within n->radius of an end of a slit (a pre-crack as free
- * surface of the mesh) if the slit separates them from some of their neighbours. source: inputs of the bonds (horizon,
- * materials, cracks, mirrors). */
+/* Makes peridynamic, before step 0, the particles of p near the ends of slits (pre-cracks as free surfaces of the
+ * mesh): those within n->radius of an end that the slit separates from some of their neighbours. source: inputs of the
+ * bonds (horizon, materials, cracks, mirrors). */
 void notches_make_slit_ends_peridynamic(const struct notches *n, struct particles *p, const struct bond_source *source);
 
 /* Releases all arrays of n, the pre-cracks of a run. The corners of the cracks and the voids stay with their owners. */
 void notches_free(struct notches *n);
 
-/* Sets FLAG_NEAR, by which material points are later converted to peridynamic particles, of points of p beside slits
- * (pre-cracks as free surfaces of the mesh) and narrow voids whose opposite faces are about to touch. n: lists these
- * points. Tests the distance of particles on opposite faces after the time `time_ahead` [s], extrapolated from present
- * positions and velocities, which must be up to date. At a slit, points are flagged if this distance is less than
- * spacing (1 - NOTCH_GAP), NOTCH_GAP being 1e-4; at a notch of width `width`, if it is less than spacing (1 +
+/* Flags points of p beside slits (pre-cracks as free surfaces of the mesh) and narrow voids whose opposite faces are
+ * about to touch: sets FLAG_NEAR, by which they are later converted to peridynamic particles. n: lists these points.
+ * Tests the distance of particles on opposite faces after the time `time_ahead` [s], extrapolated from present
+ * positions and velocities, which must be up to date. Points are flagged at a slit if this distance is less than
+ * spacing (1 - NOTCH_GAP), with NOTCH_GAP = 1e-4; at a notch of width `width`, if it is less than spacing (1 +
  * NOTCH_GAP) - width; at a void, if the faces are close to contact. spacing: of the particles [m]. */
 void notches_flag_closing_face_points_for_conversion(const struct notches *n, struct particles *p, real spacing,
                                                      real time_ahead);

@@ -1,14 +1,14 @@
-/* The active set: regions still at rest are not computed, without changing any bit of a run.
+/* The active set: blocks of particles or nodes that are still at rest are skipped, with bitwise equal
+ * results.
  *
- * Forces follow from positions. A block is inactive while its particles have the positions at which their forces were
- * last computed, these forces are 0, and no load moves them: its forces would be 0 again. It becomes active when a
- * particle within its reach moves, and stays active.
+ * A block is the unit of the loops over bonds and nodes: eight bond rows, or eight nodes of a mesh along x.
+ * It is inactive while its particles have the positions at which their forces were last computed, these
+ * forces are 0, and no load moves them, since its forces would be 0 again. It becomes active when a particle
+ * within its reach moves, and stays active. Activity level of a block:
  *
- * A block is the unit of the hot loops: eight rows of bonds, or eight nodes of a mesh along x.
- *
- *     level 0        inactive: neither forces nor motion
- *           1        active: its forces are computed, it moves
- *           most     it has moved, or a load moves it; its neighbours have one level less, and so on */
+ *     0        inactive: neither forces nor motion are computed
+ *     1        active: its forces are computed, and it moves
+ *     most     it has moved, or a load moves it; its neighbours have one level less, and so on */
 #ifndef CLEAVE_ACTIVE_SET
 #define CLEAVE_ACTIVE_SET
 

@@ -26,9 +26,9 @@ void box_tree_make(struct box_tree *t, const struct bounds *boxes, int box_count
 /* Releases the nodes of the tree t of boxes. */
 void box_tree_free(struct box_tree *t);
 
-/* State of a search in `tree` for boxes near the point X (both kept by reference). wait[0 .. waiting - 1]: nodes of the
- * tree still to be visited: number of the node, and least distance from X that a box below this node can have [m].
- * BOXES_WAITING: length of `wait`. */
+/* State of a search in `tree` for the boxes near the point X, both kept by reference. wait[0 .. waiting - 1]: nodes of
+ * the tree still to be visited, each with its number, `node`, and the least possible distance from X of a box below it,
+ * `least` [m]. BOXES_WAITING: length of `wait`. */
 enum { BOXES_WAITING = 48 };
 struct box_search {
     const struct box_tree *tree;

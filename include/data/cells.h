@@ -17,16 +17,17 @@ struct cells {
 };
 
 /* Sorts the particles and mirror images (copies beyond planes of symmetry) of p into the search cells c by their
- * reference positions, so that neighbours within a radius of up to `cell_edge` [m] can be found. Release with
+ * reference positions. Neighbours within a radius of up to `cell_edge` [m] can then be found. Release with
  * cells_free. */
 void cells_make_for_neighbour_search(struct cells *c, const struct particles *p, real cell_edge);
 
 /* Releases all arrays of the search cells c. */
 void cells_free(struct cells *c);
 
-/* Lists the particles and mirror images (copies beyond planes of symmetry) of p within `radius` [m] (at most c->edge)
- * of the point X (dim components [m]) in `found`, ascending, except particle `excluded_particle` (-1: no exception).
- * Writes at most `capacity` indices. Returns the number of particles found, which may exceed `capacity`. */
+/* Lists in `found`, ascending, the particles and mirror images (copies beyond planes of symmetry) of p near the point X
+ * (dim components [m]): those within `radius` [m], at most c->edge. excluded_particle: index of a particle that is not
+ * listed, -1 for none. Writes at most `capacity` indices. Returns the number of particles found, which may exceed
+ * `capacity`. */
 int cells_list_particles_near_point(const struct cells *c, const struct particles *p, const real *X, real radius,
                                     int32_t excluded_particle, int32_t *found, int capacity);
 

@@ -1,5 +1,6 @@
-/* Fields computed from another field of the same particle: one table for the frames of a run and for pictures and
- * exports made later. Symmetric tensors are in VTK's order xx yy zz xy yz xz. */
+/* Fields that are computed from another field of the same particle. One table describes them, both for the frames
+ * (states at one time) that a run writes and for pictures and exports made later. Symmetric tensors are in VTK's order
+ * xx yy zz xy yz xz. */
 #ifndef CLEAVE_DERIVED_FIELDS
 #define CLEAVE_DERIVED_FIELDS
 

@@ -1,5 +1,5 @@
-/* A compiled expression of x, y, z, t: steps evaluated with a small stack. Scenes compile expressions and check their
- * units (scene_expression.c); loads and fields evaluate them. */
+/* Compiled expressions of x, y, z and t: lists of steps that are evaluated with a small stack. The reader of input
+ * files compiles expressions and checks their units (scene_expression.c); loads and fields evaluate them. */
 #ifndef CLEAVE_EXPRESSION
 #define CLEAVE_EXPRESSION
 

@@ -13,9 +13,9 @@ struct dashpot {
     real impulse[DIM_MAX]; /* impulse on the body in this step [N s] */
 };
 
-/* Effect of all dashpots in a step. energy: energy that the dashpots dissipate [J]; kick: a quarter of the sum of
- * impulse times change of velocity, which the correction of the kinetic energy of samples leaves out [J]; impulse:
- * impulse of the dashpots on the body [N s]. */
+/* Sums over all dashpots of a grid or mesh in one time step. energy: energy that the dashpots dissipate [J]; kick: a
+ * quarter of the sum of impulse times change of velocity [J], by which a sample of the kinetic energy must not be
+ * corrected (kernels/dashpot.h); impulse: impulse of the dashpots on the body [N s]. */
 struct dashpot_effect {
     real energy, kick, impulse[DIM_MAX];
 };
@@ -65,8 +65,8 @@ struct follower {
     int32_t node, leader, behind;
 };
 
-/* A grid node beyond a plane of symmetry. It moves as the mirror image of a node on the body's side of the plane, to
- * which the mass and impulse that material points give to the node beyond the plane are added. */
+/* A grid node beyond a plane of symmetry. It moves as the mirror image of a node on the body's side of the plane. The
+ * mass and impulse that material points give to the node beyond the plane are added to the node on the body's side. */
 struct mirror_node {
     int32_t node, image;            /* node beyond the plane; node on the body's side */
     int8_t sign[DIM_MAX];           /* sign of each component of the image: -1 or 1 */
@@ -76,8 +76,8 @@ struct mirror_node {
     real reaction[DIM_MAX];         /* impulse of the plane on the body in this step [N s] */
 };
 
-/* A wall: one velocity component of one node that is prescribed. The force on this component is replaced by the force
- * that the prescribed motion requires. */
+/* A wall: one velocity component of one grid node that a boundary condition prescribes. The nodal force on this
+ * component is replaced by the force that the prescribed motion requires. */
 struct wall {
     int32_t node;
     int16_t component, load; /* load: index of the boundary condition */
@@ -112,10 +112,10 @@ void grid_add_dashpot(struct grid *g, const struct dashpot *dashpot);
  * mirror nodes (nodes beyond planes of symmetry), too. For a step without points on the grid. */
 void grid_clear_constraints(struct grid *g);
 
-/* Mass ratio below which grid nodes are left at rest: mass divided by that of a full node [1]. Other programs use 1e-9;
- * but the impulse of the force on such a node is lost, so that momentum is conserved to 1e-12 only if no node with mass
- * is left out. Light nodes do no harm, since after the second map from points to nodes the velocity of such a node is
- * that of its material point. */
+/* Mass of a grid node, divided by that of a full node [1], below which the node is left at rest. Other programs use
+ * 1e-9, but the impulse of the force on such a node is lost, and momentum is conserved to 1e-12 only if no node with
+ * mass is left out. Light nodes do no harm: points with their new velocities are mapped to the nodes a second time
+ * (data/turning.h), which gives a light node the velocity of its material point. */
 #define GRID_MASS_SMALLEST 1e-30
 
 /* Mass ratio below which two bodies are not in contact at a grid node: the mass that either body has there, divided by
@@ -129,8 +129,8 @@ void grid_clear_constraints(struct grid *g);
 #define GRID_MASS_LIGHT 1e-5
 
 /* Mass ratio of light nodes in static solutions, in place of GRID_MASS_LIGHT: mass of a node divided by that of a full
- * node [1]. In a static solution, the equilibrium of a node that the edge of a point just reaches would set the stress
- * of the point to zero. If such nodes were left at rest, they would support the body: a cantilever of 15 times its
+ * node [1]. A node that only the edge of a material point reaches would be in equilibrium only if the stress of the
+ * point were zero. If such nodes were left at rest instead, they would support the body: a cantilever of 15 times its
  * depth bent by a quarter. */
 #define GRID_MASS_STATIC 1e-3
 

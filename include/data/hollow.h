@@ -1,5 +1,5 @@
-/* Cells of two spacings whose particles are not made: they are wholly inside the body and part of coarse cells
- * (mesh/levels.h), far from bonds, loads and faces of pre-cracks. */
+/* Cells of two spacings in which no particles are created, since they are wholly inside the body and part of coarse
+ * cells of the mesh (mesh/levels.h), far from bonds, loads and faces of pre-cracks. */
 #ifndef CLEAVE_HOLLOW
 #define CLEAVE_HOLLOW
 

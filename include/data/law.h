@@ -1,6 +1,6 @@
-/* Laws by which material points yield: the yield stress as a function of plastic strain, its rate and temperature (flow
- * law), kinematic hardening, and adiabatic heating. Constants given by the scene, and those derived
- * from them. The functions of the laws: kernels/laws. */
+/* Laws by which material points yield: flow law (yield stress as a function of plastic strain, its rate and
+ * temperature), kinematic hardening, and adiabatic heating. Declares the constants that the input file gives and those
+ * derived from them; kernels/laws has the functions of the laws. */
 #ifndef CLEAVE_LAW
 #define CLEAVE_LAW
 

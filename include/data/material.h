@@ -1,5 +1,5 @@
-/* One material: the values given by the scene and those derived from them: wave speeds, elastic constants of the space,
- * and the constants of bond-based peridynamics. */
+/* Properties of one material: constants that the input file gives, and those derived from them: wave speeds, elastic
+ * constants for the dimension and plane state, constants of bond-based peridynamics. */
 #ifndef CLEAVE_MATERIAL
 #define CLEAVE_MATERIAL
 
@@ -30,7 +30,8 @@ struct strength_rate {
                               */
 };
 
-/* A material: constants given by the scene, and constants that material_compute_derived_constants derives from them. */
+/* A material: constants that the input file gives, and constants that material_compute_derived_constants derives from
+ * them. */
 struct material {
     char name[NAME_MAX_LENGTH];
     /* values given by the scene */
@@ -152,9 +153,9 @@ struct surface_strengths material_strengths_from_strength_surface(const struct m
  * stress state on the surface stretches no bond. */
 real material_smallest_strain_on_strength_surface(const struct material *m, enum space space);
 
-/* Sets m->surface to `surface`, the strength surface of Drucker and Prager at which the bonds of material m begin to
- * soften, and m->surface_least_strain to the smallest strain [1] at which this surface can be reached. space: space of
- * the body, on which the stress normal to the plane depends. The elastic constants of m must be set. */
+/* Sets the strength surface of Drucker and Prager at which the bonds of material m begin to soften: m->surface to
+ * `surface`, and m->surface_least_strain to the smallest strain [1] at which it can be reached. space: space of the
+ * body, on which the stress normal to the plane depends. The elastic constants of m must be set. */
 void material_set_strength_surface(struct material *m, enum space space, struct strength_surface surface);
 
 /* Returns the ratio U of the stress `stress` to the stress on the strength surface of material m that has the same

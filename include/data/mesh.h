@@ -1,19 +1,21 @@
-/* A mesh of linear cells in the reference frame: the material point method for bodies that keep their neighbours.
+/* A mesh of linear cells in the reference frame: the material point method for bodies that keep their
+ * neighbours.
  *
- * In the reference frame points never leave their cell, so weights are constants, and velocity and displacement can
- * stay on the nodes: mapping them to points and back would only dissipate energy. What remains is a mesh of linear
- * cells of two spacings; the material points, at a quarter and three quarters of each edge, are its quadrature points
- * and carry the history of the material (total Lagrangian MPM: de Vaucorbeil, Nguyen & Hutchinson 2020).
+ * In the reference frame a point never leaves its cell, so that its weights are constants, and velocity and
+ * displacement can stay on the nodes: mapping them to points and back would only dissipate energy. What
+ * remains is a mesh of linear cells of two spacings. The material points, at a quarter and three quarters of
+ * each edge, are the quadrature points of the cells and carry the history of the material (total Lagrangian
+ * MPM: de Vaucorbeil, Nguyen & Hutchinson 2020).
  *
- * Layout: nodes are those of a struct grid that never changes. A cell is named by its lowest node I; its corner c is
- * the node I + mesh->corner[c], and its place c is the position of the point next to that corner (bit d of c: upper in
- * direction d).
+ * Layout: the nodes are those of a struct grid that never changes. A cell has the index I of its lowest node.
+ * Its corner number c (bit d of c is set on the upper side in direction d) is the node I + mesh->corner[c];
+ * place c of the cell is the position of the material point next to this corner.
  *
- *     cell I     0 .. 2^dim - 1      point[(I << dim) + c]: the particle there, -1 without
+ *     cell I     c = 0 .. 2^dim - 1      point[(I << dim) + c]: the particle at place c, -1 if there is none
  *
- * Cells with all their points, of one material and without bonds, are whole: runs of them along x are processed eight
- * at a time in closed form. All other cells with points are partial: each has its own stiffness, and eight are
- * processed side by side. */
+ * A cell is whole if it has all its points, of one material and without bonds; whole cells that are
+ * consecutive along x are processed eight at a time in closed form. All other cells with points are partial:
+ * each has its own stiffness, and eight are processed side by side. */
 #ifndef CLEAVE_MESH
 #define CLEAVE_MESH
 
@@ -21,18 +23,21 @@
 #include "data/particles.h"
 #include "data/active_set.h"
 
-/* Largest numbers of corners of a cell, of their displacement components, and of deformation modes of a cell. */
+/* Largest sizes of a cell. CORNERS_MAX: number of corners; CELL_UNKNOWNS_MAX: number of displacement components of its
+ * corners; MODES_MAX: number of deformation modes that store energy. */
 enum { CORNERS_MAX = 8, CELL_UNKNOWNS_MAX = CORNERS_MAX * DIM_MAX, MODES_MAX = 18 };
 
-/* A run: consecutive whole cells along x (cells with all their points, of one material, without bonds). */
+/* A sequence (run) of whole cells that are consecutive along x. A cell is whole if it has all its material points, of
+ * one material and without bonds. */
 struct mesh_cell_run {
     int32_t cell, cells; /* first cell; number of cells */
     uint8_t material;
     bool stressed; /* a point may have exceeded the conversion stress */
 };
 
-/* Material points of one mesh cell whose position and velocity are needed in every step. cell: index of the cell;
- * places: bit c is set if the point next to corner c of the cell is one of them. */
+/* Exposed material points of one mesh cell: those whose position and velocity are needed in every step, because bonds,
+ * loads or mirror images use them. cell: index of the cell; places: bit c is set if the point next to corner c of the
+ * cell is exposed. */
 struct mesh_exposed {
     int32_t cell;
     uint8_t places;
@@ -150,10 +155,10 @@ static inline int64_t mesh_cell_corner_node(const struct mesh *mesh, int64_t cel
     return own ? own[corner] : cell + mesh->corner[corner];
 }
 
-/* Returns the array [2^dim][LANES] of the nodes at the corners of the eight cells of group number `group` of partial
- * cells (cells with missing points, or points with bonds to peridynamic particles), if one of the corners is an extra
- * node (second node where a pre-crack divides the mesh). The array belongs to the mesh. Returns NULL otherwise: all
- * corners are then nodes of the grid. */
+/* Returns the nodes at the corners of the eight cells of group number `group` of partial cells (cells with missing
+ * points, or points with bonds to peridynamic particles), as an array [2^dim][LANES]. The array belongs to the mesh.
+ * Returns NULL if none of these nodes is an extra node (second node where a pre-crack divides the mesh): all corners
+ * are then nodes of the grid. */
 static inline const int32_t *mesh_eight_partial_cells_corner_nodes_if_at_slit(const struct mesh *mesh, int64_t group,
                                                                               const int dim)
 {
@@ -276,9 +281,9 @@ static inline real mesh_shape_function_value(int dim, int corner, int point)
     return weight[dim][corner ^ point];
 }
 
-/* Returns the derivative along axis `axis`, in dim dimensions, of the linear shape function of a corner node at a
- * quadrature point (material point) of its cell, times the edge h of the cell [1]. corner, point: number of the corner,
- * and of the corner next to the point; bit d is set on the upper side in direction d. */
+/* Returns the derivative along axis `axis` of the linear shape function of a corner node at a quadrature point
+ * (material point) of its cell in dim dimensions, times the edge h of the cell [1]. corner, point: number of the
+ * corner, and of the corner next to the point; bit d is set on the upper side in direction d. */
 static inline real mesh_shape_function_derivative(int dim, int corner, int point, int axis)
 {
     real slope = corner >> axis & 1 ? 1 : -1;

@@ -1,11 +1,12 @@
-/* Room `data`: the contents of a body: particles, cells, grids, materials, regions, the active set. Structures and the
- * functions that keep them consistent, no physics. It uses `base`; every other room may call it.
+/* Room `data` (folder of include/ and src/): the contents of a body: particles, search cells, grids, materials,
+ * regions, the active set. It has structures and the functions that keep them consistent, no physics. It uses `base`;
+ * every other room may call it.
  *
- * Particles of both kinds as a structure of arrays, and the table that describes every array.
+ * This header: particles of both kinds as a structure of arrays, and the table that describes every array.
  *
- * Layout: entries 0 .. n-1 are the body, sorted row by row (x fastest) so that lattice neighbours are neighbours in
- * memory; entries n .. n_all-1 are mirror images of some of them (struct image), read by bonds, never integrated.
- * Arrays have LANES more entries, so that whole vectors can be loaded anywhere. */
+ * Layout: entries 0 .. n-1 are the particles of the bodies, sorted row by row (x fastest), so that neighbours on the
+ * lattice are near in memory. Entries n .. n_all-1 are mirror images of some of them (struct image), which bonds read
+ * and which are never integrated. Arrays have LANES more entries, so that whole vectors can be loaded anywhere. */
 #ifndef CLEAVE_PARTICLES
 #define CLEAVE_PARTICLES
 
@@ -22,9 +23,9 @@ enum { ROTATION = 4 };    /* numbers that store a rotation in 3D (a quaternion) 
 /* Kinds of particles: material point, peridynamic particle; KINDS is their number. */
 enum kind { KIND_MPM, KIND_PD, KINDS };
 
-/* Bits of the member `flag` of struct particles, one sum of them for each particle. FLAG_LOST_BOND, FLAG_CRACKED,
- * FLAG_STRESSED and FLAG_NEAR are cleared by convert_flagged_points_to_peridynamic, which turns material points into
- * peridynamic particles at the end of the step. */
+/* Bits of the array `flag` of struct particles, whose entry is the sum of all bits that apply to the particle.
+ * convert_flagged_points_to_peridynamic, which turns material points into peridynamic particles at the end of a step,
+ * clears FLAG_LOST_BOND, FLAG_CRACKED, FLAG_STRESSED and FLAG_NEAR. */
 enum particle_flag {
     FLAG_LOST_BOND = 1,     /* lost a bond in this step */
     FLAG_STRESSED = 2,      /* largest principal stress exceeds that at which material points become peridynamic */

@@ -1,5 +1,5 @@
-/* Sets of points by constructive geometry, functions of time, cracks and waves: the terms of a scene that set-up, loads
- * and probes share. Coordinates are reference positions [m]. */
+/* Regions (sets of points by constructive geometry), functions of time, cracks and initial waves, as the input file
+ * defines them; set-up, loads and probes use them. Coordinates are reference positions [m]. */
 #ifndef CLEAVE_REGION
 #define CLEAVE_REGION
 
@@ -11,8 +11,8 @@
 /* Distance [spacings] from the surface of a region below which points count as being on the surface, i.e. as inside. */
 #define ON_SURFACE 1e-8
 
-/* Returns true if the point X (dim components [m]) is inside the region r or on its surface, after the region has been
- * enlarged on all sides by `tolerance` [m] (reduced if negative). */
+/* Returns true if the point X (dim components [m]) is inside the region r or on its surface. tolerance: length by which
+ * the region is enlarged on all sides before the test, reduced if negative [m]. */
 bool region_contains(const struct region *r, const real *X, int dim, real tolerance);
 
 /* Returns the length [m] by which the region r must be enlarged to contain the point X (dim components [m]): negative
@@ -38,8 +38,8 @@ bool region_has_box_with_infinite_side(const struct region *r, int dim);
  * all points X of the region. direction: unit vector, dim components. */
 real region_support_function_bound(const struct region *r, const real *direction, int dim);
 
-/* Returns the volume [m^dim] of the part of the region r that is inside the box between the corners `lower` and `upper`
- * (dim components [m]), by quasi-random sampling, with an error of about 0.1 % of the volume of the box. */
+/* Returns the volume [m^dim] of the part of the region r inside the box between the corners `lower` and `upper` (dim
+ * components [m]). It is computed by quasi-random sampling, with an error of about 0.1 % of the volume of the box. */
 real region_volume_within_box(const struct region *r, int dim, const real *lower, const real *upper);
 
 /* Builds search trees over consecutive solids of the region r that are all added or all subtracted, so that later
@@ -114,9 +114,9 @@ struct mirror_plane {
     real at;           /* position along the axis [m] */
 };
 
-/* Returns true if the end `end` of crack c is on or beyond one of the planes of symmetry mirror_planes[mirror_count]
- * and a corner of the crack is on the inner side of this plane: the mirror image continues the crack there, so that
- * `end` is no crack tip. tolerance: distance from a plane up to which a point is on it [m]. */
+/* Returns true if mirror images continue crack c beyond its end `end`, so that this end is no crack tip. This is so if
+ * the end is on or beyond one of the planes of symmetry mirror_planes[mirror_count] and a corner of the crack is on the
+ * inner side of this plane. tolerance: distance from a plane up to which a point is on it [m]. */
 bool crack_end_is_continued_by_mirrors(const struct mirror_plane *mirror_planes, int mirror_count,
                                        const struct crack *c, const real *end, real tolerance);
 
@@ -129,8 +129,8 @@ struct crack_list {
 };
 
 /* Computes into *list the parts of the cracks crack[crack_count] on the body's side of all planes of symmetry
- * mirror[mirror_count], and their mirror images within `image_reach` [m] of these planes, so that a bond across a plane
- * and its image are cut alike. tolerance: distance from a plane up to which a point is on it [m]. Release with
+ * mirror[mirror_count], and their mirror images within `image_reach` [m] of these planes. A bond across a plane and its
+ * image are thus cut alike. tolerance: distance from a plane up to which a point is on it [m]. Release with
  * crack_list_free. */
 void cracks_make_mirror_images(struct crack_list *list, const struct crack *crack, int crack_count,
                                const struct mirror_plane *mirror, int mirror_count, real image_reach, real tolerance);

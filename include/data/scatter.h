@@ -1,13 +1,15 @@
 /* Random field of strength over reference positions.
  *
- * A Gaussian field g of mean 0, variance 1 and correlation exp(-(r/length)^2): white noise on a lattice of half a
- * length, smoothed by exp(-2 (r/length)^2) (a moving average; Vanmarcke 1983). The noise of a node is a hash of seed
- * and node: the field is a function of the position alone, independent of spacing, order and number of threads. A
- * factor W of mean 1 follows through the quantiles of the distribution, W = F^-1(Phi(g)), with Weibull's (1951)
+ * A Gaussian field g of mean 0, variance 1 and correlation exp(-(r/length)^2) at the distance r is white
+ * noise on a lattice of half a length, smoothed by exp(-2 (r/length)^2) (a moving average; Vanmarcke 1983).
+ * The noise of a node is a hash of seed and node, so that the field is a function of the position alone,
+ * independent of spacing, order of the particles and number of threads. The strength factor W, of mean 1,
+ * follows from W = F^-1(Phi(g)), with the standard normal distribution Phi and the distribution function F of
+ * Weibull (1951), with the modulus m,
  *
- *     F(W) = 1 - exp(-(W Gamma(1 + 1/m))^m)
+ *     F(W) = 1 - exp(-(W Gamma(1 + 1/m))^m)          Gamma: gamma function
  *
- * or the lognormal distribution. Without a length every particle has an independent factor. */
+ * or the lognormal distribution. Without a correlation length every particle has an independent factor. */
 #ifndef CLEAVE_SCATTER
 #define CLEAVE_SCATTER
 
@@ -16,7 +18,7 @@
 /* Quantity that has a random distribution: strength, critical stretch, toughness K_c, energy release rate G_c. */
 enum scatter_of { SCATTER_STRENGTH, SCATTER_STRETCH, SCATTER_TOUGHNESS, SCATTER_ENERGY };
 
-/* Form of this distribution. */
+/* Probability distribution of the random quantity (enum scatter_of): Weibull or lognormal. */
 enum scatter_form { SCATTER_WEIBULL, SCATTER_LOGNORMAL };
 
 /* Parameters of the random field of strength of one material. given: false if the scene gives none; form: distribution;

@@ -1,15 +1,17 @@
-/* Softening of bonds: how the force of a bond falls from its peak to 0, by damage that depends on its largest stretch
- * (Coskun, Damircheli & Lipton 2025); a bilinear curve as of concrete (Petersson 1981).
+/* Softening of bonds: how the force of a bond falls from its largest value to 0, by damage that depends on
+ * its largest stretch (Coskun, Damircheli & Lipton 2025); a bilinear curve as of concrete (Petersson 1981).
  *
- * With the largest stretch k so far, the onset s_0 and the end s_f, the force divided by stiffness and weight is
+ * A bond with the stretch s, the largest stretch k so far and the damage d begins to soften at the stretch
+ * s_0 and breaks at s_f. Its force divided by stiffness and weight is
  *
  *     s (1 - d(k)) for s > 0,   s for s <= 0,     1 - d(k) = f(k)/k,   f(k) = s_0 G((k - s_0)/(s_f - s_0))
  *
- * G falls from 1 at x = 0 to 0 at x = 1 and is the largest of some straight lines: exact for linear and bilinear
- * softening; exponential softening, (exp(-5 x) - exp(-5))/(1 - exp(-5)), has eight chords, at most 0.8 % of the
- * strength above it. Unloading is along the secant to the origin. The energy dissipated, over stiffness, weight and
- * length, has a closed form: the area under the curve up to k less f(k) k/2. Up to the end it is s_c^2/2, the energy of
- * a brittle bond of critical stretch s_c, which determines s_f. */
+ * The softening curve G(x) falls from 1 at x = 0 to 0 at x = 1. It is the largest of several straight lines:
+ * exact for linear and bilinear softening; for exponential softening, (exp(-5 x) - exp(-5))/(1 - exp(-5)), it
+ * has eight chords, at most 0.8 % of the strength above the curve. Unloading is along the secant to the
+ * origin. The dissipated energy, divided by stiffness, weight and length, has a closed form: the area under f
+ * up to k, less f(k) k/2. At k = s_f it is s_c^2/2, the energy of a brittle bond of critical stretch s_c,
+ * which determines s_f. */
 #ifndef CLEAVE_SOFTENING
 #define CLEAVE_SOFTENING
 
@@ -104,21 +106,22 @@ static inline real softening_remaining_stiffness_fraction(const struct softening
 real softening_normalised_dissipated_energy(const struct softening_curve *c, real onset, real breaking_stretch,
                                             real largest_stretch);
 
-/* Returns the peak stresses in tension, equal biaxial tension and shear, divided by s_0 E', that bonds of all
- * directions with the softening curve c reach under growing uniform strain, by quadrature over directions. s_0: stretch
- * at which bonds begin to soften; E': modulus of uniaxial tension (material_uniaxial_tension_modulus); space: line,
- * plane stress, plane strain or solid; squared_stretch_ratio: (critical stretch/s_0)^2 [1]. */
+/* Returns the peak stresses in tension, equal biaxial tension and shear, divided by s_0 E', of bonds of all directions
+ * with the softening curve c under growing uniform strain, by quadrature over directions. s_0: stretch at which bonds
+ * begin to soften; E': modulus of uniaxial tension (material_uniaxial_tension_modulus); space: line, plane stress,
+ * plane strain or solid; squared_stretch_ratio: (critical stretch/s_0)^2 [1]. */
 struct softening_strength softening_curve_normalised_peak_stresses(const struct softening_curve *c, enum space space,
                                                                    real squared_stretch_ratio);
 
 /* Returns the stretch s_0 [1] at which bonds must begin to soften so that material m has the tensile strength
- * m->tensile_strength, by fixed-point iteration of s_0 = strength/(E' tension(kappa)) with kappa = (critical
- * stretch/s_0)^2 (softening_curve_normalised_peak_stresses). m->critical_stretch must be set; if the horizon is too
- * large for this strength, the result exceeds m->critical_stretch. space: line, plane stress, plane strain or solid. */
+ * m->tensile_strength. Solves s_0 = strength/(E' tension(kappa)) by fixed-point iteration, where kappa = (critical
+ * stretch/s_0)^2, E' is the modulus of uniaxial tension, and tension is the result of
+ * softening_curve_normalised_peak_stresses. m->critical_stretch must be set; if the horizon is too large for this
+ * strength, the result exceeds m->critical_stretch. space: line, plane stress, plane strain or solid. */
 real softening_onset_stretch_from_strength(const struct material *m, enum space space);
 
-/* Share of the onset stretch (at which a bond begins to soften in slow loading) from which on the strain rate of the
- * bond is measured [1]. */
+/* Strain rates of bonds are measured from this fraction [1] of the onset stretch on (stretch at which a bond begins to
+ * soften in slow loading). */
 #define RATE_FROM 0.5
 
 /* Smallest ratio kappa = (critical stretch/onset)^2 of a bond, dimensionless. The strain rate increases the onset, the

@@ -1,5 +1,6 @@
-/* Strength of bonds that soften (softening.h) in a neighbourhood of any model: bond-based, or state-based with the
- * share 1 - d of the weight of a bond in all sums (kernels/pd/state_soften.c). */
+/* Strength of neighbourhoods whose bonds soften (softening.h) in any model: bond-based, or state-based, where the sums
+ * of a neighbourhood contain the fraction 1 - d of the weight of a bond with the softening d
+ * (kernels/pd/state_soften.c). */
 #ifndef CLEAVE_SOFTENING_STATES
 #define CLEAVE_SOFTENING_STATES
 
@@ -13,10 +14,10 @@ struct softening_model {
     bool rotates;
 };
 
-/* Returns the peak stresses in tension, equal biaxial tension and shear, divided by s_0 E', that a neighbourhood
- * (particle with its neighbours) of softening bonds of the model `model` reaches under growing uniform strain, by
- * quadrature over directions. c: softening curve; s_0: stretch at which bonds begin to soften; E': modulus of uniaxial
- * tension; space: line, plane stress, plane strain or solid; squared_stretch_ratio: (critical stretch/s_0)^2 [1]. */
+/* Returns the peak stresses in tension, equal biaxial tension and shear, divided by s_0 E', of a neighbourhood
+ * (particle with its neighbours) of softening bonds under growing uniform strain, by quadrature over directions. model:
+ * peridynamic model; c: softening curve; s_0: stretch at which bonds begin to soften; E': modulus of uniaxial tension;
+ * space: line, plane stress, plane strain or solid; squared_stretch_ratio: (critical stretch/s_0)^2 [1]. */
 struct softening_strength softening_model_normalised_peak_stresses(const struct softening_curve *c, enum space space,
                                                                    real squared_stretch_ratio,
                                                                    const struct softening_model *model);
@@ -28,11 +29,11 @@ struct softening_strength softening_model_normalised_peak_stresses(const struct 
 real softening_model_onset_stretch_from_strength(const struct material *m, enum space space,
                                                  const struct softening_model *model);
 
-/* Computes, for each strain rate of the table m->rate, by which factor the stretch at which bonds of material m begin
- * to soften exceeds that in slow loading, m->onset_stretch, so that the material has its strength at this rate. Stores
- * the factors in m->rate.onset. space: line, plane stress, plane strain or solid; model: peridynamic model of the
- * bonds. Returns the smallest ratio (critical stretch/onset)^2 over all rates, by which the caller checks the table:
- * below RATE_LEAST_RATIO bonds would break before they reach the strength. */
+/* Computes the onset factors m->rate.onset of material m for the strain rates of the table m->rate. By this factor the
+ * stretch at which bonds begin to soften exceeds that in slow loading, m->onset_stretch, so that the material has its
+ * strength at the strain rate. space: line, plane stress, plane strain or solid; model: peridynamic model of the bonds.
+ * Returns the smallest ratio (critical stretch/onset)^2 over all rates, by which the caller checks the table: below
+ * RATE_LEAST_RATIO bonds would break before they reach the strength. */
 real strength_rate_set_onsets_return_stretch_ratio(struct material *m, enum space space,
                                                    const struct softening_model *model);
 

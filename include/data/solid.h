@@ -50,9 +50,10 @@ struct placement {
 };
 #define IMAGES_MOST 4096
 
-/* A set of points: union, difference and intersection of the solids solid[n] in the order of the list, starting with
- * nothing, or with everything if the first solid is to be intersected. An empty list means everywhere. A run is a
- * sequence of solids of the list that are all added or all subtracted (region_build_search_trees). */
+/* A set of points, made from the solids solid[n] in the order of the list by union, difference and intersection. It
+ * begins with no points, or with all points if the first solid is to be intersected. An empty list means all points. A
+ * run is a sequence of consecutive solids of the list that are all added or all subtracted
+ * (region_build_search_trees). */
 struct region {
     int n;
     struct solid *solid;
@@ -60,8 +61,8 @@ struct region {
     struct region_run *run; /* [runs] */
 };
 
-/* A run: the consecutive solids number first .. first + count - 1 of a region, which are all added or all subtracted.
- * tree: search tree over their bounding boxes; empty for a single solid. */
+/* A sequence (run) of consecutive solids of a region, number first .. first + count - 1, which are all added or all
+ * subtracted. tree: search tree over their bounding boxes; empty for a single solid. */
 struct region_run {
     int first, count;
     struct box_tree tree;
@@ -115,10 +116,10 @@ static inline bool solid_is_untransformed_and_of_kind(const struct solid *s, enu
  * exact outside. normal: receives the outward unit normal of the nearest surface point. */
 real solid_signed_distance(const struct solid *s, const real *X, int dim, real *normal);
 
-/* Returns a level [m] that is negative inside the solid s, 0 on its surface and positive outside; beside a flat face it
- * is the signed distance. For boxes and cylinders it is the largest of the signed distances from the planes and the
- * mantle that bound them, so that the points with a level below a tolerance form a larger box or cylinder with sharp
- * edges. X: point, dim components [m]. */
+/* Returns the level [m] of the solid s at the point X (dim components [m]): negative inside the solid, 0 on its surface
+ * and positive outside. Beside a flat face it is the signed distance. For boxes and cylinders it is the largest of the
+ * signed distances from the planes and the mantle that bound them. The points whose level is below a tolerance thus
+ * form a larger box or cylinder with sharp edges. */
 real solid_level_set_value(const struct solid *s, const real *X, int dim);
 
 /* Returns true if the level of the solid s at the point X (dim components [m]) is at most `max_distance` [m]. The level

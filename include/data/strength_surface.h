@@ -2,9 +2,10 @@
  *
  *     U = (sqrt(J2) + g1 I1)/g0 = 1
  *
- * with the first invariant I1 of the stress, the second J2 of its deviator, g0 the strength in shear, and g1 from a
- * second strength: compressive, hydrostatic or equal biaxial tension (Kamarei et al. 2025). U, the share of the
- * surface, is 1 on it and grows in proportion to the stress. */
+ * with the first invariant I1 of the stress, the second invariant J2 of its deviator, the strength g0 in
+ * shear [Pa], and g1 [1], which follows from a second strength: compressive, hydrostatic or equal biaxial
+ * tensile (Kamarei et al. 2025). U is the ratio of the stress to the stress on the surface that has the same
+ * direction: 1 on the surface, proportional to the stress. */
 #ifndef CLEAVE_STRENGTH_SURFACE
 #define CLEAVE_STRENGTH_SURFACE
 

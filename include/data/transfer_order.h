@@ -5,11 +5,12 @@
 #include "grid.h"
 #include "particles.h"
 
-/* Grid cells are grouped in blocks. A block is BLOCK_LENGTH cells long in x, the direction in which particles are
- * consecutive in memory, and BLOCK_EDGE cells wide in the other directions. A block has one of 2^dim colours, and
- * blocks of one colour share no node for any shape function here (support reaches one cell below and two above), so
- * threads may scatter them in parallel. Colours are processed in order, and a block by one thread: equal bits on any
- * number of threads. Blocks are counted from the grid's absolute node 0, so that a growing grid keeps them. */
+/* Defines the blocks in which grid cells are grouped for transfers. A block is BLOCK_LENGTH cells long in x, the
+ * direction in which particles are consecutive in memory, and BLOCK_EDGE cells wide in the other directions. It has one
+ * of 2^dim colours. Blocks of one colour share no node for any of the shape functions, which extend from one cell below
+ * to two above, so that threads may add to nodes in parallel. Colours are processed in order, and a block by one
+ * thread: the result has equal bits with any number of threads. Blocks are counted from the grid's absolute node 0, so
+ * that they do not change when the grid grows. */
 enum { BLOCK_LENGTH = 64, BLOCK_EDGE = 4, COLOURS_MAX = 8 };
 
 /* Number of entries allocated beyond the end of transfer_order.particle, so that prefetching may read there. */
@@ -39,9 +40,9 @@ struct transfer_order {
     int32_t *block_cell;            /* cells of block b: block_cell[b] .. block_cell[b+1]-1 */
 };
 
-/* Sorts the particles of p listed in point_list[point_count] by the cell of grid g that contains their position, the
- * cells by block (a box of cells) and the blocks by colour, where blocks of one colour are not adjacent. Stores this
- * order in o, whose arrays grow as needed. The order depends on positions alone, not on the number of threads. */
+/* Sorts the particles of p listed in point_list[point_count] by the cell of grid g that contains their position, and
+ * these cells by block (a box of cells). Blocks are sorted by colour; blocks of one colour are not adjacent. Stores
+ * this order in o, whose arrays grow as needed. The order depends on positions alone, not on the number of threads. */
 void transfer_order_sort_points_by_cell(struct transfer_order *o, const struct particles *p, const int32_t *point_list,
                                         int64_t point_count, const struct grid *g);
 

@@ -1,28 +1,32 @@
-/* Groups of material points that rotate together: FLIP with conservation of angular momentum.
+/* Groups of material points that rotate together, by which the FLIP transfer conserves angular momentum.
  *
- * FLIP transfers the change dv_I of a node to points around the centre of mass c_I of their contributions to the node,
- * while the force acted at the node: at faces and interfaces, where c_I is not x_I, the angular momentum m_I (x_I -
- * c_I) x dv_I is lost, and the second map (from points with new velocities back to nodes) gives the node the velocity
- * of c_I, so that a rotating body strains at its faces. Two blocks set rotating by a collision lost 43 % of it in 400
- * us. The loss of point p is
- *     lack_p = m_p sum_I N (x_I - x_p) x dv_I.
- * Points are therefore grouped by about 6 by 6 (by 6) neighbours of the reference configuration. A group receives the
- * lack of its points as a rotation about its centre of mass, and its points extrapolate their velocity to nodes with
- * the spin w of the group; one is the adjoint of the other in the mass, so that energies balance:
+ * FLIP transfers the velocity change dv_I of node I to points around the centre of mass c_I of their
+ * contributions to the node, while the force acted at the node, x_I. At faces and interfaces, where c_I is
+ * not x_I, the angular momentum m_I (x_I - c_I) x dv_I is lost. The second map (from points with new
+ * velocities back to nodes) then gives the node the velocity of c_I, so that a rotating body strains at its
+ * faces. Two blocks set rotating by a collision lost 43 % of their rotation in 400 us. The angular momentum
+ * that point p, of mass m_p and position x_p, loses is
+ *     lack_p = m_p sum_I N (x_I - x_p) x dv_I               N: shape function of node I at the point
+ * Points are therefore grouped by about 6 by 6 (by 6) neighbours of the reference configuration. A group, of
+ * inertia J, receives the lack of its points as a rotation about its centre of mass, and its points
+ * extrapolate their velocity to nodes with the spin w of the group. One map is the adjoint of the other in
+ * the mass, so that energies balance:
  *     v_p += (J^-1 sum lack) x r_p,   w = J^-1 sum m r x v,   P_I = sum m N (v_p + w x (x_I - x_p))
- * Momentum and angular momentum are conserved, and no rotation of a group strains it. Groups of fewer than TURNING_FEW
- * points join a neighbour: their inertia J is too small. Points move with the velocities of the second map, except for
- * the coupling `handshake`. */
+ * with the position r_p of a point relative to the centre of mass and the momentum P_I of a node. Momentum
+ * and angular momentum are conserved, and no rotation of a group strains it. Groups of fewer than TURNING_FEW
+ * points join a neighbouring group, since their inertia is too small. Points move with the velocities of the
+ * second map, except for the coupling `handshake`. */
 #ifndef CLEAVE_TURNING
 #define CLEAVE_TURNING
 
 #include "particles.h"
 
-/* Edge of a group [points]; number of points below which a group joins a neighbour; largest number of neighbours. */
+/* Sizes of the groups of points that rotate together. TURNING_EDGE: edge of a group [points]; TURNING_FEW: number of
+ * points below which a group joins a neighbouring group; TURNING_NEAR: largest number of neighbouring groups. */
 enum { TURNING_EDGE = 6, TURNING_FEW = 12, TURNING_NEAR = 26 };
 
-/* Particles of one rotation group (neighbours that rotate together) that are consecutive in memory: indices first ..
- * first + n - 1; n is at most LANES. */
+/* Particles of one rotation group (neighbours that rotate together) that are consecutive in memory, with the indices
+ * first .. first + n - 1; n is at most LANES. */
 struct turning_run {
     int32_t first, n;
 };
@@ -61,12 +65,12 @@ struct corotating_groups {
 
 /* Divides all particles of p into the groups t of about 6 by 6 (by 6) neighbours in the reference configuration, which
  * later rotate together, so that the FLIP transfer conserves angular momentum. Bodies that interfaces join are divided
- * like one body; other bodies have groups of their own. Groups are counted from the middle of the bounding box of the
- * joined bodies or, if a plane of symmetry cuts or touches them, from this plane, so that mirrored bodies have mirrored
- * groups and the groups do not depend on other bodies. spacing: of the particles [m]; symmetry_plane[dim]: position of
- * the plane of symmetry across each axis [m], NAN if there is none; first_joined_body[bodies]: for each body the first
- * body that is joined to it; body_is_supported[bodies]: for each body, true if supports act on it, so that its points
- * do not rotate in groups. Replaces previous groups; release with corotating_groups_free. */
+ * like one body; other bodies have groups of their own, which do not depend on other bodies. Groups are counted from
+ * the middle of the bounding box of the joined bodies. If a plane of symmetry cuts or touches them, groups are counted
+ * from this plane, so that mirrored bodies have mirrored groups. spacing: of the particles [m]; symmetry_plane[dim]:
+ * position of the plane of symmetry across each axis [m], NAN if there is none; first_joined_body[bodies]: for each
+ * body the first body that is joined to it; body_is_supported[bodies]: for each body, true if supports act on it, so
+ * that its points do not rotate in groups. Replaces previous groups; release with corotating_groups_free. */
 void corotating_groups_make(struct corotating_groups *t, const struct particles *p, real spacing,
                             const real *symmetry_plane, const int *first_joined_body, const bool *body_is_supported,
                             int bodies);

@@ -7,7 +7,9 @@
 #include "data/particles.h"
 #include "data/region.h"
 
-/* Marks of a particle in voids.near, to be added. */
+/* Bits of the array voids.near, whose entry for a particle is the sum of the bits that apply. VOID_NEAR: a void is
+ * between the particle and another particle of its body within reach; VOID_ACROSS: two surfaces of a void between them
+ * face each other. */
 enum {
     VOID_NEAR = 1,  /* a void hides a particle within reach */
     VOID_ACROSS = 2 /* ... and the faces on both sides of the void face each other */
@@ -36,9 +38,9 @@ bool region_has_voxel_image(const struct region *r);
 bool region_may_have_voids(const struct region *r, const struct voids *v);
 
 /* Computes v->near, which marks the particles of p that a void (a slot, a slit or a gap of the shape) separates from
- * others, by testing all pairs of particles at most `max_distance` [m] apart. The other members of v must be set
- * before. cells: search over reference positions; images: for each mirror image, the particle
- * that it copies. Release with voids_free. */
+ * others. All pairs of particles at most `max_distance` [m] apart are tested. The other members of v must be set
+ * before. cells: search over reference positions; images: for each mirror image, the particle that it copies. Release
+ * with voids_free. */
 void voids_mark_particles_beside_voids(struct voids *v, const struct particles *p, const struct cells *cells,
                                        const struct image *images, real max_distance);
 
@@ -59,9 +61,9 @@ bool void_separates_particles(const struct voids *v, const struct particles *p, 
  * its body; the particle must be inside this shape. v: shapes of the bodies. */
 real voids_particle_surface_distance_lower_bound(const struct voids *v, const struct particles *p, int64_t particle);
 
-/* Returns true if a void (a slot, a slit or a gap of the shape) separates particle i from at least one particle of its
- * body within the distance for which voids_mark_particles_beside_voids has marked particles. v: NULL if no body
- * has voids; the result is then false. */
+/* Returns true if a void (a slot, a slit or a gap of the shape) is beside particle i: it separates the particle from at
+ * least one other of its body, within the distance given to voids_mark_particles_beside_voids. v: NULL if no body has
+ * voids; the result is then false. */
 static inline bool particle_is_beside_void(const struct voids *v, int64_t i) { return v && v->near[i]; }
 
 /* Releases the arrays that v owns; shapes and mirror planes stay with their owners. */

@@ -1,5 +1,5 @@
-/* Room `engine`: a run as a whole: set-up, time loop, checkpoints, warnings, summary. It uses every room below;
- * commands and benches call it. */
+/* Room `engine` (folder of include/ and src/): a run as a whole: set-up, time loop, checkpoints, warnings, summary. It
+ * uses every room below it (order in tests/house.sh); commands and benches call it. */
 #ifndef CLEAVE_ENGINE
 #define CLEAVE_ENGINE
 
@@ -50,9 +50,9 @@ status run_save_or_load_state(void *run, struct archive *a);
  * instruction set. Returns FAILED if the checkpoint belongs to another body or is inconsistent. */
 status run_load_checkpoint(void *run, struct archive *a);
 
-/* If the scene of run e has a PULSE probe (wave packet at an interface), runs the scene once more with material points
- * alone and stores the final velocities and the energy change of that run, with which the probe compares run e. Call
- * this function at the end of run e. Returns the status of the second run; OK if there is no PULSE probe. */
+/* Runs the scene of run e once more with material points alone, if it has a PULSE probe (wave packet at an interface).
+ * The final velocities and the energy change of that run are stored; the probe compares run e with them. Call this
+ * function at the end of run e. Returns the status of the second run; OK if there is no PULSE probe. */
 status run_repeat_with_mpm_only_for_pulse_probe(struct run *e);
 
 /* Checks the scene of run e for input that is allowed but probably unintended, and adds warnings to e->warnings. Call

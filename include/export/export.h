@@ -1,9 +1,10 @@
-/* Room `export`: writes scenes for other programs. It uses the engine and all rooms below to create particles and bonds
- * of a scene; only commands call it.
+/* Room `export` (folder of include/ and src/): writes the bodies of an input file for other programs. It uses the
+ * engine and all rooms below to create particles and bonds; only commands call it.
  *
- * Exodus II: particles and sets of loads for other codes of peridynamics, and frames of a run for their tools.
+ * Exodus II: particles and sets of loads for other peridynamics codes, and frames (states at one time) of a run for
+ * programs that display such files.
  *
- * LAMMPS: runs the peridynamics of a scene on distributed machines, and serves as an independent check of the
+ * LAMMPS: runs the peridynamics of an input file on distributed machines, and serves as an independent check of the
  * results. */
 #ifndef CLEAVE_EXPORT
 #define CLEAVE_EXPORT

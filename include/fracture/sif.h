@@ -1,15 +1,19 @@
 /* Stress-intensity factors by the interaction integral over particles of any kind.
  *
- * The energy flux (W + T) n_1 - sigma_ij n_j u_i,1 into a moving tip (Freund 1990, eq. 5.2.7), of the actual and an
- * auxiliary motion together, as an integral over a disc round the tip (Nakamura, Shih & Freund 1985):
+ * The energy flux (W + T) n_1 - sigma_ij n_j u_i,1 into a moving tip (Freund 1990, eq. 5.2.7), of the actual
+ * and an auxiliary motion together, is computed as a sum over the particles of a disc round the tip
+ * (Nakamura, Shih & Freund 1985):
  *
  * I = sum q_,j [sigma_ij u^a_i,1 + sigma^a_ij u_i,1 - (sigma_ml u^a_m,l + rho v_l v^a_l) delta_1j] A
  *     + sum q [rho (a_i u^a_i,1 + a^a_i u_i,1) - rho (v_i v^a_i,1 + v^a_i v_i,1)] A
  *
- * with the weight q = 1 for r < inner, 0 for r > outer. sigma_ij,j is replaced by rho times the acceleration a minus
- * that by loads on the particle (gravity, body forces, pressure on the faces of the crack), so that no stress is
- * differentiated. K = E* I/(2 A(v)) for an auxiliary field of K^a = 1; J = I(actual, actual)/2. At rest, without
- * inertia and such loads, only the ring where q varies contributes. */
+ * with the stress sigma, the displacement u, the velocity v, the acceleration a, the density rho and the area
+ * A of a particle; superscript a: auxiliary motion; W, T: densities of strain and kinetic energy. The weight
+ * is q = 1 for r < inner and 0 for r > outer. sigma_ij,j is replaced by rho times the acceleration minus that
+ * by loads on the particle (gravity, body forces, pressure on the faces of the crack), so that no stress is
+ * differentiated. K = E* I/(2 A(v)) for an auxiliary field of K^a = 1, with the universal function A(v) of
+ * sif_fields.h; J = I(actual, actual)/2. At rest, without inertia and such loads, only the ring where q
+ * varies contributes. */
 #ifndef CLEAVE_SIF
 #define CLEAVE_SIF
 

@@ -48,24 +48,24 @@ void crack_stress_from_displacement_gradient(const struct crack_medium *m, real 
 void crack_tip_field_at_rest(const struct crack_medium *m, enum crack_mode mode, const real x[2],
                              struct crack_field *f);
 
-/* Computes the field at x round the tip of a crack that moves at constant speed `speed` in the medium m, with K = 1 Pa
- * m^(1/2) in the mode `mode` alone (Freund 1990, chapter 4). speed: 0 < `speed` < c_R, the Rayleigh speed [m/s]; the
- * formulas are ill-conditioned as `speed` -> 0. x: position in the frame of the tip, x[0] ahead of the tip [m]. f:
- * receives displacement and motion. */
+/* Computes the field round a crack tip that moves at constant speed in the medium m, with K = 1 Pa m^(1/2) in the mode
+ * `mode` alone (Freund 1990, chapter 4). speed: 0 < `speed` < c_R, the Rayleigh speed [m/s]; the formulas are
+ * ill-conditioned as `speed` -> 0. x: position in the frame of the tip, x[0] ahead of the tip [m]. f: receives
+ * displacement and motion at x. */
 void crack_tip_field_moving(const struct crack_medium *m, enum crack_mode mode, real speed, const real x[2],
                             struct crack_field *f);
 
-/* Computes the field at x round a crack tip of speed `speed` in the medium m with K = 1 Pa m^(1/2) in the mode `mode`
- * alone, for 0 <= `speed` < c_R, the Rayleigh speed [m/s]. Below 1 % of the shear wave speed the field of a crack at
+/* Computes the field round a crack tip at rest or in motion in the medium m, with K = 1 Pa m^(1/2) in the mode `mode`
+ * alone. speed: 0 <= `speed` < c_R, the Rayleigh speed [m/s]. Below 1 % of the shear wave speed the field of a crack at
  * rest is used (crack_tip_field_at_rest), which differs there by 1e-4, else that of a moving crack. x: position in the
- * frame of the tip [m]; f: receives the field. */
+ * frame of the tip [m]; f: receives the field at x. */
 void crack_tip_field_resting_or_moving(const struct crack_medium *m, enum crack_mode mode, real speed, const real x[2],
                                        struct crack_field *f);
 
-/* Returns the universal function A_I(v) or A_II(v) (dimensionless) of the mode `mode`, by which the energy release rate
- * G = (A_I K_I^2 + A_II K_II^2)/E* of a moving crack follows (Freund 1990, chapter 5); both tend to 1 at rest. m:
- * medium round the crack; speed: speed v of the tip [m/s]. Both contain the factor 1 - a_s^2, with a_s = sqrt(1 -
- * v^2/c_s^2); some prints have 1 - a_d^2 in A_II, with a_d = sqrt(1 - v^2/c_d^2), by which A_II would not tend to 1. */
+/* Returns the universal function A_I(v) or A_II(v) [1] of the mode `mode`, with which the energy release rate of a
+ * moving crack is G = (A_I K_I^2 + A_II K_II^2)/E* (Freund 1990, chapter 5); both tend to 1 at rest. m: medium round
+ * the crack; speed: speed v of the tip [m/s]. Both contain the factor 1 - a_s^2, with a_s = sqrt(1 - v^2/c_s^2). Some
+ * prints have 1 - a_d^2 in A_II, with a_d = sqrt(1 - v^2/c_d^2), by which A_II would not tend to 1. */
 real crack_tip_speed_universal_function(const struct crack_medium *m, enum crack_mode mode, real speed);
 
 /* Formula for k(v), the ratio of K_I to K_I at rest, of a semi-infinite crack that grows at constant speed under a
@@ -88,9 +88,9 @@ real crack_speed_from_sif_ratio(const struct crack_medium *m, real sif_ratio, re
  * time_since_arrival: time since the wave reached the crack [s]. */
 real crack_sif_after_plane_wave(const struct crack_medium *m, real wave_stress, real time_since_arrival);
 
-/* Returns the angle [rad] between a crack and the direction of the largest circumferential stress ahead of its tip, in
- * which the crack grows (Erdogan & Sih 1963), by a formula that stays accurate as K_II -> 0. The angle is negative if
- * K_II > 0. K: K_I and K_II [Pa m^(1/2)]. */
+/* Returns the angle [rad] by which a crack kinks: that between the crack and the direction of the largest
+ * circumferential stress ahead of its tip, in which it grows (Erdogan & Sih 1963). The formula stays accurate as K_II
+ * -> 0. The angle is negative if K_II > 0. K: K_I and K_II [Pa m^(1/2)]. */
 real crack_kink_angle_from_sif(const real K[MODES]);
 
 /* Returns the equivalent mode-I stress-intensity factor K_eq [Pa m^(1/2)] in the direction of the largest

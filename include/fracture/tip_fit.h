@@ -1,17 +1,19 @@
-/* Stress-intensity factors of a crack at rest from the displacements round its tip, by a least-squares fit of the
- * series of Williams (1957), both modes, with a translation (term n = 2 of mode II is the rotation):
+/* Stress-intensity factors of a crack at rest from the displacements round its tip, by a least-squares fit of
+ * the series of Williams (1957), both modes, with a translation. Polar coordinates r, t at the tip; shear
+ * modulus G; kappa: Kolosov constant; each line times the coefficient of term n:
  *
  *     2 G u_I  = r^(n/2) [(kappa + n/2 + s) cos(n t/2) - n/2 cos((n/2 - 2) t)]      s = (-1)^n
  *     2 G v_I  = r^(n/2) [(kappa - n/2 - s) sin(n t/2) + n/2 sin((n/2 - 2) t)]
  *     2 G u_II = r^(n/2) [(kappa + n/2 - s) sin(n t/2) - n/2 sin((n/2 - 2) t)]
  *     2 G v_II = r^(n/2) [-(kappa - n/2 + s) cos(n t/2) - n/2 cos((n/2 - 2) t)]
  *
- * K_I and K_II are the coefficients of n = 1 times sqrt(2 pi). Terms up to n = 8 describe the bending of a ligament of
- * a few radii (in a ligament of 12 spacings the error of the direction is 5 degrees with n = 5, one degree with n = 8).
- * n = -1 describes the zone round the tip and along the faces where bonds are no continuum: without it K_II is 7 to 10
- * % too large at three to ten spacings, with it 3 to 5 %. Particles hidden from the tip by a crack do not count. In 3D
- * the factors are means along a straight front: particles along the front are projected on the plane perpendicular to
- * it. */
+ * K_I and K_II are the coefficients of n = 1 times sqrt(2 pi); term n = 2 of mode II is the rotation. Terms
+ * up to n = 8 describe the bending of a ligament of a few radii: in a ligament of 12 spacings the error of
+ * the direction is 5 degrees with n = 5, one degree with n = 8. The term n = -1 describes the zone round the
+ * tip and along the faces where bonds are no continuum. Without it K_II is 7 to 10 % too large at three to
+ * ten spacings, with it 3 to 5 %. Particles hidden from the tip by a crack do not count. In 3D the factors
+ * are means along a straight front: particles along the front are projected on the plane perpendicular to it.
+ */
 #ifndef CLEAVE_TIP_FIT
 #define CLEAVE_TIP_FIT
 

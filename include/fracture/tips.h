@@ -1,18 +1,20 @@
-/* Room `fracture`: positions, driving forces and growth of cracks. The room uses bonds and particles; probes and the
- * engine use it.
+/* Room `fracture` (folder of include/ and src/): positions, driving forces and growth of cracks. The room uses bonds
+ * and particles; probes and the engine use it.
  *
- * This header: crack tips, tracked from sample to sample.
+ * This header: crack tips, tracked from sample (line of history.csv) to sample.
  *
- * A tip starts at the end of a pre-crack inside the body, or where a particle away from all known cracks exceeds damage
- * 0.35. Particles that exceed 0.35 and touch (1.5 spacings, reference positions, same body) a particle of a crack, or
- * its start (2.5 spacings), belong to the crack; particles damaged by a pre-crack at t = 0 and driven particles belong
- * to none. The tip is at the farthest particle of the crack from the start, at the mean of several equally far ones
- * that touch each other; of equally far ones in separate groups, as on two branches, one group is chosen
- * (fracture/places.h). Particles beside the last 2.5 spacings of the pre-crack do not count as growth. A crack that
- * started away from all others and is reached by another becomes part of it, unless both have grown by more than
- * three spacings, run in the same direction and touch behind both tips, or the longest crack would become shorter: it
- * is measured from another start then. In 3D every edge of a pre-crack inside the body is one front, whose start is the
- * whole edge. */
+ * A tip starts at the end of a pre-crack inside the body, or where the damage of a particle away from all known cracks
+ * exceeds 0.35. A particle whose damage exceeds 0.35 belongs to a crack if it touches a particle of the crack or is
+ * within 2.5 spacings of the start. Particles of one body touch if their reference positions are at most 1.5 spacings
+ * apart. Particles damaged by a pre-crack at t = 0 and particles with prescribed motion belong to no crack. The tip is
+ * at the particle of the crack that is farthest from the start, at the mean of several equally far ones that touch each
+ * other; of equally far ones in separate groups, as on two branches, one group is chosen (fracture/places.h). Particles
+ * beside the last 2.5 spacings of the pre-crack do not count as growth.
+ *
+ * If two cracks touch, one becomes part of the other, except in three cases: both start at pre-cracks; both have grown
+ * by more than three spacings, in directions less than 90 degrees apart, and touch behind both tips; or the longer
+ * crack would become shorter, because its length would be measured from the start of the other one. In 3D every edge of
+ * a pre-crack inside the body is one front, whose start is the whole edge. */
 #ifndef CLEAVE_TIPS
 #define CLEAVE_TIPS
 
@@ -22,8 +24,7 @@
 #include "data/particles.h"
 #include "data/region.h"
 
-/* Damage (share of broken bonds, 0 to 1) above which a particle counts as part of a crack; TIPS_MAX: largest number of
- * tips. */
+/* Damage (fraction of broken bonds, 0 to 1) above which a particle counts as part of a crack. */
 #define TIP_DAMAGE 0.35
 /* Largest number of tips that are tracked. */
 enum { TIPS_MAX = 64 };
@@ -111,7 +112,8 @@ bool tip_grows_on_mirror_plane(const struct crack_tips *t, const struct crack_ti
 void tips_snap_onto_mirror_planes_they_grow_along(struct crack_tips *t, const struct mirror_plane *mirror,
                                                   int mirror_count);
 
-/* Symmetry (planes mirror[mirrors]) and cross-section of the body, on which the area of a crack depends. */
+/* Properties of the body on which the area of its cracks depends: planes of symmetry, mirror[mirrors], cross-section,
+ * and damage beside a crack. */
 struct tip_surroundings {
     const struct mirror_plane *mirror; /* [mirrors] planes of symmetry */
     int mirrors;
@@ -125,12 +127,12 @@ struct crack_area {
     real face, own;
 };
 
-/* Returns the area [m^2] of one face of all cracks t of the particles p, as created up to the last sample (line of
- * history.csv); in the member `own`, only half of it for cracks in planes of symmetry. For a crack that starts at a
- * pre-crack, the area of one face is the sum of its growth over strips one spacing wide along the front; branches do
- * not count. For any other crack the area is half the number of its particles times the area of a particle, since
- * particles of both faces are counted. In a plane of symmetry, where only one face is modelled, the whole number
- * counts. s: planes of symmetry and thickness. */
+/* Returns the area [m^2] of one face of all cracks t of the particles p, as of the last sample (line of history.csv).
+ * For a crack that starts at a pre-crack it is the sum of the growth over strips one spacing wide along the front;
+ * branches do not count. For any other crack it is half the number of its particles, since particles of both faces are
+ * counted, times the area of a particle; in a plane of symmetry, where only one face is modelled, the whole number. The
+ * member `own` of the result contains only half of the area of cracks in planes of symmetry. s: planes of symmetry and
+ * thickness. */
 struct crack_area tips_total_crack_area(const struct crack_tips *t, const struct particles *p,
                                         const struct tip_surroundings *s);
 

@@ -1,8 +1,8 @@
-/* Room `geometry`: reads shapes from external files: surfaces (STL), finite-element meshes (Gmsh, Abaqus, Exodus II),
- * and images and image stacks (PNG, TIFF). It uses the structures of `data` that classify points as inside or outside a
- * shape; scenes call it.
+/* Room `geometry` (folder of include/ and src/): reads shapes from external files: surfaces (STL), finite-element
+ * meshes (Gmsh, Abaqus, Exodus II), images and image stacks (PNG, TIFF). It uses the structures of the room `data` that
+ * classify points as inside or outside a shape; the reader of input files calls it.
  *
- * Input is not trusted: counts are checked against the file size, numbers must be finite, and errors are reported in
+ * Files are not trusted: counts are checked against the file size, numbers must be finite, and errors are reported in
  * one line with the file name and line. */
 #ifndef CLEAVE_GEOMETRY
 #define CLEAVE_GEOMETRY

@@ -1,9 +1,9 @@
-/* The active set of material points: transfers between points and grid skip the cells of a region still at rest. A
- * point is inactive if its velocity, velocity gradient, stress and force are exactly 0, no load acts on it and it has
- * no bond. A cell of inactive points contributes zeros, and mass to nodes that do not move: skipping the cell changes
- * no bit of the result. In one step motion spreads from cell to cell through shared nodes, once per transfer. Every
- * ACTIVE_POINTS_STEPS steps the cells that motion can enter within as many steps become active. Once all cells are
- * active the search ends; after points are sorted anew all cells are active until the next search. */
+/* The active set of material points: transfers between points and grid skip the cells of a region still at rest, with
+ * bitwise equal results. A point is inactive if its velocity, velocity gradient, stress and force are exactly 0, no
+ * load acts on it and it has no bond. A cell of inactive points contributes only zeros, and mass to nodes that do not
+ * move. In one step motion spreads from cell to cell through common nodes, once for each transfer. Every
+ * ACTIVE_POINTS_STEPS steps the cells that motion can reach within as many steps become active. The search ends once
+ * all cells are active. After points have been sorted anew, all cells are active until the next search. */
 #ifndef CLEAVE_ACTIVE_POINTS
 #define CLEAVE_ACTIVE_POINTS
 

@@ -1,7 +1,7 @@
-/* Couplings of Zeng et al. 2021, in which the grid also moves peridynamic particles: those in the cells at the
- * interface (PM, PG) or all of them (PMG, PGG: one unified grid). These grid-coupled particles contribute mass,
- * momentum and bond forces to the nodes and receive velocity and position from them, but contribute no stress: their
- * bonds replace the stress. */
+/* Couplings of Zeng et al. 2021, in which the background grid also moves peridynamic particles: those in the cells at
+ * the interface (PM, PG), or all of them (PMG, PGG: one grid for all particles). These grid-coupled particles
+ * contribute mass, momentum and bond forces to the nodes, and their velocity and position follow from the nodes. They
+ * contribute no stress, since their bonds replace it. */
 #ifndef CLEAVE_GRID_COUPLED
 #define CLEAVE_GRID_COUPLED
 
@@ -19,10 +19,10 @@ struct grid_coupled {
 };
 
 /* Selects the peridynamic particles of p that the background grid moves in this step: lists them in c, sets
- * FLAG_GRID_COUPLED and sorts them into cells. coupling: with COUPLING_PM and COUPLING_PG, which move particles at the
- * interface to material points by the grid, those in cells that share a node with a cell that contains a material
- * point; with COUPLING_PMG and COUPLING_PGG, which have one grid for all particles, all. g: background grid, which must
- * cover all material points (with one grid for all, all particles). Must be called before the forces are computed. */
+ * FLAG_GRID_COUPLED and sorts them into cells. coupling: COUPLING_PM and COUPLING_PG select the particles in cells that
+ * share a node with a cell that contains a material point; COUPLING_PMG and COUPLING_PGG, with one grid for all
+ * particles, select all. g: background grid, which must cover all material points (with one grid for all, all
+ * particles). Must be called before the forces are computed. */
 void grid_coupled_select_particles_moved_by_grid(struct grid_coupled *c, enum coupling coupling, struct particles *p,
                                                  const struct grid *g);
 

@@ -1,5 +1,6 @@
-/* Room `grid`: material points on the grid of the current frame: the grids of bodies, contact between them, and the
- * peridynamic particles that a grid moves. The room uses the run; conversion, the step and the engine use it. */
+/* Room `grid` (folder of include/ and src/): material points on background grids (current frame: mapped to the grid at
+ * their present positions): the grids of bodies, contact between them, and the peridynamic particles that a grid moves.
+ * The room uses the structures of a run; conversion, the time step and the engine use it. */
 #ifndef CLEAVE_GRID_PART
 #define CLEAVE_GRID_PART
 

@@ -1,6 +1,8 @@
-/* Absorbing faces: viscous tractions t = -(rho c_p v_n n + rho c_s v_t) on the exposed face of a body along an axis, so
- * that waves leave it (Lysmer & Kuhlemeyer 1969). Each is a dashpot on a particle or node, solved within its leap-frog
- * step (kernels/dashpot.h): it is stable at any time step and never adds energy. */
+/* Absorbing faces: viscous tractions t = -(rho c_p v_n n + rho c_s v_t) on the exposed face of a body along an axis, by
+ * which waves leave the body (Lysmer & Kuhlemeyer 1969). rho: density; c_p, c_s: speeds of longitudinal and shear
+ * waves; n, v_n, v_t: normal of the face, normal and tangential velocity. Each traction is a dashpot on a particle or
+ * node, solved implicitly within the leap-frog step (kernels/dashpot.h): stable at any time step, and never adding
+ * energy. */
 #ifndef CLEAVE_ABSORBING
 #define CLEAVE_ABSORBING
 

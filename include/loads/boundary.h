@@ -1,5 +1,5 @@
-/* Boundary conditions as a scene gives them: their kinds, what each prescribes as a function of position and time, and
- * which particles it selects. loads.h applies them to the particles, grids and meshes of a run. */
+/* Boundary conditions as an input file defines them: their kinds, what each prescribes as a function of position and
+ * time, and which particles it selects. loads.h applies them to the particles, grids and meshes of a run. */
 #ifndef CLEAVE_BOUNDARY
 #define CLEAVE_BOUNDARY
 
@@ -22,7 +22,8 @@ enum boundary_kind {
  * direction/(wavelength |direction|)). */
 enum profile_kind { PROFILE_UNIFORM, PROFILE_SINE };
 
-/* A factor on a body force: its kind and the constants of the formula above. */
+/* A factor on a body force as a function of the reference position: its kind, and the constants of the formula given at
+ * enum profile_kind. */
 struct profile {
     enum profile_kind kind;
     real wavelength;         /* [m] */
@@ -30,7 +31,8 @@ struct profile {
     real direction[DIM_MAX]; /* of any length [1] */
 };
 
-/* One boundary condition of a scene. A comment such as VELOCITY: names the kinds that use a member; else all do. */
+/* One boundary condition of an input file. Where a comment on a member begins with a kind, such as VELOCITY, only this
+ * kind uses the member; else all kinds do. */
 struct boundary {
     char name[NAME_MAX_LENGTH];
     char place[PLACE_LENGTH]; /* location in the scene file, for messages */
@@ -114,8 +116,10 @@ uint8_t boundary_prescribed_component_mask(const struct boundary *b, int dim);
 bool boundary_select_particles_in_region(const struct boundary *b, const struct particles *p, real spacing,
                                          uint8_t *selected);
 
-/* Areas of the particles on an exposed face, for tractions (loads_columns.c). In each column of particles along the
- * normal, the outermost one gets the area; extrapolated tangential areas are 3/2 of it there, -1/2 on the next one. */
+/* Areas by which the tractions on an exposed face are multiplied to obtain forces on particles (loads_columns.c). In
+ * each column of particles normal to the face, the outermost particle has the area of the column, all others 0. If
+ * tangential tractions are extrapolated to the face, their area is 3/2 of that on the outermost particle and -1/2 on
+ * the next one. */
 struct exposed_face {
     real *normal, *along; /* [particles] area for the normal component, and for the tangential ones [m^2] */
 };
@@ -163,7 +167,8 @@ struct prescribed_displacement {
  */
 struct prescribed_displacement prescribed_displacement_make(const struct boundary *b, int dim, real t);
 
-/* Returns component `component` of the displacement [m] at the reference position X[dim]; it must be prescribed. */
+/* Returns component `component` of the prescribed displacement [m] at the reference position X (dim components [m]).
+ * The boundary must prescribe this component. */
 real prescribed_displacement_at(const struct prescribed_displacement *prescribed, const real *X, int component);
 
 /* Returns REFUSED, with a message, if boundary b prescribes a velocity whose integral over time has no closed form (a

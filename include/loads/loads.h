@@ -1,5 +1,6 @@
-/* Room `loads`: boundary conditions on particles, grids and meshes, and their impulse and work. It uses `data`, `bonds`
- * and `kernels`, but neither scenes nor the step; mesh, solver and engine call it. */
+/* Room `loads` (folder of include/ and src/): boundary conditions on particles, grids and meshes, and their impulse and
+ * work. It uses `data`, `bonds` and `kernels`, but neither input files nor the time step; mesh, solver and engine call
+ * it. */
 #ifndef CLEAVE_LOADS
 #define CLEAVE_LOADS
 
@@ -11,8 +12,8 @@
 #include "absorbing.h"
 #include "boundary.h"
 
-/* A boundary condition applied to `n` particles, with their shares: factors on its value, such as areas or masses.
- * Arrays are owned, except shares that several loads use together. */
+/* A boundary condition applied to `n` particles, with a factor for each particle by which its value is multiplied, such
+ * as an area or a mass (`share`). Arrays are owned, except factors that several loads have in common. */
 struct load {
     const struct boundary *boundary; /* borrowed from the scene */
     int64_t n;                       /* number of particles on which it acts */
@@ -49,7 +50,8 @@ struct held {
     bool overruled; /* a later load constrains the component, so that this entry has no effect */
 };
 
-/* Velocity components of grid nodes that boundary conditions prescribe; found again when the box of the grid moves. */
+/* Velocity components of grid nodes that boundary conditions prescribe. They are determined again when the box of the
+ * grid moves. */
 struct constrained_set {
     int64_t n, lasting; /* length of `held`; the first `lasting` do not depend on nodal masses */
     struct held *held;
@@ -81,8 +83,9 @@ struct loads {
     struct constrained_set constrained_mesh; /* mesh nodes in driven regions, on mirrors, with mostly driven points */
 };
 
-/* Marks in loads.loaded. LOADED: forces other than those of bonds and grid may act on the particle. MOVES_LATER: bonds
- * across a clamped plane nearby act on it after the bond sweep. TOUCHES: contact may act on it. */
+/* Bits of the array loads.loaded, which has an entry for each particle. LOADED: forces other than those of bonds and
+ * grid may act on the particle; MOVES_LATER: bonds across a clamped plane act on it, after all other bond forces;
+ * TOUCHES: contact may act on it. */
 enum { LOADED = 1, MOVES_LATER = 2, TOUCHES = 4 };
 
 /* Returns true if loads or contact of l may act on particle i. */
@@ -91,10 +94,10 @@ static inline bool particle_is_loaded(const struct loads *l, int64_t i)
     return l->loaded && l->loaded[i] & (LOADED | TOUCHES);
 }
 
-/* Finds the particles of p on which boundary b acts, those in its region (for a clamped mirror those in its plane), and
- * stores them in l, ascending, with their shares of the load: areas, volumes or masses. Sets FLAG_DRIVEN on particles
- * with prescribed motion. spacing: lattice spacing [m]. Returns REFUSED, with a message, for a force on a region
- * without particles or a traction on particles without a free face. */
+/* Finds the particles of p on which boundary b acts: those in its region, for a clamped mirror those in its plane.
+ * Stores them in l, ascending, with the area, volume or mass of each, by which the load is multiplied. Sets FLAG_DRIVEN
+ * on particles with prescribed motion. spacing: lattice spacing [m]. Returns REFUSED, with a message, for a force on a
+ * region without particles or a traction on particles without a free face. */
 status load_find_particles_of_boundary(struct load *l, const struct boundary *b, struct particles *p, real spacing);
 
 /* Sets the particle list of load l to the particles i with selected[i] > 0 ([p->n]), ascending. If the load prescribes
@@ -127,15 +130,15 @@ status load_prepare_time_varying_particle_factors(struct load *l, const struct p
  * Returns FAILED, with a message that contains boundary, position and time, if a value is not finite. */
 status loads_check_formulas_are_finite(const struct loads *l, const struct particles *p, real t);
 
-/* Recomputes l->share, the factors by which the value of a load is multiplied at each particle of p (its area, volume
- * or mass times a formula), for loads whose formula or surface changes in time: as means over the velocity update of
- * duration dt_velocity [s] that ends at time t [s]. Part of loads_add_applied_forces. */
+/* Recomputes l->share for loads whose formula or surface changes in time: the factor of each particle of p by which the
+ * value of the load is multiplied, its area, volume or mass times a formula. The factors are means over the velocity
+ * update of duration dt_velocity [s] that ends at time t [s]. Part of loads_add_applied_forces. */
 void loads_update_mean_particle_factors_for_forces(struct loads *l, const struct particles *p, real t,
                                                    real dt_velocity);
 
-/* Recomputes l->share, the factors by which the value of a load is multiplied at each particle of p (its area, volume
- * or mass times a formula), for loads with a formula or surface that changes in time, as means over the two velocity
- * updates before and after the position update from t - dt/2 to t + dt/2 [s], just made. Part of
+/* Recomputes l->share for loads whose formula or surface changes in time: the factor of each particle of p by which the
+ * value of the load is multiplied, its area, volume or mass times a formula. The factors are means over the two
+ * velocity updates before and after the last position update, from t - dt/2 to t + dt/2 [s]. Part of
  * loads_add_work_of_applied_forces. */
 void loads_update_mean_particle_factors_for_work(struct loads *l, const struct particles *p, real t, real dt);
 
@@ -209,9 +212,10 @@ void absorbing_dashpots_free(struct loads *l);
  * mesh). dt_velocity: duration of the velocity update [s]. Part of loads_apply_forces_and_motion_constraints. */
 void loads_add_dashpot_forces(struct loads *l, struct particles *p, real dt_velocity);
 
-/* Appends the absorbing dashpots (l) of grid nodes to g; part of loads_prescribe_grid_velocities, after the prescribed
- * velocities of nodes are set. The coefficients of the dashpots on particles of p are distributed to the nodes by the
- * kernel kernels->spread. half_width: half the reference edge of a particle [m]. */
+/* Appends the absorbing dashpots of the loads l to the list of dashpots of grid g; part of
+ * loads_prescribe_grid_velocities, after the prescribed velocities of nodes are set. The kernel kernels->spread
+ * distributes the coefficients of the dashpots on particles of p to the nodes. half_width: half the reference edge of a
+ * particle [m]. */
 void loads_add_grid_dashpots(struct loads *l, struct grid *g, const struct particles *p, const struct kernels *kernels,
                              real half_width);
 
@@ -222,8 +226,8 @@ void loads_add_mesh_dashpots(struct loads *l, struct mesh *mesh, const struct pa
 /* Adds energy and impulse that all dashpots of a grid or mesh have absorbed in a step, `absorbed`, to the sums in l. */
 void loads_add_absorbed_energy_and_impulse(struct loads *l, const struct dashpot_effect *absorbed);
 
-/* Computes the displacement that load l prescribes for its particle number `entry` (an index of l->particle; of p) at
- * time t [s]. displacement: dim components [m], 0 where not prescribed. */
+/* Computes the displacement that load l prescribes at time t [s] for its particle number `entry`, i.e. particle
+ * l->particle[entry] of p. displacement: receives dim components [m], 0 where none is prescribed. */
 void load_displacement_of_particle(const struct load *l, const struct particles *p, int64_t entry, real t,
                                    real *displacement);
 
@@ -293,8 +297,8 @@ void loads_prescribe_mesh_velocities(const struct loads *l, struct mesh *mesh, r
 void loads_find_driven_coarse_nodes(const struct loads *l, struct constrained_set *driven_nodes, struct grid *g,
                                     const struct particles *p);
 
-/* Stores in g->wall the velocities that l prescribes for the nodes in `driven_nodes`, found by
- * loads_find_driven_coarse_nodes, of grid g of a mesh of coarse cells, for the step from t - dt/2 to t + dt/2 [s]. */
+/* Stores in g->wall the velocities that l prescribes for nodes of grid g of a mesh of coarse cells, for the step from t
+ * - dt/2 to t + dt/2 [s]. driven_nodes: these nodes, found by loads_find_driven_coarse_nodes. */
 void loads_prescribe_coarse_node_velocities(const struct loads *l, const struct constrained_set *driven_nodes,
                                             struct grid *g, real t, real dt);
 
@@ -323,7 +327,7 @@ void loads_compute_prescribed_static_displacements(struct loads *l, const struct
                                                    real *const *displacement, uint8_t *driven_components);
 
 /* Adds the inertia forces of a rigid rotation (inertia relief) to the applied forces l of a free body of particles p in
- * 2D, so that loads with a moment have an equilibrium, for example loads on particles of an irregular lattice. Returns
+ * 2D. Loads with a moment, for example loads on particles of an irregular lattice, then have an equilibrium. Returns
  * the moment of the loads divided by the largest moment that forces of this size could have [1]. */
 real loads_add_inertia_relief(struct loads *l, const struct particles *p);
 
@@ -334,8 +338,9 @@ void loads_add_static_forces(const struct loads *l, struct particles *p);
  * prescribes, then sets these components of p->f to 0. Reactions of other loads become 0. */
 void loads_extract_static_reactions_from_forces(struct loads *l, struct particles *p);
 
-/* Computes the work of loads that grow in proportion on a linear body p: stores half the sum of applied forces times
- * displacements in l->work, and half the sum of reactions times prescribed displacements in l->constraint_work [J]. */
+/* Computes the work of the loads l on the body of particles p, whose response is linear and whose loads grow in
+ * proportion. Stores half the sum of applied forces times displacements in l->work, and half the sum of reactions times
+ * prescribed displacements in l->constraint_work [J]. */
 void loads_compute_static_work(struct loads *l, const struct particles *p);
 
 /* Saves impulse and work so far, displacement and reaction of each load in l to the archive `a` (checkpoint file or

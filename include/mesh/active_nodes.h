@@ -8,8 +8,8 @@
 
 /* Updates after a step the list of active blocks of the mesh. A block is eight nodes beside each other along x; only
  * active blocks are computed, all others are still at rest. Normally adds the neighbours of blocks whose nodes have
- * moved. After active_nodes_activate_all_blocks, makes the list anew: it then has the blocks that move, on which the
- * boundary conditions `loads` act, or that have exposed points (material points to which bonds or loads attach). */
+ * moved. After active_nodes_activate_all_blocks, makes a new list: blocks that move, blocks on which the boundary
+ * conditions `loads` act, and blocks with exposed points (material points to which bonds or loads attach). */
 void active_nodes_update_list_of_active_blocks(struct mesh *mesh, const struct loads *loads);
 
 /* Adds the blocks of nodes of `mesh` around exposed points (material points to which bonds or loads attach) to those

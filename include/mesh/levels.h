@@ -26,8 +26,9 @@
 enum { LEVELS_MAX = 4, MASTERS_MAX = 4 };
 
 /* Largest ratio of the time step to the critical time step in a mesh with coarse cells [1]. The eigenvalues of a bar
- * with three levels show that motion is unstable from a time step of 1.48 (spacing / wave speed) on, against 2.00
- * without coarse cells: impulses of the coarser levels then have half the period of the finest cells, and resonate. */
+ * with three levels show instability from a time step of 1.48 (spacing / wave speed) on, against 2.00 without coarse
+ * cells. The period of the impulses of coarser levels is then half that of the vibration of the finest cells, so that
+ * both resonate. */
 #define LEVELS_STEP_MOST 0.7
 
 /* A ghost, a node of the mesh of a coarse level at the position of a node of the next finer level, with which it moves.
@@ -76,9 +77,9 @@ struct mesh_levels {
     struct mesh_level at[LEVELS_MAX + 1]; /* meshes of the coarse levels: at[1] .. at[n] */
 };
 
-/* Whether, and why, a cell requires that the cells around it become cells of level 0 (the finest) at the next change of
- * levels. WANTED_NOT: it does not; WANTED_STRESS: one of its material points may soon convert to a peridynamic
- * particle; WANTED_LOST_BOND: one of its points has lost a bond, and its conversion is postponed until then. */
+/* Reason for which the cells around a cell must become cells of level 0 (the finest) at the next change of levels.
+ * WANTED_NOT: none; WANTED_STRESS: a material point of the cell may soon convert to a peridynamic particle;
+ * WANTED_LOST_BOND: a point of the cell has lost a bond, and its conversion is postponed until that change. */
 enum levels_wanted { WANTED_NOT, WANTED_STRESS, WANTED_LOST_BOND };
 
 /* Class of the distance of a cell of the finest level from coarse cells: less than safe_cells, less than roomy_cells,
@@ -237,10 +238,10 @@ bool mesh_levels_find_inverted_coarse_cell(const struct mesh_levels *l, real *X)
 void mesh_levels_reconnect_coarse_to_finest_mesh(struct mesh_levels *l, const struct particles *p,
                                                  const struct mesh_source *source);
 
-/* Saves the coarsening level of each cell, the motion of the nodes of coarse cells of l and the data for the next
- * change of levels to the archive `a` (checkpoint file or memory) if a->saving, else restores them. The finest mesh
- * must be restored before. p: particles; source: material constants. Returns FAILED, with a message, if the archive
- * cannot be read or written or if the restored levels are inconsistent. */
+/* Saves the state of the coarse cells of l to the archive `a` (checkpoint file or memory) if a->saving, else restores
+ * it: the coarsening level of each cell, the motion of the nodes, and the data for the next change of levels. The
+ * finest mesh must be restored before. p: particles; source: material constants. Returns FAILED, with a message, if the
+ * archive cannot be read or written or if the restored levels are inconsistent. */
 status mesh_levels_save_or_load(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
                                 struct archive *a);
 

@@ -1,7 +1,8 @@
-/* Room `mesh`: the reference frame of material points: cells, their stiffness, changes by conversion, coarse cells. The
- * room uses bonds and loads; the engine uses it.
+/* Room `mesh` (folder of include/ and src/): meshes by which material points move in the reference frame (fixed to the
+ * material): cells, their stiffness, changes by conversion, coarse cells. The room uses bonds and loads; the engine
+ * uses it.
  *
- * This header: makes the mesh of the reference frame (include/data/mesh.h) and updates it after conversion. */
+ * This header: makes such a mesh (include/data/mesh.h) and updates it after conversion. */
 #ifndef CLEAVE_MESH_MAKE
 #define CLEAVE_MESH_MAKE
 
@@ -67,11 +68,11 @@ bool mesh_try_update_stiffness_for_partial_stress(struct mesh *mesh, const struc
                                                   int64_t changed_count);
 
 /* Adds the particles in inserted_points[inserted_count] (indices), which have become material points again, to the
- * nodes of the mesh, not yet to its cells. Momentum is conserved: the velocity of the nodes around them becomes (m_I
- * v_I + sum m_p N v_p)/(m_I + sum m_p N), with the masses and velocities m_I, v_I of each node I and m_p, v_p of each
- * point p, and shape functions N; the displacement of these nodes is fitted by least squares to all points around them.
- * Call mesh_remove_points_and_return_lost_energy afterwards, with these particles in its list changed_points: it
- * rebuilds the cells that contain them. Returns the kinetic energy that is lost [J]. */
+ * nodes of the mesh, not yet to its cells. The velocity of a node I around them becomes (m_I v_I + sum m_p N v_p)/(m_I
+ * + sum m_p N), so that momentum is conserved: m_I, v_I and m_p, v_p are mass and velocity of the node and of each
+ * point p, N is the shape function. The displacement of these nodes is fitted by least squares to all points around
+ * them. Then call mesh_remove_points_and_return_lost_energy with these particles in its list changed_points, to rebuild
+ * the cells that contain them. Returns the kinetic energy that is lost [J]. */
 real mesh_insert_points_and_return_lost_energy(struct mesh *mesh, struct particles *p, const int32_t *inserted_points,
                                                int64_t inserted_count);
 
@@ -91,16 +92,16 @@ void mesh_list_bonded_or_loaded_points(struct mesh *mesh, const struct particles
 real mesh_critical_time_step(const struct mesh *mesh, const struct mesh_source *source, const real *density,
                              bool after_any_conversion);
 
-/* Computes the stiffness matrix of the cell of `mesh` with the index `cell` for displacements of its corners in the
- * undeformed state [N/m], from the points of p that the cell still has, ignoring that bonds may carry a part of the
- * stress (partial stress). elastic: array of the elastic constants of all materials; stiffness: receives (dim 2^dim)^2
- * values, column by column, with index corner x dim + component. Returns false, with stiffness 0, if the cell has no
- * points. */
+/* Computes the stiffness matrix [N/m] of cell number `cell` of `mesh` for displacements of its corners in the
+ * undeformed state, from the points of p that the cell still has. The part of the stress that bonds may carry (partial
+ * stress) is not subtracted. elastic: array of the elastic constants of all materials; stiffness: receives (dim
+ * 2^dim)^2 values, column by column, with index corner x dim + component. Returns false, with stiffness 0, if the cell
+ * has no points. */
 bool mesh_compute_cell_stiffness(const struct mesh *mesh, const struct elastic *elastic, const struct particles *p,
                                  int64_t cell, real *stiffness);
 
-/* Returns the lowest index of a particle at whose position the deformation has turned a cell of the mesh inside out
- * (the determinant of the deformation gradient is 0 or negative), or p->n if there is none. */
+/* Returns the lowest index of a particle of p at whose position the deformation has turned a cell of the mesh inside
+ * out, or p->n if there is none. The determinant of the deformation gradient is 0 or negative there. */
 int64_t mesh_first_particle_in_inverted_cell(const struct mesh *mesh, const struct particles *p);
 
 /* Smallest number of coarse cells of one size that must fit across a part of the body for cells of this size to be used

@@ -1,4 +1,4 @@
-/* Bodies in the reference frame in a run. */
+/* Motion of bodies in the reference frame in a run: by a mesh of cells fixed to the material, and coarse cells. */
 #ifndef CLEAVE_MESH_PART
 #define CLEAVE_MESH_PART
 
@@ -20,7 +20,8 @@ struct finest_cells_disc {
     real place[2], radius;
 };
 
-/* Material points in coarse cells whose particles were never made; they exist only for the last frame of output. */
+/* Material points of coarse cells in which no particles were created. They are interpolated from the nodes for one
+ * output frame (state at one time) only. Arrays are owned. */
 struct coarse_cell_points {
     struct particles part;             /* the points */
     real *spacing;                     /* spacing of the points [m] */
@@ -55,13 +56,14 @@ struct lagrangian_mesh {
 };
 
 /* Adds a warning to *warning_list for each plane of symmetry of run e that is neither on nodes of the grid or mesh nor
- * midway between them, and for each that the bodies in the reference frame (on the mesh) do not reach. */
+ * midway between nodes. Adds a warning, too, for each plane that the bodies in the reference frame (on the mesh) do not
+ * reach. */
 void mirror_planes_warn_if_not_fitting_grid_or_mesh(const struct run *e, struct warnings *warning_list);
 
-/* Decides for each body of scene s whether its material points use a mesh fixed to the material (reference frame) or
- * the background grid (current frame), and stores the choice with its reason in r->choice. Sets FLAG_MESHED of the
- * particles of p in the reference frame, and makes the background grids `mpm` for this choice. Returns REFUSED, with a
- * message, if the scene requires the reference frame for a body that cannot use it. */
+/* Decides for each body of scene s (the input file) whether its material points move with a mesh fixed to the material
+ * (reference frame) or by the background grid (current frame). Stores the choice with its reason in r->choice, sets
+ * FLAG_MESHED of the particles of p in the reference frame, and makes the background grids `mpm` for this choice.
+ * Returns REFUSED, with a message, if the scene requires the reference frame for a body that cannot use it. */
 status bodies_choose_material_mesh_or_background_grid(struct lagrangian_mesh *r, struct grid_method *mpm,
                                                       struct particles *p, const struct scene *s);
 
@@ -85,8 +87,8 @@ status lagrangian_mesh_make_for_run(struct run *e, const struct mesh_source *sou
  * is COUPLING_PARTIAL_STRESS (bonds carry part of the stress of the points). */
 real lagrangian_mesh_critical_time_step(const struct lagrangian_mesh *r, const struct scene *s, enum coupling coupling);
 
-/* Finds again the points (of p) of the mesh r that have bonds, loads or mirror images (exposed points), and the nodes
- * on which the boundary conditions `loads` act, after points or coarsening levels of the mesh have changed. */
+/* Lists anew the exposed points of the mesh r (points of p with bonds, loads or mirror images) and the nodes on which
+ * the boundary conditions `loads` act. To be called after points or coarsening levels of the mesh have changed. */
 void lagrangian_mesh_list_bonded_or_loaded_points(struct lagrangian_mesh *r, const struct particles *p,
                                                   const struct bonds *bonds, struct loads *loads);
 
@@ -117,7 +119,7 @@ void lagrangian_mesh_update_point_motion_and_stress(struct lagrangian_mesh *r, s
 void lagrangian_mesh_update_point_motion(struct lagrangian_mesh *r, struct particles *p, const struct loads *loads);
 
 /* Updates positions and velocities of the material points of p in point_list[point_count] (indices) from the nodes of
- * the mesh of r, except those in coarse cells, then those of the mirror images of particles, which `loads` lists. */
+ * the mesh of r, except points in coarse cells. Then updates the mirror images of particles, which `loads` lists. */
 void lagrangian_mesh_update_motion_of_listed_points(struct lagrangian_mesh *r, struct particles *p,
                                                     const struct loads *loads, const int32_t *point_list,
                                                     int64_t point_count);
@@ -229,8 +231,8 @@ void mesh_levels_change_cell_levels(struct run *e, const uint8_t *new_cell_level
  * convert. */
 void coarse_cells_delay_conversion_of_nearby_points(struct mesh_levels *l, struct particles *p);
 
-/* Updates, after coarsening levels have changed, the lists of nodes of coarse cells on which boundary conditions act,
- * of points (of p) of the mesh r with bonds, loads or mirror images, and of nodes on which loads act. */
+/* Updates three lists after coarsening levels of the mesh r have changed: the nodes of coarse cells on which boundary
+ * conditions act, the points (of p) with bonds, loads or mirror images, and the nodes on which loads act. */
 void mesh_levels_update_lists_of_loaded_nodes(struct lagrangian_mesh *r, const struct particles *p,
                                               const struct bonds *bonds, struct loads *loads);
 

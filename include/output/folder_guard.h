@@ -1,4 +1,5 @@
-/* Guard of output folders: every command calls it before it writes into a folder. */
+/* Check of results folders: every command calls it before it writes into a folder, so that files that Cleave did not
+ * write are not replaced. */
 #ifndef CLEAVE_FOLDER_GUARD
 #define CLEAVE_FOLDER_GUARD
 

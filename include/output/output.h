@@ -1,10 +1,11 @@
-/* Room `output`: writes and reads the files of a run. It uses particles and archives; the engine, the commands and the
- * plots call it.
+/* Room `output` (folder of include/ and src/): writes and reads the files of a run. It uses particles and archives; the
+ * engine, the commands and the room `plot` call it.
  *
- * The folder of a run holds frames, their indices, history.csv, checkpoints and summaries. Only output*.c, checkpoint.c
- * and particle_list.c call HDF5 (info.c reads its version). Every file but history.csv, which grows, is written under a
- * temporary name, synced and renamed, so that a file under its final name is complete. After HDF5 failed to write,
- * every function that needs HDF5 returns FAILED and keeps the first error message. */
+ * The results folder of a run contains frames (states of the particles at one time), their index files, history.csv,
+ * checkpoints and summaries. Only output*.c, checkpoint.c and particle_list.c call HDF5 (info.c reads its version).
+ * Every file but history.csv, which grows, is written under a temporary name, synced and renamed, so that a file under
+ * its final name is complete. After HDF5 has failed to write, every function that needs HDF5 returns FAILED and keeps
+ * the first error message. */
 #ifndef CLEAVE_OUTPUT
 #define CLEAVE_OUTPUT
 
@@ -35,7 +36,8 @@ struct frame_entry {
     int32_t particles; /* number in the name of the particles file that the frame links to (particles_file.h) */
 };
 
-/* Rows of frames: particles by ascending id, then material points of coarse cells. */
+/* Order of the rows of a frame file (state at one time): particles by ascending id, then material points of coarse
+ * cells. */
 struct frame_rows {
     int32_t *index; /* [n] index in the particles or, for the last rows, in the material points of coarse cells */
     int64_t n, own; /* number of rows; number of the first rows, which are particles */
@@ -92,9 +94,9 @@ status output_open(struct output *o, const char *folder, const char *scene_text,
  * *o. */
 void output_close(struct output *o);
 
-/* Checks that frames (the particles at one time) of a region can be written to the subfolder frames_NAME of the folder
- * of a run, with NAME = series_name, the name of the region. Returns REFUSED if a link or a file has that name. Must be
- * called before output_open, which removes the files of an older run. */
+/* Checks that the subfolder frames_NAME of a results folder can be created for the frames (the particles at one time)
+ * of a region, with NAME = series_name, the name of the region. Returns REFUSED if a link or a file has that name. Must
+ * be called before output_open, which removes the files of an older run. */
 status output_check_series_folder_can_be_created(const char *folder, const char *series_name);
 
 /* Adds a series of frames (files with the particles of a region at one time) to the output o: the subfolder frames_NAME
@@ -103,9 +105,9 @@ status output_check_series_folder_can_be_created(const char *folder, const char 
  * FAILED if it cannot be created. */
 status output_add_frame_series(struct output *o, const char *series_name, const struct region *region);
 
-/* Writes `length` bytes of `text` to the file `file_name` in the folder of the run o, first under a temporary name,
- * which is then renamed, so that the file under its final name is complete. Returns FAILED if the file cannot be
- * written. */
+/* Writes `length` bytes of `text` to the file `file_name` in the folder of the run o. The file is first written under a
+ * temporary name and then renamed, so that a file under its final name is complete. Returns FAILED if the file cannot
+ * be written. */
 status output_write_text(const struct output *o, const char *file_name, const char *text, size_t length);
 
 /* Writes the index files of all series of frames (files with the particles at one time) of o again, without frames
@@ -146,8 +148,8 @@ struct frame_state {
                                         * doubles the edge of the cell; 0: finest cell, or none */
 };
 
-/* Quantities in frames besides the arrays of the particles. Arrays have an entry for each particle and are borrowed;
- * NULL: the frames of this run do not have the quantity. */
+/* Quantities that a frame (state at one time) contains besides the arrays of the particles. Arrays are borrowed and
+ * have an entry for each particle; NULL: the frames of this run do not have the quantity. */
 struct frame_extra {
     real *const *push;               /* [dim] contact force [N] */
     const int32_t *fragment;         /* index of the fragment, 0 for the heaviest; -1: none */

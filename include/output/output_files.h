@@ -69,9 +69,9 @@ status file_report_write_failure(const char *path, int cause);
  * command that is running, or a pipe, socket or device; OK otherwise, also if there is no such file. */
 status file_check_replaceable(const char *path);
 
-/* Checks that the file `path` begins as a file of Cleave does, so that it may be replaced. beginning[beginnings]: the
- * possible beginnings; a file shorter than a beginning must agree with it to the end of the file. Returns OK also if
- * there is no such file; REFUSED if no beginning agrees. */
+/* Checks that the file `path` begins as a file of Cleave does, so that it may be replaced. beginning[beginning_count]:
+ * the possible beginnings; a file shorter than a beginning must agree with it to the end of the file. Returns OK also
+ * if there is no such file; REFUSED if no beginning agrees. */
 status file_check_is_from_cleave(const char *path, const char *const *beginning, size_t beginning_count);
 
 /* Type of a function that folder_visit_selected_files calls for a file. path: path of the file. Returns OK to continue;

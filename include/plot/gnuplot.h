@@ -74,9 +74,9 @@ int gnuplot_image_pixel_count_along_edge(enum picture_format format, int layout_
  * panels, so that the key must be below them. */
 bool picture_size_is_too_narrow_for_side_legend(void);
 
-/* Returns the estimated width of the first n bytes of `text` (UTF-8) in pixels, divided by the size of the letters in
- * points. The estimate uses mean widths of classes of letters of Helvetica. In narrow pictures, where letters are drawn
- * smaller than stated, the estimate is reduced accordingly. */
+/* Returns the estimated width of the first `byte_count` bytes of `text` (UTF-8) in pixels, divided by the size of the
+ * letters in points. The estimate uses mean widths of classes of letters of Helvetica. In narrow pictures, where
+ * letters are drawn smaller than stated, the estimate is reduced accordingly. */
 double text_estimate_width_in_pixels_per_font_point(const char *text, size_t byte_count);
 
 /* Returns REFUSED, with a message, if no font of this machine has a letter of the title `text`: gnuplot would draw

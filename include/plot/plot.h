@@ -1,5 +1,5 @@
-/* Room `plot`: pictures and comparisons of finished or running runs, made from their files alone, and pictures of
- * scenes before they run. Called by commands.
+/* Room `plot` (folder of include/ and src/): pictures and comparisons of finished or running runs, made from their
+ * files alone, and pictures of input files before they run. Commands call it.
  *
  * This header declares what the files of `cleave plot` share with each other and with `cleave compare`. */
 #ifndef CLEAVE_PLOT
@@ -33,7 +33,8 @@ struct camera camera_along_axis(int axis, int side);
 
 struct plot_field;
 
-/* Selects the particles of a frame that are drawn: in 3D a slice or an outside view, in 2D all. */
+/* Selection of the particles of a frame (state at one time) that a picture shows: in 3D a slice or a view from outside,
+ * in 2D all particles. */
 struct projection {
     bool outside;                   /* outside view; else a slice */
     struct camera camera;           /* direction of the outside view */
@@ -210,9 +211,9 @@ status plot_field_find_by_name(const struct plot_field **field, const char *name
 /* Writes the name of a field as in pictures, for example `stress xx`, to text[capacity], cut to capacity - 1 bytes. */
 void plot_field_write_label(char *text, size_t capacity, const struct plot_field *field);
 
-/* Reads the values of the field `field` at the particles of the frame f (state at one time), which was read from the
- * file `path`, into an allocated array *value, [f->n], which the caller releases with memory_free. Returns FAILED if
- * the frame lacks the field. */
+/* Reads the values of the field `field` at the particles of the frame f (state at one time) from the file `path`, from
+ * which f was read. Stores an allocated array of f->n values in *value, which the caller releases with memory_free.
+ * Returns FAILED if the frame lacks the field. */
 status plot_field_read(float **value, const struct plot_field *field, const struct output_frame *f, const char *path);
 
 /* Chooses the field of a run that is drawn if the user names none, and stores it in *field. It is damage if bonds have
@@ -346,11 +347,11 @@ enum map colour_map_kind_for_field(const struct plot_field *field);
 void rigid_body_find_nearest_particle_displacement(const struct region *shape, const struct rigid_placement *placement,
                                                    const struct output_frame *f, real *displacement);
 
-/* Adds the rigid bodies of the scene s to c, the particles of frame number `frame_number` that a picture shows, at the
- * positions and rotations that the run in `folder` has stored for this frame. In a picture with magnified displacements
- * (c->magnify), each body is moved along by the added displacement of the particle nearest to it. Adds none, without a
- * message, if s is NULL, in one dimension, or if the file with the positions is missing or cannot be read. f: the
- * frame; s: kept by reference, must outlive c. */
+/* Adds the rigid bodies of the scene s to c, the particles of frame number `frame_number` that a picture shows. Their
+ * positions and rotations are those that the run in `folder` has stored for this frame. In a picture with magnified
+ * displacements (c->magnify), each body is moved along by the added displacement of the particle nearest to it. Adds
+ * none, without a message, if s is NULL, in one dimension, or if the file with the positions is missing or cannot be
+ * read. f: the frame; s: kept by reference, must outlive c. */
 void plotted_particles_add_rigid_bodies(struct plotted_particles *c, const struct output_frame *f,
                                         const struct scene *s, const char *folder, int frame_number);
 
@@ -453,9 +454,9 @@ void image_paint_precrack_faces(struct colour *pixel, int width, int height, con
  * deformable bodies are faded, too. */
 struct colour rigid_body_colour(enum map map);
 
-/* Extends the rectangle of the view v so that it shows the rigid bodies (their boxes) of the output frames
- * cloud[frame_count], on each side by at most 0.3 times the longer side that the rectangle has before: parts of a body
- * farther away remain outside. Bodies that are not in the section are left out. */
+/* Extends the rectangle of the view v so that it shows the rigid bodies (their boxes) in the frames cloud[frame_count],
+ * the particles at several times. Each side moves by at most 0.3 times the longer side of the original rectangle; parts
+ * of a body farther away remain outside. Bodies that are not in the section are left out. */
 void view_extend_to_rigid_bodies(struct view *v, const struct plotted_particles *cloud, int frame_count);
 
 /* Returns true if at least one rigid body of c is visible in the rectangle of v. In views from outside every rigid body
@@ -479,9 +480,9 @@ struct output_picture {
     enum picture_format format;
 };
 
-/* Draws one picture, the file sheet.path, with a panel for each of the frames cloud[frame_count], a common colour scale
- * or key (legend), and the heading `title`. map: quantity that the colours show; view: common rectangle and range of
- * the colours. Returns FAILED if gnuplot fails. */
+/* Draws one picture in the file output.path of the format output.format. It has a panel for each of the frames
+ * cloud[frame_count] (the particles at one time), a common colour scale or key (legend), and the heading `title`. map:
+ * quantity that the colours show; view: common rectangle and range of the colours. Returns FAILED if gnuplot fails. */
 status picture_draw_panels_of_frames(struct output_picture output, const char *title, enum map map,
                                      const struct view *view, const struct plotted_particles *cloud, int frame_count);
 

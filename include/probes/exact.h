@@ -1,16 +1,20 @@
-/* Closed-form solutions for waves in a uniform elastic bar [left, right], with which computed fields are compared. c =
- * sqrt(E/rho) is the wave speed, F the stress at the loaded end, s the distance from that end; tension is positive.
- * Strain is stress/E unless the bar has yielded.
+/* Closed-form solutions for waves in a uniform elastic bar [left, right], with which computed fields are
+ * compared. L: length; rho: density; E: Young's modulus; c = sqrt(E/rho): wave speed; F: stress at the loaded
+ * end; s: distance from that end; t: time; H: unit step. Tension is positive. Strain is stress/E unless the
+ * bar has yielded.
  *
- *   STEP BAR      a load applied at t = 0 and held, on a bar at rest: d'Alembert's solution with all reflections
- *                     sigma = F sum_n (-r)^n [H(ct - 2nL - s) + r H(ct - 2(n+1)L + s)],   r = +1 fixed, -1 free far end
- *                 each front carries v = -+ sigma/(rho c); displacements are the velocities of fronts times their age
- *   PLASTIC BAR   the same load beyond the yield stress sigma_y, bilinear with tangent modulus E_t: a precursor sigma_y
- *                 at speed c, the rest at sqrt(E_t/rho) (von Karman & Duwez 1950); valid until the precursor reaches
- *                 the far end
- *   PULSE         the waves from initial pulses (region.h): at rest ahead, displaced by sqrt(pi) V r/c behind; the ends
- *                 reflect by images, and a fixed end keeps its displacement
- *   MANUFACTURED  u = U sin^2(pi t/T) sin(2 pi (x - origin)/lambda), under the body force that makes it a solution */
+ *   STEP BAR      a load applied at t = 0 and kept, on a bar at rest: d'Alembert's solution, all reflections
+ *                   sigma = F sum_n (-r)^n [H(ct - 2nL - s) + r H(ct - 2(n+1)L + s)],   n = 0, 1, ...
+ *                 with r = +1 for a fixed, -1 for a free far end; each front has v = -+ sigma/(rho c);
+ *                 displacements are the velocities of fronts times the time since they passed
+ *   PLASTIC BAR   the same load beyond the yield stress sigma_y, bilinear with tangent modulus E_t: precursor
+ *                 sigma_y at speed c, the rest at sqrt(E_t/rho) (von Karman & Duwez 1950); valid until the
+ *                 precursor reaches the far end
+ *   PULSE         the waves from initial pulses of velocity V and radius r (data/region.h): at rest ahead,
+ *                 displaced by sqrt(pi) V r/c behind; the ends reflect by images, and a fixed end keeps its
+ *                 displacement
+ *   MANUFACTURED  u = U sin^2(pi t/T) sin(2 pi (x - origin)/lambda), with constants U, T, origin and lambda,
+ *                 under the body force for which this displacement is a solution */
 #ifndef CLEAVE_EXACT
 #define CLEAVE_EXACT
 

@@ -1,6 +1,6 @@
-/* Room `probes`: quantities measured in a run besides frames: time series, profiles, results for scripts, the balance
- * of energy. Probes read particles, bonds, loads and tips and change none of them; the step and its reports call
- * them. */
+/* Room `probes` (folder of include/ and src/): quantities measured in a run besides frames (states at one time): time
+ * series, profiles, results for scripts, the energy balance. Probes read particles, bonds, loads and crack tips and
+ * change none of them; the time step and its reports call them. */
 #ifndef CLEAVE_PROBES
 #define CLEAVE_PROBES
 
@@ -18,17 +18,18 @@
 #include "fracture/sif.h"
 #include "fracture/tips.h"
 
-/* Results of a probe of kind EXACT, which compares a bar with a closed-form solution. All but the last three are
- * computed from the stress by bond flux (probes_parts.h); results with `_strain` compare E x strain with E x exact
- * strain, with strain by central differences over neighbours in the bar:
+/* Results of a probe of kind EXACT, which compares a bar with a closed-form solution. Stress is the stress by
+ * bond flux (probes_parts.h); results with the suffix `_strain` use E x strain instead, with strain by
+ * central differences over neighbours in the bar.
  *
- *   L1, L2                           mean |error| and root mean square of the error over the particles [Pa]
- *   front, front_plastic             where the stress passes the middle of the jump of the (plastic) front [m]
- *   plateau                          mean stress in the range EXACT_PLATEAU of
- * bar_exact_solution_find_constant_stress_range [Pa] strain_elastic, strain_plastic   mean strain ahead of the plastic
- * front, and behind it [1] end_displacement                 of the outermost particle at the loaded end, half a spacing
- * from the end [m] L1_velocity, L2_velocity         as L1 and L2, at the time of the velocities [m/s] L2_displacement
- * as L2 [m] */
+ *   L1, L2                    mean |error| and root mean square of the error over the particles [Pa]
+ *   front, front_plastic      position where the stress passes the middle of the jump of the front [m]
+ *   plateau                   mean stress in the range EXACT_PLATEAU (probes/exact.h) [Pa]
+ *   strain_elastic            mean strain between the elastic precursor and the plastic front [1]
+ *   strain_plastic            mean strain behind the plastic front [1]
+ *   end_displacement          of the outermost particle at the loaded end, half a spacing from the end [m]
+ *   L1_velocity, L2_velocity  as L1 and L2, for velocities at their time [m/s]
+ *   L2_displacement           as L2, for displacements [m] */
 
 /* Final state of the run on material points alone with which PULSE probes are compared
  * (run_repeat_with_mpm_only_for_pulse_probe). */
@@ -80,8 +81,8 @@ struct probes {
     real sampled;          /* time of the last sample; NAN if none [s] */
 };
 
-/* Time of the velocities after a time step, and a factor on the velocities that are interpolated to the time of a
- * sample (probes_sample_velocity_dependent_values). */
+/* Time of the velocities after a time step, and a factor on velocities that a sample (line of history.csv) interpolates
+ * to its own time (probes_sample_velocity_dependent_values). */
 struct velocity_time {
     real t;     /* of the present velocities [s] */
     real scale; /* factor of velocities of the sample that undoes half a step of bulk damping [1] */
@@ -89,9 +90,9 @@ struct velocity_time {
 
 /* Initialises the probes *s for the requests requests[request_count] of the scene: finds the particles that each probe
  * observes, and lists the columns that probes add to history.csv. o: view of the run at the start. Returns REFUSED,
- * with nothing left to free, if a point is outside the bodies, a region holds no particle, a named boundary does not
- * exist or has no reaction, a bar differs from what its closed-form solution describes, or a SIF probe has no crack tip
- * or unsuitable contours. */
+ * with nothing left to free, if a request does not suit the run. Cases: a point outside the bodies; a region without
+ * particles; a named boundary that does not exist or has no reaction; a bar that differs from what its closed-form
+ * solution describes; a SIF probe without crack tip or with unsuitable contours. */
 status probes_make(struct probes *s, const struct probe_request *requests, int request_count,
                    const struct observed_run *o);
 
@@ -134,8 +135,8 @@ void probes_warn_of_meaningless_sif(struct probes *s, bool single_equilibrium, r
  * before these flags are cleared. */
 void probes_update_break_spall_and_reaction_probes(struct probes *s, const struct observed_run *o);
 
-/* Updates the BREAK probes (first broken bond of a region) and SPALL probes (separated end of a bar) of s in run o,
- * which search for bonds that just broke, and no other probes. Load steps (sequences of static equilibria) call this
+/* Updates those probes of s in run o that search for bonds that just broke, and no others: BREAK probes (first broken
+ * bond of a region) and SPALL probes (separated end of a bar). Load steps (sequences of static equilibria) call this
  * function each time bonds have broken. */
 void probes_update_break_and_spall_probes(struct probes *s, const struct observed_run *o);
 
@@ -172,9 +173,9 @@ bool probes_compose_profile_file_name(const struct probes *s, int profile, int f
  * values yet. */
 bool probes_copy_sif_to_growth_control(const struct probes *s, const char *probe_name, struct growth_control *control);
 
-/* Stores the current position of the crack tip that the SIF probe (stress-intensity factors) number `probe` of s
- * observes in tip_position[2] [m], and the outer radius of the integration contours around the tip in *outer_radius
- * [m]. o: view of the run. Returns false, and stores nothing, if the probe is not a SIF probe. */
+/* Computes where the SIF probe (stress-intensity factors) number `probe` of s integrates: stores the current position
+ * of its crack tip in tip_position[2] [m], and the outer radius of its contours in *outer_radius [m]. o: view of the
+ * run. Returns false, and stores nothing, if the probe is not a SIF probe. */
 bool probes_locate_sif_contour(const struct probes *s, int probe, const struct observed_run *o, real tip_position[2],
                                real *outer_radius);
 

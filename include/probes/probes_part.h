@@ -1,4 +1,5 @@
-/* Declares the probes of a run as a part of it, which the engine calls as it calls the other parts. */
+/* Probes as a part of a run: their data, and functions for wave pulses, growing cracks, patch tests and profiles, which
+ * the engine and the time step call. */
 #ifndef CLEAVE_PROBES_PART
 #define CLEAVE_PROBES_PART
 
@@ -35,18 +36,19 @@ int64_t cracks_grow_one_step_and_count_cut_bonds(struct run *e);
 void patch_test_store_largest_residual_force(struct probing *q, const struct scene *s, const struct particles *p,
                                              const struct grid_method *grid);
 
-/* Raises q->residual_step0 [N] to the largest force component on those nodes of `mesh`, a mesh fixed to the material,
- * that are in the regions of PATCH probes of scene s, if that component is larger. Must be called in the first step,
- * after the forces have been computed and before nodes are moved. */
+/* Includes the nodes of `mesh`, a mesh fixed to the material, in the residual of PATCH probes of scene s:
+ * q->residual_step0 [N] increases to the largest force component on nodes in the regions of these probes, if that is
+ * larger. Must be called in the first step, after the forces have been computed and before nodes are moved. */
 void patch_test_include_mesh_residual_force(struct probing *q, const struct scene *s, const struct mesh *mesh);
 
-/* Writes the profiles of LINE probes (values along a line) and EXACT probes (comparison with a closed-form solution) of
- * s as CSV files to the folder of `out`, with the number of the last frame written to it in their names. o: view of the
- * current state of the run. Returns FAILED if a file cannot be written. */
+/* Writes the profiles of the probes s as CSV files to the folder of `out`: values along a line (LINE probes), and the
+ * comparison with a closed-form solution (EXACT probes). Their names contain the number of the last frame (state at one
+ * time) written to `out`. o: view of the current state of the run. Returns FAILED if a file cannot be written. */
 status profiles_write_csv_files(const struct probes *s, const struct output *out, const struct observed_run *o);
 
-/* Adds a warning to *warning_list if profiles (CSV files of LINE and EXACT probes, one for each frame) of the frames
- * that a resumed run has already written are missing in the folder of `out`. s: probes of the run. */
+/* Adds a warning to *warning_list if profiles are missing in the folder of `out` that a resumed run has already
+ * written. Profiles are CSV files of LINE and EXACT probes, one for each frame (state at one time). s: probes of the
+ * run. */
 void profiles_warn_of_missing_files(const struct probes *s, const struct output *out, struct warnings *warning_list);
 
 /* Removes the profiles (CSV files of LINE and EXACT probes) that an earlier run has left in the folder of `out`. Call

@@ -1,8 +1,8 @@
-/* Room `quasistatic`: load steps, and the solvers of static problems. The room may use every part of a run and the
- * step; the engine calls it.
+/* Room `quasistatic` (folder of include/ and src/): load steps, and the solvers of static problems. The room may use
+ * the structures of a run and the time step; the engine calls it.
  *
- * Load steps (`solver: static` with `steps`): the body follows a sequence of equilibrium states, and bonds break
- * between them. Loads and supports are functions of a pseudo-time; nothing has inertia. */
+ * Load steps (`solver: static` with the key `steps`): the body follows a sequence of equilibrium states, and bonds
+ * break between them. Loads and supports are functions of a pseudo-time; nothing has inertia. */
 #ifndef CLEAVE_STATICS
 #define CLEAVE_STATICS
 
@@ -35,8 +35,8 @@ struct break_list {
     struct broken_bond *bond; /* [n] */
 };
 
-/* Crack area and released energy at one instant. The energy release rate between two instants is the difference of the
- * energies divided by the difference of the areas. */
+/* Crack area and released energy at one pseudo-time. The energy release rate between two such instants is the
+ * difference of the energies divided by the difference of the areas. */
 struct release_mark {
     real area;     /* crack area [m^2] */
     real released; /* energy released so far [J] */
@@ -65,9 +65,9 @@ struct unconstrained_fragment {
     real middle[DIM_MAX]; /* mean reference position of the nodes [m] */
 };
 
-/* State of a point at the start of a load step, from which the turn of its direction of flow and the fall of its yield
- * stress in the step are measured (flow_turn.h). Tensors have the components xx yy zz xy yz zx, in the axes of its
- * cell. */
+/* State of a material point at the start of a load step, from which two changes in the step are measured: the rotation
+ * of its direction of plastic flow, and the decrease of its yield stress (flow_turn.h). Tensors have the components xx
+ * yy zz xy yz zx, in the axes of the cell of the point. */
 struct flow_start {
     real relative[SYM_MAX]; /* deviator of the stress less the back stress [Pa] */
     real elastic[SYM_MAX];  /* deviator of Hooke's stress of the whole strain [Pa] */

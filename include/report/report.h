@@ -1,5 +1,6 @@
-/* Room `report`: writes a run or a study as one page for a browser, from the files of its folder alone. It uses the
- * pictures of the room `plot` and the units of the room `study`; only commands call it. */
+/* Room `report` (folder of include/ and src/): writes an HTML page about a run or a study (many variants of an input
+ * file), from the files of its folder alone. It uses the pictures of the room `plot` and the units of the room `study`;
+ * only commands call it. */
 #ifndef CLEAVE_REPORT_PAGE
 #define CLEAVE_REPORT_PAGE
 

@@ -1,7 +1,8 @@
-/* Room `rigid`: rigid bodies: their motion, and the distance of a point from their surface. The room uses `data` and
- * knows neither the forces of particles nor scenes; contact computes the forces on rigid bodies, the engine moves them.
+/* Room `rigid` (folder of include/ and src/): rigid bodies: their motion, and the distance of a point from their
+ * surface. The room uses `data`, but neither the forces of particles nor input files; contact computes the forces on
+ * rigid bodies, and the engine moves them.
  *
- * A rigid body is fixed, moves with a prescribed velocity (driven), or moves under forces (free): a free body has a
+ * A rigid body is fixed, moves with a prescribed velocity (driven), or moves under forces (free); a free body has a
  * mass of uniform density. The shape is a region (data/region.h) in the reference configuration, t = 0. */
 #ifndef CLEAVE_RIGID
 #define CLEAVE_RIGID
@@ -100,12 +101,12 @@ void rigid_advance_one_step(struct rigid_body *r, real t_middle, real dt, real d
  * last call and now. Does nothing for other bodies. */
 void rigid_add_work_of_prescribed_motion(struct rigid_body *r);
 
-/* Sets r->force_most, the largest magnitude of the contact force on the body so far [N], to the magnitude of r->force
- * if this is larger. */
+/* Increases r->force_most, the largest magnitude of the contact force on the rigid body r so far [N], to the magnitude
+ * of the present force r->force if that is larger. */
 void rigid_update_largest_contact_force(struct rigid_body *r);
 
-/* Returns the work done on the rigid body r since t = 0 [J] by its drive, the force that enforces a prescribed motion,
- * and by its weight, up to the present position. */
+/* Returns the work [J] done on the rigid body r from t = 0 to the present position by its weight and its drive, i.e.
+ * the force that enforces a prescribed motion. */
 real rigid_work_of_prescribed_motion_and_weight(const struct rigid_body *r);
 
 /* Returns the kinetic energy of the rigid body r at its present velocity and angular velocity [J]. */

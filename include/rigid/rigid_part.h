@@ -52,8 +52,9 @@ status rigids_check_motion_per_step_is_small(const struct rigid_set *rigid, cons
  * another rigid body at time t [s]: rigid bodies exert no forces on each other. spacing: of the particles [m]. */
 void rigids_warn_of_overlap(struct rigid_set *rigid, real spacing, real t, struct warnings *warning_list);
 
-/* Energies of all rigid bodies [J]: kinetic energy before a step (`before`), of the last step as leap-frog conserves it
- * (`step`) and after the last step of a run (`last`); work of drives and weights (`work`). */
+/* Energies of all rigid bodies [J]. before, last: kinetic energy before a step, and after the last step of a run; step:
+ * kinetic energy in the last step as leap-frog conserves it (product of the velocities before and after the step);
+ * work: work of the forces that enforce prescribed motion, and of the weights. */
 struct rigid_energy {
     real before, step, last, work;
 };

@@ -15,7 +15,7 @@ struct bond_stiffness_operator {
     real spacing, *root;       /* of particles [m]; [n] square roots of the masses [kg^1/2] */
 };
 
-/* Makes a linear operator from the bonds b of particles p, for bond_stiffness_operator_apply. force: kernel that
+/* Returns a linear operator for bond_stiffness_operator_apply, made from the bonds b of particles p. force: kernel that
  * computes the bond forces; loads: boundary conditions whose mirror images of particles move with the body, NULL for
  * none; spacing: of the particles [m]. All pointers are kept by reference and must outlive the operator. Release it
  * with bond_stiffness_operator_free. */

@@ -4,14 +4,14 @@
 
 #include "run/run.h"
 
-/* Returns the share [1] of the strain energy density of the material point with index i that remains with the point
- * while bonds across its grid cell carry the rest: 1 - tr M/n, with M the matrix by which the partial stress of the
- * point follows from the full stress and n the number of components of a symmetric tensor in `dim` dimensions; exact if
- * M is a multiple of the identity, as in 1D. partial: partial stresses of all points; NULL returns 1. */
+/* Returns the fraction 1 - tr M/n [1] of the strain energy density of the material point with index i that is not
+ * carried by bonds across its grid cell. M: matrix by which the partial stress (part of the stress that bonds carry)
+ * follows from the stress of the point; n: number of components of a symmetric tensor in `dim` dimensions. The fraction
+ * is exact if M is a multiple of the identity, as in 1D. partial: partial stresses of all points; NULL returns 1. */
 real point_energy_fraction_not_carried_by_bonds(const struct partial_stress *partial, int dim, int64_t i);
 
-/* Returns the kinetic energy 1/2 sum m v^2 of all particles p [J], with mass m and velocity v of each, except material
- * points of a mesh, whose kinetic energy is that of the mesh nodes (lagrangian_mesh_kinetic_energy). */
+/* Returns the kinetic energy 1/2 sum m v^2 of all particles p [J], with mass m and velocity v of each. Material points
+ * of a mesh are left out, since their kinetic energy is that of the mesh nodes (lagrangian_mesh_kinetic_energy). */
 real particles_kinetic_energy(const struct particles *p);
 
 /* Returns the elastic strain energy of the material points of p on the background grid [J]: 1/2 sum sigma : C^-1 :
@@ -55,10 +55,10 @@ static inline void families_compute_pressure_stiffness_and_rotation(struct bonds
     if (s->modulus) state_precompute_table[p->dim][s->rotates ? PD_MOSPD : PD_OSPD](b, p);
 }
 
-/* Computes the stress of all peridynamic particles from their bonds in b at the present positions [Pa], into the stress
- * arrays of p. Time steps do not use this stress; call the function before stresses are written to files or decide on
- * reversion to material points. source: bond law; kernels: compiled loops for the vector instructions of this
- * machine. */
+/* Computes the stress [Pa] of all peridynamic particles from their bonds in b at the present positions, and stores it
+ * in the stress arrays of p. Time steps do not need this stress. Call the function before stresses are written to
+ * files, and before they determine which particles revert to material points. source: bond law; kernels: compiled loops
+ * for the vector instructions of this machine. */
 void bonds_compute_particle_stress(struct bonds *b, struct particles *p, const struct bond_source *source,
                                    const struct kernels *kernels);
 

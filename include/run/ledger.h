@@ -1,7 +1,8 @@
-/* Room `run`: what all parts of a run share. The room uses scenes, particles, bonds and loads, and no part of a run;
- * the parts, the step and the engine use it.
+/* Room `run` (folders include/run and src/run): data and functions that all parts of a run share; parts are contact,
+ * probes and others. It uses scenes, particles, bonds and loads, but no part. The parts, the time step and the engine
+ * use it.
  *
- * This header: the energies of a run as a table, and the work done on the run. */
+ * This header: the table of the energies of a run, and of the work done on the run. */
 #ifndef CLEAVE_LEDGER
 #define CLEAVE_LEDGER
 

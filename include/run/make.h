@@ -1,13 +1,13 @@
-/* Steps of the set-up of a run that need its scene and particles, and no part of the run. */
+/* Declares functions for the set-up of a run that use its scene, particles and loads, but none of its parts (contact,
+ * mesh, probes and others). */
 #ifndef CLEAVE_RUN_MAKE
 #define CLEAVE_RUN_MAKE
 
 #include "run/run.h"
 
-/* Reduces elastic[m].trigger, the stress at which material points of material m are converted to peridynamic particles
- * [Pa], to the conversion stress of the weakest particle of this material, if the strength of particles is random
- * (p->strength). Does nothing if strength is uniform. elastic: array of the constants of all materials, changed in
- * place; p: particles of the run. */
+/* Reduces elastic[m].trigger [Pa], the stress at which material points of material m convert to peridynamic particles,
+ * to the conversion stress of the weakest particle of this material. Does nothing unless the strength of particles is
+ * random (p->strength). elastic: array of the constants of all materials, changed in place; p: particles of the run. */
 void conversion_stress_reduce_to_weakest_particle(struct elastic *elastic, const struct particles *p);
 
 /* Returns the wave impedances that absorbing boundaries use, an array [MOVERS][materials]: for each material and for
@@ -15,16 +15,17 @@ void conversion_stress_reduce_to_weakest_particle(struct elastic *elastic, const
  * has no absorbing boundary or is static. source: bond law. */
 struct impedance *absorbing_boundary_impedances(const struct scene *s, const struct bond_source *source);
 
-/* Lists in tables->voids the shapes of those bodies of scene s (the input file) that may contain voids (narrow slots or
- * gaps, across which no bonds are made) and of all bodies joined to these, and in tables->void_mirror the planes of all
- * mirror boundaries. Bodies are left out if they or bodies joined to them are made from particle lists or images.
+/* Lists the shapes of bodies of scene s that may contain voids (narrow slots or gaps, across which no bonds are made),
+ * and of all bodies joined to these, in tables->voids. Lists the planes of all mirror boundaries in
+ * tables->void_mirror. Bodies are left out if they or bodies joined to them are made from particle lists or images.
  * loads: state on which side of each mirror plane the body is. Shapes are kept by reference to s; the lists are
  * released with `tables` at the end of the run. Returns true if at least one shape was listed. */
 bool material_tables_list_bodies_with_possible_voids(struct material_tables *tables, const struct scene *s,
                                                      const struct loads *loads);
 
-/* Returns the largest distance across which particles interact [m], through bonds, which are shorter than `cutoff` [m],
- * or through common cells of the mesh. s: scene. Voids narrower than this distance must be handled explicitly. */
+/* Returns the largest distance [m] across which particles interact: through bonds, which are shorter than `cutoff` [m],
+ * or as points of one cell of the mesh. s: scene. Across voids narrower than this distance, bonds must be removed and
+ * mesh nodes doubled. */
 real scene_interaction_distance_across_voids(const struct scene *s, real cutoff);
 
 /* Returns true if solids (geometric shapes, also surfaces read from files) of the input file define the surfaces of all

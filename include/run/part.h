@@ -1,5 +1,6 @@
-/* Table of the parts of a run. The step calls a part by the names of its functions (step.c); what every part does for
- * the run as a whole is a row of this type, and the engine loops over the rows (engine/parts.c). */
+/* Declares struct part, which describes one part of a run (contact, probes and others) by functions for the run as a
+ * whole: state, output, warnings. The engine calls them in a loop over a table of all parts (engine/parts.c). Time
+ * steps call the functions of a part directly by name (step.c). */
 #ifndef CLEAVE_PART
 #define CLEAVE_PART
 

@@ -43,9 +43,9 @@ struct material_tables {
     real wave_speed;                   /* largest longitudinal wave speed of the materials [m/s] */
 };
 
-/* Data of a run: the members that all parts work on, by value, and the parts of the run, each a pointer to a type whose
- * definition only files that include its header see. Made and released by the engine (make.c); a part is NULL
- * before. */
+/* All data of a run. Data that all parts use are stored by value. Each part (contact, probes and others) is a pointer
+ * to a type whose members are visible only to files that include its header. The engine makes and releases the run
+ * (make.c); pointers to parts are NULL until their part is made. */
 struct run {
     const struct scene *scene; /* kept by reference */
     struct kernels kernels;    /* loops for the scene's dimension, model and shape function */

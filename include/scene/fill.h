@@ -6,8 +6,9 @@
 #include "data/particles.h"
 #include "scene.h"
 
-/* Largest distance from the origin at which doubles resolve strains [spacings]: a coordinate is rounded by 1e-9 of a
- * spacing there, which is 1e-5 of a strain of 1e-4. At ten thousand times this distance stresses are 3 % off. */
+/* Largest distance of a particle from the origin [spacings]. Double precision rounds a coordinate there by 1e-9 of a
+ * spacing, which changes a strain of 1e-4 by 1e-5 of its value. Ten thousand times farther out, stresses are 3 %
+ * wrong. */
 #define FILL_FARTHEST 1e7
 
 /* Creates the particles of all bodies of the scene s, from lattices and particle lists, and sets their positions,
@@ -18,10 +19,10 @@
 status bodies_fill_with_particles(struct particles *p, const struct scene *s,
                                   const struct cells_without_particles *empty_cells, int optional_arrays);
 
-/* Computes the position of the first site of the lattice that fills the body with the index `body` of scene s (the site
- * with the smallest coordinates), from which the positions of all other sites follow, and stores its coordinates in
- * X[dim] [m]. The body must not come from a particle list. Returns REFUSED, with a message, if the body has no lattice,
- * for example because the scene gives no spacing. */
+/* Computes the position X[dim] [m] of the first site of the lattice that fills body number `body` of scene s: the site
+ * with the smallest coordinates, from which the positions of all other sites follow. The body must not come from a
+ * particle list. Returns REFUSED, with a message, if the body has no lattice, for example because the scene states no
+ * spacing. */
 status body_lattice_compute_first_site_position(const struct scene *s, int body, real *X);
 
 /* Finds the cells of the grid hollow->box in which all lattice sites (possible particle positions) are inside the body

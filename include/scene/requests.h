@@ -1,5 +1,5 @@
-/* Defines the settings that a scene passes to the parts of a run: contact, coupling, conversion, growing cracks and
- * probes. These parts are in rooms above the scene. */
+/* Defines the settings that an input file passes to the parts of a run: contact, coupling, conversion, growing cracks
+ * and probes. They are defined here since files of src/scene may not include the headers of these parts. */
 #ifndef CLEAVE_REQUESTS
 #define CLEAVE_REQUESTS
 
@@ -15,8 +15,8 @@
     "waves|stretch|stress|strain|steps|reach|particles|density|yield|passages|thickness|energy|heat|growth|mass|"      \
     "brittleness|times|contact|coupling|cell|speed|shock|rayleigh"
 
-/* Warnings that a scene can silence by the key `accept`, one bit each: those up to ACCEPT_TIMES are about results that
- * look like mistakes of units (src/engine/warn_units.c). */
+/* Warnings that a scene can silence by the key `accept`, one bit each. Those up to ACCEPT_TIMES concern results that
+ * suggest a mistake of units (src/engine/warn_units.c). */
 enum accept {
     ACCEPT_WAVES,
     ACCEPT_STRETCH,
@@ -80,9 +80,9 @@ static inline bool coupling_moves_all_particles_by_one_grid(enum coupling c)
     return c == COUPLING_PMG || c == COUPLING_PGG;
 }
 
-/* Representation of pre-cracks in a mesh in the reference frame (notch.h). SLIT: a free surface of the mesh, with cut
- * bonds around the ends of the crack only; BONDS: cut bonds along the whole crack; AUTO: a choice between both by rule.
- */
+/* How a mesh in the reference configuration represents pre-cracks (notch.h). SLIT: as a free surface of the mesh, with
+ * cut bonds near the crack tips only; BONDS: as cut bonds along the whole crack; AUTO: the program chooses one of
+ * both. */
 enum notch_rule { NOTCH_AUTO, NOTCH_SLIT, NOTCH_BONDS };
 
 /* Radius of the zone around the end of a slit (a pre-crack as a free surface of the mesh) in which bonds are cut
@@ -92,10 +92,12 @@ enum notch_rule { NOTCH_AUTO, NOTCH_SLIT, NOTCH_BONDS };
 #define NOTCH_ZONE_LEAST 6.0
 #define NOTCH_ZONE 8.0
 
-/* Criteria of conversion to peridynamics, as bits: a bond of the material point has broken; its stress is too large. */
+/* Criteria by which a material point converts to a peridynamic particle, as bits. CONVERT_ON_BREAK: one of its bonds
+ * has broken; CONVERT_ON_STRESS: its stress is too large. */
 enum { CONVERT_ON_BREAK = 1, CONVERT_ON_STRESS = 2 };
 
-/* Criteria by which material points convert to peridynamic particles, and back. */
+/* Criteria by which material points of a run convert to peridynamic particles, and by which these revert to material
+ * points. */
 struct conversion_rule {
     unsigned criteria;     /* sum of CONVERT_ON_* */
     real stress;           /* sigma_max, stress at which bonds break [Pa]; NAN: E times critical stretch */
@@ -155,8 +157,8 @@ enum probe_kind {
     PROBES
 };
 
-/* Closed-form solutions of a bar: elastic and elastic-plastic bar under a step load, wave packet, manufactured
- * solution; EXACT_FORMS is their number (probes/exact.h). */
+/* Bars with closed-form solutions, with which a probe compares results (probes/exact.h): elastic bar and
+ * elastic-plastic bar under a step load, wave packet, manufactured solution. EXACT_FORMS: number of solutions. */
 enum exact_form { EXACT_STEP_BAR, EXACT_PLASTIC_BAR, EXACT_PULSE, EXACT_MANUFACTURED, EXACT_FORMS };
 
 /* Method for displacement gradients. MLS: moving least squares with a complete quadratic polynomial, exact for

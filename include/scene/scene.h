@@ -1,7 +1,8 @@
-/* Room `scene`: reads and checks the input of a run, and creates its particles. Uses materials, regions and loads, and
- * defines the settings of the parts of a run (requests.h). These parts, the engine, commands and benches call it.
+/* Room `scene` (folders include/scene and src/scene): reads and checks the input file of a run, and creates its
+ * particles. It uses materials, regions and loads, and defines the settings of the parts of a run (requests.h). These
+ * parts, the engine, commands and benches call it.
  *
- * A scene holds all input of a run, read and checked, in SI units. Only scene_yaml.c uses libyaml (info.c reads its
+ * struct scene contains all input of a run, checked and in SI units. Only scene_yaml.c uses libyaml (info.c reads its
  * version). */
 #ifndef CLEAVE_SCENE
 #define CLEAVE_SCENE
@@ -93,8 +94,8 @@ struct scene_initial {
     struct wave_pulse pulse;                       /* plane longitudinal wave */
 };
 
-/* A series of frames (files with the state at one time) of the particles in a region, with a time interval of its own.
- */
+/* A series of frames (files with the state at one time) of the particles in a region, written at a time interval of its
+ * own. */
 struct scene_series {
     char name[NAME_MAX_LENGTH];
     struct region region;
@@ -102,8 +103,8 @@ struct scene_series {
     unsigned fields; /* bit set of the fields in the order of FRAME_FIELD_WORDS; 0: those of the scene's frames */
 };
 
-/* Quantity that is prescribed in each load step and determines its loads: the pseudo-time, the energy of the crack
- * increment, or the opening, the distance of two points. */
+/* Quantity that is prescribed in each load step and determines its loads. LOAD: the pseudo-time; ENERGY: the energy of
+ * the crack increment; OPENING: the distance of two points. */
 enum steps_control { CONTROL_LOAD, CONTROL_ENERGY, CONTROL_OPENING };
 
 /* Continuation of a run with load steps after unstable crack growth. EQUILIBRIUM: the next equilibrium; EXPLICIT:
@@ -244,8 +245,8 @@ struct scene {
     char *text;        /* the scene as run, in YAML: every key with its value or default */
 };
 
-/* An override of a scene by the option `-s key=value` of the command line. Texts belong to whoever made the override.
- */
+/* A key of the scene and the value that replaces it, from the option `-s key=value` of the command line. The caller
+ * that creates the override owns both texts. */
 struct scene_override {
     const char *key, *value;
 };
@@ -253,8 +254,8 @@ struct scene_override {
 /* Returns true if the run of the scene s integrates in time, false if it solves one equilibrium or load steps. */
 static inline bool scene_is_dynamic(const struct scene *s) { return s->solver == SOLVER_EXPLICIT; }
 
-/* Returns the number, from 0, of the part of the duration that contains the time t [s], if there are `interval_count`
- * equal parts. Costly searches for faults of a run are made once in each part. */
+/* Returns the index, from 0, of the interval that contains the time t [s], if the duration of scene s is divided into
+ * `interval_count` equal intervals. Costly checks of a run are made once per interval. */
 static inline int scene_duration_interval_index_at_time(const struct scene *s, real t, int interval_count)
 {
     return (int)(interval_count * t / s->duration * (1 + 1e-9));

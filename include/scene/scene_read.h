@@ -33,9 +33,9 @@ struct pilot_requirements {
 };
 
 /* Reads the scene (input file) `path`, with the values of keys that override[overrides] replaces (option -s). If it has
- * `method: auto`, sets w->wanted to true, stores in *w what it requires of the pilot runs, and leaves *s empty.
- * Otherwise sets w->wanted to false and stores the scene in *s, which the caller releases with scene_free. Returns
- * REFUSED, with a message, for an invalid scene. */
+ * `method: auto`, sets requirements->wanted to true, stores in *requirements what it requires of the pilot runs, and
+ * leaves *s empty. Otherwise sets requirements->wanted to false and stores the scene in *s, which the caller releases
+ * with scene_free. Returns REFUSED, with a message, for an invalid scene. */
 status scene_read_unless_pilot_runs_are_needed(struct scene *s, struct pilot_requirements *requirements,
                                                const char *path, const struct scene_override *override, int overrides);
 

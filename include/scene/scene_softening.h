@@ -1,4 +1,4 @@
-/* Stretches at which the bonds of a scene soften and break. */
+/* Computes the stretches at which bonds of a scene soften and break, and the horizons that this requires. */
 #ifndef CLEAVE_SCENE_SOFTENING
 #define CLEAVE_SCENE_SOFTENING
 

@@ -1,4 +1,5 @@
-/* Defines a file from which solids of a scene are read. All solids with equal settings share one reading of a file. */
+/* Defines struct shape_file, a file from which solids of a scene are read. It is read once: all solids with equal
+ * settings use the same contents. */
 #ifndef CLEAVE_SHAPE_FILE
 #define CLEAVE_SHAPE_FILE
 

@@ -27,8 +27,8 @@ enum unit {
     UNITS
 };
 
-/* A kind of unit: its name in messages, its SI symbol, an example, and twice its exponents of m, kg and s (the
- * exponents of toughness, Pa m^(1/2), are no whole numbers). */
+/* A kind of unit: its name in messages, its SI symbol, an example, and twice its exponents of m, kg and s. Twice, since
+ * the exponents of toughness, Pa m^(1/2), are not whole numbers. */
 struct unit_row {
     const char *name, *symbol, *example;
     signed char twice[3];

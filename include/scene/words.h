@@ -30,7 +30,8 @@ const char *scene_key_unit(const char *path);
  * list. */
 int word_index_in_list(const char *words, const char *text);
 
-/* Text for a message between an unknown word and the next part of the sentence. */
+/* Text that a message appends to an unknown word: a proposal of a similar word, or only a semicolon. A structure, so
+ * that functions can return it by value. */
 struct word_proposal {
     char text[100];
 };

@@ -1,7 +1,8 @@
-/* Room `simd`: the set of kernels in use. It uses `base` and the kernels; the engine, commands and output call it.
+/* Room `simd` (folders include/simd and src/simd): selects the set of kernels that the program uses. It uses `base` and
+ * the kernels; the engine, commands and output call it.
  *
- * Sets of kernels in this program (kernels/simd/kernel.h), one for each set of vector instructions. Before main the
- * widest set that the processor supports is selected, or the one named by CLEAVE_SIMD. */
+ * The kernels (hot loops) are compiled once for each set of vector instructions (kernels/simd/kernel.h). Before main
+ * the widest set that the processor supports is selected, or the one named by CLEAVE_SIMD. */
 #ifndef CLEAVE_SIMD
 #define CLEAVE_SIMD
 

@@ -1,8 +1,8 @@
-/* Room `solver`: static equilibrium of peridynamic bodies, by adaptive dynamic relaxation or conjugate gradients, and
- * solvers for load steps (equilibrium.h, multigrid.h). It uses particles, bonds and loads, but neither scenes nor runs;
- * room `quasistatic` calls it.
+/* Room `solver` (folders include/solver and src/solver): static equilibrium of peridynamic bodies by adaptive dynamic
+ * relaxation or conjugate gradients, and solvers for load steps (equilibrium.h, multigrid.h). It uses particles, bonds
+ * and loads, but neither scenes nor runs; src/quasistatic calls it.
  *
- * Bonds do not break during a solution. Loads and driven particles have their values at the end of the scene's
+ * No bond breaks during a solution. Loads and prescribed motion have their values at the end of the scene's
  * duration. */
 #ifndef CLEAVE_SOLVER
 #define CLEAVE_SOLVER

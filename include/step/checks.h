@@ -1,4 +1,4 @@
-/* Stability checks: stop a run that diverges, and name the cause and a remedy. */
+/* Checks of stability: each stops a run that diverges, with a message that names the cause and a remedy. */
 #ifndef CLEAVE_CHECKS
 #define CLEAVE_CHECKS
 
@@ -20,10 +20,10 @@ status run_check_stability_after_step(struct run *e);
  * Returns FAILED if there is such a particle; the message names its position, the step, the cause and a remedy. */
 status run_check_particles_for_divergence(const struct run *e, bool check_peridynamic, bool check_mesh_points);
 
-/* Checks the energies of the last sample (line of history.csv) of the run e, if a sample was taken in this step; else
- * returns OK. Returns FAILED, with a remedy in the message, if more than half of the largest energy so far was gained
- * without work of loads or supports, if breaking bonds have released more than a quarter of it beyond the energy that
- * they had stored, if the velocities change sign in every step, or if an energy is not finite. */
+/* Checks the energies of the last sample (line of history.csv) of the run e, if it was taken in this step; else returns
+ * OK. Returns FAILED, with a remedy in the message, in four cases: more than half of the largest energy so far was
+ * gained without work of loads or supports; breaking bonds have released more than a quarter of it beyond the energy
+ * that they had stored; the velocities change sign in every step; an energy is not finite. */
 status run_check_last_sample_for_energy_divergence(struct run *e);
 
 /* Adds a warning to *to and prints it if the fracture energy of the last sample (line of history.csv) is below 0 by

@@ -1,5 +1,5 @@
-/* Checks for errors of large displacements that no force reveals: bodies that pass through each other, and pressures
- * along normals of the undeformed body. */
+/* Checks for two errors at large displacements that forces do not show: parts of a body that pass through each other,
+ * and pressures that keep the direction normal to the undeformed surface. */
 #ifndef CLEAVE_LARGE_MOTION
 #define CLEAVE_LARGE_MOTION
 
@@ -22,8 +22,8 @@ void large_motion_warn_of_self_penetration(struct large_motion *m, const struct 
                                            real horizon, real t, struct warnings *warning_list);
 
 /* Adds a warning to `warning_list`, once in a run, if a pressure of the loads l that does not follow the deformation
- * acts on a surface of p that has turned by more than 10 degrees: the pressure keeps the direction normal to the
- * undeformed surface and so does work on the rotation. m: state of the checks; t: present time [s]. */
+ * acts on a surface of p that has turned by more than 10 degrees. Such a pressure stays normal to the undeformed
+ * surface and so does work on the rotation. m: state of the checks; t: present time [s]. */
 void large_motion_warn_of_non_follower_pressure(struct large_motion *m, const struct particles *p,
                                                 const struct loads *l, real t, struct warnings *warning_list);
 

@@ -1,4 +1,5 @@
-/* Finds material points of the current frame that have come apart without fracture. */
+/* Finds neighbouring material points on the background grid that have separated without fracture (numerical
+ * fracture). */
 #ifndef CLEAVE_PARTED
 #define CLEAVE_PARTED
 
@@ -8,12 +9,12 @@
 
 struct grid_method; /* grid/grid_part.h */
 
-/* A shape function with which material points of metal transmit too little force under tension. Errors of the force on
- * a specimen with the yield stress sigma_y + H a = 100 + 500 a MPa, a: plastic strain
- * (tests/scenes/claims/pulled_metal.yaml), compared with (sigma_y + H log l)/l at the stretch l: linear shapes -12 % at
- * 1.1, -30 % at 1.2; gimp, whose domains do not grow with the stretch, -4, -6, -10 % at 1.3, 1.4, 1.5; cpgimp -3, -4,
- * -4 %. In bars that hit a wall up to 0.06 of the pairs of neighbours are stretched as far for a short time, as the
- * foot spreads. */
+/* A shape function of the background grid that transmits too little force between material points of metal under
+ * tension. Source of the limits: force on a specimen with the yield stress sigma_y + H a = 100 + 500 a MPa, a: plastic
+ * strain (tests/scenes/claims/pulled_metal.yaml), compared with the exact (sigma_y + H log l)/l at the stretch l.
+ * Errors: linear shapes -12 % at l = 1.1, -30 % at 1.2; gimp, whose particle domains do not stretch, -4, -6, -10 % at
+ * 1.3, 1.4, 1.5; cpgimp -3, -4, -4 %. In bars that hit a wall, up to 0.06 of the pairs of neighbours exceed the limit
+ * for a short time. */
 struct weak_shape_function {
     enum shape shape;
     real stretch;       /* stretch of a bar (length divided by initial length) above which the force is too small [1] */

@@ -1,4 +1,5 @@
-/* Reports of a run: frames, checkpoints, history, warnings and the progress line, and when each is due. */
+/* Reports of a run: frames (states written to files), checkpoints, history.csv, warnings and the progress line, and the
+ * steps after which each is written. */
 #ifndef CLEAVE_REPORT
 #define CLEAVE_REPORT
 
@@ -22,8 +23,8 @@ struct sampling {
     real momentum[DIM_MAX]; /* momentum of all particles at the start of the step [kg m/s] */
 };
 
-/* Half-width of the 95 % interval, in the unit of the result, of a result (number in summary.json), from a convergence
- * study (study/uncertainty.h). */
+/* The 95 % interval of one result (number in summary.json), from a convergence study (study/uncertainty.h). figure:
+ * name of the result; half_width: half the width of the interval, in the unit of the result. */
 struct error_bar {
     char figure[NAME_MAX_LENGTH];
     double half_width;
@@ -76,9 +77,9 @@ int64_t report_frame_count_of_run(const struct scene *s, const struct run_clock 
  * written; frame 0 is written at t = 0. clock: time step and number of steps of the run. */
 int64_t report_step_number_of_frame(const struct scene *s, const struct run_clock *clock, int64_t frame);
 
-/* Returns the wall-clock times of the run so far [s], in all, of the set-up and of the time steps, in this process and
- * those before a restart. r: times before the restart and of the set-up; timers: times of the sections of a step in
- * this process. */
+/* Returns the wall-clock times of the run so far [s]: total, set-up and time steps, each summed over this process and
+ * the processes before a restart. r: times of the earlier processes, of the start and of the set-up; timers: times of
+ * the sections of a step in this process. */
 struct run_seconds report_wall_clock_times(const struct run_report *r, const struct timers *timers);
 
 /* Returns the set of frame series (sequences of output states of the whole body or of a region) that must be written
@@ -113,9 +114,9 @@ status report_write_last_checkpoint_and_finish(struct run *e);
  * peridynamic particles by the bonds b, material points by the mesh. */
 real particles_at_rest_fraction(const struct bonds *b, const struct mesh *mesh, const struct particles *p);
 
-/* Warns at the end of the run e if energy or angular momentum is not conserved, if interface damping (near interfaces
- * of material points and peridynamic particles) dissipated much energy, or if bonds broke in a collision that is too
- * fast for the particle spacing. */
+/* Warns at the end of the run e of three faults: energy or angular momentum is not conserved; interface damping, near
+ * interfaces of material points and peridynamic particles, dissipated much energy; bonds broke in a collision that is
+ * too fast for the particle spacing. */
 void run_warn_of_unconserved_energy_and_momentum(struct run *e);
 
 struct crack_tips;
@@ -126,9 +127,8 @@ struct crack_tips;
 void warn_of_tips_above_rayleigh_speed(const struct crack_tips *t, const struct scene *s,
                                        struct warnings *warning_list);
 
-/* Warns, at the first call after a bond of b has yielded, how the yielding of bonds differs from von Mises' law in
- * scene s. The warning is added to *warning_list and printed; *r stores that it has been given, so that later calls do
- * nothing. */
+/* Warns once, at the first call after a bond of b has yielded, how the yielding of bonds differs from von Mises' law in
+ * scene s. The warning is added to *warning_list and printed; *r records it, so that later calls do nothing. */
 void warn_when_bonds_first_yield(struct run_report *r, const struct bonds *b, const struct scene *s,
                                  struct warnings *warning_list);
 

@@ -1,5 +1,6 @@
-/* Samples: the lines of history.csv. A sample describes the body at t_n. It is taken in three parts within the step
- * from t_n, since the energies are known once forces are, and velocities are half a step before and after t_n. */
+/* Samples: the lines of history.csv. A sample describes the body at the start t_n of a time step. It is taken in three
+ * parts within this step, since energies are known only once forces are, and velocities only half a step before and
+ * after t_n. */
 #ifndef CLEAVE_SAMPLE
 #define CLEAVE_SAMPLE
 

@@ -1,4 +1,5 @@
-/* Collisions of bodies that a scene leads to expect, and whether stress oscillates behind their fronts. */
+/* Estimates the collisions of bodies that a scene leads to expect, and whether the stress behind their fronts would
+ * oscillate. */
 #ifndef CLEAVE_SHOCK
 #define CLEAVE_SHOCK
 

@@ -1,5 +1,5 @@
-/* Room `step`: one time step, samples, reports and stability checks. It calls all parts of a run except load steps;
- * load steps and the engine call it. */
+/* Room `step` (folders include/step and src/step): one time step, samples of history.csv, reports and stability checks.
+ * It calls all parts of a run except load steps; load steps and the engine call it. */
 #ifndef CLEAVE_STEP
 #define CLEAVE_STEP
 
@@ -11,11 +11,11 @@
  * because their motion has diverged. */
 status step(struct run *e);
 
-/* Marks (FLAG_NEAR) the material points of run e that are near other bodies, at their present positions, with rigid
- * bodies at the positions that they will have at pseudo-time t [s]. Marked points become peridynamic at the next call
- * of load_step_convert_points_near_breaks_to_pd. present_pseudo_time: present pseudo-time [s]; rigid bodies are at its
- * positions again on return. Returns true if positions were examined; does nothing and returns false if no rigid body
- * can touch a material point. */
+/* Marks with FLAG_NEAR the material points of run e, at their present positions, that are near other bodies; rigid
+ * bodies are at their positions of pseudo-time t [s]. Marked points become peridynamic at the next call of
+ * load_step_convert_points_near_breaks_to_pd. present_pseudo_time: present pseudo-time [s], to whose positions rigid
+ * bodies are moved back. Returns true if positions were examined; does nothing and returns false if no rigid body can
+ * touch a material point. */
 bool load_step_flag_points_near_rigid_bodies(struct run *e, real present_pseudo_time, real t);
 
 /* Converts material points near broken bonds to peridynamic particles between load steps (static equilibria), at fixed

@@ -1,11 +1,12 @@
-/* Bulk viscosity: a pressure against rapid compression, which spreads a shock over a few spacings so that its front
- * does not oscillate (von Neumann & Richtmyer 1950; linear term: Landshoff 1955). While a particle is compressed at the
- * rate D = tr L < 0,
+/* Bulk viscosity: a pressure against rapid compression, which spreads a shock over a few spacings so that its
+ * front does not oscillate (von Neumann & Richtmyer 1950; linear term: Landshoff 1955). While the rate of
+ * dilatation D = tr L of a particle is negative (L: velocity gradient), the pressure is
  *
  *     q = rho h (quadratic h D^2 - linear c D),
  *
- * where c is the wave speed and h the resolved length: the edge of a cell, or the length of a bond. A bond has the
- * viscous force along its direction, with its stretch rate in place of D. The viscosity only dissipates energy. */
+ * with density rho, wave speed c, the coefficients `quadratic` and `linear` of the material, and the resolved
+ * length h: the edge of a cell, or the length of a bond. A bond exerts the viscous force along its direction,
+ * with its stretch rate in place of D. The viscosity only dissipates energy. */
 #ifndef CLEAVE_VISCOSITY
 #define CLEAVE_VISCOSITY
 
@@ -26,8 +27,8 @@ struct viscosity {
     bool small_strain;               /* cells of the reference frame have small strains: F = 1 */
 };
 
-/* Adds the viscous forces of bonds of the run e to the forces of particles, computes the viscous pressure q of points
- * on the grid, and adds the energy dissipated since the previous step to viscosity.taken of the run. Must be called
+/* Adds the viscous forces of bonds of the run e to the forces of particles, and computes the viscous pressure q of
+ * points on the grid. Adds the energy dissipated since the previous step to viscosity.taken of the run. Must be called
  * after the bond forces and before the loads are added. Does nothing if no material is viscous. */
 void viscosity_add_bond_forces_and_pressure(struct run *e);
 

@@ -5,7 +5,7 @@
 
 #include "study/convergence.h"
 
-/* Largest number of spacings of a level. */
+/* Largest number of particle spacings at which one spacing level of a convergence study is run. */
 enum { SPACINGS_MOST = 3 };
 
 /* Spacings of each level [m], level 0 the finest. at[level][0] is the spacing of the level; the others differ from it
@@ -94,19 +94,19 @@ status scalar_results_determine_convergence(const struct convergence_study *s, c
  * since study_lock_folder refuses it. */
 status scalar_results_check_replaceable(const char *folder);
 
-/* Writes the table of the scalar results results[figures], one entry for each result, to the file converge.csv in the
- * folder of the study s, and the text of the scene to study.yaml, the file by which the study is recognised. Returns
- * FAILED if a file cannot be written. */
+/* Writes the table of the scalar results results[result_count] to the file converge.csv in the folder of the study s,
+ * and the text of the scene to study.yaml, the file by which the study is recognised. Returns FAILED if a file cannot
+ * be written. */
 status scalar_results_write(const struct convergence_study *s, const struct scalar_result_study *results,
                             int result_count);
 
-/* Prints to standard output a table of the scalar results figure[figures], one entry for each result, of the study s, a
- * sentence on the convergence of each result, and the parameter of the discretisation to which it is most sensitive. */
+/* Prints to standard output, for the scalar results figure[figures] of the study s: a table, a sentence on the
+ * convergence of each result, and the parameter of the discretisation to which each result is most sensitive. */
 void scalar_results_print(const struct convergence_study *s, const struct scalar_result_study *figure, int figures);
 
-/* Draws the scalar results results[figures], one entry for each result, against the particle spacing as
- * pictures/convergence.png in the folder of the study s. If the runs have cracks, also draws the crack paths as
- * pictures/path.png. Returns FAILED if a picture cannot be drawn. */
+/* Draws the scalar results results[result_count] against the particle spacing as pictures/convergence.png in the folder
+ * of the study s. If the runs have cracks, also draws the crack paths as pictures/path.png. Returns FAILED if a picture
+ * cannot be drawn. */
 status scalar_results_draw_over_spacing(const struct convergence_study *s, const struct scalar_result_study *results,
                                         int result_count);
 

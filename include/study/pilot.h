@@ -10,8 +10,8 @@
  * [byte]. */
 enum { CHOSEN_MOST = 8, CHOSEN_ROOM = 64 };
 
-/* Overrides of keys with which a scene with `method: auto` is read: those of the user, then those that pilot runs have
- * chosen. */
+/* Overrides of keys with which a scene with `method: auto` is read: first the overrides of the user, then those that
+ * pilot runs have chosen. */
 struct pilot_choice {
     struct scene_override *override; /* [overrides] strings of the chosen ones are in key and value */
     int overrides;

@@ -1,5 +1,6 @@
-/* Room `study`: runs many variants of a scene, which differ in some of its keys, as separate processes, and collects
- * their results in a table. It uses scenes and the files of runs, but not the engine; commands and benches call it. */
+/* Room `study` (folders include/study and src/study): runs many variants of a scene, which differ in some of its keys,
+ * as separate processes, and collects their results in a table. It uses scenes and the files of runs, but not the
+ * engine; commands and benches call it. */
 #ifndef CLEAVE_STUDY
 #define CLEAVE_STUDY
 
@@ -8,8 +9,8 @@
 #include "output/output_lock.h"
 #include "scene/scene.h"
 
-/* Room for the name of a run [byte]; largest number of runs; room for a unit and for the header of history.csv
- * [byte]. */
+/* CASE_NAME_ROOM: capacity of the name of a run [byte]; CASES_MOST: largest number of runs of a study; UNIT_ROOM,
+ * HEADER_ROOM: capacity of a unit and of the header line of history.csv [byte]. */
 enum { CASE_NAME_ROOM = 200, CASES_MOST = 100000, UNIT_ROOM = 16, HEADER_ROOM = 8192 };
 
 /* A key of the scene and the values that the key has in the runs of a study. key, value[values]: owned texts, as they
@@ -36,7 +37,7 @@ struct study_case {
     double seconds;           /* duration of the run in this study [s] */
 };
 
-/* A study, i.e. runs of one scene with different overrides, and its folder. */
+/* A study, i.e. runs of one scene with different overrides of keys, with its folder. Release with study_free. */
 struct study {
     const char *scene; /* path of the scene; borrowed */
     char folder[4096]; /* folder of the study; runs are subfolders */
@@ -106,8 +107,8 @@ bool study_folder_contains_study_of_scene(const char *folder, const char *scene_
  * written. */
 status study_write_scene_and_options(const char *folder, const char *scene_text, const char *options);
 
-/* Reads why the run called `run` of the study in `folder` has failed, the last line of its log, into line[capacity],
- * cut to capacity - 1 bytes. Stores "it gave no reason" if there is none. */
+/* Reads the reason for which the run called `run` of the study in `folder` has failed, the last line of its log, into
+ * line[capacity], cut to capacity - 1 bytes. Stores "it gave no reason" if there is no such line. */
 void study_read_reason_of_failure(char *line, size_t capacity, const char *folder, const char *run);
 
 /* Composes the options of the command of a study as words for a shell, from argv[argc], the words after the name of the
@@ -246,11 +247,11 @@ status study_write_table(const struct study_table *t, const struct study *s, con
  * write it. Returns OK for any other folder, since study_lock_folder refuses it. */
 status study_check_output_files_replaceable(const struct study *s, const struct varied_key *key, int keys);
 
-/* If the only varied key of the study s is a random seed, prints to `to` a line for each result (number in
- * summary.json) with mean, standard deviation and half of the 95 % interval of the mean over the runs; else prints
- * nothing. t: table of the results; key[keys]: varied keys of the study and their values; result[results]: names of the
- * results; if results is 0, those that study_draw_results_over_keys draws. Returns REFUSED if there is no such
- * result. */
+/* Prints to `to`, if the only varied key of the study s is a random seed, a line for each result (number in
+ * summary.json): its mean, standard deviation, and half of the 95 % interval of the mean over the runs. Prints nothing
+ * for other studies. t: table of the results; key[keys]: varied keys of the study and their values; result[results]:
+ * names of the results; if results is 0, those that study_draw_results_over_keys draws. Returns REFUSED if there is no
+ * such result. */
 status study_print_means_over_seeds(FILE *to, const struct study_table *t, const struct study *s,
                                     const struct varied_key *key, int keys, const char *const *result, int results);
 

@@ -1,7 +1,8 @@
-/* Flow law of Johnson & Cook 1983:
+/* Flow law of Johnson & Cook 1983: the yield stress is
  *     (A + B a^n)(1 + C log max(rate/eps0, 1))(1 - T*^m),   T* = (T - T_room)/(T_melt - T_room) between 0 and 1
- * with the rate of plastic strain. These functions are those of slow flow, whose second factor is 1; law_update adds
- * the effect of the rate. The functions: flow_linear.h. */
+ * with the plastic strain a and its rate, the temperature T, and the constants A, B, n, C, m, eps0, T_room
+ * and T_melt of the material (struct law). The functions below omit the second factor (slow flow); law_update
+ * adds the effect of the rate. flow_linear.h describes the functions. */
 #ifndef CLEAVE_KERNELS_FLOW_JOHNSON_COOK
 #define CLEAVE_KERNELS_FLOW_JOHNSON_COOK
 
@@ -50,10 +51,11 @@ static ALWAYS_INLINE lanes flow_stress_integral_johnson_cook(const struct law *l
 /* Number of steps in which johnson_cook_adiabatic_temperature integrates by the midpoint rule. */
 enum { HEATING_STEPS = 4 };
 
-/* Returns the temperatures [K] of eight points that flow slowly and without conduction from the plastic strain `from`
- * to `to` [1] by the law `law` of Johnson & Cook, from `temperature` [K] on. With the work W at T_room and the heating
- * k per work, dT* = k/(T_melt - T_room) (1 - T*^m) dW. Integrated is y = -log(1 - T*), dy = k/(T_melt - T_room) g dW
- * with g = (1 - T*^m)/(1 - T*), which is between 1 and m: exact for m = 1, with any step below T_melt. */
+/* Returns the temperatures [K] of eight points after slow plastic flow without heat conduction from the plastic strain
+ * `from` to `to` [1], by the law `law` of Johnson & Cook. temperature: their temperatures at `from` [K]. With the
+ * plastic work W at T_room and the heating k = law->heating [K m^3/J], dT* = k/(T_melt - T_room) (1 - T*^m) dW. To stay
+ * below T_melt with any step, y = -log(1 - T*) is integrated: dy = k/(T_melt - T_room) g dW with g = (1 - T*^m)/(1 -
+ * T*), which is between 1 and m; exact for m = 1. */
 static ALWAYS_INLINE lanes johnson_cook_adiabatic_temperature(const struct law *law, lanes from, lanes to,
                                                               lanes temperature)
 {

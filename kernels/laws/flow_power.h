@@ -1,5 +1,5 @@
-/* Flow law with a power of the plastic strain (Ludwik 1909): sigma_y + B a^n, 0 < n <= 1. The functions:
- * flow_linear.h. */
+/* Flow law of Ludwik 1909: the yield stress is sigma_y + B a^n, with the plastic strain a, the initial yield stress
+ * sigma_y, and the constants B and 0 < n <= 1. flow_linear.h describes the functions. */
 #ifndef CLEAVE_KERNELS_FLOW_POWER
 #define CLEAVE_KERNELS_FLOW_POWER
 

@@ -1,5 +1,5 @@
-/* Flow law through the points of a concave curve: the least of the lines of its segments. The functions:
- * flow_linear.h. */
+/* Flow law given by points of a concave curve of yield stress over plastic strain: the yield stress is the least value
+ * of the lines through the segments of the curve. flow_linear.h describes the functions. */
 #ifndef CLEAVE_KERNELS_FLOW_TABLE
 #define CLEAVE_KERNELS_FLOW_TABLE
 

@@ -1,4 +1,5 @@
-/* Flow law of Voce 1948: sigma_y + Q (1 - exp(-b a)). The functions: flow_linear.h. */
+/* Flow law of Voce 1948: the yield stress is sigma_y + Q (1 - exp(-b a)), with the plastic strain a, the initial yield
+ * stress sigma_y, and the constants Q and b. flow_linear.h describes the functions. */
 #ifndef CLEAVE_KERNELS_FLOW_VOCE
 #define CLEAVE_KERNELS_FLOW_VOCE
 

@@ -1,4 +1,5 @@
-/* The flow laws as one function each, which selects the law by name: see flow_linear.h. */
+/* Functions that evaluate any flow law: each calls the function of the law that law->flow selects. flow_linear.h
+ * describes the functions. */
 #ifndef CLEAVE_KERNELS_FLOWS
 #define CLEAVE_KERNELS_FLOWS
 

@@ -1,11 +1,14 @@
-/* Return mapping with flow laws (law_update.h), one body for all spaces. In each space the relative stress has
- * components that shrink by 1/(1 + A t) and others that shrink by 1/(1 + B t), with t = da/q and
- *     q^2 = even + odd,   even: of xi_xx + xi_yy in plane stress, of xi in 1D;   odd: of all other components
+/* Implements the return mapping of flow laws (law_update.h), one code for all spaces. xi = s - g X is the
+ * trial relative stress, with the trial stress s and the back stress X; q is the equivalent relative stress,
+ * da the increment of equivalent plastic strain, t = da/q. Some components of xi shrink by 1/(1 + A t),
+ * others by 1/(1 + B t), and
+ *     q^2 = even + odd,   even: of xi_xx + xi_yy in plane stress, of xi in 1D;   odd: of other components
  *     A = E/(2 (1 - nu)) + C f in plane stress, E + C f in 1D;   B = 3 G + C f
  *     g = exp(-gamma da),   f = (1 - g)/(gamma da)
- * where the trial relative stress is s - g X: the law of the back stress is integrated along a constant direction of
- * flow, so that steps of any size are exact where the direction does not change. In plane stress xi_xx + xi_yy stands
- * for s_xx + s_yy - 3 (X_xx + X_yy), for which q^2 = (xi_xx + xi_yy)^2/4 + 3 (xi_xx - xi_yy)^2/4 + 3 xi_xy^2. */
+ * with elastic constants E, nu, G, and modulus C and recall gamma of kinematic hardening
+ * (Armstrong-Frederick). The law of the back stress is integrated along a constant direction of flow, so that
+ * steps of any size are exact where the direction does not change. In plane stress xi_xx + xi_yy stands for
+ * s_xx + s_yy - 3 (X_xx + X_yy), for which q^2 = (xi_xx + xi_yy)^2/4 + 3 (xi_xx - xi_yy)^2/4 + 3 xi_xy^2. */
 #define ROWS_IN_PARTS /* vectors of WIDE points */
 #include "law_update.h"
 
@@ -27,7 +30,8 @@ enum { STEPS_PLANE_STRESS = 8 };
  * whose strength is 0. */
 #define LEAST_YIELD 1e-10
 
-/* State of WIDE of WIDE points: members as in struct law_points. */
+/* State of WIDE material points (one per vector lane) during the return mapping, a part of the eight points of struct
+ * law_points, whose members it repeats. */
 struct part_points {
     lanes s[SYM_MAX], before[SYM_MAX], volume_before, volume;
     real duration;
@@ -86,19 +90,19 @@ static ALWAYS_INLINE void relative_product(const lanes *x, const lanes *y, lanes
         for (int c = 0; c < components(space); c++) *odd += (c < 3 ? 1.5 : 3.0) * x[c] * y[c];
 }
 
-/* The equation from which plastic flow of WIDE points follows, for the unknown t = da/q [1/Pa]: da is the increment of
- * equivalent plastic strain, q the equivalent relative stress (stress less back stress). q(t)^2 = even/(1 + A t)^2 +
- * odd/(1 + B t)^2. even, odd: the two parts of the squared trial value of q [Pa^2]; A, B: stiffnesses by which they
- * fall [Pa]; q: equivalent relative stress at t = 0 [Pa]. */
+/* The equation from which plastic flow of WIDE points (one per vector lane) follows, for the unknown t = da/q [1/Pa]:
+ * da is the increment of equivalent plastic strain, q the equivalent relative stress (stress less back stress). q(t)^2
+ * = even/(1 + A t)^2 + odd/(1 + B t)^2. even, odd: the two parts of the squared trial value of q [Pa^2]; A, B:
+ * stiffnesses by which they fall [Pa]; q: equivalent relative stress at t = 0 [Pa]. */
 struct flow_equation {
     lanes even, odd, A, B, q;
 };
 
-/* Returns the yield equation of WIDE points (struct flow_equation): how the equivalent relative stress q falls with t
- * = da/q, da being the increment of plastic strain. law: flow law of the points; p: their trial stress and back stress.
- * g: factor on the back stress X [1]; stiffness: kinematic hardening modulus that acts over the step [Pa]. xi: receives
- * the relative stress s - g X [Pa] (relative_stress). space: compile-time constant, as in all functions of this
- * file. */
+/* Returns the yield equation of WIDE points, one per vector lane (struct flow_equation): how the equivalent relative
+ * stress q falls with t = da/q, da being the increment of plastic strain. law: flow law of the points; p: their trial
+ * stress and back stress. g: factor on the back stress X [1]; stiffness: kinematic hardening modulus that acts over the
+ * step [Pa]. xi: receives the relative stress s - g X [Pa] (relative_stress). space: compile-time constant, as in all
+ * functions of this file. */
 static ALWAYS_INLINE struct flow_equation equation_at(const struct law *law, const struct part_points *p, lanes g,
                                                       lanes stiffness, lanes *xi, const enum space space)
 {
@@ -111,10 +115,10 @@ static ALWAYS_INLINE struct flow_equation equation_at(const struct law *law, con
     return e;
 }
 
-/* Returns the stiffness r [Pa] with which plastic flow reduces the relative stress xi (stress less back stress) of
- * eight points: xi becomes xi/(1 + r t), with t = da/q [1/Pa], the increment da of plastic strain divided by the
- * equivalent relative stress q. r is Young's modulus (e->A) in 1D, three times the shear modulus (e->B) in 3D and
- * plane strain, each plus the kinematic hardening modulus. Not for plane stress, where two parts of xi fall at
+/* Returns the stiffness r [Pa] with which plastic flow reduces the relative stress xi (stress less back stress) of WIDE
+ * points (one per vector lane): xi becomes xi/(1 + r t). t = da/q [1/Pa] is the increment da of plastic strain divided
+ * by the equivalent relative stress q. r is Young's modulus in 1D (e->A), three times the shear modulus in 3D and plane
+ * strain (e->B), each plus the kinematic hardening modulus. Not for plane stress, where two parts of xi fall at
  * different rates. e: yield equation of the points; space: compile-time constant. */
 static ALWAYS_INLINE lanes single_rate(const struct flow_equation *e, const enum space space)
 {
@@ -152,10 +156,10 @@ static ALWAYS_INLINE lanes equation_solve(const struct flow_equation *e, lanes b
     return t;
 }
 
-/* Returns for WIDE points the kinematic hardening modulus [Pa] that acts over a small step: C - gamma (3/2) xi:X/q. C
- * and gamma are modulus and recall constant of the Armstrong-Frederick law (law->kinematic); the recall of the back
- * stress X (p->back) moves the yield surface back. xi: trial relative stress [Pa], in the order of relative_stress; q:
- * its equivalent stress [Pa]. space: compile-time constant. */
+/* Returns for WIDE points (one per vector lane) the kinematic hardening modulus [Pa] that acts over a small step: C -
+ * gamma (3/2) xi:X/q. C and gamma are modulus and recall constant of the Armstrong-Frederick law (law->kinematic); the
+ * recall of the back stress X (p->back) moves the yield surface back. xi: trial relative stress [Pa], in the order of
+ * relative_stress; q: its equivalent stress [Pa]. space: compile-time constant. */
 static ALWAYS_INLINE lanes effective_modulus(const struct law *law, const struct part_points *p, const lanes *xi,
                                              lanes q, const enum space space)
 {
@@ -169,16 +173,16 @@ static ALWAYS_INLINE lanes effective_modulus(const struct law *law, const struct
 }
 
 /* Change of the back stress X with recall (Armstrong-Frederick law) in a step along a constant direction N of plastic
- * flow, d eps_p = N da, for WIDE points: X = left X_n + (2/3) C added N da, with X_n at the start of the step and the
- * kinematic modulus C. left, added: factors [1]. */
+ * flow, d eps_p = N da, for WIDE points (one per vector lane): X = left X_n + (2/3) C added N da, with X_n at the start
+ * of the step and the kinematic modulus C. left, added: factors [1]. */
 struct flow_recall {
     lanes left, added;
 };
 
-/* Returns for WIDE points the factors of the change of the back stress over an increment `more` of plastic strain [1]
- * by the Armstrong-Frederick law: left = exp(-x), the factor on the previous back stress, and added = (1 - exp(-x))/x,
- * the factor on the new part, with x = recall more. Below x = 1e-4 `added` is computed by its series. recall: constant
- * gamma of the law, > 0 [1]. */
+/* Returns for WIDE points (one per vector lane) the factors of the change of the back stress over an increment `more`
+ * of plastic strain [1] by the Armstrong-Frederick law: left = exp(-x), the factor on the previous back stress, and
+ * added = (1 - exp(-x))/x, the factor on the new part, with x = recall more. Below x = 1e-4 `added` is computed by its
+ * series. recall: constant gamma of the law, > 0 [1]. */
 static ALWAYS_INLINE struct flow_recall recall_after(real recall, lanes more)
 {
     const lanes x = recall * more, left = lanes_exp(-x), least = lanes_max(x, lanes_broadcast(1e-4));
@@ -187,9 +191,10 @@ static ALWAYS_INLINE struct flow_recall recall_after(real recall, lanes more)
     return (struct flow_recall){left, lanes_choose(small, series, (1.0 - left) / least)};
 }
 
-/* Returns for WIDE points the solution w > 0 of w + log w = z, for the rate term of the flow law. Three Newton steps
- * start from w = z if z is above 0.3, else from w = exp z. The relative error is at most 2.1e-5 (near z = 0.3), and
- * 2e-10 above z = 3 and below -2. The caller linearises once more about w, which squares this error. */
+/* Returns for WIDE points (one per vector lane) the solution w > 0 of w + log w = z, for the rate term of the flow law.
+ * Three Newton steps start from w = z if z is above 0.3, else from w = exp z. The relative error is at most 2.1e-5
+ * (near z = 0.3), and 2e-10 above z = 3 and below -2. The caller linearises once more about w, which squares this
+ * error. */
 static ALWAYS_INLINE lanes omega(lanes z)
 {
     const lanes middle = lanes_broadcast(0.3);
@@ -198,15 +203,15 @@ static ALWAYS_INLINE lanes omega(lanes z)
     return w;
 }
 
-/* Accounts for the strain-rate dependence of the flow law of WIDE points in a small step. *bound [Pa] and *slope [Pa]:
- * on entry the yield stress of slow flow at the start of the step and its derivative by the plastic strain; on return
- * the tangent of the yield stress at the plastic strain rate of the step. With the increment da of plastic strain over
- * the duration dt (p->duration) the yield stress is
+/* Accounts for the strain-rate dependence of the flow law of WIDE points (one per vector lane) in a small
+ * step. *bound [Pa] and *slope [Pa]: on entry the yield stress of slow flow at the start of the step and its
+ * derivative by the plastic strain; on return the tangent of the yield stress at the plastic strain rate of
+ * the step. With the increment da of plastic strain over the duration dt (p->duration) the yield stress is
  *   (bound + slope da)(1 + C log(da/(eps0 dt)))   where da > eps0 dt, else bound + slope da.
- * The tangent is taken at the da at which this stress equals the equivalent stress, which falls linearly with da;
- * `omega` gives a first estimate of da. The rate is that of the plastic strain, not of the total strain, because the
- * latter falls to 0 where loads reverse, and the plastic strain would then depend on the size of the step. trial: yield
- * equation at the start of the step. space: compile-time constant. */
+ * The tangent is taken at the da at which this stress equals the equivalent stress, which falls linearly with
+ * da; `omega` gives a first estimate of da. The rate is that of the plastic strain, not of the total strain,
+ * because the latter falls to 0 where loads reverse, and the plastic strain would then depend on the size of
+ * the step. trial: yield equation at the start of the step. space: compile-time constant. */
 static ALWAYS_INLINE void linearise_rate(const struct law *law, const struct part_points *p,
                                          const struct flow_equation *trial, lanes *bound, lanes *slope,
                                          const enum space space)
@@ -225,11 +230,11 @@ static ALWAYS_INLINE void linearise_rate(const struct law *law, const struct par
     *slope = lanes_choose(fast, rise, *slope);
 }
 
-/* Returns the plastic flow t = da/q [1/Pa] of WIDE points in a small step, by one linearised evaluation (da: increment
- * of plastic strain, q: equivalent relative stress). law: flow law; p: state of the points; trial, xi: yield equation
- * and relative stress [Pa] of the trial state; bound: yield stress at the start of the step [Pa]; slope: its derivative
- * by the plastic strain [Pa], used only up to law->steepest. *back: receives the factors by which the back stress
- * changes in the step (recall_after). space: compile-time constant. */
+/* Returns the plastic flow t = da/q [1/Pa] of WIDE points (one per vector lane) in a small step, by one linearised
+ * evaluation (da: increment of plastic strain, q: equivalent relative stress). law: flow law; p: state of the points;
+ * trial, xi: yield equation and relative stress [Pa] of the trial state; bound: yield stress at the start of the step
+ * [Pa]; slope: its derivative by the plastic strain [Pa], used only up to law->steepest. *back: receives the factors by
+ * which the back stress changes in the step (recall_after). space: compile-time constant. */
 static ALWAYS_INLINE lanes solve_explicit(const struct law *law, const struct part_points *p,
                                           const struct flow_equation *trial, const lanes *xi, lanes bound, lanes slope,
                                           struct flow_recall *back, const enum space space)
@@ -246,18 +251,18 @@ static ALWAYS_INLINE lanes solve_explicit(const struct law *law, const struct pa
     return t;
 }
 
-/* Returns the temperatures of WIDE points [K] after an increment `more` of plastic strain [1] in a load step, without
- * conduction of heat. law: flow law; p: state of the points at the start of the step. */
+/* Returns the temperatures [K] of WIDE points (one per vector lane) after an increment `more` of plastic strain [1] in
+ * a load step, without conduction of heat. law: flow law; p: state of the points at the start of the step. */
 static ALWAYS_INLINE lanes temperature_after(const struct law *law, const struct part_points *p, lanes more)
 {
     if (!(law->heating > 0)) return p->temperature;
     return johnson_cook_adiabatic_temperature(law, p->a, p->a + more, p->temperature);
 }
 
-/* Returns the plastic flow t = da/q [1/Pa] of WIDE points in a step of any size, by iteration to round-off (da:
- * increment of plastic strain, q: equivalent relative stress). law: flow law; p: trial state of the points; bound:
- * yield stress at the start of the step [Pa]. *back: receives the factors by which the back stress changes in the step
- * (recall_after). space: compile-time constant. */
+/* Returns the plastic flow t = da/q [1/Pa] of WIDE points (one per vector lane) in a step of any size, by iteration to
+ * round-off (da: increment of plastic strain, q: equivalent relative stress). law: flow law; p: trial state of the
+ * points; bound: yield stress at the start of the step [Pa]. *back: receives the factors by which the back stress
+ * changes in the step (recall_after). space: compile-time constant. */
 static ALWAYS_INLINE lanes solve_load_step(const struct law *law, const struct part_points *p, lanes bound,
                                            struct flow_recall *back, const enum space space)
 {
@@ -307,9 +312,10 @@ static ALWAYS_INLINE void flow_apply(const struct law *law, struct part_points *
         p->back[c] = back->left * p->back[c] + back->added * (C * strain[c]);
 }
 
-/* Returns for WIDE points the plastic work of a small step per reference volume [J/m^3], by the trapezoidal rule:
- * strain : (s_0 v_0 + s_1 v_1)/2, with the stresses s_0, s_1 and the relative volumes v_0, v_1 at the start and at the
- * end of the step (in p). strain: increments of plastic strain [1], xx yy zz xy yz zx. space: compile-time constant. */
+/* Returns for WIDE points (one per vector lane) the plastic work of a small step per reference volume [J/m^3], by the
+ * trapezoidal rule: strain : (s_0 v_0 + s_1 v_1)/2, with the stresses s_0, s_1 and the relative volumes v_0, v_1 at the
+ * start and at the end of the step (in p). strain: increments of plastic strain [1], xx yy zz xy yz zx. space:
+ * compile-time constant. */
 static ALWAYS_INLINE lanes trapezoid(const struct part_points *p, const lanes *strain, const enum space space)
 {
     lanes work = lanes_broadcast(0);
@@ -319,9 +325,9 @@ static ALWAYS_INLINE lanes trapezoid(const struct part_points *p, const lanes *s
     return work;
 }
 
-/* Returns for WIDE points the integral of the yield stress over the plastic strain in a load step [J/m^3], in which
- * the plastic strain grows by `more` [1]. law: flow law; p: state at the end of the step, but with the temperature at
- * its start. */
+/* Returns for WIDE points (one per vector lane) the integral of the yield stress over the plastic strain in a load step
+ * [J/m^3], in which the plastic strain grows by `more` [1]. law: flow law; p: state at the end of the step, but with
+ * the temperature at its start. */
 static ALWAYS_INLINE lanes isotropic_work(const struct law *law, const struct part_points *p, lanes more)
 {
     if (law->heating > 0)
@@ -331,12 +337,12 @@ static ALWAYS_INLINE lanes isotropic_work(const struct law *law, const struct pa
            law_flow_stress_integral(law, p->a - more, p->temperature);
 }
 
-/* Returns for WIDE points the plastic work of a load step per reference volume [J/m^3]: the integrals of yield stress
- * and back stress along the path on which the trial stress grows in proportion, at a constant direction of flow. The
- * integral of the back stress over the increment a of plastic strain is X:N b + (C/gamma) (a - b), b = (1
- * - exp(-gamma a))/gamma; without recall (gamma = 0) X:N a + C a^2/2. law: flow law; p: state at the end of the step;
- * back: back stress X at its start [Pa]; more: increment a [1]; strain: increments of the components of plastic strain
- * [1], xx yy zz xy yz zx. space: compile-time constant. */
+/* Returns for WIDE points (one per vector lane) the plastic work of a load step per reference volume [J/m^3]: the
+ * integrals of yield stress and back stress along the path on which the trial stress grows in proportion, at a constant
+ * direction of flow. The integral of the back stress over the increment a of plastic strain is X:N b + (C/gamma) (a -
+ * b), b = (1 - exp(-gamma a))/gamma; without recall (gamma = 0) X:N a + C a^2/2. law: flow law; p: state at the end of
+ * the step; back: back stress X at its start [Pa]; more: increment a [1]; strain: increments of the components of
+ * plastic strain [1], xx yy zz xy yz zx. space: compile-time constant. */
 static ALWAYS_INLINE lanes path_work(const struct law *law, const struct part_points *p, const lanes *back, lanes more,
                                      const lanes *strain, const enum space space)
 {
@@ -351,10 +357,11 @@ static ALWAYS_INLINE lanes path_work(const struct law *law, const struct part_po
     return work + along * added + C / recall * more * (1.0 - added);
 }
 
-/* Maps the trial stresses of WIDE points back to the yield surface, and updates their plastic state: stress, back
- * stress, plastic strain, work, temperature. law: flow law; p: trial state of the points, of which only those in the
- * mask p->active may yield. space, mode: compile-time constants, mode LAW_EXPLICIT for small steps or LAW_LOAD_STEP for
- * steps of any size. Returns a mask with bit l set if point l yields; the other points are not changed. */
+/* Maps the trial stresses of WIDE points (one per vector lane) back to the yield surface, and updates their plastic
+ * state: stress, back stress, plastic strain, work, temperature. law: flow law; p: trial state of the points, of which
+ * only those in the mask p->active may yield. space, mode: compile-time constants, mode LAW_EXPLICIT for small steps or
+ * LAW_LOAD_STEP for steps of any size. Returns a mask with bit l set if point l yields; the other points are not
+ * changed. */
 static ALWAYS_INLINE unsigned points_return(const struct law *law, struct part_points *p, const enum space space,
                                             const enum law_mode mode)
 {
@@ -391,13 +398,13 @@ static ALWAYS_INLINE unsigned points_return(const struct law *law, struct part_p
     return lanes_mask_bits(yields);
 }
 
-/* Returns the WIDE entries of the vector a from number `part` on. */
+/* Returns WIDE consecutive entries of the eight-lane vector *a, from entry number `part` (0, or WIDE) on. */
 static ALWAYS_INLINE lanes vector_load_part(const eight_lanes *a, int part)
 {
     return lanes_load((const real *)a + part);
 }
 
-/* Returns the state of the WIDE points from number `part` on of the eight points *p. */
+/* Returns the state of WIDE of the eight material points *p, those from number `part` on. */
 static ALWAYS_INLINE struct part_points points_load_part(const struct law_points *p, int part)
 {
     struct part_points q = {.duration = p->duration, .thins = p->thins};
@@ -412,8 +419,8 @@ static ALWAYS_INLINE struct part_points points_load_part(const struct law_points
     return q;
 }
 
-/* Stores those members of *q, the state of WIDE points, that points_return changes, in the entries from number `part`
- * on of the eight points *p. */
+/* Stores the members of *q that points_return changes in *p, the state of eight material points. q: state of WIDE of
+ * these points, those from number `part` on. */
 static ALWAYS_INLINE void points_store_part(struct law_points *p, const struct part_points *q, int part)
 {
     for (int c = 0; c < SYM_MAX; c++)
@@ -422,7 +429,9 @@ static ALWAYS_INLINE void points_store_part(struct law_points *p, const struct p
     lanes_store((real *)&p->temperature + part, q->temperature), lanes_store((real *)&p->work + part, q->work);
 }
 
-/* Defines a function that calls points_return for the eight points *p, WIDE of them at a time. */
+/* Defines the function `name`, which maps the stresses of the eight material points *p back to the yield surface
+ * (points_return), WIDE of them at a time. The function returns a mask with a bit for each point that yields. space: of
+ * the points; mode: LAW_EXPLICIT or LAW_LOAD_STEP. */
 #define UPDATE(name, space, mode)                                                                                      \
     static unsigned name(const struct law *law, struct law_points *p)                                                  \
     {                                                                                                                  \

@@ -1,11 +1,12 @@
-/* Return mapping of von Mises plasticity with a flow law (data/law.h), kinematic hardening and adiabatic heating, for
- * eight points at once. With the relative stress xi = s - X of the deviator s and the back stress X, q = sqrt(3/2
- * xi:xi), the flow law sigma_y(a, da/dt, T) and the accumulated plastic strain a,
+/* Return mapping of von Mises plasticity with a flow law (data/law.h), kinematic hardening and adiabatic
+ * heating, for eight points at once. With the deviator s of the stress, the back stress X, xi = s - X, q =
+ * sqrt(3/2 xi:xi), the accumulated plastic strain a, the temperature T and the flow law sigma_y(a, da/dt, T),
  *     f = q - sigma_y <= 0,   d eps_p = da (3/2) xi/q,   da >= 0,   da f = 0
  *     dX = (2/3) C d eps_p - gamma X da   (Armstrong & Frederick 1966; gamma = 0: Prager)
- * by implicit Euler steps (Simo & Hughes 1998, chapter 3), the back stress exactly along the direction of flow of the
- * step. The rate is that of the step, 0 in load steps; the temperature is that at the start of an explicit
- * step. In load steps yield stress and temperature follow the adiabatic curve of the law within the step. */
+ * with the kinematic modulus C and the recall constant gamma. Steps are implicit Euler steps (Simo & Hughes
+ * 1998, chapter 3), with the back stress integrated exactly along the flow direction of the step. The plastic
+ * strain rate is the mean of the step, 0 in load steps. In explicit steps the temperature is that at the
+ * start; in load steps yield stress and temperature follow the adiabatic curve of the law. */
 #ifndef CLEAVE_KERNELS_LAW_UPDATE
 #define CLEAVE_KERNELS_LAW_UPDATE
 

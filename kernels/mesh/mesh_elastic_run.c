@@ -1,4 +1,5 @@
-/* Forces of rows of elastic whole cells of the mesh on its nodes: cells with all points, of one material. */
+/* Computes the forces of rows of elastic whole cells on the nodes of the mesh. A whole cell has all of its material
+ * points, and all of one material. */
 #define ROWS_IN_PARTS /* vectors of WIDE cells */
 #include "mesh_run.h"
 
@@ -10,9 +11,9 @@ struct elastic_run {
     bool balanced;           /* result of elastic_is_isotropic_in_2d */
 };
 
-/* Defines for dimension D and strain measure FINITE (true: finite strain) a function that computes the forces of WIDE
- * cells (run_cells_force_fn), and one that adds the forces of a row of cells to the nodes, as mesh_elastic_run_force.
- */
+/* Defines two functions for dimension D and strain measure FINITE (true: finite strain). One computes the forces of
+ * WIDE cells, one per vector lane (run_cells_force_fn). The other adds the forces of a row of cells to the nodes
+ * (mesh_elastic_run_force). */
 #define RUN(D, FINITE)                                                                                                 \
     static ALWAYS_INLINE void run_elastic_cells_##D##_##FINITE(                                                        \
         void *context, const struct mesh_cell_run *run, int64_t k, lanes u[CORNERS_MAX][3], lanes f[CORNERS_MAX][3])   \

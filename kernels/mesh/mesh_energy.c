@@ -1,4 +1,4 @@
-/* Kinetic and elastic energy of the mesh, for the energy balance. */
+/* Computes the kinetic and the elastic energy of the mesh, for the energy balance. */
 #include "mesh_flow.h"
 #include "mesh_inertia.h"
 #include "mesh_partial.h"

@@ -1,16 +1,17 @@
-/* Forces and energy of cells whose points yield, by return mapping at each point (mesh_laws.h).
+/* Forces and energy of cells whose points yield, by return mapping at each point (mesh_laws.h). In explicit
+ * steps forces are those of the plastic state at the end of the last step. In load steps they follow from one
+ * incremental energy:
  *
- * In load steps forces follow from one incremental energy. In explicit steps forces are those of the plastic state at
- * the end of the last step.
- *
- * With the plastic state a, r of the last equilibrium, the strain e of a point has the energy per volume
+ * With the plastic strain a and the plastic stress correction r of the last equilibrium, the strain e of a
+ * point has the energy per volume (Ortiz & Stainier 1999, rate independent)
  *
  *     w(e) = min over dp, da >= |dp|_eq of  1/2 s : C^-1 : s + int sigma_y da,   s = C : (e - dp) - r
  *
- * with the integral of the yield stress from a to a + da (Ortiz & Stainier 1999, rate independent). Its derivative by e
- * is the stress s at the end of the step, as left by return mapping. r, the plastic stress correction, is the elastic
- * stress C : e less the stress, in the axes of the cell, where Biot's strain splits additively. Sums over points
- * replace the closed forms of mesh_law.h; the moment of the stresses is balanced as there. */
+ * over the increments dp of the plastic strain tensor, |dp|_eq its equivalent strain, and da of a, with the
+ * elastic tensor C and the integral of the yield stress sigma_y from a to a + da. The derivative of w by e is
+ * the stress s after return mapping. r is the elastic stress C : e less the stress, in the axes of the cell,
+ * where Biot's strain splits additively. Sums over points replace the closed forms of mesh_law.h; the moment
+ * of the stresses is balanced as there. */
 #ifndef CLEAVE_KERNELS_MESH_FLOW
 #define CLEAVE_KERNELS_MESH_FLOW
 
@@ -33,9 +34,9 @@ static ALWAYS_INLINE void point_compute_trial_stress(const struct particles *p, 
     for (int k = 0; k < symmetric_tensor_component_count(dim); k++) stress[k] -= p->plastic_correction[k][i];
 }
 
-/* Returns the stretch of the thickness [1] at point i of p in a sheet (plane stress) that yields: elastic strain by
- * Hooke's law, and plastic strain without change of volume. Returns 1 in other spaces and for points that cannot yield.
- * stress: symmetric components [Pa]; m: elastic constants of its material. */
+/* Returns the thickness divided by the reference thickness [1] at point i of p in plane stress of a material that
+ * yields: elastic strain by Hooke's law, and plastic strain without change of volume. Returns 1 in other spaces and for
+ * points that cannot yield. stress: symmetric components [Pa]; m: elastic constants of its material. */
 static ALWAYS_INLINE real mesh_point_plane_stress_thickness_stretch(const struct particles *p, const struct elastic *m,
                                                                     int64_t i, const real *stress)
 {

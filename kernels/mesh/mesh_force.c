@@ -59,10 +59,10 @@ static ALWAYS_INLINE void run_flow_cells(const struct run_flow *a, const struct 
     cell_compute_corner_forces(&s, mesh->grid.h, mesh->volume * (1 << dim), f, dim, rotates);
 }
 
-/* Defines for dimension D and strain measure FINITE (true: finite strain) functions that add the forces of a row of
- * cells that yields, of the rows of one band (a group of layers of cells), and of all bands. Rows that yield have a
- * function of their own, since its code would use registers that elastic rows need. The parallel region is inside, so
- * that D and FINITE are compile-time constants in it. */
+/* Defines functions that add nodal forces of cells, for dimension D and strain measure FINITE (true: finite strain): of
+ * one row of cells that yield, of all rows of one band (a group of layers of cells), and of all bands. Rows that yield
+ * have a function of their own, since their code would use vector registers that elastic rows need. The parallel region
+ * is inside, so that D and FINITE are compile-time constants in it. */
 #define BANDS(D, FINITE)                                                                                               \
     static void run_flow_cells_##D##_##FINITE(void *context, const struct mesh_cell_run *run, int64_t k,               \
                                               lanes u[CORNERS_MAX][3], lanes f[CORNERS_MAX][3])                        \

@@ -29,9 +29,9 @@ static ALWAYS_INLINE lanes smooth(const real *w, int64_t row, int64_t layer, con
     return ((plane_smooth(w - layer, row) + plane_smooth(w + layer, row)) + 4.0 * plane_smooth(w, row)) * (1.0 / 216);
 }
 
-/* Returns one velocity component of node I of the mesh [m/s], at which cells with the blended (lumped and consistent)
- * mass matrix of mesh_inertia.h meet cells with the lumped one. w: the same component of momentum, divided by lumped
- * mass, of all nodes [m/s]. */
+/* Returns one velocity component of node I of the mesh [m/s], a node between cells with the blended (lumped and
+ * consistent) mass matrix of mesh_inertia.h and cells with the lumped one. w: component of the momentum along the same
+ * axis at all nodes, divided by the lumped mass [m/s]. */
 static ALWAYS_INLINE real node_velocity(const struct mesh *mesh, const real *w, int64_t I, const int dim)
 {
     const int corners = 1 << dim;

@@ -1,15 +1,16 @@
 /* Inertia of coarse cells, matched so that waves disperse as in the lattice of bonds.
  *
- * A lumped mass lets waves of wave number kappa run too slowly, by (kappa h)^2/24 for cell edge h; a consistent mass
- * lets them run too fast by an equal amount. Coarse cells blend both: the momentum of their nodes is p, the velocity v
- * = B p with
+ * A lumped mass lets waves of wave number kappa run too slowly, by (kappa h)^2/24 for cell edge h; a
+ * consistent mass lets them run too fast by an equal amount. Coarse cells blend both: the momentum of their
+ * nodes is p, the velocity v = B p with
  *
  *     B = m^-1 + m^-1 [sum over matched cells of alpha (L - C)] m^-1        L: lumped, C: consistent mass of a cell
  *
- * B is symmetric and positive, and the rows of L - C sum to 0: momentum is exact, and the kinetic energy is p . v/2.
- * alpha makes the dispersion equal to that of the bonds' lattice (match_share in src/mesh/levels_build.c). Cells next
- * to cells of another size, at faces, and with nodes whose motion is prescribed are not matched: B is then the inverse
- * of the lumped mass at these nodes. */
+ * and the nodal masses m. B is symmetric and positive, and the rows of L - C sum to 0: momentum is exact, and
+ * the kinetic energy is p . v/2. mesh_levels_match_wave_dispersion_of_bonds chooses alpha = mesh->match such
+ * that the dispersion equals that of the bonds' lattice. Not matched are cells next to cells of another size,
+ * at faces, and with nodes whose motion is prescribed: B is then the inverse of the lumped mass at these
+ * nodes. */
 #ifndef CLEAVE_KERNELS_MESH_INERTIA
 #define CLEAVE_KERNELS_MESH_INERTIA
 

@@ -1,24 +1,29 @@
 /* One linear cell of the mesh with its 2^dim material points: forces on its corners from their displacements.
  *
- * Displacements are decomposed into the modes of a linear cell: with s_c = -1 or 1 along each axis for corner c,
+ * The displacements u_c of the corners c are decomposed into the modes of a linear cell with edge h: with
+ * s_c,d = -1 or 1 at the lower or upper end of the cell along axis d,
  *
- *     mode_M = 2^-(dim - |M|)/h  sum_c (prod_{d in M} s_c,d) u_c        M: a set of axes
+ *     mode_M = 2^-(dim - |M|)/h  sum_c (prod_{d in M} s_c,d) u_c        M: a set of |M| axes
  *
- * |M| = 1 is the mean gradient g; larger sets are bending modes. Bending mode M adds to the gradient at a point mode_M
- * times the coordinates (+-1/4) of the point along all axes of M except the axis of differentiation. Sums over the
- * points are then closed forms, equal to sums point by point up to round-off: <x^2> = 1/16, <x^2 y^2> = 1/256.
+ * |M| = 1 is the mean gradient g; larger sets are bending modes. Bending mode M adds to the gradient at a
+ * point mode_M times the coordinates (+-1/4) of the point along all axes of M except the axis of
+ * differentiation. Sums over the points are then closed forms with the means <x^2> = 1/16 and <x^2 y^2> =
+ * 1/256, equal to sums point by point up to round-off.
  *
- * At finite strain the axes rotate with the cell: R is the rotation of its mean gradient F = 1 + g = R U, and the law
- * is linear in Biot's strain, P = R C : (sym R^T F_p - 1), as the force of a bond is linear in its stretch. Since R
- * depends on F, the exact gradient of that energy has one more term: an antisymmetric part that balances the moment M =
- * sum V s U_p^T of the rotated stresses,  P += R w x,  (tr U - U) w = axial(M - M^T)/V. It vanishes for isotropic
- * constants in 2D; with it energy and angular momentum are exact (tests/unit/mesh/test_mesh.c).
+ * At finite strain the axes rotate with the cell: R is the rotation of its mean deformation gradient F = 1 +
+ * g = R U. The stress is linear in Biot's strain, P = R C : (sym R^T F_p - 1), with the gradient F_p = R U_p
+ * at a point, as the force of a bond is linear in its stretch. Since R depends on F, the exact gradient of
+ * that energy has one more term, an antisymmetric part that balances the moment M = sum V s U_p^T of the
+ * rotated stresses s: P += R w x, where w x is the matrix of the cross product with w, and (tr U - U) w =
+ * axial(M - M^T)/V. It vanishes for isotropic constants in 2D; with it energy and angular momentum are exact
+ * (tests/unit/mesh/test_mesh.c).
  *
- * Materials that yield or are nearly incompressible (elastic.mean_dilatation) have one dilatation in a cell, the mean
- * over its points of the material, as in the current frame (mpm/dilatation.h; B-bar, Hughes 1980). With the stiffness k
- * of the mean normal stress by the trace of the strain, k = (C11 + (dim - 1) C12)/dim, the energy of a point is that of
- * C - k 1 (x) 1 at its own strain, and k/2 times the square of the mean trace: bending modes, whose trace has the mean
- * 0 over the points of a whole cell, have the constants C11 - k and C12 - k. */
+ * Materials that yield or are nearly incompressible (elastic.mean_dilatation) have one dilatation in a cell,
+ * the mean over its points of the material, as on the background grid (mpm/dilatation.h; B-bar, Hughes 1980).
+ * With the stiffness k of the mean normal stress by the trace of the strain, k = (C11 + (dim - 1) C12)/dim,
+ * the energy of a point is that of C - k 1 (x) 1 at its own strain, and k/2 times the square of the mean
+ * trace. Bending modes, whose trace has the mean 0 over the points of a whole cell, have the constants C11 -
+ * k and C12 - k. */
 #ifndef CLEAVE_KERNELS_MESH_LAW
 #define CLEAVE_KERNELS_MESH_LAW
 

@@ -1,5 +1,6 @@
-/* Flow laws (laws/law_update.h) at the material points of cells: eight points at a time, those of one number in eight
- * cells. Stresses are in the axes of the cells, which rotate with them; volumes are those of the undeformed body. */
+/* Evaluates flow laws (laws/law_update.h) at the material points of cells, for eight points at a time: the points of
+ * equal number in eight cells. Stresses are in the axes of the cells, which rotate with them; volumes are those of the
+ * undeformed body. */
 #ifndef CLEAVE_KERNELS_MESH_LAWS
 #define CLEAVE_KERNELS_MESH_LAWS
 

@@ -1,6 +1,6 @@
-/* Marks of material points and cells of a mesh whose stress requires conversion to peridynamic particles. Upper bounds
- * of the stresses of eight cells at a time choose the cells whose points are examined one by one. Point number q of a
- * cell is the one next to corner q. */
+/* Marks the material points and cells of a mesh whose stress requires conversion to peridynamic particles. Upper bounds
+ * of the stress, computed for eight cells at a time, select the cells whose points are then examined one by one. Point
+ * number q of a cell is the point next to corner q. */
 #include "mesh_partial.h"
 #include "mesh_point.h"
 #include "mesh_run.h"
@@ -30,7 +30,9 @@ static ALWAYS_INLINE void cell_points_mark(const struct mesh *mesh, struct parti
     }
 DIMENSIONS(CELL_MARK)
 
-/* Sets FLAG_STRESSED of points of cell I as cell_points_mark does, by a function for each dim that is not inlined. */
+/* Sets FLAG_STRESSED in p for points of cell I whose stress exceeds that of conversion to peridynamic particles: calls
+ * the version of cell_points_mark for `dim` dimensions, which is not inlined. m: elastic constants; finite: true for
+ * finite strain. */
 static ALWAYS_INLINE void cell_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m, int64_t I,
                                     const int dim, bool finite)
 {
@@ -73,7 +75,9 @@ static ALWAYS_INLINE lanes places_tension(const struct elastic *m, const struct 
     }
 DIMENSIONS(TENSION)
 
-/* Returns places_tension(m, s, there, dim) of eight cells [Pa], by a function for one `dim` that is not inlined. */
+/* Returns the upper bounds of places_tension for the principal stresses in eight cells [Pa]: calls its version for
+ * `dim` dimensions, which is not inlined. m: elastic constants; s: strain of the cells; there[q]: mask of the cells
+ * that have point number q, NULL if all have it. */
 static ALWAYS_INLINE lanes cells_tension(const struct elastic *m, const struct mesh_cell *s, const lanes_mask *there,
                                          const int dim)
 {

@@ -1,4 +1,5 @@
-/* Motion of the nodes of the mesh: velocities and displacements, walls, dashpots and mirror nodes. */
+/* Moves the nodes of the mesh: velocities and displacements, prescribed velocities ("walls"), dashpots, and mirror
+ * nodes beyond planes of symmetry. */
 #include <math.h>
 
 #define ROWS_IN_PARTS /* vectors of WIDE nodes */
@@ -70,8 +71,8 @@ static void walls_move(struct mesh *mesh, real dt)
     }
 }
 
-/* Sets one component of the force on the nodes of one row of the mesh to 0, except in blocks of nodes that are at
- * rest. row: number of the row of nodes along x, from 0; force: this component at all nodes [N]. */
+/* Sets one component of the force on the nodes of one row of the mesh to 0, except in blocks of nodes that are at rest.
+ * row: number of the row, a line of nodes along x, from 0; force: this component at all nodes of the mesh [N]. */
 static void row_clear(const struct mesh *mesh, int64_t row, real *force)
 {
     const struct mesh_row_blocks blocks = mesh_block_range_with_mass_in_node_row(mesh, row);
@@ -88,12 +89,12 @@ void mesh_clear(struct mesh *mesh)
         for (int d = 0; d < mesh->grid.dim; d++) row_clear(mesh, r, mesh->grid.force[d]);
 }
 
-/* Advances velocity and displacement of the nodes of one row of the mesh by a leap-frog step, WIDE nodes at a time,
- * except in blocks of nodes that are at rest. row: number of the row of nodes along x, from 0; dt: time over which
- * velocities move the nodes [s]; dt_velocity: time over which forces change the velocities [s]. Entries beyond the
- * last node have neither force nor mass and stay at rest. Returns the square of the largest velocity component
- * [m^2/s^2], or INFINITY if any component is not finite; because maxima ignore NaN, the sum of all components is
- * tested for this. */
+/* Advances velocity and displacement of the nodes of one row of the mesh by a leap-frog step, WIDE nodes (one per
+ * vector lane) at a time, except in blocks of nodes that are at rest. row: number of the row of nodes along x, from 0;
+ * dt: time over which velocities move the nodes [s]; dt_velocity: time over which forces change the velocities [s].
+ * Entries beyond the last node have neither force nor mass and stay at rest. Returns the square of the largest velocity
+ * component [m^2/s^2], or INFINITY if any component is not finite; because maxima ignore NaN, the sum of all components
+ * is tested for this. */
 static real row_move(struct mesh *mesh, int64_t row, real dt, real dt_velocity)
 {
     const int64_t start = row * mesh->grid.count[0];

@@ -12,7 +12,8 @@
 #include "base/polar.h"
 #include "kernels/mpm/stress.h"
 
-/* Calls X for 1, 2 and 3 dimensions, to define a function for each. A parallel region is inside each of them. */
+/* Calls X(dim) for dim = 1, 2 and 3, to define one function for each number of dimensions. Parallel loops (OpenMP) are
+ * inside these functions. */
 #define DIMENSIONS(X) X(1) X(2) X(3)
 
 /* Replaces the values at the two ends of an edge by the linearly interpolated values at one quarter (*low) and three
@@ -25,7 +26,7 @@ static ALWAYS_INLINE void interpolate_to_quarter_points(real *low, real *high)
 }
 
 /* Replaces the values value[2^dim] at the corners of a cell by the interpolated values at its 2^dim material points, in
- * place. The interpolation matrix is symmetric, so that the same call distributes values of the points to the
+ * place. The interpolation matrix is symmetric, so the function also distributes values of the points to the
  * corners. */
 static ALWAYS_INLINE void cell_interpolate_corners_to_points(real *value, const int dim)
 {

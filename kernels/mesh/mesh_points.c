@@ -1,5 +1,5 @@
-/* The material points of a mesh: interpolation of their motion and of their forces, rotation of bonded points, stress,
- * and displacement gradient. Point number q of a cell is the one next to corner q. */
+/* Transfers between a mesh and its material points: motion, forces, stress and displacement gradient of the points, and
+ * rotation of points with bonds. Point number q of a cell is the point next to corner q. */
 #include "mesh_flow.h"
 #include "mesh_partial.h"
 #include "mesh_point.h"
@@ -134,8 +134,9 @@ static ALWAYS_INLINE void cells_rotate(const struct mesh_cell *s, lanes *rotatio
     for (int k = 0; k < 3; k++) rotation[k] = w[k] * rotation[3];
 }
 
-/* Computes for points with state-based bonds in group `group` of eight partial cells (with missing or unequal points)
- * p->end_rotation, the rotation of their cell, and p->end_strain, its part in the mean strain of their bonds [1]. */
+/* Computes two quantities for material points with state-based bonds, of the eight partial cells (with missing or
+ * unequal points) in group number `group`. p->end_rotation: rotation of the cell of the point; p->end_strain: part of
+ * the cell in the mean strain of the bonds of the point [1]. finite: true for finite strain. */
 static ALWAYS_INLINE void group_ends_update(const struct mesh *mesh, struct particles *p, int64_t group, const int dim,
                                             const bool finite)
 {

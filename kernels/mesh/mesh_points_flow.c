@@ -1,11 +1,11 @@
-/* Plastic state of the material points of the mesh at the end of an explicit step (mesh_flow.h). Forces, samples and
- * frames then need no return mapping. */
+/* Updates the plastic state of the material points of the mesh at the end of each explicit step (mesh_flow.h), so that
+ * forces, samples and output frames need no return mapping. */
 #include "mesh_flow.h"
 #include "mesh_partial.h"
 #include "mesh_run.h"
 
 /* Arguments of mesh_points_flow: mesh, particles, elastic constants of all materials, and time step dt [s]. With dt = 0
- * the stresses are only stored and no point flows. */
+ * the stresses are stored without plastic flow. */
 struct flow_step {
     const struct mesh *mesh;
     const struct particles *p;

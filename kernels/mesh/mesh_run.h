@@ -5,7 +5,8 @@
 
 #include "mesh_law.h"
 
-/* Calls X(dimensions, finite strain) for each instance of the forces of cells. */
+/* Calls X(dim, finite) for each number of dimensions and strain measure (finite: 1 for finite, 0 for small strain) for
+ * which the forces of cells are compiled. */
 #define MESH_FORCES(X) X(1, 0) X(2, 0) X(2, 1) X(3, 0) X(3, 1)
 
 /* Loads the displacements u[c][i] [m] of corner c along axis i of WIDE mesh cells: those number k .. k + WIDE - 1,
@@ -62,8 +63,9 @@ static ALWAYS_INLINE lanes lanes_shift_in_last_lane(lanes before, lanes now)
 #endif
 }
 
-/* Forces f[c][i] [N] on corner c along axis i of the cells number k to k + WIDE - 1 of `run`, from the displacements
- * u[c][i] [m]. context: data of the function. */
+/* Type of a function that computes the forces f[c][i] [N] on corner c along axis i of the WIDE cells number k to k +
+ * WIDE - 1 of `run`, a row of consecutive cells, from the displacements u[c][i] [m]. context: data of the function,
+ * which mesh_cell_run_add_forces passes on to it. */
 typedef void run_cells_force_fn(void *context, const struct mesh_cell_run *run, int64_t k, lanes u[CORNERS_MAX][3],
                                 lanes f[CORNERS_MAX][3]);
 

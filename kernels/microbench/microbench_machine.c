@@ -1,4 +1,4 @@
-/* Limits of the machine: the arithmetic of one bond, and the memory bandwidth. */
+/* Measures limits of the machine: the speed of the arithmetic of one bond, and the memory bandwidth. */
 #include <math.h>
 #include <string.h>
 
@@ -32,7 +32,8 @@ struct microbench_lattice {
     real *x[DIM_MAX], *f[DIM_MAX];
 };
 
-/* Computes the forces of all bonds on the WIDE particles from number i on of the lattice s and stores them in s->f. */
+/* Computes the forces of all bonds on the WIDE particles (one per vector lane) from number i on of the lattice s and
+ * stores them in s->f. */
 static ALWAYS_INLINE void stencil_rows(const struct microbench_lattice *s, int64_t i, const int dim)
 {
     const lanes x0 = lanes_load(s->x[0] + i), x1 = dim > 1 ? lanes_load(s->x[1] + i) : x0;

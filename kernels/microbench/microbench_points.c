@@ -1,8 +1,10 @@
-/* A plain material point method, as a reference for timing: 2D, linear shapes, MUSL, FLIP, elastic with Jaumann's rate.
+/* Implements a plain material point method in 2D as a reference for timing: linear shape functions, MUSL, FLIP, elastic
+ * points with Jaumann's stress rate.
  *
- * Points are stored sorted by cell, four a cell, and stay there (sorting is not timed). Each of the three maps goes
- * cell by cell: sums for the four nodes of the cell are local variables, added to the grid once. Rows of cells of one
- * colour share no node, so that threads can process them in parallel. */
+ * Points are stored sorted by cell, four in each cell, and stay in their cells (sorting is not timed). Each of the
+ * three transfers between points and nodes is a loop over cells. Sums for the four nodes of a cell are local variables,
+ * added to the nodes once. Rows of cells of one parity (even or odd) share no node, so that threads can process them in
+ * parallel. */
 #include <math.h>
 #include <string.h>
 
@@ -13,9 +15,9 @@
 /* Numbers of cells along both axes, of corners of a cell, and of nodes. */
 enum { CELLS_X = 100, CELLS_Y = 200, CORNERS = 4, NODES_X = CELLS_X + 1, NODES = NODES_X * (CELLS_Y + 1) };
 
-/* Data of the plain material point method. n: number of points; h: edge of a cell [m]; dt: time step [s]; c11, c12,
- * shear: elastic constants [Pa]; start: cells + 1 entries; the next line of arrays belongs to points (position,
- * velocity, mass, volume, stress), the last to nodes. */
+/* Points and nodes of the plain material point method, for one measurement. n: number of points; h: edge of a cell [m];
+ * dt: time step [s]; c11, c12, shear: elastic constants [Pa]; start: cells + 1 entries. x .. sxy belong to points
+ * (position, velocity, mass, volume, stress), m .. uy to nodes. */
 struct microbench_points {
     int64_t n;
     real h, dt, c11, c12, shear;
@@ -123,8 +125,8 @@ static void cell_gather(struct microbench_points *p, int cx, int cy)
     }
 }
 
-/* Defines map_NAME, which calls cell_NAME (one map between points and nodes) for all cells, first in even, then in odd
- * rows of cells, since rows of one parity share no node. */
+/* Defines map_NAME, which calls cell_NAME, one transfer between points and nodes, for all cells. Even rows of cells are
+ * processed first, then odd ones, since rows of one parity share no node. */
 #define MAP(NAME)                                                                                                      \
     static void map_##NAME(struct microbench_points *p)                                                                \
     {                                                                                                                  \

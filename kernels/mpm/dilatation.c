@@ -1,9 +1,10 @@
-/* Changes of the mean dilatation of points that change their cells. */
+/* Updates stress and volume of material points for the mean dilatation of their cell (dilatation.h), which changes when
+ * points move to other cells. */
 #include "dilatation.h"
 #include "row.h"
 
-/* Adds `share` [1] of the difference between the mean dilatation of a cell and a point's own dilatation in a step to
- * the stress and volume of points of the cell. list: indices of the points in p; n: their number, at most MEAN_POINTS;
+/* Adds the fraction `share` [1] of a dilatation to stress and volume of points in one cell: for each point the mean
+ * dilatation of the cell in a step minus that of the point. list[n]: indices of the points in p, at most MEAN_POINTS;
  * t: time step, dilatations and elastic constants. */
 static ALWAYS_INLINE void cell_add_mean_dilatation(struct particles *p, const struct transfer_data *t,
                                                    const int32_t *list, int n, real share, const int dim)

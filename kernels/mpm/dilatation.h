@@ -1,17 +1,19 @@
-/* The mean dilatation of a cell of the grid: the points of a cell that are of one body and one material have one rate
- * of dilatation, the mean of theirs weighted by volume. Nearly incompressible materials, and metals that flow, then
- * have one constraint of volume in a cell instead of one at each point, and do not lock (B-bar: Hughes 1980; of
+/* Mean dilatation: all points of a grid cell that are of one body and one material get one rate of
+ * dilatation, the mean of their rates weighted by volume. Nearly incompressible and plastic materials then
+ * have one volume constraint per cell instead of one per point, and do not lock (B-bar: Hughes 1980; of
  * material points: Coombs et al. 2018).
  *
- * With the rates t_p = tr L_p and the mean stresses s_p = tr sigma_p/dim, the power of the forces on the nodes is
+ * With the velocity gradient L_p, stress sigma_p and volume V_p of point p, t_p = tr L_p and s_p = tr
+ * sigma_p/dim, the power of the forces on the nodes is
  *     sum_p V_p (sigma_p : L_p + s_p (t - t_p)),   t = sum V_p t_p/sum V_p.
- * The nodal forces that do this work have the stress sigma_p + (s - s_p) I with s = sum V_p s_p/sum V_p: the rate of
- * dilatation (g2p) and the mean stress (p2g) are replaced by the same mean, so that the energy balance is exact.
+ * The nodal forces that do this work follow from the stress sigma_p + (s - s_p) I with s = sum V_p s_p/sum
+ * V_p. So g2p averages the rates of dilatation and p2g the mean stresses by the same mean, and the energy
+ * balance is exact.
  *
- * Where points enter other cells, these means change at once. A step then has half of the dilatation by the mean over
- * the old cell and half by that over the new one (points_add_mean_dilatation): with all of it by the old one, each
- * change of cells is a kick of first order in dt, and a stretched block that flies through 30 cells at nu = 0.45 has
- * 40 times the energy of its stress. */
+ * Where points enter other cells, these means change at once. Half of the dilatation of a step therefore uses
+ * the mean over the old cell, half the mean over the new one (points_add_mean_dilatation). With the old cell
+ * alone, each change of cells causes an error of first order in dt: a stretched block that flies through 30
+ * cells at a Poisson's ratio of 0.45 ends with 40 times its elastic energy. */
 #ifndef CLEAVE_KERNELS_DILATATION
 #define CLEAVE_KERNELS_DILATATION
 

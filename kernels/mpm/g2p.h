@@ -1,15 +1,18 @@
-/* Grid to particles (G2P): position, velocity gradient, stress and volume of the material points at the end of the
- * step, and FLAG_STRESSED where the largest principal stress exceeds the trigger (Zeng et al. 2022, eqs. 32, 40, 43-49,
- * corrected: L from the second map, rotation W sigma - sigma W; APIC: Jiang et al. 2015).
- *     FLIP (MUSL)    x += dt sum N v_I,   L = sum v2_I (x) grad N   with the velocity v2 of the second map
+/* Grid to particles (G2P): computes position, velocity gradient L, stress and volume of the material points
+ * at the end of the step, and sets FLAG_STRESSED where the largest principal stress exceeds the conversion
+ * stress. Zeng et al. 2022, eqs. 32, 40, 43-49, corrected: L from remapped velocities, rotation W sigma -
+ * sigma W; APIC: Jiang et al. 2015. With the shape function N of node I, its velocity v_I, and its velocity
+ * v2_I after the remapping of MUSL (remap.h):
+ *     FLIP (MUSL)    x += dt sum N v_I,   L = sum v2_I (x) grad N
  *       with bonds   x += dt sum N v2_I   for points with bonds, and for points that rotate (data/turning.h)
  *     APIC           v = sum N v_I,   x += dt v,   L = sum v_I (x) grad N
- * Eq. 40 moves all points with v_I. Bond forces act on points through N M^-1 N^T, whose adjoint in the mass is the
- * second map. Where bonds depend on the positions of points, motion with v2 makes the linear step the leap-frog scheme
- * of one energy; with v_I each displacement has the extra term dt^2 (1 - N M^-1 N^T m) N M^-1 f, and bonds gain energy
- * from the stress. For points without bonds no linear term depends on their positions, but the weights follow the
- * positions in long runs: a free rotating plate with GIMP shapes loses a tenth of its energy in 1e5 steps with v_I, and
- * gains 40 % with v2 (bench/stability/limits_motion.c). Each point is written by one thread. */
+ * Eq. 40 moves all points with v_I. Bond forces act on points through N M^-1 N^T (M: nodal masses), whose
+ * adjoint in the mass is the remapping. Where bonds depend on the positions of points, motion with v2_I makes
+ * the linear step the leap-frog scheme of one energy. With v_I each displacement has the extra term dt^2 (1 -
+ * N M^-1 N^T m) N M^-1 f (m: point masses, f: nodal forces), and bonds gain energy. Points without bonds move
+ * with v_I, since their weights follow the positions in long runs: a free rotating plate with GIMP shapes
+ * loses a tenth of its energy in 1e5 steps with v_I, and gains 40 % with v2_I
+ * (bench/stability/limits_motion.c). Each point is written by one thread. */
 #ifndef CLEAVE_KERNELS_G2P
 #define CLEAVE_KERNELS_G2P
 
@@ -109,10 +112,10 @@ static ALWAYS_INLINE void points_update_rotation(struct particles *p, const int3
     for (int c = 0; c < ROTATION; c++) points_store(p->end_rotation[c], point, next[c], dim);
 }
 
-/* Returns -1 in each lane whose point is moved by the remapped nodal velocities (FLIP: velocities from momentum mapped
- * to the nodes a second time, remap.h), else 1. This applies to points with bonds, and to all points if
- * t->momentum_only or t->second_map is set or if weights are computed at positions shifted by g->ahead, where nodes may
- * have no other velocity. point: indices of the points. */
+/* Returns -1 in each lane whose point moves with the remapped nodal velocities (FLIP: velocities from momentum mapped
+ * to the nodes a second time, remap.h), else 1. The value is -1 for points with bonds; for all points if
+ * t->momentum_only or t->second_map is set, or if weights are computed at positions shifted by g->ahead, where nodes
+ * may have no other velocity. point: indices of the points. */
 static ALWAYS_INLINE row_of_points points_minus_one_if_moved_by_remapped_velocity(const struct grid *g,
                                                                                   const struct transfer_data *t,
                                                                                   const int32_t *point, const int dim)
@@ -384,8 +387,9 @@ static ALWAYS_INLINE int64_t g2p_update_points_of_cell(const struct grid *g, str
     return moved;
 }
 
-/* Defines NAME, the loop over all cells for dimension D, shape S and transfer T. Points with the mean dilatation of
- * their cells have a loop of their own (AVERAGED), so that the other loop contains no code for them. */
+/* Defines the function NAME, the loop of g2p over all cells for dimension D, shape function S and transfer scheme T.
+ * AVERAGED: true for materials whose points have the mean dilatation of their cells. They have a loop of their own, so
+ * that the other loop contains no code for them. */
 #define CELLS(NAME, D, S, T, AVERAGED)                                                                                 \
     static int64_t NAME(const struct grid *g, struct particles *p, const struct transfer_data *t)                      \
     {                                                                                                                  \

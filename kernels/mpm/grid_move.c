@@ -1,5 +1,6 @@
-/* Nodal updates of the background grid between the maps: velocities, walls, mirror nodes and light nodes. One division
- * per node; memory traffic is small compared with the maps over points. */
+/* Updates the nodes of the background grid between the transfers from and to the material points: velocities,
+ * prescribed velocities ("walls"), mirror nodes, and light nodes (with little mass). This takes one division per node
+ * and little memory traffic compared with the transfers. */
 #include <stdlib.h>
 
 #include "kernels/dashpot.h"

@@ -1,7 +1,9 @@
-/* The tables of the maps between points and grid. */
+/* Defines the tables of the kernels that transfer between material points and grid nodes, indexed by dimension, shape
+ * function and transfer scheme. */
 #include "maps.h"
 
-/* Entries of the tables of maps: the instance of NAME for dimension D, shape function S and transfer T. */
+/* MAP_ENTRY(NAME, D, S, T) initialises the entry of a table for dimension D, shape function S and transfer scheme T
+ * with the function NAME_Dd_S_T, such as p2g_2d_LINEAR_FLIP. The other macros list the entries of one table each. */
 #define MAP_ENTRY(NAME, D, S, T) [D][SHAPE_##S][TRANSFER_##T] = NAME##_##D##d_##S##_##T,
 #define P2G_ENTRY(D, S, T) MAP_ENTRY(p2g, D, S, T)
 #define P2G_ENTRIES(D, S) TRANSFER_VARIANTS(P2G_ENTRY, D, S)

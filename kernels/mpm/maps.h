@@ -1,6 +1,6 @@
-/* The maps between points and grid, one function for each instance of simd/variants.h. Their bodies are headers (p2g.h,
- * remap.h, remap_turn.h, g2p.h), which three files compile with the widths of vectors that suit their instances:
- * maps_plane.c, maps_solid.c, maps_corners.c. */
+/* Declares the maps between points and grid, one function for each combination of dimension, shape function and
+ * transfer scheme in simd/variants.h. Their code is in headers (p2g.h, remap.h, remap_turn.h, g2p.h). Three files
+ * compile it, with vectors of different widths: maps_plane.c, maps_solid.c, maps_corners.c. */
 #ifndef CLEAVE_KERNELS_MAPS
 #define CLEAVE_KERNELS_MAPS
 

@@ -1,4 +1,5 @@
-/* The maps of points with linear shapes in 3D: a cell has eight corners, and usually eight points. */
+/* Defines the transfers between points and grid for linear shape functions in 3D. A cell has eight corners and usually
+ * eight points. */
 #ifdef __AVX512F__ /* narrower vectors would keep a row of eight nodes in memory, not in registers */
 #define ROW_NODES 8
 #endif

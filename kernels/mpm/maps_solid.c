@@ -1,4 +1,5 @@
-/* The maps of points in 3D with shapes that reach beyond their cell, which usually has eight points. */
+/* Defines the transfers between points and grid in 3D for shape functions that extend beyond the cell of a point. A
+ * cell usually has eight points. */
 #define POINTS_MOST 8
 #define MAP_VARIANTS_TURNING(X) X(3, GIMP) X(3, CPGIMP) X(3, QUADRATIC) X(3, CUBIC)
 #define MAP_VARIANTS MAP_VARIANTS_TURNING

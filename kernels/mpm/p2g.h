@@ -1,13 +1,13 @@
-/* Particles to grid (P2G), the first map: mass, momentum and force of material points to the nodes, scattered block by
- * block, colour by colour (struct transfer_order), so that a node has one writer at a time and a fixed order of terms.
+/* Particles to grid (P2G), the first map: adds mass, momentum and force of material points to the nodes.
+ * Blocks of cells are processed colour by colour (struct transfer_order), so that a node has one writer at a
+ * time and a fixed order of terms (Zeng et al. 2022, eqs. 33-36, with sums over all nodes of a point):
  *
  *     m_I = sum m N,   P_I = sum m v N,   f_I = sum (N f - V sigma_given . grad N)
  *
- * with v + L (x_I - x_p) in place of v for APIC (Jiang et al. 2015) and for points that rotate
- * (rotating_group_velocity_gradients).
- *
- * Zeng et al. 2022, eqs. 33-36, with sums over all nodes of a point. Reads about 120 bytes per point in 2D; the nodes
- * of a block stay in cache. */
+ * with mass m, velocity v, force f and volume V of a point, the stress sigma_given that it transmits to the
+ * grid, and the shape function N of node I. For APIC (Jiang et al. 2015) and for points that rotate
+ * (rotating_group_velocity_gradients), v + L (x_I - x_p) replaces v. Reads about 120 bytes per point in 2D;
+ * the nodes of a block stay in cache. */
 #ifndef CLEAVE_KERNELS_P2G
 #define CLEAVE_KERNELS_P2G
 
@@ -123,8 +123,7 @@ static ALWAYS_INLINE void points_load_quantities_to_transfer(struct points_trans
 /* Adds mass, momentum and force of point number `at` of stencil s (node weights of a few points of p) to `sum`, the
  * nodal sums over the points of its cell of grid g. q: quantities of the points (points_load_quantities_to_transfer);
  * t: inputs of the transfer, with the shape function `shape`; extrapolate_velocity: true if points extrapolate their
- * velocity to nodes
- * (`continues`). */
+ * velocity to nodes by a velocity gradient. */
 static ALWAYS_INLINE void p2g_add_point(cell_sums sum, const struct grid *g, const struct particles *p,
                                         const struct transfer_data *t, const struct cell_stencil *s,
                                         const struct points_transfer_quantities *q, int at, const int dim,
@@ -214,7 +213,7 @@ static ALWAYS_INLINE void points_average_mean_stress(const struct particles *p, 
 /* Adds mass, momentum and force of the points list[n] of p (n <= AT_ONCE, points processed together) in cell c of grid
  * g to `sum`, the nodal sums over the points of this cell. stress: stress of these points; t: inputs of the transfer,
  * with the shape function `shape` and the scheme `transfer`; extrapolate_velocity: true if points extrapolate their
- * velocity to nodes (`continues`). */
+ * velocity to nodes (points_extrapolate_velocity_to_nodes). */
 static ALWAYS_INLINE void p2g_add_points(cell_sums sum, const struct grid *g, const struct grid_cell *c,
                                          const struct particles *p, const struct transfer_data *t,
                                          const struct points_stress *stress, const int32_t *list, int n, const int dim,
@@ -275,8 +274,9 @@ static ALWAYS_INLINE void p2g_add_points_of_cell(const struct grid *g, const str
     }
 }
 
-/* Defines the map for dimension D, shape S and transfer T. Points with the mean dilatation of their cells have a loop
- * of their own, so that the other loop contains no code for them. */
+/* Defines the function of the first map (points to nodes) for dimension D, shape function S and transfer scheme T.
+ * Points with the mean dilatation of their cells have a loop of their own, so that the other loop contains no code for
+ * them. */
 #define INSTANCE(D, S, T)                                                                                              \
     void p2g_##D##d_##S##_##T(struct grid *g, const struct particles *p, const struct transfer_data *t)                \
     {                                                                                                                  \

@@ -1,4 +1,4 @@
-/* Return mapping of material points that yield, at the end of g2p. */
+/* Applies the return mapping to material points that yield, at the end of g2p. */
 #ifndef CLEAVE_KERNELS_POINTS_FLOW
 #define CLEAVE_KERNELS_POINTS_FLOW
 
@@ -128,10 +128,9 @@ static ALWAYS_INLINE void flow_load_stress_and_plastic_state(const struct partic
                                     : lanes_broadcast(m->law->johnson_cook.T_room);
 }
 
-/* Clears the flag that a point is stressed enough to become peridynamic (FLAG_STRESSED), which was set by the trial
- * stress, of those of eight points of p whose stress after plastic flow no longer exceeds the stress at which they
- * become peridynamic. flowed: bit l is set if point[l] has yielded; m: material of the points; e: their state after the
- * return mapping. */
+/* Clears FLAG_STRESSED (the stress requires conversion to peridynamics), which the trial stress has set, on those of
+ * eight points of p whose stress after the return mapping no longer exceeds their conversion stress. flowed: bit l is
+ * set if point[l] has yielded; m: material of the points; e: their state after the return mapping. */
 static ALWAYS_INLINE void flow_clear_conversion_flags_below_threshold(struct particles *p, const struct elastic *m,
                                                                       const struct law_points *e, unsigned flowed,
                                                                       const int32_t *point, const int dim)
@@ -190,8 +189,8 @@ static NEVER_INLINE void flow_store_back_stress(struct particles *p, const struc
 }
 
 /* Removes the first n points (at most LANES) from the list `queue` of points that wait for their return mapping. Moves
- * the remaining ones, at most POINTS (as many as a vector of points holds), to the beginning of the list, with their
- * velocity gradients due->L, trial stresses and volumes. */
+ * the remaining points, at most POINTS (as many as a vector of points holds), to the beginning of the list, with their
+ * velocity gradients queue->L, trial stresses and volumes. */
 static ALWAYS_INLINE void return_mapping_queue_remove_first(struct return_mapping_queue *queue, int n, const int dim)
 {
     queue->n -= n;
@@ -203,12 +202,12 @@ static ALWAYS_INLINE void return_mapping_queue_remove_first(struct return_mappin
     *(points_anywhere *)queue->volume = *(const points_anywhere *)(queue->volume + n);
 }
 
-/* Return mapping: maps the trial stresses of eight points of p back to their yield surfaces if their materials yield,
- * stores stress, plastic strain, plastic work, back stress and temperature, and clears FLAG_STRESSED of those that
- * yield if the resulting stress does not exceed the conversion stress (at which points become peridynamic). Their
- * volumes must have been stored in p. point[FLOW_NUMBERS]: numbers of the points; lanes may repeat a point with all its
- * values. L: velocity gradients [1/s]; stress[components], volume: trial stresses [Pa], which are changed, and volumes
- * [m^3]; t: time step and constants of the materials. Points of several materials are mapped material by material. */
+/* Maps the trial stresses of eight points of p back to their yield surfaces (return mapping) and stores stress, plastic
+ * strain, plastic work, back stress and temperature. Clears FLAG_STRESSED of points that yield if their stress then no
+ * longer exceeds the conversion stress. Their volumes must have been stored in p. point[FLOW_NUMBERS]: numbers of the
+ * points; lanes may repeat a point with all its values. L: velocity gradients [1/s]; stress[components], volume: trial
+ * stresses [Pa], which are changed, and volumes [m^3]; t: time step and constants of the materials. Points of several
+ * materials are mapped material by material. */
 static NEVER_INLINE void points_apply_return_mapping(struct particles *p, const struct transfer_data *t,
                                                      const int32_t *point, const lanes *L, lanes *stress, lanes volume,
                                                      const int dim)

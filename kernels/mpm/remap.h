@@ -11,9 +11,9 @@
 /* Sums of momentum [kg m/s] over the points of a cell for every node that they reach: [component][row of nodes]. */
 typedef row_of_nodes remap_rows[DIM_MAX][ROWS_MAX];
 
-/* For the remapping of MUSL (second map of momentum from points to nodes), interpolates the change of the nodal
- * velocities (g->force) to the points of stencil s (weights of a few points of cell c) and adds it to their velocities
- * in p. momentum[dim]: receives the new momentum of the points [kg m/s], one per lane; shape: shape function. */
+/* Interpolates the change of the nodal velocities (g->force [m/s]) to the points of stencil s (node weights of a few
+ * points of cell c) and adds it to their velocities in p. First half of the remapping of MUSL. momentum[dim]: receives
+ * the new momentum of the points [kg m/s], one per lane; shape: shape function. */
 static ALWAYS_INLINE void remap_gather_momentum(row_of_points *momentum, const struct cell_stencil *s,
                                                 const struct grid *g, const struct grid_cell *c, struct particles *p,
                                                 const int dim, const enum shape shape)

@@ -3,12 +3,13 @@
  * then distributes the angular momentum of each group to its points. At last nodes receive the momentum of the points,
  * whose velocity is extrapolated to the node with the spin of the group.
  *
- * The strain of a step is a map of the velocities of the points, the change of these velocities a map of the stress,
- * and both maps are adjoint in the mass: with the same positions, a step conserves an energy exactly, which has a term
- * of first order in dt. In flight through the grid the maps change from step to step and this term with them, so that
- * a stretched block gains the energy of its stress several times over within 30 cells. Weights of the strain at the
- * middle of the flight of the step (g->ahead), of masses and momenta too, are to second order the mean of the maps
- * before and after; the first-order term then cancels. */
+ * Weights are computed at positions ahead of the points (g->ahead) for this reason: the strain of a step is a linear
+ * map of the velocities of the points, and their change a linear map of the stress. Both maps are adjoint in the mass.
+ * At fixed positions a step therefore conserves an energy exactly, which contains a term of first order in dt. In
+ * flight through the grid the maps, and with them this term, change from step to step: a stretched block gains its
+ * elastic energy several times over within 30 cells. With all weights (strain, mass, momentum) at the middle of the
+ * flight of the step, the maps are to second order the mean of those before and after, and the first-order term
+ * cancels. */
 #ifndef CLEAVE_KERNELS_REMAP_TURN
 #define CLEAVE_KERNELS_REMAP_TURN
 

@@ -41,7 +41,7 @@ static ALWAYS_INLINE row_of_nodes nodes_broadcast(real a) { return a - (row_of_n
 /* Returns a vector of POINTS entries, one for each material point processed together, that are all equal to a. */
 static ALWAYS_INLINE row_of_points points_broadcast(real a) { return a - (row_of_points){0}; }
 
-/* Returns in each lane the entry of a if that of `sign` is negative, else the entry of b. */
+/* Returns in each lane the entry of a if the entry of `sign` is negative, else the entry of b. */
 static ALWAYS_INLINE row_of_points points_choose_by_sign(row_of_points sign, row_of_points a, row_of_points b)
 {
 #if POINTS_LANES == 8
@@ -127,9 +127,9 @@ static ALWAYS_INLINE int points_count_of_next_batch(int points_left, const int d
     return int_min(points_left, AT_ONCE(dim));
 }
 
-/* Length of the arrays that points_copy_list_indices_to_lanes fills: the numbers of POINTS points, then at PAIRED not 0
- * if the points come in pairs of consecutive numbers, as neighbours along x have: two of them are then loaded or stored
- * at once. */
+/* POINT_NUMBERS: length of the arrays that points_copy_list_indices_to_lanes fills with the indices of POINTS points
+ * and, as entry PAIRED, a flag. The flag is not 0 if the points come in pairs of consecutive indices, as neighbours
+ * along x do; the values of a pair are then loaded or stored at once. */
 enum { PAIRED = POINTS, POINT_NUMBERS = POINTS + 1 };
 
 /* Returns the index in a list of n points (n <= AT_ONCE, points processed together) of the point that vector lane

@@ -1,5 +1,5 @@
-/* The loop over the cells of a transfer order (struct transfer_order) that all maps from points to nodes share, and
- * prefetching of points. */
+/* Declares the loop over cells in the order of struct transfer_order, which all maps from points to nodes use, and
+ * functions that prefetch the data of points. */
 #ifndef CLEAVE_KERNELS_SCATTER
 #define CLEAVE_KERNELS_SCATTER
 
@@ -29,10 +29,11 @@ static ALWAYS_INLINE void points_prefetch_motion(const struct particles *p, real
     for (int c = dim == 2 ? 2 : 0; c < 3 && turn[2]; c++) prefetch_cache_line(turn[c] + i);
 }
 
-/* Body of an instance for dimension D: evaluates CALL, an expression in `nodes`, `points`, `data`, `list` and `n`, for
- * the n listed points of every cell in the order of TRANSFER. Threads share the blocks of a colour; one colour follows
- * the other. The parallel region is inside the instance, where the literals of CALL are known; `nodes`, `points` and
- * `data` are private copies, so that their members stay in registers. */
+/* Body of a map from points to nodes in D dimensions: evaluates CALL for the points list[n] of every cell, in the order
+ * of TRANSFER. CALL: expression in `nodes`, `points`, `data`, `list` and `n`; the first three are private copies of
+ * GRID, POINTS and TRANSFER, whose members stay in registers. The blocks of one colour are divided among the threads,
+ * one colour after the other. The parallel region is inside the macro, where constants in CALL are known to the
+ * compiler. */
 #define SCATTER(D, TRANSFER, GRID, POINTS, CALL)                                                                       \
     _Pragma("omp parallel")                                                                                            \
     {                                                                                                                  \

@@ -1,10 +1,10 @@
 /* Shape functions of the background grid, and the nodes of a cell.
  *
- * t is the distance of a point from the lower node of its cell over the node distance h, l the half width of the
- * particle over h. A shape gives the weights N and the slopes dN/dt of four nodes in a row, from the one below the cell
- * on: enough for every shape, and the same four nodes for all points of a cell. Shapes in two and three dimensions are
- * products. All shapes are partitions of unity and reproduce linear fields. Linear and GIMP: Bardenhagen & Kober 2004,
- * Zeng et al. 2021, eq. 9. */
+ * t is the distance of a point from the lower node of its cell, l half the width of its particle, both divided by the
+ * node distance h. A shape function gives the weights N and slopes dN/dt of four nodes in a row, from the node below
+ * the cell on: enough for every shape function, and the same four nodes for all points of a cell. In two and three
+ * dimensions shape functions are products. All are partitions of unity and reproduce linear fields. Linear and GIMP:
+ * Bardenhagen & Kober 2004, Zeng et al. 2021, eq. 9. */
 #ifndef CLEAVE_KERNELS_SHAPE
 #define CLEAVE_KERNELS_SHAPE
 
@@ -112,8 +112,8 @@ enum { ACROSS = 4, ROWS_MAX = ACROSS * ACROSS };
 #define ROWS_Z(dim, shape) ((dim) == ROW_DIMS(dim, shape) || (dim) < 3 ? 1 : HAS_CORNERS(dim, shape) ? 2 : ACROSS)
 #define ROWS(dim, shape) (ROWS_Y(dim, shape) * ROWS_Z(dim, shape))
 
-/* True if loops visit only those rows of nodes that a point touches. This is so in 3D for shapes with three nodes per
- * direction; in 2D a weight of zero costs less than finding these rows. */
+/* True if loops visit only the rows of nodes in which a point has weights: in 3D, for shape functions with three nodes
+ * per direction. In 2D adding weights of 0 costs less than finding these rows. */
 #define SKIPS(dim, shape) ((dim) > 2 && ((shape) == SHAPE_GIMP || (shape) == SHAPE_QUADRATIC))
 
 /* Loop over the nodes k of a row; leaves out the two outer nodes of linear shapes, whose weights are 0. */
@@ -121,7 +121,8 @@ enum { ACROSS = 4, ROWS_MAX = ACROSS * ACROSS };
 #define FOR_NODES(dim, shape) for (int k = ROW_END(dim, shape); k < ROW - ROW_END(dim, shape); k++)
 
 /* Loops over the rows of nodes k1 (along y), k2 (along z) around a cell: FOR_ROWS over all rows, FOR_TOUCHED over the
- * rows that point `at` of the stencil s touches, FOR_ANY_TOUCHED over the rows that any point of s touches. */
+ * rows in which point `at` of the stencil s has weights, FOR_ANY_TOUCHED over the rows in which any point of s has
+ * weights. */
 #define FOR_SPAN(low2, end2, low1, end1)                                                                               \
     for (int k2 = (low2), above = (end2); k2 < above; k2++)                                                            \
         for (int k1 = (low1), beyond = (end1); k1 < beyond; k1++)
@@ -244,8 +245,9 @@ struct node_row_weights {
     row_of_nodes N, D[DIM_MAX];
 };
 
-/* Largest half width of a cpGIMP particle [node distances]; the four nodes of a row allow no more. A particle that is
- * stretched further keeps this width, and numerical fracture begins: with two particles per cell at a stretch of 4. */
+/* Largest half width of a cpGIMP particle [node distances], since the four nodes of a row allow no more. A particle
+ * that is stretched further keeps this width, so that gaps open between particles (numerical fracture): with two
+ * particles per cell at a stretch of 4. */
 #define HALF_WIDTH_MOST 1
 
 /* Computes the weights s->N and slopes s->D of linear shape functions in 2D and 3D, as products of hat functions, for a

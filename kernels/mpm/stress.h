@@ -1,10 +1,11 @@
-/* Constitutive update of a material point: linear elasticity in the rate form of Jaumann:
+/* Updates the stress of a material point by linear elasticity in the rate form of Jaumann, with the velocity
+ * gradient L and the elastic tensor C:
  *     sigma += C : eps + W sigma - sigma W,   eps = sym(A) - W W / 2,  W = skew(A),  A = L dt
- * The second-order term of eps makes rotations free of strain: positions that rotate by the angle w in a step have
- * sym(A) = -w^2/2 across the axis (Hughes and Winget 1980, to second order). With sym(A) alone a rotating body of
- * material points grows by w^2/2 per step, its unstrained state differs from that of bonds, and a disc with a
- * peridynamic core gains half its energy in four turns. Components as in base.h; plane stress and plane strain differ
- * in their constants only. */
+ * The second-order term of eps makes rotations free of strain: positions that rotate by the angle w in a step
+ * have sym(A) = -w^2/2 across the axis (Hughes and Winget 1980, to second order). With sym(A) alone a
+ * rotating body of material points grows by w^2/2 per step, its unstrained state differs from that of bonds,
+ * and a disc with a peridynamic core gains half its energy in four turns. Components as in base.h; plane
+ * stress and plane strain differ in their constants only. */
 #ifndef CLEAVE_KERNELS_STRESS
 #define CLEAVE_KERNELS_STRESS
 
@@ -13,13 +14,13 @@
 #include "kernels/kernels.h"
 #include "row.h"
 
-/* Rotation angle of a step above which the exact rotation replaces the two-term one, whose error is a sixth of the cube
- * of the angle [rad]. */
+/* Rotation angle of a step [rad] above which stress_rotate uses the exact rotation. Below, it uses the series to second
+ * order, whose error is a sixth of the cube of the angle. */
 #define SPIN_SMALL 1e-3
 /* Rotation angle of a step up to which power series give the exact rotation to round-off [rad]. */
 #define SPIN_SERIES 0.0625
-/* Rotation angle of a step below which one term is enough [rad]: stresses grow by the square of the angle, 1e-4 in 1e5
- * steps. */
+/* Rotation angle of a step [rad] below which stress_rotate uses the first-order term alone. The stress then grows in
+ * each step by the square of the angle, relatively: by 1e-4 in 1e5 steps. */
 #define SPIN_NONE 3e-5
 
 /* Rotates the stress s = `stress` (xx, yy, xy) in 2D: s = R s R^T with the rotation R by the angle -`angle` from x to

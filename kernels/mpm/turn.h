@@ -1,4 +1,5 @@
-/* Velocity gradient by which rotating points (data/turning.h) extrapolate their velocity to nodes. */
+/* Computes the velocity gradient by which points of rotating groups (data/turning.h) extrapolate their velocity to
+ * nodes. */
 #ifndef CLEAVE_KERNELS_TURN
 #define CLEAVE_KERNELS_TURN
 

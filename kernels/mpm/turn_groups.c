@@ -1,6 +1,6 @@
-/* Sums over the points of rotating groups (data/turning.h), and the spins of the groups. A group is added up by one
- * thread in the order of its runs of points, eight lanes apart, and groups in their order, so that bits do not depend
- * on the number of threads. */
+/* Sums quantities over the points of rotating groups (neighbouring points that rotate together, data/turning.h), and
+ * computes the angular velocities of the groups. One thread sums over a group, in a fixed order, and groups are
+ * combined in their order, so that all bits are independent of the number of threads. */
 #include <string.h>
 
 #include "base/memory.h"
@@ -12,8 +12,8 @@
 #define LEAST_ARM 0.05
 /* Loops over the components c of an angular velocity: z alone in 2D (dim = 2), else x, y and z. */
 #define FOR_SPINS(c, dim) for (int c = (dim) == 2 ? 2 : 0; c < 3; c++)
-/* Loops over the runs of group g of t: a group consists of points that rotate together, a run of up to eight
- * consecutive particles of it. */
+/* Loops over the runs of group g of t. A group consists of points that rotate together; a run is a set of up to eight
+ * particles of the group with consecutive indices. run: name of the loop variable. */
 #define FOR_RUNS(t, g, run)                                                                                            \
     for (const struct turning_run *run = (t)->run + (g)->first; run < (t)->run + (g)->end; run++)
 

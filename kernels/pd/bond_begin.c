@@ -1,27 +1,31 @@
-/* Decides which bonds begin to soften. The computation of forces marks the blocks of eight rows (the bonds of eight
- * particles) that have a bond beyond its onset of softening. Before the next computation of forces the bonds between
- * marked blocks are examined, while all positions are of one time, so that both rows of a bond give the same answer. A
- * bond begins one step late, at the stretch s_1 after s_0: a leap-frog step in which it falls from stiffness 1 to 1 - d
- * takes s_0 s_1 d/2 of its energy, over stiffness, weight and length. What a step from the onset to s_1 lacks of this
- * counts as fracture energy.
+/* Decides which bonds begin to soften. The force computation marks the blocks of eight rows (the bonds of
+ * eight particles) that have a bond beyond its onset of softening. Before the next force computation, the
+ * bonds between marked blocks are examined, while all positions belong to one time, so that both rows of a
+ * bond give the same answer. A bond thus begins to soften one step late, at the stretch s_1, after s_0 in the
+ * previous step. A leap-frog step in which its stiffness falls from 1 to 1 - d takes the energy s_0 s_1 d/2
+ * from the bond, in units of stiffness times weight times length. The difference between this energy and that
+ * of a step from the onset to s_1 is added to the fracture energy.
  *
- * Lateral bonds of a compressed body are stretched, though no stress pulls at them. A bond from i to j of direction n
- * may therefore begin only where n . sigma . n > 0.5 G s: 0.2 E s in solids and plane strain, 0.19 E s in plane stress
- * with the elastic constants of bonds, lambda = G. With n . eps . n = s this is
+ * Lateral bonds of a compressed body are stretched, though the stress across them is not tensile. A bond from
+ * i to j of direction n may therefore begin to soften only where n . sigma . n > 0.5 G s: 0.2 E s in solids
+ * and plane strain, 0.19 E s in plane stress with the elastic constants of bonds, lambda = G. With n . eps .
+ * n = s this is
  *
  *     (lambda/G) (tr eps_i + tr eps_j)/2 + a s > 0,    a = 1.5
  *
- * where eps is the strain that fits the stretches of the bonds of a particle best, s = n . eps . n, weighted by the
- * stiffness that they keep: exact for uniform strain, beside faces, too. Uniaxial compression gives tr eps = -2 s.
+ * where eps is the strain that fits the stretches s = n . eps . n of the bonds of a particle best, weighted
+ * by their remaining stiffness. It is exact for uniform strain, also beside faces. Uniaxial compression gives
+ * tr eps = -2 s.
  *
- * Where a strength surface starts the softening, too, a = 1.2, i.e. 0.32 E s in solids. Measured with a prism of glass
- * whose strength in compression is 1000 MPa: with a = 1.5 its edges, whose neighbourhoods bulge, spall from 165 MPa on,
- * and the largest stress is 212 MPa; with 1.2 it is 1054 MPa. With a = 1 a disc between jaws, of stresses T and -3 T,
- * no longer splits.
+ * If a strength surface also starts the softening, a = 1.2, i.e. 0.32 E s in solids. Measured with a prism of
+ * glass with a compressive strength of 1000 MPa: with a = 1.5 its edges, whose neighbourhoods bulge, spall
+ * from 165 MPa on, and the largest stress is 212 MPa; with 1.2 it is 1054 MPa. With a = 1 a disc between
+ * jaws, with stresses T and -3 T, does not split.
  *
- * Where the strength grows with the strain rate, a bond begins at the onset of its rate, the mean of both ends'. The
- * rate of a particle is the mean rate at which the largest stretch of its bonds grows from half the onset of slow
- * loading to the onset: a present rate would be that of short waves, and of bonds that soften beside it. */
+ * If the strength grows with the strain rate, the onset of a bond is that at the mean of the rates of its two
+ * particles. The rate of a particle is the mean rate at which the largest stretch of its bonds grows from
+ * half the onset in slow loading to this onset. The present rate would be that of short waves, and of
+ * adjacent bonds that soften. */
 #include <float.h>
 #include <math.h>
 
@@ -32,8 +36,8 @@
 #define PULL_SURFACE 1.2 /* a of materials with a strength surface */
 #define PIVOT 1e-6       /* least pivot of a fit divided by the sum of its weights [1] */
 
-/* A bond that may begin to soften, from particle i to j: its stretch [1], and the range of softening (onset and end)
- * that it would have in slow loading [1]. */
+/* A bond from particle i to particle j that may begin to soften: its stretch [1], and the stretches of onset and end of
+ * softening that it would have in slow loading (`range`). It exists only while one bond is examined. */
 struct candidate {
     struct softening_range range;
     real stretch;

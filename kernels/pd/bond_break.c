@@ -108,8 +108,8 @@ int64_t bonds_end_softened(struct bonds *b, struct particles *p)
 }
 
 /* Returns the stretch [1] from which the energy that bond q (from particle i to j) loses is computed when it breaks in
- * this step: the stretch at the moment at which it passed its limit. In scenes with softening bonds, a breaking bond
- * has no force after this step; a leap-frog step from the stretch s_0 to s_1 then loses s_0 s_1/2 times stiffness,
+ * this step: the stretch at the moment at which it passed its limit. In input files with softening bonds, a breaking
+ * bond has no force after this step; a leap-frog step from the stretch s_0 to s_1 then loses s_0 s_1/2 times stiffness,
  * weight and length, so that sqrt(s_0 s_1) is returned. limit: breaking limits and time step. b, p: all bonds and
  * particles. */
 static real stretch_at_break(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,

@@ -11,9 +11,9 @@
 enum { COLUMNS_AHEAD = 40 }; /* prefetch distance in columns: about 200 ns ahead */
 
 /* Kinds of columns, by what their eight bonds have in common (table in bonds/bond_storage.h). FREE: nothing. SHELL:
- * consecutive neighbours, and lengths of one lattice shell. ALIKE: also one weight. STENCIL: all data but the weights
- * equal those of other blocks of eight rows. WHOLE: the weights do, too. UNIT: also all weights are 1, as inside a
- * body; this saves 5 to 7 % of the time of forces, energy and stress of bonds in 2D. */
+ * consecutive neighbours, and lengths of one lattice shell. ALIKE: as SHELL, and one weight. STENCIL: all data but the
+ * weights equal those of other blocks of eight rows. WHOLE: as STENCIL, weights included. UNIT: as WHOLE, and all
+ * weights are 1, as inside a body; this saves 5 to 7 % of the time of forces, energy and stress of bonds in 2D. */
 enum column_kind { COLUMN_FREE, COLUMN_SHELL, COLUMN_ALIKE, COLUMN_STENCIL, COLUMN_WHOLE, COLUMN_UNIT };
 
 /* A view of one column, i.e. of eight bonds that are stored together, one of each of eight particles (a block of eight
@@ -115,9 +115,10 @@ static ALWAYS_INLINE int64_t bond_column_first_bond(const struct bond_column_vie
     return column.number * LANES + column.part;
 }
 
-/* Returns, one per lane, the values from[j] for the eight particles j to which the bonds of `column` lead (one bond of
- * each of eight particles). from: array with a value for each particle and mirror image. If the column has another kind
- * than COLUMN_FREE, the indices j are consecutive and the values are loaded as one vector, else they are gathered. */
+/* Returns the values from[j] of the eight particles j to which the bonds of `column` (one bond of each of eight
+ * particles) lead, one per lane. from: array with a value for each particle and mirror image. Unless the kind of the
+ * column is COLUMN_FREE, the indices j are consecutive and the values are loaded as one vector; else they are
+ * gathered. */
 static ALWAYS_INLINE lanes bond_column_gather_neighbour_values(const struct bond_column_view column, const real *from)
 {
     return column.kind
@@ -135,9 +136,9 @@ static ALWAYS_INLINE lanes bond_column_reference_vector_component(const struct b
                           : bond_column_gather_neighbour_values(column, p->X[axis]) - X;
 }
 
-/* Returns, for the eight bonds of `column` (one bond of each of eight particles), component `axis` of the reference
- * bond vector times the weight (factor on its force) of the bond [m]. w: weights of the bonds [1]; reference_vector:
- * component `axis` of their reference vectors [m]. */
+/* Returns component `axis` of the reference bond vector times the weight (factor on the force) [m] of each of the eight
+ * bonds of `column` (one bond of each of eight particles). w: weights of the bonds [1]; reference_vector: component
+ * `axis` of their reference vectors [m]. */
 static ALWAYS_INLINE lanes bond_column_weighted_vector_component(const struct bond_column_view column, int axis,
                                                                  lanes w, lanes reference_vector)
 {

@@ -1,12 +1,14 @@
-/* Forces of all intact bonds of bond-based models on particles (Silling & Askari 2005), and breaking of bonds that are
- * stretched beyond their limit.
+/* Computes the forces of all intact bonds of bond-based models on particles (Silling & Askari 2005), and
+ * breaks bonds that are stretched beyond their limit.
  *
  *     s = |x_j - x_i| / |X_j - X_i| - 1,   f_i = sum_j stiffness w_ij law(s) (x_j - x_i)/|x_j - x_i|
  *
- * A row holds all bonds of one particle. Eight rows (a block) are computed at a time, column by column;
- * each row is written by its own lane only, so the result does not depend on the number of threads. Both rows of a bond
- * compute its stretch from equal numbers with equal operations (a difference and its negative), so they break it in one
- * step without communication. */
+ * with the stretch s, the weight w_ij of the bond, present and reference positions x and X. A row consists of
+ * all bonds of one particle. Eight rows (a block) are computed at a time, column by column (column k: the
+ * k-th bonds of the rows). Each row is written by its own vector lane only, so that the result does not
+ * depend on the number of threads. Both rows of a bond compute its stretch from equal numbers with equal
+ * operations (a difference and its negative), so that they break the bond in one step without communication.
+ */
 #include <math.h>
 
 #define ROWS_IN_PARTS
@@ -62,10 +64,11 @@ static ALWAYS_INLINE struct bond_sums bond_force_column(struct bond_sums sum, co
     return sum;
 }
 
-/* Computes the forces of the bonds on the particles of WIDE rows, from row `first` on, into p->f, without the repulsive
- * cores of bonds (bond_core.h). Returns true if a bond may exceed its breaking limit: if its stretch is above the
- * smallest limit of the bonds of its particle (b->trigger), or, with softening bonds, above 0. *pressed: set to true if
- * a bond is compressed into its core. model: bond law, a compile-time constant. b: all bonds. */
+/* Computes the forces of the bonds on the particles of WIDE rows (one per vector lane), from row `first` on, into p->f,
+ * without the repulsive cores of bonds (bond_core.h). Returns true if a bond may exceed its breaking limit: if its
+ * stretch is above the smallest limit of the bonds of its particle (b->trigger), or, with softening bonds, above 0.
+ * *pressed: set to true if a bond is compressed into its core. model: bond law, a compile-time constant. b: all
+ * bonds. */
 static ALWAYS_INLINE bool bond_force_rows(const struct bonds *b, struct particles *p, int64_t first, const int dim,
                                           const enum pd_model model, bool *pressed)
 {

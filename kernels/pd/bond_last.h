@@ -1,4 +1,5 @@
-/* The time within a step at which a bond passes its limit, and the force that it exerts in that step. */
+/* Computes the time within a step at which a bond exceeds its breaking stretch, and the fraction of its force that acts
+ * in that step. */
 #ifndef CLEAVE_KERNELS_BOND_LAST
 #define CLEAVE_KERNELS_BOND_LAST
 
@@ -25,10 +26,10 @@ static inline real bond_stretch_at_earlier_time(const struct particles *p, real 
     return sqrt(distance2) * fabs(inverse_length) - 1;
 }
 
-/* Returns the energy that a softening bond has dissipated in all, divided by stiffness, weight (factor on its force)
- * and length of the bond (dimensionless), when it passes the end of its softening in the leap-frog step from the
- * stretch `before` to `now` [1]: in this step it loses the energy before now (1 - d)/2 with the damage d at its start.
- * c: softening curve; onset, end: stretches at which the bond begins to soften and breaks [1]. */
+/* Returns the total energy that a softening bond has dissipated when its stretch exceeds the end of its softening in
+ * the leap-frog step from `before` to `now` [1], divided by stiffness, weight (factor on its force) and length of the
+ * bond (dimensionless). In this last step it dissipates (1 - d) before now/2, with the damage d at the start of the
+ * step. c: softening curve; onset, end: stretches at which the bond begins to soften and breaks [1]. */
 static inline real bond_softening_energy_dissipated_at_failure(const struct softening_curve *c, real onset, real end,
                                                                real before, real now)
 {

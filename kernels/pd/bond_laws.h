@@ -66,13 +66,13 @@ static ALWAYS_INLINE lanes bonds_update_softening_and_scale_stretch(const struct
 }
 
 /* Returns the energies, divided by the stiffness [m], by which eight bonds dissipate more in this leap-frog step than
- * the closed form of dissipation says. The bonds have the indices `first_bond` to first_bond + 7 in the arrays of b. A
- * step does the work of the mean of the forces at both its ends. On a straight piece of the softening curve this is
- * the area below the curve; where the largest stretch grows from k_0 to k_1 past a kink at k_m, at which the slope
- * grows by a, it is larger by a (k_1 - k_m) (k_m - k_0)/2 times weight and length. Returns 0 for bonds beyond their
- * end, whose energy is computed elsewhere (half_energy_of_softening_to_end), and in load steps. stretch: stretches
- * after the step [1]; w: weights, 0 for broken bonds [1]; inverse_length: inverse reference lengths [1/m]. Call this
- * function before bonds_update_softening_and_scale_stretch. */
+ * the closed form of their dissipation states. The bonds have the indices `first_bond` to first_bond + 7 in the arrays
+ * of b. A step does the work of the mean of the forces at both its ends, which is the area below the softening curve on
+ * a straight piece. Where the largest stretch grows from k_0 to k_1 past a kink at k_m, at which the slope grows by a,
+ * the work is larger by a (k_1 - k_m) (k_m - k_0)/2 times weight and length. Returns 0 for bonds beyond the end of
+ * their softening, whose energy is computed elsewhere (half_energy_of_softening_to_end), and in load steps. stretch:
+ * stretches after the step [1]; w: weights, 0 for broken bonds [1]; inverse_length: inverse reference lengths [1/m].
+ * Call this function before bonds_update_softening_and_scale_stretch. */
 static ALWAYS_INLINE lanes bonds_excess_dissipation_at_softening_kinks(const struct bonds *b, int64_t first_bond,
                                                                        lanes stretch, lanes w, lanes inverse_length)
 {

@@ -1,5 +1,6 @@
-/* Elastic energy, plastic work and stress (virial of the bonds) of bond-based models, for output. A row holds all bonds
- * of one particle, a block of eight rows the rows of eight particles, a column one bond of each row. */
+/* Computes elastic energy, plastic work and stress (virial of the bonds) of bond-based models, for output. A row
+ * consists of all bonds of one particle, a block of eight rows of the rows of eight particles, a column of one bond of
+ * each row. */
 #include <math.h>
 
 #define ROWS_IN_PARTS /* vectors of WIDE rows */
@@ -94,9 +95,9 @@ static ALWAYS_INLINE void bond_stress_column(lanes *sum, const struct bond_colum
     if (dim > 2) sum[4] += share * y[1] * y[2], sum[5] += share * y[2] * y[0];
 }
 
-/* Computes the virial stress sigma_i = (1/2V) sum_j F_ij (x) (x_j - x_i) of the peridynamic ones among the particles
- * of WIDE rows, from row `first` on, into p->stress [Pa]. F_ij is the force of bond i-j on i (Silling & Askari 2005).
- * model: bond law, a compile-time constant. b: all bonds. */
+/* Computes the virial stress sigma_i = (1/2V) sum_j F_ij (x) (x_j - x_i) of the peridynamic ones among the particles of
+ * WIDE rows (one per vector lane), from row `first` on, into p->stress [Pa]. F_ij is the force of bond i-j on i
+ * (Silling & Askari 2005). model: bond law, a compile-time constant. b: all bonds. */
 static ALWAYS_INLINE void bond_stress_rows(const struct bonds *b, struct particles *p, int64_t first, const int dim,
                                            const enum pd_model model)
 {
@@ -129,9 +130,9 @@ static ALWAYS_INLINE lanes bond_soften_column(const struct bond_column_view s, c
     return lost;
 }
 
-/* Raises the largest stretches so far of the bonds of WIDE rows (of one particle each), from row `first` on, to the
- * present stretches. Call only if at least one bond of their block has begun to soften. b, p: all bonds and particles.
- */
+/* Raises the largest stretches so far of the bonds of WIDE rows (the bonds of one particle each, one row per vector
+ * lane), from row `first` on, to the present stretches. Call only if at least one bond of their block has begun to
+ * soften. b, p: all bonds and particles. */
 static ALWAYS_INLINE void bond_soften_rows(const struct bonds *b, const struct particles *p, int64_t first,
                                            const int dim)
 {

@@ -1,5 +1,5 @@
-/* Softening bonds of load steps: between two equilibria they are springs of their secant stiffness
- * (src/quasistatic/softening.c), and begin where the body is scaled beyond their onset. */
+/* Starts the softening of bonds in load steps (static equilibria) whose stretch exceeds their onset. Between two
+ * equilibria such bonds are springs of their secant stiffness (src/quasistatic/softening.c). */
 #include "kernels/kernels.h"
 
 /* Returns the smallest stretch at which a bond in row block g (the bonds of eight particles, stored together) begins

@@ -1,16 +1,17 @@
-/* Reactions of bonds across clamped planes on the sources of the images.
+/* Adds the reactions of bonds across clamped planes (planes at which all motion is prevented) to the forces
+ * on the particles whose mirror images these bonds lead to.
  *
- * The image g of a source j in a clamped plane is where the plane reflects j: x_g = X_g + P u_j with P = -1 (by
- * component where a plane of symmetry is involved too). The lattice is symmetric under reflection, such a displacement
- * is not: the bond from i to g(j) pulls along n, that from j to g(i) along R n, and the forces that sweeps compute for
- * i and j derive from no energy. The energy is
+ * The image g of a particle j in a clamped plane is at x_g = X_g + P u_j, with the displacement u_j and P =
+ * -1 (by component if a plane of symmetry is involved as well). The lattice is symmetric under the
+ * reflection, but such a displacement is not. The bond from i to g(j) pulls along n, that from j to g(i)
+ * along R n, and the forces on i and j from the force kernels derive from no energy. The energy is
  *
- *     E(u) = sum of the energies W_i of the body's own rows, images following their sources,
+ *     E(u) = sum of the energies W_i of the rows of the body (a row: all bonds of one particle),
  *     f_i += T_ig,   f_j -= P^T T_ig    for every image g of j in the row of i
  *
- * with T_ig the force that W_i alone gives. Bond-based models: half of a bond's force comes from each of its rows, so
- * half of the force that the sweep gave i belongs to the row that the image does not have. State-based models: clamped
- * images have no state, so the sweep gave T_ig. */
+ * with T_ig the force from W_i alone. In bond-based models half of the force of a bond belongs to each of its
+ * two rows; the image has no row, so that half of the force that the kernel has added to i is moved to j. In
+ * state-based models clamped images have no state, so that the kernel has added T_ig alone. */
 #include "bond_last.h"
 #include "bond_laws.h"
 #include "kernels/kernels.h"
@@ -100,8 +101,8 @@ static ALWAYS_INLINE void clamp_force_reactions(const struct bonds *b, const str
         state_reactions(b, p, k, dim, false);
 }
 
-/* Adds to the force p->f on one particle the forces on its mirror images beyond clamped planes (c->reaction),
- * reflected back at the plane. h: number of the particle in c->particle, from 0. */
+/* Adds to the force p->f on one particle the forces on its mirror images beyond clamped planes (c->reaction), each
+ * component with the sign of the reflection. h: position of the particle in the list c->particle, from 0. */
 static void clamp_force_give(const struct clamped *c, struct particles *p, int64_t h)
 {
     for (int d = 0; d < p->dim; d++) {

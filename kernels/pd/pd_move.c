@@ -1,5 +1,5 @@
-/* The leap-frog step of peridynamic particles as a kernel of its own. Moves 72 bytes per particle in 2D: x, v read and
- * written, f and m read. */
+/* Defines the kernels of the leap-frog step of peridynamic particles, one for each dimension. A step transfers 72 bytes
+ * per particle in 2D: positions and velocities are read and written, forces and masses read. */
 #include "pd_move.h"
 #include "kernels/simd/variants.h"
 

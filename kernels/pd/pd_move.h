@@ -1,4 +1,5 @@
-/* The leap-frog step of eight peridynamic particles, for pd_move.c and for sweeps of forces (sweep.h). */
+/* Advances eight peridynamic particles by a leap-frog step, for pd_move.c and for the loops of bond forces
+ * (sweep.h). */
 #ifndef CLEAVE_KERNELS_PD_MOVE
 #define CLEAVE_KERNELS_PD_MOVE
 

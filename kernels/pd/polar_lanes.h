@@ -33,9 +33,9 @@ static ALWAYS_INLINE lanes polar_newton_iteration(lanes *R, lanes_mask *valid)
 }
 
 /* Computes the rotations R nearest to eight 3x3 matrices M, one per lane (entry of the vectors), as polar_rotation_3d:
- * the identity for singular or inverted M. M, R: [9], row major. Stopping criterion: after a step all singular values s
- * are at least 1, since (s + 1/s)/2 is, so the determinant bounds the excess of each; a step squares the excess and
- * halves it, so from 1e-8 the next excess is below round-off. */
+ * the identity for singular or inverted M. M, R: [9], row major. Stops Newton's iteration by the determinant of R: a
+ * step replaces each singular value s by (s + 1/s)/2 >= 1, so that det R - 1 bounds every s - 1. A step squares s - 1
+ * and halves it; from 1e-8 on, the next value is below round-off. */
 static ALWAYS_INLINE void polar_rotation_lanes_3d(const lanes *M, lanes *R)
 {
     lanes size2 = lanes_broadcast(POLAR_TINY);

@@ -15,9 +15,9 @@
 
 #define TURN_TINY 1e-300 /* keeps the root of zero finite */
 
-/* Computes, for eight rotations R (row major, one per lane) with the unit quaternions (q, q0), the row of the matrix 4
- * (q, q0) (q, q0)^T with the largest diagonal entry, from which the quaternion follows without division by a small
- * number (Shepperd 1978). row: receives the four entries of this row. Returns its diagonal entry. */
+/* Computes the row with the largest diagonal entry of the matrix 4 (q, q0) (q, q0)^T for eight rotations R (row major,
+ * one per lane) with the unit quaternions (q, q0). From it the quaternion follows without division by a small number
+ * (Shepperd 1978). row: receives the four entries of this row. Returns its diagonal entry. */
 static ALWAYS_INLINE lanes rotation_quaternion_outer_product_largest_row(const lanes *R, lanes *row)
 {
     const lanes odd[3] = {R[7] - R[5], R[2] - R[6], R[3] - R[1]}, even[3] = {R[1] + R[3], R[5] + R[7], R[6] + R[2]};

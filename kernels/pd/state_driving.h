@@ -1,4 +1,4 @@
-/* Energy that the damage of a bond of a state-based model sets free (state_soften.c). */
+/* Computes the energy that an increase of the damage of a bond releases in a state-based model (state_soften.c). */
 #ifndef CLEAVE_KERNELS_STATE_DRIVING
 #define CLEAVE_KERNELS_STATE_DRIVING
 
@@ -7,10 +7,10 @@
 #include "kernels/kernels.h"
 #include "rotation.h"
 
-/* Returns the energy [J] that an increase of the damage of `bond`, a bond in b, releases, divided by this increase and
- * by the weight of the bond (factor on its force), at the present states (pressure, spring stiffness, rotation) of the
- * neighbourhoods of both particles. Damage may grow only if the result is positive. i: particle of p to whose bonds
- * `bond` belongs; the result for the other particle is bitwise equal. */
+/* Returns the energy release by damage of `bond`, a bond in b, at the present states (pressure, spring stiffness,
+ * rotation) of the neighbourhoods of both particles: the energy [J] that a small increase of its damage releases,
+ * divided by this increase and by the weight of the bond (factor on its force). Damage may grow only if the result is
+ * positive. i: particle of p to whose bonds `bond` belongs; the result for the other particle is bitwise equal. */
 static inline real bond_damage_driving_energy(const struct bonds *b, const struct particles *p, const struct bond *bond,
                                               int32_t i)
 {

@@ -1,7 +1,7 @@
-/* Forces of state-based peridynamics (state_laws.h). A first loop over the rows (a row: all bonds of one particle, its
- * neighbourhood) computes the states of families: pressure, spring stiffness and rotation. A second loop computes the
- * forces of bonds from these. In both each row is written by one thread, which gives equal bits on any number of
- * threads. */
+/* Computes the forces of state-based peridynamics (state_laws.h). A first loop over the rows (a row: all bonds of one
+ * particle) computes the state of each neighbourhood: pressure, spring stiffness and rotation. A second loop computes
+ * the forces of bonds from these states. In both loops each row is written by one thread, so that results have equal
+ * bits on any number of threads. */
 #include <math.h>
 #include <string.h>
 
@@ -71,8 +71,8 @@ struct own_family {
     lanes share;   /* V/Q, with the weighted volume of a full neighbourhood if the moduli refer to it [m] */
 };
 
-/* Returns the moduli and weighted volumes of the neighbourhoods (all bonds) of the particles of WIDE rows, from row
- * `first` on. b, p: all bonds and particles. */
+/* Returns the moduli and weighted volumes of the neighbourhoods (all bonds) of the particles of WIDE rows (one per
+ * vector lane), from row `first` on. b, p: all bonds and particles. */
 static ALWAYS_INLINE struct own_family own_family_of(const struct bonds *b, const struct particles *p, int64_t first)
 {
     const int32_t *row = b->particle + first;
@@ -93,8 +93,8 @@ struct family_state {
     lanes pressure, spring, rotation[ROTATION];
 };
 
-/* Stores the states *k (pressure, spring stiffness and rotation) of the neighbourhoods of the particles of WIDE rows,
- * from row `first` on, in b->state. model: state-based model, a compile-time constant. */
+/* Stores the states *k (pressure, spring stiffness and rotation) of the neighbourhoods of the particles of WIDE rows
+ * (one per vector lane), from row `first` on, in b->state. model: state-based model, a compile-time constant. */
 static ALWAYS_INLINE void precompute_store(struct bonds *b, int64_t first, const struct family_state *k,
                                            const enum pd_model model)
 {
@@ -163,11 +163,11 @@ static ALWAYS_INLINE void ends_moment(struct particles *p, const int32_t *row, i
     }
 }
 
-/* For the bonds b, corrects the states *k (pressure, spring stiffness, rotation) of those particles of WIDE rows, from
- * row `first` on, that are material points: adds the mean strain of the point's mesh cell to the pressure, and replaces
- * the rotation by that of the cell. Stores the reactions of the bonds on the cells in p->end_pull and p->end_moment. f:
- * moduli and weighted volumes of the neighbourhoods; sum: sums over their bonds; model: state-based model, a
- * compile-time constant. */
+/* For the bonds b, corrects the states *k (pressure, spring stiffness, rotation) of those particles of WIDE rows (one
+ * per vector lane), from row `first` on, that are material points: adds the mean strain of the point's mesh cell to the
+ * pressure, and replaces the rotation by that of the cell. Stores the reactions of the bonds on the cells in
+ * p->end_pull and p->end_moment. f: moduli and weighted volumes of the neighbourhoods; sum: sums over their bonds;
+ * model: state-based model, a compile-time constant. */
 static __attribute__((noinline)) void ends_update(struct bonds *b, struct particles *p, int64_t first,
                                                   const struct own_family *f, const struct family_sums *sum,
                                                   struct family_state *k, const int dim, const enum pd_model model)
@@ -210,10 +210,10 @@ static ALWAYS_INLINE void precompute_by_family(struct bonds *b, struct particles
     precompute_store(b, first, &k, model);
 }
 
-/* Computes the states (pressure, spring stiffness, rotation) of the particles of WIDE rows, from row `first` on, from
- * sums over their bonds. Sets *past to true if a bond may exceed its breaking limit, and *pressed if a bond is
- * compressed into its repulsive core. model: state-based model, a compile-time constant. b, p: all bonds and particles.
- */
+/* Computes the states (pressure, spring stiffness, rotation) of the particles of WIDE rows (one per vector lane), from
+ * row `first` on, from sums over their bonds. Sets *past to true if a bond may exceed its breaking limit, and *pressed
+ * if a bond is compressed into its repulsive core. model: state-based model, a compile-time constant. b, p: all bonds
+ * and particles. */
 static ALWAYS_INLINE void precompute_rows(struct bonds *b, struct particles *p, int64_t first, bool *past,
                                           bool *pressed, const int dim, const enum pd_model model)
 {
@@ -316,9 +316,9 @@ static ALWAYS_INLINE void force_column(struct state_sums *sum, const struct part
         sum->f[d] += f[d]; /* one addition per column: shortest chain of dependent additions */
 }
 
-/* Computes the forces of all bonds on the particles of WIDE rows, from row `first` on, into p->f, without repulsive
- * cores, from the states of the neighbourhoods in b->state (pressure, spring stiffness and
- * rotation). model: state-based model, a compile-time constant. */
+/* Computes the forces of all bonds on the particles of WIDE rows (one per vector lane), from row `first` on, into p->f,
+ * without repulsive cores, from the states of the neighbourhoods in b->state (pressure, spring stiffness and rotation).
+ * model: state-based model, a compile-time constant. */
 static ALWAYS_INLINE void force_rows(const struct bonds *b, struct particles *p, int64_t first, const int dim,
                                      const enum pd_model model)
 {

@@ -56,10 +56,10 @@ static inline void value_blend_with_and_without_breaking_bonds(real *value, real
     *value = weight * *value + (1 - weight) * without_breaking;
 }
 
-/* Replaces the rotation of the neighbourhood of particle i, stored in t, by S R + (1 - S) R', with its rotation R over
- * all bonds, its rotation R' without the breaking bonds, and the share S = left->share of the force of the breaking
- * bonds that acts in this step. left: sums over the remaining bonds; spring: spring stiffness (force per extension) of
- * the neighbourhood without the breaking bonds [N/m]; dim: dimensions. */
+/* Replaces the rotation of the neighbourhood of particle i, stored in t, by S R + (1 - S) R'. R: rotation over all
+ * bonds; R': rotation without the breaking bonds; S = left->share: fraction of the force of the breaking bonds that
+ * acts in this step. left: sums over the remaining bonds; spring: spring stiffness (force per extension) of the
+ * neighbourhood without the breaking bonds [N/m]; dim: dimensions. */
 static inline void state_rotation_blend_for_breaking_bonds(struct state *t, int32_t i,
                                                            const struct unbroken_family_sums *left, real spring,
                                                            int dim)

@@ -1,7 +1,8 @@
 /* State-based peridynamics: the sums over neighbourhoods, and the bond force that follows from them.
  *
- * With w = omega beta V_i V_j / V0^2, Y the deformed and xi the reference bond vector, r = |xi|, e = |Y| - r, n =
- * Y/|Y|:
+ * With w = omega beta V_i V_j / V0^2 (influence function omega, fraction beta of the neighbour's volume V_j
+ * within the horizon, volume V0 of a lattice cell), Y the deformed and xi the reference bond vector, r =
+ * |xi|, e = |Y| - r, n = Y/|Y|:
  *
  *     Q_i = sum_j w r^2            weighted volume (normalisation bulk: of a full neighbourhood)
  *     S_i = sum_j w r e / Q_i      mean stretch (of uniform dilatation: the strain)
@@ -14,11 +15,12 @@
  *     for shear on lattices)
  *         f_i = sum_j w {r (P_i + P_j) n + [g_i (Y - R_i xi) + g_j (Y - R_j xi)]},   A = D^2 lambda',  B = 2 D G
  *
- * Since R_i minimises the energy of its neighbourhood, the force is the exact gradient of the energy in cut
- * neighbourhoods too: energy and angular momentum are conserved. A bonded material point (material point with
- * state-based bonds) has a neighbourhood of which its bonds are only one part: its cell adds the rest of S
- * (particles.end_strain) and gives R (end_rotation), and receives the conjugate reactions: P Q (end_pull) and the
- * moment of the springs about the point (end_moment; src/coupling/partial_stress.c). */
+ * with the dimension D, the shear modulus G and lambda' = C12. Since R_i minimises the energy of its
+ * neighbourhood, the force is the exact gradient of the energy in cut neighbourhoods too: energy and angular
+ * momentum are conserved. A material point with state-based bonds has a neighbourhood of which its bonds are
+ * only one part. Its cell adds the rest of S (particles.end_strain), gives R (end_rotation), and receives the
+ * conjugate reactions: P Q (end_pull) and the moment of the springs about the point (end_moment;
+ * src/coupling/partial_stress.c). */
 #ifndef CLEAVE_KERNELS_STATE_LAWS
 #define CLEAVE_KERNELS_STATE_LAWS
 

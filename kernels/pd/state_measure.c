@@ -1,5 +1,6 @@
-/* Elastic energy and stress of state-based models, for output, from the states in b->state. A row holds all bonds of
- * one particle, a block of eight rows the rows of eight particles, a column one bond of each row.
+/* Computes elastic energy and stress of state-based models, for output, from the states in b->state. A row
+ * consists of all bonds of one particle, a block of eight rows of the rows of eight particles, a column of
+ * one bond of each row.
  *     energy of row i   1/2 sum_j (force state of i) . (effective displacement); its sum over j is V_i W_i
  *     stress            sigma_i = (1/V_i) sum_j T_ij V_j (x) y_ij, symmetrised, T_ij the force state of i alone;
  *                       deformed vectors y, not xi: the stress rotates with the body */
@@ -21,8 +22,9 @@ struct own_state {
     lanes x[DIM_MAX], X[DIM_MAX], pressure, spring, rotation[ROTATION];
 };
 
-/* Returns positions and states (pressure, spring stiffness, rotation) of the particles of p in WIDE rows of b, from row
- * `first` on. rotates: true in models with rotations of particles; otherwise `rotation` is not set. */
+/* Returns positions and states (pressure, spring stiffness, rotation) of the particles of p in WIDE rows (one per
+ * vector lane) of b, from row `first` on. rotates: true in models with rotations of particles; otherwise `rotation` is
+ * not set. */
 static ALWAYS_INLINE struct own_state own_state_of(const struct bonds *b, const struct particles *p, int64_t first,
                                                    const int dim, const bool rotates)
 {
@@ -112,9 +114,9 @@ static ALWAYS_INLINE void stress_column(lanes *sum, const struct own_state *s, c
     if (dim > 2) sum[4] += 0.5 * (T[1] * y[2] + T[2] * y[1]), sum[5] += 0.5 * (T[2] * y[0] + T[0] * y[2]);
 }
 
-/* Computes the stress of the peridynamic ones among the particles of WIDE rows, from row `first` on, into p->stress
- * [Pa], from the states of their neighbourhoods (pressure, spring stiffness and rotation). model: state-based model, a
- * compile-time constant. b: all bonds. */
+/* Computes the stress of the peridynamic ones among the particles of WIDE rows (one per vector lane), from row `first`
+ * on, into p->stress [Pa], from the states of their neighbourhoods (pressure, spring stiffness and rotation). model:
+ * state-based model, a compile-time constant. b: all bonds. */
 static ALWAYS_INLINE void stress_rows(const struct bonds *b, struct particles *p, int64_t first, const int dim,
                                       const enum pd_model model)
 {

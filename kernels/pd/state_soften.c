@@ -1,17 +1,19 @@
-/* Bonds of state-based models that soften (data/softening.h). A bond of damage d has 1 - d of its weight in the sums of
- * both neighbourhoods, in extension and pressure alike, while the weighted volumes Q stay those of the intact families:
+/* Softens bonds of state-based models (data/softening.h). A bond of damage d has the fraction 1 - d of its
+ * weight w in the sums of both neighbourhoods, in extension and pressure alike. The weighted volumes Q remain
+ * those of the intact neighbourhoods:
  *
  *     W_i = share_i/2 [A Q S_i^2 + B sum w (1 - d) e^2],   S_i = sum w (1 - d) r e/Q,   share = V/Q
  *
- * with w (1 - d) stored as the weight, so that forces, energies and stresses are those of any weights (state_laws.h):
- * the exact gradient of W. The damage d(k) follows the largest stretch k. It grows only where that sets energy free,
+ * W_i is the energy of particle i, V its volume, r the length and e the extension of a bond. The weight w (1
+ * - d) is stored in place of w, so that forces, energies and stresses (state_laws.h) are the exact gradient
+ * of W. The damage d(k) follows the largest stretch k. It grows only where this releases energy:
  *
  *     Y = - dW/dd = w [r e (P_i + P_j) + (g_i |e_i|^2 + g_j |e_j|^2)/2] > 0,   P = A S share,  g = B share
  *
- * e_i the extension, or the effective displacement Y - R_i xi: a neighbourhood under pressure would give energy
- * otherwise. What a row loses in a step is fracture energy at once: a leap-frog step from weights w_0 at x_0 to w_1 at
- * x_1 loses x_0 x_1 (w_0 - w_1)/2 of a spring's energy. A quadratic energy W has this product in 2 W((x_0 + x_1)/2) -
- * (W(x_0) + W(x_1))/2. */
+ * with e_i the extension, or the effective displacement Y - R_i xi. Without this condition a neighbourhood
+ * under pressure would gain energy. The energy that a row loses in a step is added to the fracture energy at
+ * once. A leap-frog step from weights w_0 at x_0 to w_1 at x_1 takes x_0 x_1 (w_0 - w_1)/2 from the energy of
+ * a spring. A quadratic energy W has this product in 2 W((x_0 + x_1)/2) - (W(x_0) + W(x_1))/2. */
 #include <math.h>
 
 #include "bond_last.h"

@@ -76,9 +76,9 @@ static ALWAYS_INLINE void bond_sweep_prefetch_next_blocks(const struct bond_swee
     }
 }
 
-/* Advances in time those particles of p whose positions no later block of eight rows of this thread reads. They belong
- * to blocks of b (bonds of eight particles each) in the part s of the list of active blocks. The forces of entry k of
- * the list of active blocks and of all entries before it must be complete. m: step sizes. */
+/* Advances in time the particles of p whose positions no later block of eight rows (bonds of eight particles each) of
+ * this thread reads. s: part of the list of active blocks of b that this thread processes; k: present entry of the list
+ * of active blocks; the forces of this entry and of all entries before it must be complete. m: step sizes. */
 static ALWAYS_INLINE void bond_sweep_advance_finished_particles(struct bond_sweep *s, const struct bonds *b,
                                                                 struct particles *p, int64_t k,
                                                                 const struct pd_motion *m, const int dim)

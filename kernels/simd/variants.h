@@ -1,5 +1,5 @@
-/* The list of kernel instances, macros that call X for each combination of dimension and model, shape or transfer. A
- * line here creates the instance, its table entry, its test and its benchmark. */
+/* Lists for which combinations of dimension and model, shape function or transfer scheme kernels are compiled: each
+ * macro calls X for every combination. A line here adds a kernel, its table entry, its test and its benchmark. */
 #ifndef CLEAVE_KERNELS_VARIANTS
 #define CLEAVE_KERNELS_VARIANTS
 
@@ -18,7 +18,8 @@
     X(2, LINEAR) X(2, GIMP) X(2, CPGIMP) X(2, QUADRATIC) X(2, CUBIC)            \
     X(3, LINEAR) X(3, GIMP) X(3, CPGIMP) X(3, QUADRATIC) X(3, CUBIC)
 
-/* Instances for bodies that may rotate (2D, 3D) */
+/* Calls X for the combinations of dimension and shape function whose points can rotate in groups (data/turning.h): 2D
+ * and 3D. */
 #define SHAPE_VARIANTS_TURNING(X)                                              \
     X(2, LINEAR) X(2, GIMP) X(2, CPGIMP) X(2, QUADRATIC) X(2, CUBIC)            \
     X(3, LINEAR) X(3, GIMP) X(3, CPGIMP) X(3, QUADRATIC) X(3, CUBIC)

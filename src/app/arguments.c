@@ -1,4 +1,4 @@
-/* Reads the command line of the commands that read a scene. */
+/* Reads the command line of those commands that read an input file. */
 #include "arguments.h"
 
 #include <stdlib.h>

@@ -1,4 +1,5 @@
-/* `cleave check`: checks a scene and estimates the cost of its run by trial steps; nothing is written. */
+/* Implements `cleave check`: checks an input file and estimates the cost of its run by trial steps. It writes no
+ * file. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -41,8 +42,8 @@ static void say_frames(const struct run *e)
                (long long)e->frame->mesh.points);
 }
 
-/* Prints the names of the bodies of scene s with the indices `from` to end - 1: the first six, and the number of
- * further ones. Joined bodies are printed as one name a+b. */
+/* Prints the names of the bodies of scene s (the input file) with the indices `from` to end - 1: the first six, and the
+ * number of further ones. Joined bodies are printed as one name a+b. */
 static void say_names(const struct scene *s, int from, int end)
 {
     enum { NAMED = 6 };
@@ -58,8 +59,8 @@ static void say_names(const struct scene *s, int from, int end)
     if (n > NAMED) printf(" and %d more", n - NAMED);
 }
 
-/* Prints between which peridynamic bodies and rigid bodies of scene s contact acts, whether with themselves, and the
- * contact law and friction. Prints nothing for a scene without contact. */
+/* Prints between which peridynamic bodies and rigid bodies of scene s (the input file) contact acts, whether with
+ * themselves, and the contact law and friction. Prints nothing for an input file without contact. */
 static void say_contact_of_bonds(const struct scene *s)
 {
     if (s->contact_between == CONTACT_NONE && s->rigids == 0) return;
@@ -141,9 +142,8 @@ static void say_time_step(const struct run *e)
                e->clock.dt / e->clock.dt_critical, e->clock.dt_critical, (long long)e->clock.steps, e->scene->duration);
 }
 
-/* Prints the end of the line with the estimated run time of `scene`: which steps were measured (all steps of the scene
- * with larger particles, or only the first steps), and what the run time would be if all particles were peridynamic. c:
- * estimated cost. */
+/* Prints the end of the line with the estimated run time of `scene`: which steps were measured (all steps of a run with
+ * larger particles, or only the first steps), and the run time if all particles were peridynamic. c: estimated cost. */
 static void say_basis(const struct scene *scene, const struct cost *c)
 {
     if (c->basis == COST_SCALED)
@@ -156,16 +156,16 @@ static void say_basis(const struct scene *scene, const struct cost *c)
     if (c->all_peridynamic > 0) printf("; %.2g s if all of it were peridynamic", c->all_peridynamic);
 }
 
-/* Bounds of the time of a step of a static equilibrium: estimate/REST_BELOW and estimate * REST_ABOVE. The estimate
- * contains only the time of the forces; plates of 10,000 and 80,000 particles with a crack took up to 4.3 times as
- * long, with both solvers on a busy machine. */
+/* Factors for the bounds of the time per step of a static equilibrium: from estimate/REST_BELOW to estimate *
+ * REST_ABOVE. The estimate covers only the time of the forces. Plates of 10,000 and 80,000 particles with a crack took
+ * up to 4.3 times as long, with both solvers on a busy machine. */
 #define REST_BELOW 1.5
 #define REST_ABOVE 4.5
 
 /* Prints the run time of the static equilibrium of run e on `threads` threads. The solver runs until it converges, so
  * that the number of its steps is not known in advance. Therefore prints the time of 1000 steps with a lower and an
- * upper bound, and an upper bound for the largest number of steps that the scene allows. c->step: measured time of one
- * step [s]. */
+ * upper bound, and an upper bound for the largest number of steps that the input file allows. c->step: measured time of
+ * one step [s]. */
 static void say_cost_at_rest(const struct run *e, const struct cost *c, int threads)
 {
     const double thousand = 1e3 * c->step;
@@ -208,7 +208,8 @@ static void say_scatter(const struct particles *p, int material)
     if (most > 0) printf(", both by factors of %.3g to %.3g", least, most);
 }
 
-/* Returns true if an interface of scene s with an energy release rate of its own joins a body of material number m. */
+/* Returns true if an interface of scene s (the input file) with an energy release rate of its own joins a body of
+ * material number m. */
 static bool breaks_at_interface(const struct scene *s, int m)
 {
     bool breaks = false;
@@ -219,8 +220,8 @@ static bool breaks_at_interface(const struct scene *s, int m)
     return breaks;
 }
 
-/* Prints a line for each interface of scene s with an energy release rate of its own: the stretch at which its bonds
- * break. */
+/* Prints a line for each interface of scene s (the input file) with an energy release rate of its own: the stretch at
+ * which its bonds break. */
 static void say_interfaces(const struct scene *s)
 {
     for (int k = 0; k < s->interfaces; k++) {
@@ -270,8 +271,8 @@ static bool texts_alike(const char *a, const char *b)
     return true;
 }
 
-/* Appends the warnings `trial`, which trial steps raised, to *found. Omits each that differs from a warning in *found
- * only by its numbers, such as the time. */
+/* Appends to *found the warnings in `trial`, which trial steps (steps that only measure the cost) have raised. A
+ * warning is omitted if it differs from one in *found only by its numbers, such as the time. */
 static void warnings_of_trial(struct warnings *found, const struct warnings *trial)
 {
     for (int k = 0; k < trial->n; k++) {
@@ -292,9 +293,9 @@ static void say_busy(double load, int threads)
 }
 
 /* Estimates run time and memory of the run e by trial steps and prints both. a: arguments from which e was made, so
- * that other scenes can be made for comparison; threads: number of threads, which is printed; made: processor time of
- * the set-up of e [s]. Appends the warnings of the trial steps to *found. The run e cannot be used afterwards. Returns
- * FAILED if one of the first steps fails. */
+ * that other input files can be made for comparison; threads: number of threads, which is printed; made: processor time
+ * of the set-up of e [s]. Appends the warnings of the trial steps to *found. The run e cannot be used afterwards.
+ * Returns FAILED if one of the first steps fails. */
 static status check_cost(struct run *e, const struct run_arguments *a, int threads, double made, struct warnings *found)
 {
     struct cost cost = {.make = made};
@@ -317,8 +318,8 @@ static void say_list(const struct warnings *lines, const char *heading)
     for (int k = 0; k < lines->n; k++) printf("%-15s%s\n", k == 0 ? heading : "", lines->text[k]);
 }
 
-/* Prints the remarks on the accuracy of the scene of run e. *remarks: receives their number. Returns FAILED, with a
- * message, if there is no memory for them. */
+/* Prints the remarks on the accuracy of the input file of run e. *remarks: receives their number. Returns FAILED, with
+ * a message, if there is no memory for them. */
 static status say_accuracy(const struct run *e, int *remarks)
 {
     char *text = NULL;
@@ -340,8 +341,8 @@ static status say_accuracy(const struct run *e, int *remarks)
     return written;
 }
 
-/* Prints the verdict on a scene: sound, or fit to run after the warnings and remarks on accuracy have been read. scene:
- * file name; warnings, remarks: numbers of warnings and remarks printed above. */
+/* Prints the verdict on an input file: sound, or fit to run after the warnings and remarks on accuracy have been read.
+ * scene: file name; warnings, remarks: numbers of warnings and remarks printed above. */
 static void say_verdict(const char *scene, int warnings, int remarks)
 {
     const struct printable_name shown = printable_name(scene);
@@ -356,8 +357,8 @@ static void say_verdict(const char *scene, int warnings, int remarks)
                warnings, remarks > 0 ? " and the remarks on accuracy" : "");
 }
 
-/* Prints the resolved settings of the scene of run e: particles, shapes, materials, frames, pre-cracks, loads, steps,
- * contact. */
+/* Prints the resolved settings of the input file of run e: particles, shapes, materials, positions at which shape
+ * functions are evaluated, pre-cracks, loads, steps, contact. */
 static void say_settings(const struct run *e)
 {
     say_particles(e);
@@ -375,10 +376,10 @@ static void say_settings(const struct run *e)
     say_contact(e);
 }
 
-/* Sets up a run of scene s and prints its resolved settings, remarks on its accuracy, the cost (only if `trial`),
- * hints, the warnings (on standard error), and the verdict. a: arguments from which s was read; threads: number of
- * threads; start: time on thread_cpu_clock_seconds at which the reading of the scene began [s]. Changes settings of s.
- * Returns REFUSED or FAILED, with a message, if the set-up or a trial step fails. */
+/* Sets up a run of scene s (the input file) and prints its resolved settings, remarks on its accuracy, the cost (only
+ * if `trial`), hints, the warnings (on standard error), and the verdict. a: arguments from which s was read; threads:
+ * number of threads; start: time on thread_cpu_clock_seconds at which the reading of the input file began [s]. Changes
+ * settings of s. Returns REFUSED or FAILED, with a message, if the set-up or a trial step fails. */
 static status check_sound(struct scene *s, const struct run_arguments *a, int threads, double start, bool trial)
 {
     struct run e = {0};

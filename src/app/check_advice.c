@@ -1,15 +1,16 @@
-/* Remarks on a scene before it runs: what limits its accuracy, and hints at what would be faster. No remark is an
- * error. Limits and their basis:
+/* Writes remarks on an input file before it is run: on what limits the accuracy, and on what would be faster.
+ * No remark is an error. Limits and their basis:
  *
  *   feature      a peridynamic part thinner than FEATURE horizons is mostly surface, whose particles lack
- *                neighbours; how far its stiffness is off: strips and bars in pure bending, tension and torsion. First
- *                frequencies (`cleave bench accuracy=beam` and `=rod`) are off by half of that
- *   wave         a front or pulse shorter than WAVE spacings disperses: 2 % of a pulse of 16 spacings comes back from
- *                an interface, the group velocity of the shortest waves is off by a tenth
- *   stress       sigma = rho c v ahead of a part that moves with v; waves of both ends meet and reflect: four times
- *                that, unless they cross the body more than PASSAGES times, as waves of long loads add up
+ *                neighbours. The error of its stiffness was measured with strips and bars in pure bending,
+ *                tension and torsion. Lowest frequencies (`cleave bench accuracy=beam`, `=rod`) err half as much
+ *   wave         a front or pulse shorter than WAVE spacings disperses: an interface reflects 2 % of a pulse
+ *                of 16 spacings; the group velocity of the shortest waves errs by a tenth
+ *   stress       sigma = rho c v ahead of a part that moves with v. Waves of both ends superpose and reflect:
+ *                four times sigma, unless they cross the body more than PASSAGES times, as long waves add up
  *   strain       cells that keep their points suit bodies strained by less than LITTLE
- *   bonds        time of a bond and step by model and dimension (`cleave bench kernels`, AVX-512, one core) */
+ *   bonds        time of a bond and step by model and dimension (`cleave bench kernels`, AVX-512, one core)
+ */
 #include <math.h>
 #include <string.h>
 
@@ -80,9 +81,9 @@ static const struct {
 #define USUAL_HORIZON 0.5 /* largest difference of the horizon from 3.015 for this table [spacings] */
 
 /* Returns from a table the largest relative errors of the stiffness of a peridynamic part that is `layers` particles
- * thick, with the bond model of scene s. The three errors [%] are indexed by OFF_PLANE (2D), OFF_SOLID (3D in bending
- * and tension) and OFF_TWISTED (3D in torsion). surface: rule by which the weights of bonds near faces are
- * corrected. */
+ * thick, with the bond model of scene s (the input file). The three errors [%] are indexed by OFF_PLANE (2D), OFF_SOLID
+ * (3D in bending and tension) and OFF_TWISTED (3D in torsion). surface: rule by which the weights of bonds near faces
+ * are corrected. */
 static const int *stiffness_errors(const struct scene *s, enum surface_rule surface, double layers)
 {
     size_t row = 0;
@@ -102,8 +103,8 @@ void print_stiffness_error_of_thin_part(const struct scene *s, enum surface_rule
         fprintf(out, "about %d %% in bending and tension, %d %% in twisting", off[OFF_SOLID], off[OFF_TWISTED]);
 }
 
-/* Writes to `out`, as part of a remark, the largest error of the stiffness of a peridynamic part of scene s that is
- * `layers` particles thick; below 1.5 layers, that it has no bending stiffness. */
+/* Writes to `out`, as part of a remark, the largest error of the stiffness of a peridynamic part of scene s (the input
+ * file) that is `layers` particles thick; below 1.5 layers, that it has no bending stiffness. */
 static void advise_thin(const struct scene *s, double layers, FILE *out)
 {
     if (layers < 1.5) {
@@ -129,8 +130,8 @@ static real two_digits_down(real value)
 }
 
 /* Writes a remark to `out` for each body of run e with a part that is thinner than FEATURE horizons. Most particles of
- * such a part are near a surface and lack neighbours within the horizon. Writes nothing for scenes with the method mpm
- * (no bonds), and in 1D. */
+ * such a part are near a surface and lack neighbours within the horizon. Writes nothing for input files with the method
+ * mpm (no bonds), and in 1D. */
 static void advise_features(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
@@ -150,7 +151,7 @@ static void advise_features(const struct run *e, FILE *out)
 
 /* Writes a remark to `out` for each solid that is subtracted from a body of run e and is thinner than one spacing. Such
  * a hole cuts bonds but removes no row of particles. Solids from voxel images and bodies from particle lists are
- * skipped, as their thickness is not known; also 1D scenes. */
+ * skipped, as their thickness is not known; also 1D input files. */
 static void advise_narrow_holes(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
@@ -238,9 +239,9 @@ static void advise_rise(const struct scene *s, const struct material_tables *tab
             more ? "" : "s", length, WAVE, length_text_with_unit(s->spacing * length / WAVE, 2, s->spacing).text);
 }
 
-/* Writes a remark to `out` for each load of scene s, if it is dynamic, that rises too fast, because waves travel less
- * than WAVE spacings in its rise time, and for each initial pulse that is narrower than WAVE spacings. tables: wave
- * speed. */
+/* Writes a remark to `out` for each load of scene s (the input file), if it is dynamic, that rises too fast, because
+ * waves travel less than WAVE spacings in its rise time, and for each initial pulse that is narrower than WAVE
+ * spacings. tables: wave speed. */
 static void advise_waves(const struct scene *s, const struct material_tables *tables, FILE *out)
 {
     for (int b = 0; b < s->boundaries && scene_is_dynamic(s); b++) advise_rise(s, tables, b, out);
@@ -253,8 +254,8 @@ static void advise_waves(const struct scene *s, const struct material_tables *ta
                     length_text_with_unit(s->initial[k].pulse.width / WAVE, 2, s->spacing).text);
 }
 
-/* Writes a remark to `out` if bodies of scene s collide so fast that oscillations of the stress behind the wave front
- * can break their bonds or make them yield. */
+/* Writes a remark to `out` if bodies of scene s (the input file) collide so fast that oscillations of the stress behind
+ * the wave front can break their bonds or make them yield. */
 static void advise_shocks(const struct scene *s, FILE *out)
 {
     const struct shock shock = scene_most_severe_collision(s);
@@ -268,8 +269,8 @@ static void advise_shocks(const struct scene *s, FILE *out)
 }
 
 /* Writes a remark to `out` if the coarsest cells of run e are larger than the largest cells with which the loads and
- * the thin parts of the body are resolved. Only for scenes that prescribe the number of levels of coarse cells (the
- * edge doubles with each level). */
+ * the thin parts of the body are resolved. Only for input files that prescribe the number of levels of coarse cells
+ * (the edge doubles with each level). */
 static void advise_levels(const struct run *e, FILE *out)
 {
     const struct levels_choice c = mesh_levels_choose_level_count(e->frame, &e->part, e->scene, e->clock.dt_critical);
@@ -317,14 +318,14 @@ static real pulled_stretch(const struct loads *l, const struct particles *p, rea
     return stretch;
 }
 
-/* Stretch of metal bars in the current frame above which points separate beside those that a support drives [1].
- * Measured (inputs/choosing.md, Yielding). */
+/* Stretch of metal bars above which they separate next to the points that a support drives [1], if shape functions are
+ * evaluated at the present positions of points. Measured (inputs/choosing.md, Yielding). */
 #define PARTS_AT_GRIP 1.3
 
-/* Writes to `out` up to two remarks for bodies of metal, which the supports of scene s pull to `stretch` times their
- * initial length. The first is written if the shape functions of s make forces too small at this stretch. The second is
- * written if, at this stretch, material points next to those with a prescribed velocity no longer share grid nodes with
- * them, so that the body separates there. */
+/* Writes to `out` up to two remarks for bodies of metal, which the supports of scene s (the input file) pull to
+ * `stretch` times their initial length. The first is written if the shape functions of s make forces too small at this
+ * stretch. The second is written if, at this stretch, material points next to those with a prescribed velocity no
+ * longer share grid nodes with them, so that the body separates there. */
 static void advise_pulled_metal(const struct scene *s, real stretch, FILE *out)
 {
     const struct weak_shape_function *weak = shape_function_properties_if_weak_in_tension(s->shape);
@@ -441,8 +442,9 @@ static bool has_notch(const struct scene *s)
     return notch;
 }
 
-/* Adds a hint to *to if the scene of run e uses a peridynamic method although no bond can break, so that the method mpm
- * suffices. Scenes with rigid bodies are excepted, since material points do not support contact with them. */
+/* Adds a hint to *to if the input file of run e uses a peridynamic method although no bond can break, so that the
+ * method mpm suffices. Input files with rigid bodies are excepted, since material points do not support contact with
+ * them. */
 static void hint_method(const struct run *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
@@ -465,8 +467,8 @@ static void hint_method(const struct run *e, struct warnings *to)
                             reached, weakest, method);
 }
 
-/* Adds a hint to *to that names the planes about which the scene of run e is symmetric, so that a part of the body can
- * be computed instead. Adds none without such planes. */
+/* Adds a hint to *to that names the planes about which the input file of run e is symmetric, so that a part of the body
+ * can be computed instead. Adds none without such planes. */
 static void hint_symmetry(const struct run *e, struct warnings *to)
 {
     static const char *const share[] = {"", "half", "a quarter", "an eighth"};

@@ -1,7 +1,7 @@
-/* Estimates the cost of a run from trial steps, in processor time of one thread: time of other programs does not
- * count, and a team with a core per thread takes the processor time as wall-clock time. A short run is tried as a
- * whole. Of a long run the first steps are timed with the whole body active; the effect of inactive parts,
- * conversion and reversion is measured in an equal scene with larger particles, which is tried as a whole. */
+/* Estimates the cost of a run from trial steps, in processor time of one thread, so that other programs do not count.
+ * With one core for each thread the processor time of a thread equals the wall-clock time. A short run is executed as a
+ * whole. Of a long run only the first steps are timed, with the whole body active. The effect of inactive parts,
+ * conversion and reversion is measured in the same input file with larger particles, which is executed as a whole. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -18,7 +18,7 @@
 #include "scene/scene_read.h"
 #include "step/checks.h"
 
-/* Largest number of measurements of the time per step (PERIODS_MOST), and least number of them (WINDOWS_LEAST). */
+/* Limits for measuring the time per step. PERIODS_MOST: largest number of measurements; WINDOWS_LEAST: least number. */
 enum { PERIODS_MOST = 200, WINDOWS_LEAST = 5 };
 #define SECONDS_ENOUGH 0.15        /* time of the measurements after which there are enough [s] */
 #define SECONDS_MOST 1.0           /* time after which the measurements end in any case [s] */
@@ -141,9 +141,9 @@ static double all_steps(struct run *e)
     return run_repeat_with_mpm_only_for_pulse_probe(e) == OK ? thread_cpu_clock_seconds() - start : NAN;
 }
 
-/* Runs the scene of the arguments a with the additional override key=value (none if key is NULL). whole: true to run
- * and measure all steps; false to extrapolate the time from the first steps. found: receives the warnings of the run,
- * appended; or NULL. Returns the processor time of all steps [s]; NAN if a step fails. */
+/* Runs the input file of the arguments a with the additional override key=value (none if key is NULL). whole: true to
+ * run and measure all steps; false to extrapolate the time from the first steps. found: receives the warnings of the
+ * run, appended; or NULL. Returns the processor time of all steps [s]; NAN if a step fails. */
 static double try_other(const struct run_arguments *a, const char *key, const char *value, bool whole,
                         struct warnings *found)
 {
@@ -165,11 +165,11 @@ static double try_other(const struct run_arguments *a, const char *key, const ch
     return seconds;
 }
 
-/* Returns the ratio r of the processor time of all steps of scene s to the time extrapolated from its first steps [1];
- * NAN if it cannot be measured. It is measured in the scene with particles so much larger that a whole run takes about
- * SECONDS_WHOLE. Also returns NAN if a body is read from a particle list, or if the particles would have to be more
+/* Returns the ratio r of the processor time of all steps of scene s (the input file) to the time extrapolated from its
+ * first steps [1]. Both times are measured with particles so much larger that a whole run takes about SECONDS_WHOLE.
+ * Returns NAN if a time cannot be measured, a body is read from a particle list, or the particles would have to be more
  * than COARSER_MOST times larger. Stores the factor by which the particles are larger in c->coarser, and r in
- * c->growth. a: arguments from which s was read; first: extrapolated time of s itself [s]. */
+ * c->growth. a: arguments from which s was read; first: extrapolated time of the input file itself [s]. */
 static double growth_of(struct cost *c, const struct scene *s, const struct run_arguments *a, double first)
 {
     char value[32];
@@ -200,8 +200,9 @@ static double output_seconds(const struct run *e)
                                     FILE_SECONDS * (double)probes_count_profiles(&e->probing->probes));
 }
 
-/* Factors from the estimated run time to its lower bound (estimate / below) and upper bound (estimate * above), by the
- * basis of the estimate. The values are empirical, from scenes of all kinds (tests/scenes/long_forecast.sh). */
+/* Factors between the estimated run time and its bounds, for each basis of the estimate: lower bound estimate / below,
+ * upper bound estimate * above. The values are empirical, from input files of all kinds
+ * (tests/scenes/long_forecast.sh). */
 static const struct {
     double below, above;
 } range[] = {[COST_TRIED] = {1.3, 1.5}, [COST_SCALED] = {1.6, 1.6}, [COST_FIRST] = {2, 1.5}};
@@ -234,8 +235,8 @@ static void cost_run(struct cost *c, const struct run_clock *clock, const struct
     c->most = c->run * range[c->basis].above * fmin(c->spread, SPREAD_MOST);
 }
 
-/* Returns the processor time of one step per particle [s], measured with the scene of the arguments a, but with all
- * particles peridynamic and with `spacing` [m]; NAN if the steps fail. */
+/* Returns the processor time of one step per particle [s], measured with the input file of the arguments a, but with
+ * all particles peridynamic and with `spacing` [m]; NAN if the steps fail. */
 static double step_peridynamic(const struct run_arguments *a, double spacing)
 {
     struct scene s = {0};

@@ -114,8 +114,8 @@ static bool is_thin(const struct cover *c, int64_t cell)
     return thin || !beside;
 }
 
-/* Returns true if it is expensive to test whether a point is inside `shape`: a solid of it, or of a group or extrusion
- * in it, is a surface from a file. */
+/* Returns true if the test whether a point is inside `shape` is slow: one of its solids is a surface from a file, or a
+ * group or extrusion that contains such a surface. */
 static bool is_dear(const struct region *shape)
 {
     bool dear = false;

@@ -14,16 +14,18 @@
 enum { AWAY = 4 };        /* [columns] over which heights are compared: finds steps of slopes of 14 degrees and more */
 #define COLUMNS_MOST 16.0 /* largest number of columns in the bounding box over the particles of the face */
 
-/* Heights of the outermost particles of a face. Particles are sorted into columns along the axis of the face; the
- * columns form a grid over the other axes. All lengths are in spacings. axes: number of these other axes, axis[axes];
- * n[axes]: numbers of columns along them; low[axes]: lower corner of the grid. */
+/* Heights of a face of a load or support, by columns: lines of particles along the axis of the face. The height of a
+ * column is the coordinate of its outermost particle. The columns form a grid over the other axes. axes: number of
+ * these other axes, axis[axes]; n[axes]: numbers of columns along them; low[axes]: lower corner of the grid
+ * [spacings]. */
 struct ends {
     int axes, axis[DIM_MAX - 1], n[DIM_MAX - 1];
     real low[DIM_MAX - 1];
     real *height; /* [n] height along the axis, outwards [spacings]; NAN: none */
 };
 
-/* Area of a face, and area of that part of the face whose normal is inclined to the axis of the face. */
+/* Areas of one face of a load or support: of the whole face, and of the part whose normal is inclined to the axis of
+ * the face. */
 struct elsewhere {
     real area, other, angle; /* of the face; of this part [m^2]; angle times area [degree m^2] */
     real aligned, last;      /* coordinates of the aligned part along the axis: deepest and outermost end [m] */
@@ -142,8 +144,8 @@ static real elsewhere_cut(const struct particles *part, const struct scene *scen
     return INFINITY;
 }
 
-/* Returns true if all bodies of scene s to which boundary b applies have a shape with known normals: one that is not
- * infinite, not from a particle list or a voxel image, and not shared with joined bodies. */
+/* Returns true if all bodies of scene s (the input file) to which boundary b applies have a shape with known normals:
+ * one that is not infinite, not from a particle list or a voxel image, and not shared with joined bodies. */
 static bool has_normals(const struct scene *s, const struct boundary *b)
 {
     bool all = true;
@@ -159,14 +161,14 @@ static bool has_normals(const struct scene *s, const struct boundary *b)
     return all;
 }
 
-/* An exposed particle of a face, or a set of them: coordinate along the axis of the face [m, positive outwards] and
- * area [m^2]. The coordinate is first, for compare_doubles. */
+/* One exposed particle of a face, or a set of such particles: coordinate along the axis of the face [m, positive
+ * outwards] and area [m^2]. `at` must be the first member, for sorting by compare_doubles. */
 struct part_of_face {
     double at, area;
 };
 
-/* Prints where the face f of boundary b is, if its particles are in several planes normal to the axis of the face that
- * are more than PLACE_GAP spacings apart, as on both steps of an L: the coordinates of these planes, and a region that
+/* Prints the coordinates of the planes of the face f of boundary b, if its particles are in several planes normal to
+ * the axis of the face that are more than PLACE_GAP spacings apart, as on both steps of an L. Also prints a region that
  * selects only the outermost plane. Planes with less than SHARE_LEAST of the area are left out. p: particles; spacing:
  * their spacing [m]. */
 static void print_places_of_face(const struct particles *p, real spacing, const struct boundary *b,

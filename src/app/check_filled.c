@@ -1,5 +1,5 @@
-/* Compares the volume of the particles of a body with the volume of its shape: a lattice follows slanting and curved
- * faces in steps. */
+/* Compares the volume of the particles of a body with the volume of its shape. They differ where a lattice follows
+ * slanting and curved faces in steps. */
 #include <math.h>
 #include <stdio.h>
 
@@ -17,7 +17,7 @@ static bool all_boxes(const struct region *shape)
 }
 
 /* Returns the number of particles of body number `body` in `part`. Joined bodies count as one body, with the number of
- * the first. If the scene has only one body, particles that are not created (in coarse cells) are included. */
+ * the first. If the input file has only one body, particles that are not created (in coarse cells) are included. */
 static int64_t particles_of(const struct scene *scene, const struct particles *part, int body)
 {
     int64_t n = 0;

@@ -1,4 +1,4 @@
-/* Hints at keys that a scene gives and that change nothing in it, and at materials that no body consists of. */
+/* Adds hints at keys of an input file that have no effect, and at materials of which no body consists. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -15,20 +15,23 @@ static bool with_regular_lattice(const struct scene *s) { return !(s->irregulari
 static bool without_opening(const struct scene *s) { return s->steps.control != CONTROL_OPENING; }
 static bool without_tips(const struct scene *s) { return !scene_can_have_cracks(s) || !scene_is_dynamic(s); }
 
-/* Returns true if scene s makes no time steps, neither from the start nor after an unstable crack increment. */
+/* Returns true if scene s (the input file) makes no time steps, neither from the start nor after an unstable crack
+ * increment. */
 static bool without_time_steps(const struct scene *s)
 {
     return scene_is_single_equilibrium(s) || (scene_has_load_steps(s) && s->steps.then != THEN_EXPLICIT);
 }
 
-/* Returns true if no peridynamic particles of the scene s can be in contact, so that keys of contact have no effect. */
+/* Returns true if no peridynamic particles of the scene s (the input file) can be in contact, so that keys of contact
+ * have no effect. */
 static bool without_contact(const struct scene *s)
 {
     return s->method == METHOD_MPM || (s->contact_between == CONTACT_NONE && s->rigids == 0);
 }
 
-/* Keys, or groups of keys (which end with a point), that have no effect in scenes for which `idle` is true, and why.
- * Keys with a warning of their own are left out: mpm.levels, mpm.fill, conversion.notch. */
+/* Keys of the input file that have no effect if `idle` is true for it, and the reason `why`. keys: names of keys, or of
+ * groups of keys, which end with a point, separated by bars. Keys with a warning of their own are left out: mpm.levels,
+ * mpm.fill, conversion.notch. */
 static const struct {
     const char *keys;
     bool (*idle)(const struct scene *s);
@@ -82,7 +85,7 @@ static bool scene_gives_all(const struct scene *s)
 }
 
 /* Returns true if a row of the table idle_keys before row number `row` has reported the key: if it names the key, and
- * its condition is true for scene s. */
+ * its condition is true for scene s (the input file). */
 static bool key_is_named_before(const struct scene *s, size_t row, const char *key)
 {
     bool named = false;
@@ -90,10 +93,10 @@ static bool key_is_named_before(const struct scene *s, size_t row, const char *k
     return named;
 }
 
-/* Appends to text[capacity] the keys in row number `row` of idle_keys (table of keys without effect in some scenes)
- * that scene s gives, without those that an earlier row has reported, and why they have no effect. Appends nothing if
- * no key remains. Keys are left out once only 300 characters of the text are free. used: present length of the text.
- * Returns the new length. */
+/* Appends to text[capacity] the keys in row number `row` of idle_keys (table of keys without effect in some input
+ * files) that scene s (the input file) gives, without those that an earlier row has reported, and why they have no
+ * effect. Appends nothing if no key remains. Keys are left out once only 300 characters of the text are free. used:
+ * present length of the text. Returns the new length. */
 static size_t idle_row_append(const struct scene *s, size_t row, char *text, size_t capacity, size_t used)
 {
     const size_t before = used;
@@ -110,8 +113,8 @@ static size_t idle_row_append(const struct scene *s, size_t row, char *text, siz
     return used;
 }
 
-/* Adds a hint to *to for each material of scene s that has a fracture criterion although the method is mpm, which has
- * no bonds that could break. */
+/* Adds a hint to *to for each material of scene s (the input file) that has a fracture criterion although the method is
+ * mpm, which has no bonds that could break. */
 static void hint_unbreakable(const struct scene *s, struct warnings *to)
 {
     for (int m = 0; m < s->materials && s->method == METHOD_MPM; m++)
@@ -122,7 +125,7 @@ static void hint_unbreakable(const struct scene *s, struct warnings *to)
                                 s->material[m].name);
 }
 
-/* Adds a hint to *to for each material of scene s of which no body consists. */
+/* Adds a hint to *to for each material of scene s (the input file) of which no body consists. */
 static void hint_unused_materials(const struct scene *s, struct warnings *to)
 {
     for (int m = 0; m < s->unused_materials; m++)

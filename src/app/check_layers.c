@@ -1,5 +1,6 @@
-/* Counts the particle layers across thin parts of bodies of any shape, and reports errors from incomplete
- * neighbourhoods, locking cells and layers that supports hold. */
+/* Counts the layers of particles across thin parts of bodies of any shape. Reports errors of the stiffness that follow
+ * from incomplete neighbourhoods, from cells whose points have one dilatation (locking), and from layers that a support
+ * moves as one. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -9,7 +10,7 @@
 #define SHARE_LEAST 0.5  /* least share of particles in thin parts; a smaller one are edges and steps of faces */
 enum { RUNS_MOST = 64 }; /* largest number of layers that are counted */
 
-/* Grid of the lattice sites in the bounding box of a body's particles, with a mark for each site that a particle fills.
+/* Lattice sites in the bounding box of the particles of one body; filled[site] is 1 if a particle is at the site.
  * n[dim]: number of sites along each axis; stride[dim]: step of the site index along each axis. */
 struct layer_map {
     int dim;
@@ -152,10 +153,10 @@ static double soft_cells(double poisson, double layers)
 #define SOFT_FAMILIES 0.4 /* Poisson's ratios up to which nothing is reported for neighbourhoods */
 #define SOFT_MOST 2.0     /* least error that is reported [%] */
 
-/* Returns the largest Poisson's ratio among the materials of body number `body_index` of scene s, for advice on nearly
- * incompressible bodies. families: true for peridynamics, where all materials count, but 0 is returned unless the ratio
- * exceeds SOFT_FAMILIES; false for material points, where only materials count for which all points of a cell have one
- * dilatation. Returns 0 if no material counts. */
+/* Returns the largest Poisson's ratio among the materials of body number `body_index` of scene s (the input file), for
+ * advice on nearly incompressible bodies. families: true for peridynamics, where all materials count, but 0 is returned
+ * unless the ratio exceeds SOFT_FAMILIES; false for material points, where only materials count for which all points of
+ * a cell have one dilatation. Returns 0 if no material counts. */
 static real largest_poisson_ratio(const struct scene *s, int body_index, bool families)
 {
     real poisson = 0;
@@ -193,9 +194,9 @@ void print_advice_on_incompressible_bodies(const struct run *e, FILE *out)
 static const real layer_shortening[] = {[1] = -0.65, [2] = -0.75, [3] = -0.75};
 #define SHORTENED 0.03 /* share of the length from which on it is reported; 10 % of the stiffness in bending [1] */
 
-/* Returns true if load l of scene s is a support that moves a layer of peridynamic particles as one: it prescribes the
- * same motion, normal to a face, for all particles behind this face to a depth of one horizon (the default depth), and
- * none of these particles moves with the nodes of a grid or mesh. p: particles. */
+/* Returns true if load l of scene s (the input file) is a support that moves a layer of peridynamic particles as one:
+ * it prescribes the same motion, normal to a face, for all particles behind this face to a depth of one horizon (the
+ * default depth), and none of these particles moves with the nodes of a grid or mesh. p: particles. */
 static bool holds_layer_of_bonds(const struct scene *s, const struct load *l, const struct particles *p)
 {
     const struct boundary *b = l->boundary;

@@ -1,4 +1,5 @@
-/* Lines of `cleave check` about coarse cells: their size, why they are used, and what they save. */
+/* Prints the lines of `cleave check` about coarse cells: their size, the reason for them, and the time that they
+ * save. */
 #include <math.h>
 #include <stdio.h>
 

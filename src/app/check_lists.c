@@ -1,12 +1,14 @@
-/* Reports bodies from lists that are no lattice along the axes, and thin parts of them: neighbourhoods near their faces
- * have no weights of their own, and no solid gives the thickness of the parts. */
+/* Reports bodies whose particles come from a list and form no lattice along the axes, and thin parts of such bodies.
+ * Weights of bonds are not corrected near their faces, and no solid states the thickness of a part, so that it is
+ * measured by counting particles. */
 #include <math.h>
 
 #include "check_parts.h"
 
 #define THIN_SHARE 0.05 /* least share of a body's particles in a thin part that is reported */
 #define PROBE 0.9       /* [spacings] largest distance of a particle from a position inside the body */
-/* Approximate number of particles that are examined; largest number of layers that is counted. */
+/* LOOKED_AT: approximate number of particles of a body that are examined. LAYERS_MOST: largest number of layers that is
+ * counted. */
 enum { LOOKED_AT = 1024, LAYERS_MOST = 16 };
 
 /* Returns true if a particle of body number `body` of run e is within PROBE spacings of the point X[dim] [m], so that X
@@ -68,8 +70,9 @@ static int thinnest(const struct run *e, int body)
     return LAYERS_MOST;
 }
 
-/* Prints advice to `out` for each body of scene s that is read from a list of particles not on a lattice along the
- * axes, if the scene has pd.weights: isotropic. These weights of bonds are computed for a lattice along the axes. */
+/* Prints advice to `out` for each body of scene s (the input file) that is read from a list of particles not on a
+ * lattice along the axes, if the input file has pd.weights: isotropic. These weights of bonds are computed for a
+ * lattice along the axes. */
 static void print_weight_advice(const struct scene *s, FILE *out)
 {
     for (int b = 0; b < s->bodies && s->shells == SHELLS_ISOTROPIC; b++) {

@@ -1,5 +1,5 @@
-/* Prints for each load and support the number of its particles, its area, force and moment. With planes of symmetry
- * these belong to the computed part of the body. */
+/* Prints for each load and support the number of its particles, its area, force and moment. In input files with planes
+ * of symmetry, these belong to the part of the body that is computed. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -134,8 +134,9 @@ struct faced {
     bool unknown;    /* the distance from the shape of at least one body is not known */
 };
 
-/* Returns true if distances from the surface of body number `body` of scene s can be computed: its shape is not
- * infinite, not from a particle list, a voxel image or a surface file, and not shared with joined bodies. */
+/* Returns true if distances from the surface of body number `body` of scene s (the input file) can be computed: its
+ * shape is not infinite, not from a particle list, a voxel image or a surface file, and not shared with joined
+ * bodies. */
 static bool has_distance(const struct scene *s, int body)
 {
     const struct region *shape = &s->body[body].shape;
@@ -194,9 +195,9 @@ static void say_pressed(const struct run *e, int which)
                off < 0 ? "below" : "above");
 }
 
-/* Computes *area, the exact area of a face of a body of scene s within the region of boundary b [m^2]: the face normal
- * to axis b->face of a body that is a box along the axes. Returns false if the body is no such box, or if no part of
- * the face is in the region. */
+/* Computes *area, the exact area of a face of a body of scene s (the input file) within the region of boundary b [m^2]:
+ * the face normal to axis b->face of a body that is a box along the axes. Returns false if the body is no such box, or
+ * if no part of the face is in the region. */
 static bool face_exact(const struct scene *s, const struct boundary *b, real *area)
 {
     const int body = b->body >= 0 ? b->body : 0;
@@ -329,7 +330,8 @@ static void say_load(const struct run *e, int which)
 #define CROSSED 2.0     /* passages of waves through the body after which it is faster than the waves in it [1] */
 enum { INSTANTS = 64 }; /* times at which the net force is evaluated */
 
-/* Largest net force of the loads on a body that nothing holds along it, and the motion of the body by the net force. */
+/* Largest net force of the loads on a body along the axes along which no support holds it, and the motion of the body
+ * by this force during the run. */
 struct drift {
     real force[DIM_MAX], net;               /* largest net force and its magnitude [N] */
     real acceleration, speed, displacement; /* by this force [m/s^2]; at the end of the run [m/s], [m] */
@@ -337,8 +339,8 @@ struct drift {
     bool lasts;                             /* the net force acts at the end as well, and waves have crossed the body */
 };
 
-/* Returns true if scene s has a single body that moves in time and can touch no other body. Returns false if some
- * particles of the body are not created (in coarse cells). p: particles. */
+/* Returns true if scene s (the input file) has a single body that moves in time and can touch no other body. Returns
+ * false if some particles of the body are not created (in coarse cells). p: particles. */
 static bool is_single_body(const struct scene *s, const struct particles *p)
 {
     bool is_single = scene_is_dynamic(s) && s->rigids == 0 && p->n > 0 && p->n == p->n_body;
@@ -377,8 +379,8 @@ static real net_force(const struct loads *loads, const struct particles *p, cons
 }
 
 /* Computes in *a the motion of the body of run e by the net force of its loads, along the axes along which no support
- * holds it, by integration with the midpoint rule. Returns false if the loads balance along these axes, or if the scene
- * is static or has several bodies (is_single_body). */
+ * holds it, by integration with the midpoint rule. Returns false if the loads balance along these axes, or if the input
+ * file is static or has several bodies (is_single_body). */
 static bool drift_by_loads(const struct run *e, struct drift *a)
 {
     real force[DIM_MAX], v[DIM_MAX] = {0}, u[DIM_MAX] = {0}, mass = 0, all = 0, low, high;

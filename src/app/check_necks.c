@@ -1,8 +1,8 @@
-/* Finds necks of bodies, ligaments between a hole, a notch or a slot and an edge, that have too many or too few rows
- * of particles for their width. Runs of particles along one axis are compared along another one: a neck is a run
- * that is shorter than the runs on both sides of it. The width along the axis is measured there and compared with
- * the rows. Both are averaged by the compliance of the neck, as the mean of their inverses over a length equal to
- * the width. */
+/* Finds necks (ligaments between a hole, a notch or a slot and an edge) whose number of particle rows does not fit
+ * their width. A run is a line of consecutive cells with particles along one axis. Runs that follow each other along
+ * another axis are compared: a neck is a run that is shorter than the runs on both sides of it. The width of the shape
+ * is measured there and compared with the number of particle rows. Both are averaged over a length equal to the width,
+ * as the mean of their inverses, on which the compliance of the neck depends. */
 #include <math.h>
 
 #include "base/arrays.h"
@@ -24,7 +24,8 @@ enum {
     NECKS_MOST = 64 /* largest number of necks that are measured in a piece */
 };
 
-/* Search for necks (narrow parts) of one piece: a body, or its part of one material. */
+/* State of the search for necks (narrow parts) in one piece, which is a body or all its parts of one material, with the
+ * width along one axis. */
 struct necks {
     const struct cover *cover; /* share of each cell that the shape covers; its cells index the arrays below */
     const struct run *engine;
@@ -57,8 +58,8 @@ static bool run_goes_on(const struct necks *k, int64_t cell, int way)
     return c->filled[next] == c->filled[cell] && (c->filled[next] || c->share[next] > COVERED);
 }
 
-/* Returns the number of cells of the run whose first cell is `from`. A run is a line of consecutive lattice cells of k
- * along k->axis that either all contain particles, or contain none although the body partly covers each of them. */
+/* Returns the number of cells in the run whose first cell is `from`. A run is a line of consecutive lattice cells along
+ * k->axis. Either all of its cells contain particles, or none does although the body partly covers each of them. */
 static int64_t run_span(const struct necks *k, int64_t from)
 {
     int64_t n = 1;
@@ -96,7 +97,7 @@ static void rows_count(struct necks *k)
 
 /* Returns the cell with the largest k->rows (1 + number of particle rows) among the cells next to a run, or -1 if
  * k->rows is 0 in all of them. The run is the line of consecutive cells along k->axis that contains `cell`. The cells
- * next to it are shifted by one in the direction `way` (-1 or 1) along the axis `across`. */
+ * next to the run are offset by one cell in the direction `way` (-1 or 1) along the axis `across`. */
 static int64_t run_beside(const struct necks *k, int64_t cell, int across, int way)
 {
     const struct cover *c = k->cover;

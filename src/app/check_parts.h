@@ -1,5 +1,6 @@
 /* Declares the parts of `cleave check`: the measured cost of a run, descriptions and advice. Functions print_* print to
- * standard output, functions advise_* write lines with remarks to a file. */
+ * standard output or to a file `out`; functions print_advice_* write lines with remarks to `out`; functions hint_* add
+ * lines to a list of warnings. */
 #ifndef CLEAVE_CHECK_PARTS
 #define CLEAVE_CHECK_PARTS
 
@@ -8,9 +9,9 @@
 #include "arguments.h"
 #include "engine/engine.h"
 
-/* Least relative error of a length, an area or a volume of the particles that is reported [1]. Loads, stiffnesses and
- * masses have the same error; below 2 % it is less than what the usual resolution leaves of stress-intensity factors,
- * so that nobody would change the spacing for it. */
+/* Least relative error [1] of a length, area or volume, as the particles fill it, that is reported. Loads, stiffnesses
+ * and masses have an equal error. Errors below 2 % are smaller than the errors of stress-intensity factors at usual
+ * resolution, so that changing the spacing for them has no use. */
 #define OFF_LEAST 0.02
 
 /* ---- check_cost.c ------------------------------------------------------------------------------------------------ */
@@ -58,13 +59,13 @@ status run_cost_measure_by_trial_steps(struct cost *c, struct run *run, const st
  * largest or smallest horizon that these allow. Prints nothing for other materials. */
 void print_softening_and_horizon_limits(const struct scene *s, const struct material *m);
 
-/* Prints, as a part of a sentence, the tensile strength that follows from the critical stretch of brittle bonds of
- * material m at the horizon of scene s (the input file), Young's modulus times critical stretch. Prints nothing for
- * other models than the bond-based one, and for materials that yield. */
+/* Prints the tensile strength that follows from the critical stretch of brittle bonds of material m at the horizon of
+ * scene s (the input file), Young's modulus times critical stretch, as a part of a sentence. Prints nothing for other
+ * models than the bond-based one, and for materials that yield. */
 void print_tensile_strength_of_brittle_bonds(const struct scene *s, const struct material *m);
 
-/* Size of a part or length of a crack [horizons] below which the two faces of the part, or the two tips of the crack,
- * affect each other. */
+/* Size of a part of a body, or length of a crack [horizons], below which the two faces of the part, or the two tips of
+ * the crack, affect each other. */
 #define FEATURE 4
 
 /* ---- check_precracks.c ------------------------------------------------------------------------------------------- */
@@ -169,12 +170,12 @@ void print_loads_and_supports(const struct run *e);
  * them, and a remedy. */
 void print_advice_on_unbalanced_loads(const struct run *e, FILE *out);
 
-/* Prints which share of the loaded or supported face of boundary b of run e is not perpendicular to the axis of the
- * boundary, the mean angle between normal and axis there, and a region that would exclude this part of the face. Prints
- * instead where the face lies if it is in several planes and the boundary has no region. */
+/* Prints for the loaded or supported face of boundary b of run e: the fraction of its area that is not perpendicular to
+ * the axis of the boundary, the mean angle between normal and axis there, and a region that excludes this part of the
+ * face. If the face lies in several planes and the boundary has no region, prints instead where it lies. */
 void print_oblique_fraction_of_loaded_face(const struct run *e, const struct boundary *b);
 
-/* Prints, for the bodies of run e that are not boxes, the volume of the particles compared with the volume of the shape
+/* Prints the volume of the particles and the volume of the shape for those bodies of run e that are not boxes
  * (check_filled.c). */
 void print_volume_filled_by_particles(const struct run *e);
 
@@ -201,9 +202,9 @@ void print_accuracy_advice(const struct run *e, FILE *out);
  * effect, and for each end of a crack that is exactly on bonds. The run must not have taken a step. */
 void hint_needless_cost_and_unused_settings(const struct run *e, struct warnings *warning_list);
 
-/* Writes to `out` by how much the stiffness of a part of scene s (the input file) that is `layer_count` particle layers
- * thick differs at most from that of the material, for example "about 2 % in bending and tension". In 3D, torsion is
- * included. The values are from a table. surface: correction of bonds near faces. */
+/* Writes to `out` by how much the stiffness of a part of scene s (the input file) with a thickness of `layer_count`
+ * particle layers differs at most from that of the material, for example "about 2 % in bending and tension"; in 3D also
+ * in torsion. The values are from a table. surface: correction of bonds near faces. */
 void print_stiffness_error_of_thin_part(const struct scene *s, enum surface_rule surface, double layer_count,
                                         FILE *out);
 

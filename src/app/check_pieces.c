@@ -1,5 +1,5 @@
-/* Lines of `cleave check` about bodies in several pieces: islands of lists and images, parts that pre-cracks cut off.
- */
+/* Prints the lines of `cleave check` about bodies in several pieces: separate parts in particle lists and images, and
+ * parts that pre-cracks cut off. */
 #include <stdio.h>
 
 #include "base/memory.h"
@@ -18,9 +18,9 @@ static void mark_driven(const struct bond_source *source, const struct particles
 }
 
 /* Prints about the fragments f of body number `body`: their number, the position of the second heaviest one, whether a
- * fragment lacks a support if scene s is static, and whether fragments that touch pass through each other because
- * contact within a body is off. Prints nothing for a body in one piece. driven[f->n]: true for fragments with a
- * support. Particles without any bond are not fragments; a warning reports them. */
+ * fragment lacks a support if scene s (the input file) is static, and whether fragments that touch pass through each
+ * other because contact within a body is off. Prints nothing for a body in one piece. driven[f->n]: true for fragments
+ * with a support. Particles without any bond are not fragments; a warning reports them. */
 static void say_body(const struct scene *s, const struct fragments *f, const bool *driven, int body)
 {
     int64_t pieces = 0, particles = 0, free_ones = 0, first = -1;

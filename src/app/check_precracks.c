@@ -1,5 +1,5 @@
-/* Remarks of `cleave check` on pre-cracks: on short ones, on ends that lie exactly on bonds, and on the length of the
- * shortest pre-crack divided by the horizon if bonds soften. */
+/* Writes remarks of `cleave check` on pre-cracks: on short ones, on ends that lie exactly on bonds, and, if bonds
+ * soften, on the length of the shortest pre-crack divided by the horizon. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -12,7 +12,7 @@
 #define HORIZONS_LEAST 3
 
 /* Returns the share of the straight crack between the points from[dim] and to[dim] [m] that is inside bodies of scene s
- * [1], estimated from 1000 points of the crack. */
+ * (the input file) [1], estimated from 1000 points of the crack. */
 static real crack_share_within(const struct scene *s, const real *from, const real *to)
 {
     enum { PLACES = 1000 };

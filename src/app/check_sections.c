@@ -1,6 +1,7 @@
-/* Finds narrow parts with a particle row too many or too few because their width is no multiple of the spacing, also
- * if the volume of the whole body is right. The area of each section of the shape across an axis is compared with
- * the particles in it; along a part, errors from steps of slanting and curved faces average out. */
+/* Finds narrow parts that have one particle row too many or too few because their width is no multiple of the spacing,
+ * even if the volume of the whole body is right. The area of each section of the shape is compared with that of the
+ * particles in it. A section is a connected set of cells in a slice normal to an axis. Along a part, errors from the
+ * steps of slanting and curved faces average out. */
 #include <math.h>
 #include <stdio.h>
 
@@ -14,14 +15,14 @@
 #define COVERED 0.02      /* least share of a covered cell */
 enum { SLICES = 8, SLICES_LEAST = 3, SLICES_SLANTING = 32 }; /* numbers of sections of a part that are summed */
 
-/* A connected set of cells in a slice across an axis. */
+/* One section of a body: a connected set of covered cells in one slice, which is a layer of cells normal to an axis. */
 struct section {
     int64_t slice, cell, n; /* index of the slice, of one of its cells; number of cells */
     real area, filled;      /* area of the shape, of the particles [cells] */
     int32_t before, after;  /* largest section that it touches in the previous and in the next slice; -1: none */
 };
 
-/* All sections of a body across one axis. */
+/* All sections of one piece of a body (connected sets of covered cells) in slices normal to one axis. */
 struct sections {
     const struct cover *cover; /* share of each cell that the shape covers */
     int axis, across[2];       /* axis of the slices; the other axes */
@@ -41,10 +42,10 @@ static int32_t section_new(struct sections *s, int64_t slice, int64_t cell)
     return s->n++;
 }
 
-/* Creates a section in s, which is a connected set of covered lattice cells within one slice, normal to the axis of the
- * slices. It consists of the cells of slice number `slice` that are connected to the cell `first`. A cell is covered if
- * it contains a particle or is mostly inside the shape. Adds up the area of the shape and that of the particles in the
- * section. stack: work array with an element for each cell of a slice. */
+/* Creates a section in s: the set of covered cells in slice number `slice` that are connected to the cell `first`.
+ * Slices are layers of cells normal to one axis. A cell is covered if it contains a particle or at least a small part
+ * of the shape (COVERED). Sums the area of the shape and that of the particles in the section. stack: work array with
+ * an element for each cell of a slice. */
 static void section_flood(struct sections *s, int64_t slice, int64_t first, int64_t *stack)
 {
     const struct cover *c = s->cover;
@@ -140,9 +141,9 @@ static real width_along(const struct sections *s, int32_t number, int k, bool fi
     return sum > 0 ? (filled ? section->filled : section->area) / sum : 0;
 }
 
-/* Returns the description of section number `number` of s (connected cells in a slice), whose number of particle rows
- * is wrong: its centre, and the widths of shape and particles along the axis on which they differ most. off: relative
- * error of its area [1]. */
+/* Returns the description of section number `number` of s (connected cells in a slice), which has a wrong number of
+ * particle rows: its centre, and the widths of shape and particles along the axis along which they differ most. off:
+ * relative error of its area [1]. */
 static struct narrow_part uneven_of(const struct sections *s, int32_t number, real off)
 {
     const struct cover *c = s->cover;
@@ -169,8 +170,8 @@ static struct narrow_part uneven_of(const struct sections *s, int32_t number, re
     return u;
 }
 
-/* Sums over consecutive sections of nearly equal area. slices: their number; middle: the section halfway; area, filled:
- * areas of the shape and of the particles [cells]. */
+/* Sums over consecutive sections (connected sets of cells in slices) of nearly equal area. slices: number of sections;
+ * middle: index of the section in the middle; area, filled: summed areas of the shape and of the particles [cells]. */
 struct stretch {
     int slices;
     int32_t middle;
@@ -213,11 +214,11 @@ static void part_mark(const struct sections *s, int32_t from, int axis)
     }
 }
 
-/* Compares the area of the shape with the area of the particles, in the narrow part that begins with section `first` of
- * s (connected cells in a slice), and adds the part to the list if they differ by more than a relative tolerance, which
- * is larger for slanting faces. Both areas are summed over SLICES consecutive sections. If the areas of these sections
- * are not equal, as in parts with slanting faces, they are summed over SLICES_SLANTING sections, because errors by
- * steps of such faces average out. */
+/* Compares the area of the shape with the area of the particles in the narrow part that begins with section `first` of
+ * s (connected cells in a slice). Adds the part to `list` if they differ by more than a relative tolerance, which is
+ * larger for slanting faces. Both areas are summed over SLICES consecutive sections. If the areas of these sections are
+ * unequal, as between slanting faces, they are summed over SLICES_SLANTING sections, so that errors from the steps of
+ * such faces average out. */
 static void part_judge(const struct sections *s, int32_t first, struct width_misfit_list *list)
 {
     const struct section *begin = &s->section[first];

@@ -1,4 +1,4 @@
-/* Lines of `cleave check` about bodies from files: whether a surface is closed, and the volume that it encloses. */
+/* Prints the lines of `cleave check` about bodies from files: whether their surface is closed, and its volume. */
 #include <math.h>
 
 #include "base/memory.h"

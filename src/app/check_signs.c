@@ -1,4 +1,4 @@
-/* Hints at loads whose sign, and at settings whose size, is probably not intended. */
+/* Adds hints at loads whose sign, and at settings whose size, is probably not intended. */
 #include <math.h>
 
 #include "check_parts.h"
@@ -15,8 +15,8 @@
 /* Returns true if the components of boundary b are given as numbers, none of them as a formula. */
 static bool is_number(const struct boundary *b) { return b->formula[0].n + b->formula[1].n + b->formula[2].n == 0; }
 
-/* Adds a hint to *to for each negative pressure of scene s, and for each pair of tractions on opposite faces that push
- * the body in one direction along the axis of the faces. Values given as formulas are skipped. */
+/* Adds a hint to *to for each negative pressure of scene s (the input file), and for each pair of tractions on opposite
+ * faces that push the body in one direction along the axis of the faces. Values given as formulas are skipped. */
 static void hint_pushed(const struct scene *s, struct warnings *to)
 {
     for (int k = 0; k < s->boundaries; k++) {
@@ -38,8 +38,8 @@ static void hint_pushed(const struct scene *s, struct warnings *to)
     }
 }
 
-/* Adds a hint to *to for each value of friction, gravity, damping (in dynamic scenes) and widths of cracks in the scene
- * of run e that exceeds a limit such as FRICTION_MOST, above which no real solid is known. */
+/* Adds a hint to *to for each value of friction, gravity, damping (in dynamic problems) and width of a crack in the
+ * input file of run e that exceeds a limit such as FRICTION_MOST, above which no real solid is known. */
 static void hint_sizes(const struct run *e, struct warnings *to)
 {
     const struct scene *s = e->scene;

@@ -1,4 +1,5 @@
-/* Lines of `cleave check` about load steps: how cracks grow, how well they are resolved, and the run time. */
+/* Prints the lines of `cleave check` about load steps: how cracks grow, how well they are resolved, and the run
+ * time. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -19,7 +20,7 @@
 #define LEAST_SHARE 0.03   /* least run time divided by the largest: early separation, fewer equilibria */
 #define SPACINGS 2.0       /* length of a crack increment [spacings] */
 /* LED_EQUILIBRIA: estimated number of equilibria for one crack increment whose direction follows from stress-intensity
- * factors. PAIRS_AT_ONCE: number of pairs of bonds that one equilibrium breaks in 2D. */
+ * factors. PAIRS_AT_ONCE: number of pairs of particles whose bonds break in one equilibrium in 2D. */
 enum { LED_EQUILIBRIA = 3, PAIRS_AT_ONCE = 2 };
 enum { PIN_MOST = 2, GRIP_LEAST = 12 }; /* widths of supports on which bodies rotate, and of grips [spacings] */
 
@@ -55,8 +56,8 @@ static real way_within(const struct scene *s, const struct particles *part, cons
     return way;
 }
 
-/* Returns the length of that part of the pre-crack behind a crack tip that is inside bodies of scene s [m]; INFINITY if
- * the pre-crack is bent, in 3D, or if none is found. */
+/* Returns the length of that part of the pre-crack behind a crack tip that is inside bodies of scene s (the input file)
+ * [m]; INFINITY if the pre-crack is bent, in 3D, or if none is found. */
 static real crack_behind(const struct scene *s, const struct particles *part, const struct crack_tip *tip)
 {
     for (int k = 0; k < s->cracks && s->dim == 2; k++)

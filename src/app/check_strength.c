@@ -1,5 +1,5 @@
-/* Prints the strength of a material for `cleave check`: that at which bonds soften or, if they are brittle, that which
- * follows from their critical stretch. */
+/* Prints the strength of a material for `cleave check`: the stress at which its bonds begin to soften or, for brittle
+ * bonds, the stress that follows from their critical stretch. */
 #include <math.h>
 #include <stdio.h>
 
@@ -18,8 +18,8 @@ static const struct {
     real kappa[EXCESSES], excess[EXCESSES];
 } measured[2] = {{5, {2.1, 4.2, 8.3, 17, 33}, {2, 3, 5, 4, 7}}, {4, {1.2, 2.4, 4.7, 9.7}, {2, 4, 5.5, 12}}};
 
-/* Prints the horizon of scene s [m] and, if the fracture energy G_c of material m is given, the ratio of the horizon to
- * the length E G_c/strength^2, with Young's modulus E and the tensile strength. */
+/* Prints the horizon of scene s (the input file) [m] and, if the fracture energy G_c of material m is given, the ratio
+ * of the horizon to the length E G_c/strength^2, with Young's modulus E and the tensile strength. */
 static void say_horizon(const struct scene *s, const struct material *m)
 {
     printf("               horizon %.4g m", s->horizon * s->spacing);
@@ -28,8 +28,8 @@ static void say_horizon(const struct scene *s, const struct material *m)
                s->horizon * s->spacing * square(m->tensile_strength) / (m->young * m->energy_release_rate));
 }
 
-/* Prints by how many per cent the energy that a crack dissipates exceeds the fracture energy G_c in the dimension of
- * scene s (plane or 3D). kappa: (critical stretch/onset stretch of softening)^2. Between measured values of kappa the
+/* Prints by how many per cent the energy that a crack dissipates exceeds the fracture energy G_c, in 2D or 3D as scene
+ * s (the input file). kappa: (critical stretch/onset stretch of softening)^2. Between measured values of kappa the
  * excess is interpolated linearly in log(kappa). Above the largest one it is printed as a lower bound. */
 static void say_excess(const struct scene *s, real kappa)
 {
@@ -46,9 +46,9 @@ static void say_excess(const struct scene *s, real kappa)
            excess[k] + share * (excess[k + 1] - excess[k]));
 }
 
-/* Prints that strength depends on the direction of the lattice if the horizon of scene s is below FEW spacings: bonds
- * then have few directions. Prints nothing in 1D. Measured: 43.9 MPa of 40 at 2 spacings in the strip of
- * inputs/strength_strip.yaml, 39.1 at 2.5, 38.5 at 3. */
+/* Prints that strength depends on the direction of the lattice if the horizon of scene s (the input file) is below FEW
+ * spacings: bonds then have few directions. Prints nothing in 1D. Measured: 43.9 MPa of 40 at 2 spacings in the strip
+ * of inputs/strength_strip.yaml, 39.1 at 2.5, 38.5 at 3. */
 static void say_few_directions(const struct scene *s)
 {
     if (s->dim > 1 && s->horizon < FEW)
@@ -57,9 +57,10 @@ static void say_few_directions(const struct scene *s)
                s->horizon);
 }
 
-/* Prints three lengths for material m in scene s: the horizon, the horizon below which the stress reaches the strength
- * of the softening law, and the horizon below which the lattice does not impede cracks. Except in 1D also prints the
- * energy that cracks dissipate beyond G_c. kappa: (critical stretch/onset stretch of softening)^2. */
+/* Prints three lengths for material m in scene s (the input file): the horizon, the horizon below which the stress
+ * reaches the strength of the softening law, and the horizon below which the lattice does not impede cracks. Except in
+ * 1D also prints the energy that cracks dissipate beyond G_c. kappa: (critical stretch/onset stretch of
+ * softening)^2. */
 static void say_horizons(const struct scene *s, const struct material *m, real kappa)
 {
     say_horizon(s, m);
@@ -73,9 +74,9 @@ static void say_horizons(const struct scene *s, const struct material *m, real k
 }
 
 /* Prints the strengths of material m according to its strength surface (failure criterion in stress), and the radius
- * over which strains are averaged to evaluate the surface. Also prints the horizon that the surface requires in scene
- * s: with a larger horizon, bonds begin to soften before the stress reaches the surface. Prints the stresses in
- * tension and shear for which this happens. */
+ * over which strains are averaged to evaluate the surface. Also prints the horizon that the surface requires in scene s
+ * (the input file): with a larger horizon, bonds begin to soften before the stress reaches the surface. Prints the
+ * stresses in tension and shear for which this happens. */
 static void print_surface(const struct scene *s, const struct material *m)
 {
     const struct softening_curve curve = softening_curve_of_law(m->softening);

@@ -1,7 +1,7 @@
-/* Tests whether a scene equals its mirror image, by its particles: matter, cracks, initial velocities and loads.
- * Also tests whether half of the scene can be run: rigid bodies and growing cracks must have mirror images, no rigid
- * body may be free, since mirrors do not act on it, no layer of particles may be in the plane, and no integration
- * domain of stress-intensity factors may cross it, since the body must contain these domains. */
+/* Tests whether an input file equals its mirror image, by its particles: matter, cracks, initial velocities and loads.
+ * Also tests whether one half of the body can be run alone. Rigid bodies and growing cracks must have mirror images,
+ * and no rigid body may be free, since planes of symmetry do not act on it. No layer of particles may be in the plane,
+ * and no integration domain of stress-intensity factors may cross it, since the body must contain these domains. */
 #include <math.h>
 #include <string.h>
 
@@ -51,7 +51,7 @@ static bool matter_agrees(const struct particles *p, const int32_t *twin)
 }
 
 /* Returns true if narrow voids, which separate particles without removing any, are symmetric: particle i is beside a
- * void if and only if its mirror image twin[i] is. Also returns true if v is NULL. v: voids of the scene, or NULL
+ * void if and only if its mirror image twin[i] is. Also returns true if v is NULL. v: voids of the input file, or NULL
  * without voids; n: number of particles. */
 static bool voids_agree(const struct voids *v, const int32_t *twin, int64_t n)
 {
@@ -60,7 +60,7 @@ static bool voids_agree(const struct voids *v, const int32_t *twin, int64_t n)
     return true;
 }
 
-/* Returns a number that identifies the boundary condition b. It is computed from kind and function of time. Different
+/* Returns a number that identifies the boundary condition b, computed from its kind and its function of time. Different
  * loads have different numbers, and sums of such numbers are rarely equal by chance. */
 static real load_mark(const struct boundary *b)
 {
@@ -72,11 +72,10 @@ static real load_mark(const struct boundary *b)
     return mark;
 }
 
-/* Computes two numbers for component d of the motion of each particle of part, so that loads of mirror images can be
- * compared. ask[n]: sum over the loads and prescribed velocities of the particle, each times load_mark(boundary), a
- * number that identifies the boundary. held[n]: sum of load_mark(boundary) over the prescribed velocities and absorbing
- * boundaries of the particle. In a symmetric scene, particles that are mirror images have equal numbers except for
- * signs. */
+/* Computes two numbers for component d of the motion of each particle of part, by which the loads of mirror images are
+ * compared. The number of a boundary is that of load_mark. ask[n]: sum of the loads and prescribed velocities of the
+ * particle, each times the number of its boundary. held[n]: sum of the numbers of its prescribed velocities and
+ * absorbing boundaries. In a symmetric input file the numbers of mirror images are equal except for signs. */
 static void loads_ask(const struct particles *part, const struct loads *loads, int d, real *ask, real *held)
 {
     array_fill_bytes(ask, 0, part->n, sizeof *ask);
@@ -120,8 +119,8 @@ static bool loads_agree(const struct particles *p, const struct loads *loads, in
 
 /* Finds the mirror image of each particle of run e in the plane normal to `axis` at the coordinate `at` [m].
  * twin[particles]: receives the index of the mirror image of each particle. Returns false if a particle has no image.
- * Also returns false if a particle is on the plane and thus its own image, because a scene of one half would have to
- * cut it. */
+ * Also returns false if a particle is on the plane and thus its own image, because an input file of one half would have
+ * to cut it. */
 static bool mirror_twins_find(const struct run *e, int axis, real at, int32_t *twin)
 {
     const struct particles *p = &e->part;
@@ -177,9 +176,9 @@ static bool rigid_bodies_agree(const struct scene *scene, const struct particles
 /* Returns true if the numbers a and b are equal or both are NAN, which denotes a number that is not given. */
 static bool same_number(real a, real b) { return a == b || (isnan(a) && isnan(b)); }
 
-/* Returns true if the settings for growing cracks in scene s, with the particles `part`, are symmetric about the plane
- * normal to `axis` at the coordinate `at` [m]: each crack has a mirror image with equal speed and toughness and
- * mirrored start. */
+/* Returns true if the settings for growing cracks in scene s (the input file), with the particles `part`, are symmetric
+ * about the plane normal to `axis` at the coordinate `at` [m]: each crack has a mirror image with equal speed and
+ * toughness and mirrored start. */
 static bool growths_agree(const struct scene *s, const struct particles *part, int axis, real at)
 {
     for (int k = 0; k < s->growths; k++) {

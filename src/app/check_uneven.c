@@ -1,4 +1,4 @@
-/* Keeps a list of the narrow parts with too many or too few particle rows, and prints it. */
+/* Manages the list of the narrow parts that have too many or too few particle rows, and prints it. */
 #include "check_uneven.h"
 
 #include <math.h>
@@ -27,8 +27,8 @@ static bool same_width(const struct narrow_part *a, const struct narrow_part *b)
 }
 
 /* Returns true if the narrow parts a and b have their widths along the same axis and positions within SAME_PLACE
- * spacings of scene s. They are then one part that was found twice: in the whole body, and in its piece of one
- * material. */
+ * spacings of scene s (the input file). They are then one part that was found twice: in the whole body, and in its
+ * piece of one material. */
 static bool same_place(const struct narrow_part *a, const struct narrow_part *b, const struct scene *s)
 {
     real r2 = 0;
@@ -94,9 +94,9 @@ static void width_ends(const struct piece *p, const struct narrow_part *u, real 
 }
 
 /* Measures the width of the narrow part u of piece p on the line along u->axis through the point u->at. u->width must
- * hold an estimate from areas. The measured width replaces it, and u->measured is set, if the two differ by less than
- * 10 % and if the measured width also differs from u->filled, the width of the rows of particles, by more than half the
- * estimated error. */
+ * contain an estimate from areas. The measured width replaces this estimate, and u->measured is set to true, if two
+ * conditions hold: the two widths differ by less than 10 %, and the measured width differs from u->filled, the width of
+ * the rows of particles, by more than half the estimated error. */
 static void width_measure(struct narrow_part *u, const struct piece *p)
 {
     real low, high;

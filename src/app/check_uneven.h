@@ -17,7 +17,8 @@ struct narrow_part {
     bool measured;           /* the width is measured through the point `at` */
 };
 
-/* Largest number of parts in a list of the parts with the largest errors. */
+/* List of the narrow parts of a piece (a body, or its part of one material) whose widths have the largest errors.
+ * UNEVEN_MOST: largest number of parts in the list. */
 enum { UNEVEN_MOST = 3 };
 struct width_misfit_list {
     struct piece piece; /* piece that is evaluated */

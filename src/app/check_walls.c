@@ -1,4 +1,4 @@
-/* Remarks on bodies of material points that meet a plane of symmetry after the start. */
+/* Writes remarks on bodies of material points that reach a plane of symmetry after the start of the run. */
 #include <math.h>
 
 #include "check_parts.h"
@@ -6,10 +6,10 @@
 
 #define TOUCHING 1e-3 /* largest gap between a body and a plane of symmetry that counts as contact [spacings] */
 
-/* Returns the distance between a plane of symmetry and the face of a body on the grid below which the plane stops the
- * body as if both touched [cells]. shape: shape function of the body. The values were measured with cells of two
- * spacings and a block of 40 layers that strikes the plane at a hundredth of the wave speed, by the time at which its
- * momentum changes its sign. They are the same at half the spacing. */
+/* Returns the distance between a plane of symmetry and the face of a body on the grid at which the plane begins to stop
+ * the body, although both do not touch yet [cells]. shape: shape function of the body. The values were measured with
+ * cells of two spacings and a block of 40 layers that strikes the plane at a hundredth of the wave speed, by the time
+ * at which its momentum changes its sign. They are the same at half the spacing. */
 static real stopping_distance(enum shape shape)
 {
     return shape == SHAPE_LINEAR ? 0.73 : shape == SHAPE_QUADRATIC ? 0.9 : shape == SHAPE_CUBIC ? 0.93 : 0.8;

@@ -58,8 +58,8 @@ status command_info_main(int argc, char **argv);
 status command_find_by_name(const char *name, const struct command **found);
 
 /* Installs handlers for SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1 and SIGUSR2, except those that the parent process
- * ignores. Returns a pointer to the flag that the handlers set to 1: the command is to end in order. A second signal
- * ends the program at once if it is one of the first three. */
+ * ignores. Returns a pointer to the flag that the handlers set to 1, which requests an orderly end of the command. A
+ * second signal ends the program at once if it is one of the first three. */
 const volatile sig_atomic_t *stop_signals_install_handlers(void);
 
 /* Prints one line with the version of the program and the commit of its source to `out`. */

@@ -23,7 +23,7 @@ enum { KEY_LENGTH = 64 };
  * because runs with different time steps have no frames at identical times. */
 static const double SAME_TIME = 0.05;
 
-/* Two runs that are compared: their folders. */
+/* The two runs that one call of `cleave compare` compares, with their folders. */
 struct pair {
     const char *folder[2];
     bool frames_differ; /* the frames have different particles, so that no fields were compared */
@@ -131,8 +131,8 @@ static struct difference field_difference(float *const *a, float *const *b, int 
 }
 
 /* Prints a row of the table of fields: label and unit, then from d the largest and the root-mean-square difference, the
- * largest value of the field, and the reference position of the particle with the largest difference. f: frame (output
- * at one time) of run A, with the reference positions. */
+ * largest value of the field, and the reference position of the particle with the largest difference. f: output frame
+ * (state at one time) of run A, from which this position is read. */
 static void print_field(const char *label, const char *unit, const struct output_frame *f, struct difference d)
 {
     char text[KEY_LENGTH];
@@ -176,9 +176,9 @@ static double frame_step_length(const struct output_frame *f)
     return f->step > 0 ? f->t / (double)f->step : INFINITY;
 }
 
-/* Prints the difference in time of the compared frames a and b (outputs at one time) of the runs p, unless it is below
- * half a step. If exactly one of the runs is of LAMMPS, also prints that the velocities of the other run are taken half
- * a step before those of LAMMPS, and its damage one step before. */
+/* Prints the difference in time between the compared output frames a and b (states at one time) of the two runs p,
+ * unless it is below half a time step. If exactly one of the runs is of LAMMPS, also prints that the velocities of the
+ * other run belong to a time half a step before those of LAMMPS, and its damage to one step before. */
 static void print_time_apart(const struct pair *p, const struct output_frame *a, const struct output_frame *b)
 {
     const double apart = fabs(b->t - a->t), step = fmin(frame_step_length(a), frame_step_length(b));

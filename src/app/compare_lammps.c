@@ -1,4 +1,5 @@
-/* Reads runs of LAMMPS as one more kind of run, and compares their first steps with those of Cleave at the export. */
+/* Reads the results of LAMMPS runs for `cleave compare`, and compares their first steps with the particle states that
+ * Cleave computed at the export (check.csv). */
 #include "compare_lammps.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* Prints `cleave help --completion SHELL`: a script that completes commands, options, scene files, and keys after
- * -s, from the tables of commands and of keys. */
+/* Prints `cleave help --completion SHELL`: a script that completes commands, options, input files, and keys after -s,
+ * from the tables of commands and of keys. */
 #include <stdio.h>
 #include <string.h>
 
@@ -37,7 +37,8 @@ static void names_print(FILE *out)
     for (int k = 0; k < commands_count; k++) fprintf(out, "%s%s", k ? " " : "", commands[k].name);
 }
 
-/* Texts of the scripts for both shells: head, beginning of the function, its rest after the lists of words. */
+/* Texts of the completion scripts: `head` for both shells, bash and zsh; for each shell the beginning of its function,
+ * and the rest of the function after the lists of words. */
 static const char head[] = "# Completion of cleave, for %s; made by `cleave help --completion %s`.\n"
                            "_cleave_keys='\n";
 

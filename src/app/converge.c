@@ -1,4 +1,4 @@
-/* Implements `cleave converge`: prints each value of a scene with its error bar. */
+/* Implements `cleave converge`: prints each result of an input file with its error bar. */
 #include <stdio.h>
 #include <string.h>
 
@@ -11,7 +11,7 @@
 
 static const char usage[] = "converge " CONVERGE_WORDS;
 
-/* Defaults of the number of runs at each spacing and of the number of spacings. */
+/* RUNS_USUAL: default of the number of runs at each spacing. LEVELS_USUAL: default of the number of spacings. */
 enum { RUNS_USUAL = 5, LEVELS_USUAL = 3 };
 #define BUDGET_USUAL 600.0 /* default of --budget [s] */
 

@@ -1,4 +1,4 @@
-/* Implements `cleave export`: scenes as input of LAMMPS, scenes and runs as Exodus II files. */
+/* Implements `cleave export`: writes an input file as input of LAMMPS, or an input file or run as Exodus II file. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,7 +12,7 @@
 
 static const char usage[] = "export " EXPORT_WORDS;
 
-/* Programs and formats to which scenes are exported. write: the function that writes the files. */
+/* Programs and formats to which input files are exported. write: the function that writes the files. */
 static const struct target {
     const char *name;
     status (*write)(const struct export_request *);
@@ -42,8 +42,8 @@ static status export_words(struct export_request *r, int *argc, char **argv)
     return OK;
 }
 
-/* Checks that `scene`, a file or folder, is not the folder of a study, which has a list of its runs in place of a
- * scene. Returns OK, or REFUSED with a message. */
+/* Checks that `scene`, a file or folder, is not the folder of a study, which has a list of its runs in place of an
+ * input file. Returns OK, or REFUSED with a message. */
 static status check_not_study(const char *scene)
 {
     const bool study = folder_contains_study_table(scene) || run_folder_has_file(scene, "study.yaml");

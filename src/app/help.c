@@ -9,8 +9,8 @@
 #include "scene/scene.h"
 #include "scene/words.h"
 
-/* Words that a user may ask about but that are neither keys nor values of keys, with the texts that name where the
- * manual or the program treats them. words: words with the same answer, separated by |. */
+/* Words that a user may ask about although they are neither keys nor values of keys, and the answer to each:
+ * where the manual or the program treats the word. words: words with one answer, separated by |. */
 static const struct {
     const char *words, *answer;
 } topics[] = {
@@ -74,8 +74,8 @@ static void print_answer(const char *word, const char *answer)
         printf("inputs/ is %s\n", folder);
 }
 
-/* Prints where the manual treats `word`, if it is in the table `topics`, and the description of the scene key of this
- * name, if any. Returns REFUSED if the word is neither a topic nor a key. */
+/* Prints where the manual treats `word`, if the table `topics` has the word, and the description of the key of input
+ * files with this name, if there is one. Returns REFUSED if the word is neither a topic nor a key. */
 static status help_topic(const char *word)
 {
     const char *answer = topic_answer(word);
@@ -84,8 +84,8 @@ static status help_topic(const char *word)
     return answer && !scene_help_can_explain_word(word) ? OK : scene_print_help_on_keys(stdout, word);
 }
 
-/* Prints the page of all scene keys, preceded by the line with which an editor finds the schema of scenes. Returns
- * OK. */
+/* Prints the page of all keys of input files, preceded by the line with which an editor finds the schema of input
+ * files. Returns OK. */
 static status help_scene(void)
 {
     char schema[4096];
@@ -96,9 +96,9 @@ static status help_scene(void)
     return scene_print_help_on_keys(stdout, NULL);
 }
 
-/* Returns REFUSED, with the most similar name in the message, if `word` is a misspelt name of a help page (argument of
- * `cleave help`) or command: similar to it by word_is_probable_misspelling_of. Returns OK otherwise, and for a word
- * that is a scene key or a topic of help. */
+/* Returns REFUSED, with the most similar name in the message, if `word` is probably a misspelling of a help page
+ * (argument of `cleave help`) or of a command (word_is_probable_misspelling_of). Returns OK otherwise, and for a word
+ * that is a key of input files or a topic of help. */
 static status help_misspelt(const char *word)
 {
     static const char *const pages[] = {"scene", "units", "expression", "run", "theory", "trust"};
@@ -125,8 +125,8 @@ static const char *help_word(int argc, char **argv, char *joined, size_t capacit
     return argc > 1 ? joined : NULL;
 }
 
-/* Converts `word` in place to small letters if only that form is a topic of help or a scene key, as Johnson_Cook to
- * johnson_cook. */
+/* Converts `word` in place to small letters if only that form is a topic of help or a key of input files, as
+ * Johnson_Cook to johnson_cook. */
 static void help_word_to_small_letters(char *word)
 {
     char small[256];

@@ -14,7 +14,8 @@
 #include "output/output.h"
 #include "simd/simd.h"
 
-/* Exits without handlers; builds that report at exit (leaks, coverage) define LEAVE as exit. */
+/* Defines LEAVE, the function that ends the process: _exit, which calls no exit handlers. Builds that report at exit
+ * (leaks, coverage) define LEAVE as exit. */
 #ifndef LEAVE
 #define LEAVE _exit
 #endif

@@ -7,7 +7,7 @@
 #include "base/edit_distance.h"
 #include "commands.h"
 
-/* Kinds of scenes: name, description, and text of the scene. */
+/* Templates of input files by kind: name and description of the kind, and text of the template. */
 static const struct kind {
     const char *name, *meaning, *text;
 } kinds[] = {
@@ -20,7 +20,7 @@ static const char part[] =
     ;
 static const char part_file[] = "stl.stl";
 
-/* Longest path of a new scene file, without its ending [byte]. */
+/* Longest path of a new input file, without its ending [byte]. */
 enum { PATH_LONGEST = 1000 };
 
 static status kinds_print(void)
@@ -99,7 +99,7 @@ static status file_close(FILE *out, const char *path)
     return status_set(FAILED, "%s: cannot be written", path);
 }
 
-/* File name of the surface that belongs to a scene: NAME.stl for NAME.yaml, returned by value. */
+/* File name of the surface that belongs to an input file: NAME.stl for NAME.yaml, returned by value. */
 struct part_name {
     char text[PATH_LONGEST + 8];
 };
@@ -110,8 +110,8 @@ static struct part_name part_path(const char *path)
     return file;
 }
 
-/* Writes the surface NAME.stl that belongs to the scene at `path`. Does nothing and returns OK if scenes of the kind k
- * read no surface. Returns REFUSED if the file exists, FAILED if it cannot be written, with a message. */
+/* Writes the surface NAME.stl that belongs to the input file at `path`. Does nothing and returns OK if input files of
+ * the kind k read no surface. Returns REFUSED if the file exists, FAILED if it cannot be written, with a message. */
 static status part_write(const struct kind *k, const char *path)
 {
     FILE *out;

@@ -1,4 +1,4 @@
-/* Implements `cleave plot`: reads the words of the command; the room `plot` draws. */
+/* Implements `cleave plot`: reads the arguments of the command. The functions in src/plot draw the pictures. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-/* Implements `cleave report`: reads the arguments of the command; the room `report` writes the page. */
+/* Implements `cleave report`: reads the arguments of the command. The functions in src/report write the report. */
 #include "report/report.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* Implements `cleave run`: reads a scene file, runs it and writes the results. */
+/* Implements `cleave run`: reads an input file, runs it and writes the results. */
 #include <math.h>
 #include <omp.h>
 #include <stdio.h>
@@ -114,10 +114,10 @@ static status open_folder(struct output *out, const struct scene *s, const struc
     return OK;
 }
 
-/* Creates run e of scene s, opens its folder as `out`, resumes from a checkpoint if the arguments a request it, runs to
- * the end and writes the summary. The folder is opened after the run is created, so that a refused scene leaves no
- * folder. threads: number of threads, for messages and the summary. Returns OK, REFUSED, FAILED, or INTERRUPTED if a
- * signal ended the run early. */
+/* Creates run e of scene s (the input file), opens its folder as `out`, resumes from a checkpoint if the arguments a
+ * request it, runs to the end and writes the summary. The folder is opened after the run is created, so that a refused
+ * input file leaves no folder. threads: number of threads, for messages and the summary. Returns OK, REFUSED, FAILED,
+ * or INTERRUPTED if a signal ended the run early. */
 static status run_engine(struct run *e, const struct scene *s, struct output *out, const struct run_arguments *a,
                          int threads)
 {

@@ -4,7 +4,7 @@
 
 #include "commands.h"
 
-/* Set by signal handlers: a checkpoint and the end of the run, or of a study, are requested. */
+/* True once a signal has requested a checkpoint and the end of the run or study. Set by signal handlers. */
 static volatile sig_atomic_t stop_asked;
 
 static void on_signal(int number)

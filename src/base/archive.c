@@ -1,4 +1,4 @@
-/* Archives arrays that have one element per particle. */
+/* Saves and restores arrays that have one element per particle, by an archive (base/archive.h). */
 #include "base/archive.h"
 
 #include "base/arrays.h"

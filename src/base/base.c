@@ -1,4 +1,4 @@
-/* Status messages, harmless texts, median. */
+/* Implements status messages, the removal of control characters from texts, and the median (base/base.h). */
 #include "base/base.h"
 
 #include <stdarg.h>

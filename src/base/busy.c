@@ -4,7 +4,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Number of processes beyond the processors up to which nothing is reported: some of them may have ended. */
+/* Largest number of running processes, beyond the number of processors, for which nothing is reported: some of them may
+ * have ended. */
 #define UNNOTICED 0.5
 
 double machine_load_average(void)

@@ -1,5 +1,5 @@
-/* Messages for crashes inside libraries. HDF5 without memory calls exit(-1) or reads through a NULL pointer, as with
- * some damaged files; it prints nothing. */
+/* Prints a message if the process ends inside a library. If memory is exhausted, or with some damaged files, HDF5 calls
+ * exit(-1) or reads through a NULL pointer, without a message. */
 #include "base/crash_message.h"
 
 #include "base/base.h"

@@ -1,4 +1,4 @@
-/* Edit distance of two words. */
+/* Computes the edit distance of two words. */
 #include "base/edit_distance.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* Lanczos' iteration for the largest eigenvalue. */
+/* Computes the largest eigenvalue of a matrix by Lanczos iterations. */
 #include "base/eigenvalue.h"
 
 #include <math.h>
@@ -10,7 +10,8 @@
 #define STATIONARY 1e-4 /* relative increase in the last ITERATIONS_SEEN iterations at which the iteration stops */
 #define EXHAUSTED 1e-12 /* residual divided by eigenvalue below which the vectors found span an invariant space */
 
-/* Least and largest number of iterations; number of iterations over which the increase is measured. */
+/* ITERATIONS_LEAST, ITERATIONS_MOST: least and largest number of iterations. ITERATIONS_SEEN: number of last iterations
+ * over which the increase of the eigenvalue is measured. */
 enum { ITERATIONS_LEAST = 16, ITERATIONS_MOST = 200, ITERATIONS_SEEN = 8 };
 
 /* Three consecutive Lanczos vectors, each [n]: the previous vector `before`, the present vector v, and the next vector

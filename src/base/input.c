@@ -37,8 +37,8 @@ static bool identity_is_known(const struct identity *one)
     return known;
 }
 
-/* Adds a file to the list of input files of this process, which must not be overwritten. Does nothing if the file is in
- * the list. s: status of the file from stat. If memory is exhausted, the file is not added; the next allocation
+/* Adds a file to the list of input files of this process, which must not be overwritten, unless the file is in the
+ * list. s: status of the file, from stat. If memory is exhausted, the file is not added, since the next allocation
  * elsewhere ends the program. */
 static void input_add(const struct stat *s)
 {

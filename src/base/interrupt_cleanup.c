@@ -1,4 +1,4 @@
-/* Removes temporary files and ends children when a signal ends the process. */
+/* Removes temporary files and ends child processes when a signal ends the process. */
 #include "base/interrupt_cleanup.h"
 
 #include <pthread.h>

@@ -1,4 +1,5 @@
-/* Aligned arrays, first written by the threads that use them; the end of the run when memory is exhausted. */
+/* Allocates aligned arrays, whose pages are first written by the threads that use them, and ends the program with a
+ * message when memory is exhausted. */
 #include "base/memory.h"
 
 #include <malloc.h>
@@ -85,8 +86,8 @@ static size_t offset(size_t length)
 }
 
 #ifdef MAP_ANONYMOUS
-/* The store of released blocks; index of the oldest block; size of their used pages [byte]; true: the store is in
- * use. */
+/* The store of released memory blocks. waiting: the blocks; waiting_longest: index of the oldest block; waiting_bytes:
+ * size of their used pages [byte]; reusing: true while the store is in use. */
 static struct block waiting[KEPT];
 static int waiting_longest;
 static size_t waiting_bytes;
@@ -177,8 +178,8 @@ static char *memory_block_make(struct block *block, size_t length, size_t alignm
     return block->whole;
 }
 
-/* Content of a new array: all zero; undefined and written soon; undefined and for the most part never written; zero and
- * for the most part never written. */
+/* Content of a new array. ZEROED: all zero; WRITTEN_SOON: undefined, to be written soon; MOSTLY_UNWRITTEN: undefined,
+ * for the most part never written; MOSTLY_ZERO: zero, for the most part never written. */
 enum content { ZEROED, WRITTEN_SOON, MOSTLY_UNWRITTEN, MOSTLY_ZERO };
 
 /* Allocates an array of `count` elements of `size` bytes, aligned to a cache line, with a header (struct block) before

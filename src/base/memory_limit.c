@@ -1,5 +1,5 @@
-/* The memory that this process may take: its own limits, and those of its control groups (containers, batch
- * systems). */
+/* Determines the memory that this process may use, from its own limits and those of its control groups (containers,
+ * batch systems). */
 #include "base/memory.h"
 
 #include <stdio.h>

@@ -1,5 +1,5 @@
-/* Standard output and error as streams of the C library with a writer that replaces control characters. Where the
- * library has no such streams (neither glibc nor BSD), only messages of status_set are protected. */
+/* Replaces control characters in standard output and error, by streams of the C library with a write function of their
+ * own. Where the library has no such streams (neither glibc nor BSD), only messages of status_set are protected. */
 #include "base/output_filter.h"
 
 #include <errno.h>

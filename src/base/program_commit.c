@@ -1,4 +1,4 @@
-/* The commit of the source tree. */
+/* Stores the commit of the source tree from which the program was built. */
 #include "base/program_commit.h"
 
 /* Commit of the source text from which the program was built; "": unknown. */

@@ -1,4 +1,4 @@
-/* Duration of the last tenfold increase of a quantity. */
+/* Measures the duration of the last tenfold increase of a quantity, and classifies its growth rate. */
 #include "base/rise.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
-/* The team of threads on the machine's cores, sums independent of its size, and clocks. */
+/* Implements the team of threads on the cores of the machine, sums that are independent of the number of threads, and
+ * clocks. */
 #include "base/team.h"
 
 #include <hwloc.h>
@@ -24,9 +25,9 @@ struct place {
     hwloc_bitmap_t mask; /* hardware threads the process may run on */
 };
 
-/* The memory of the machine, or the smallest limit below it. It is read only once because reading takes about 6 ms, as
- * long as a hundred steps of a small scene. hwloc may not report the memory in a container, and only its initial part
- * in a virtual machine; the result of the system is then used. */
+/* Memory of the machine, or the smallest limit of this process below it. It is read once, because reading takes about 6
+ * ms, as long as a hundred steps of a small input file. In a container hwloc may not report the memory, and in a
+ * virtual machine only its initial part; the value from the operating system is then used. */
 static struct memory_limit memory;
 
 /* The name of the processor, "" before the topology of the machine has been read. */
@@ -340,7 +341,7 @@ void reproducible_sums(int64_t term_count, int sum_count,
     if (part != few) memory_free(part);
 }
 
-/* A sum of n terms: term(context, i) returns term number i. */
+/* Terms of one sum: term(context, i) returns term number i. */
 struct single {
     real (*term)(const void *context, int64_t i);
     const void *context;

@@ -7,8 +7,10 @@
 #if defined __GNUC__ && !defined __clang__
 
 /* The function GOMP_parallel of libgomp, under the name that the linker's option --wrap gives it; NULL without this
- * option. */
+ * option. region: function to execute on each thread, with the argument `data`; threads: number of threads, 0 for the
+ * usual number; flags: of libgomp. */
 void __real_GOMP_parallel(void (*region)(void *), void *data, unsigned threads, unsigned flags) __attribute__((weak));
+
 void __wrap_GOMP_parallel(void (*region)(void *), void *data, unsigned threads, unsigned flags);
 
 /* Calls `region` with `data` on each thread of a new team, as libgomp does. threads: number of threads, 0 for the usual

@@ -1,4 +1,4 @@
-/* The list of warnings of a run. */
+/* Implements the list of warnings of a run. */
 #include "base/warnings.h"
 
 #include <stdarg.h>

@@ -1,5 +1,5 @@
-/* Makes bond rows: selects the particles that have rows, forms blocks of eight rows and fills their
- * columns. */
+/* Makes the rows of bonds (a row: all bonds of one particle): selects the particles that have rows, forms blocks of
+ * eight rows and fills their columns (column k: the k-th bonds of the eight rows). */
 #include "bonds_parts.h"
 
 #include <math.h>
@@ -149,8 +149,9 @@ static void rows_arrays(struct bonds *b)
     active_set_make_with_all_blocks_active(&b->active, b->row_blocks);
 }
 
-/* Inputs and results of the two passes over the blocks of eight rows: the first one counts their columns, the second
- * one fills these. */
+/* Inputs and results of the two passes over the blocks of eight rows (the bonds of eight particles) in one construction
+ * of bonds. The first pass counts the columns of each block (column k: the k-th bonds of the eight rows), the second
+ * fills them. */
 struct rows_pass {
     struct bonds *b;
     struct bond_row_inputs inputs;

@@ -1,4 +1,5 @@
-/* Saves and restores the state of bonds that rows made from the scene do not have. */
+/* Saves and restores the state of bonds that cannot be computed from the input file: weights, softening, plastic state,
+ * damage and energies. */
 #include <math.h>
 #include <string.h>
 

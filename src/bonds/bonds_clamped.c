@@ -1,4 +1,5 @@
-/* Lists the bonds to images in clamped planes, and the particles that receive their reactions. */
+/* Lists the bonds to mirror images across clamped planes (planes at which all motion is prevented), and the particles
+ * on which their reactions act. */
 #include "bonds_parts.h"
 
 #include <string.h>

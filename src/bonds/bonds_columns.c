@@ -1,6 +1,6 @@
-/* Storage of columns when rows are rebuilt: columns of unchanged blocks of eight rows stay in place; others are placed
- * in the holes of removed blocks, or behind all stored columns. Touched memory is reused, and columns are never
- * copied. */
+/* Stores the columns of rebuilt bonds (a column: the k-th bonds of eight rows; a row: all bonds of one particle).
+ * Columns of unchanged blocks of eight rows keep their position. Other columns are placed in the holes of removed
+ * blocks, or behind all stored columns. Memory that has been used is thus used again, and no column is copied. */
 #include "bonds_parts.h"
 #include "base/memory.h"
 
@@ -37,8 +37,9 @@ static struct holes_by_size holes_sort(struct bond_holes *all)
     return s;
 }
 
-/* Takes `columns` columns (each of eight bonds) from the smallest hole of s (range of unused columns) that has as many,
- * and returns the first of them; -1 if there is no such hole or `columns` is 0. The rest of the hole remains a hole. */
+/* Allocates `columns` columns (each of eight bonds) in the smallest hole of s (range of unused columns) that is large
+ * enough, and returns the index of the first one. Returns -1 if there is no such hole or `columns` is 0. The rest of
+ * the hole remains a hole. */
 static int64_t hole_take(struct holes_by_size *s, int32_t columns)
 {
     int32_t size = columns;
@@ -109,8 +110,8 @@ static void columns_arrays(struct bonds *b, const struct bond_source *s, bool sp
     b->pair = NEW("bonds.pair", b->room * LANES, int32_t);
 }
 
-/* Extends the bond arrays of b from b->room to `room` columns of eight bonds each, without initialising the new ones.
- * The arrays may move. */
+/* Extends the bond arrays of b, whose entries belong to columns of eight bonds, from b->room to `room` columns. The new
+ * entries are not initialised. The arrays may move to another address. */
 static void columns_extend(struct bonds *b, int64_t room)
 {
     const int64_t had = b->room, each = LANES;

@@ -1,4 +1,4 @@
-/* The invariants of stored bonds (bond_storage.h), checked one by one. */
+/* Checks the invariants of stored bonds (bond_storage.h) one by one. */
 #include <stdio.h>
 
 #include "bonds_parts.h"

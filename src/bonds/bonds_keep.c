@@ -1,4 +1,5 @@
-/* Takes over unchanged blocks of eight rows of the previous rows, and neighbours found while counting. */
+/* Copies unchanged blocks of eight rows (the bonds of eight particles) from the previous bonds, and neighbours that
+ * were found while columns were counted. */
 #include <string.h>
 
 #include "bonds_parts.h"
@@ -18,9 +19,9 @@ int64_t bond_row_block_find_equal_in_previous_bonds(const struct bonds *b, const
     return first / LANES;
 }
 
-/* Copies the entries of one array from block number `of` of the previous bonds `old` to block number g of b (blocks of
- * eight rows stored together; a column has the k-th bonds of the rows). to, from: the array in b and in `old`, with an
- * entry for each column; each: size of such an entry [byte]. */
+/* Copies the entries of one array from block number `of` of the previous bonds `old` to block number g of b. A block
+ * has eight rows (the bonds of eight particles); column k has the k-th bonds of the rows. to, from: the array in b and
+ * in `old`, with an entry for each column; each: size of an entry [byte]. */
 static void columns_copy(void *to, const void *from, size_t each, const struct bonds *b, const struct bonds *old,
                          int64_t g, int64_t of)
 {

@@ -66,8 +66,8 @@ void bonds_allocate_softening_state(struct bonds *b, const struct bonds *previou
  * be set. */
 void bond_row_set_softening_state(struct bond_row *row, const struct bond_row_inputs *inputs, int32_t particle);
 
-/* Share of the smallest stretch on a strength surface from which on a stretch counts as near the surface
- * (bonds_strength.c), dimensionless. */
+/* Fraction of the least strain on a strength surface [1] from which on the stretch of a bond counts as near the
+ * surface: its block of eight rows (bonds of eight particles) is then marked for an exact test (bonds_strength.c). */
 #define SURFACE_NEAR 0.8
 
 /* Copies the softening state of the bonds in row `previous_row` of `previous_bonds` to row `row` of b, the row of the

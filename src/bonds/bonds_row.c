@@ -1,4 +1,5 @@
-/* One row of bonds under construction: search, weights, and the state carried over from the previous row. */
+/* Makes one row of bonds (all bonds of one particle): search for neighbours, weights, and the state of its bonds from
+ * the previous row of the particle. */
 #include "bonds_parts.h"
 
 #include <math.h>

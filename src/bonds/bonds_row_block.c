@@ -1,4 +1,5 @@
-/* Combines eight rows to a block of eight rows: selects the bonds of each column, and stores columns or a stencil. */
+/* Combines eight rows (a row: all bonds of one particle) to a block: selects the bonds of each column (the k-th bonds
+ * of the rows), and stores the columns, or a stencil that many blocks share. */
 #include <string.h>
 
 #include "bonds_parts.h"
@@ -81,10 +82,10 @@ static void row_block_note(struct bonds *b, const struct bond_row_block_buffer *
     for (int l = rows; l < LANES; l++) b->trigger[g * LANES + l] = INFINITY;
 }
 
-/* Returns true if column k (the k-th bonds) of a block of eight rows (the bonds of eight particles) must contain the
- * next bond of row l (0 to 7): number `used` of the row, the first one that has no column yet. by_offset: true if all
- * bonds of column k have the index distance room->offset[k] (neighbour minus particle), false if a column takes any
- * bond. particle[8]: particles of the rows. */
+/* Returns true if column k of a block of eight rows (the k-th bonds of eight particles) must contain bond number `used`
+ * of row l (0 to 7), the first bond of this row that has no column yet. by_offset: true if all bonds of column k must
+ * have the index distance room->offset[k] (neighbour minus particle), false if a column accepts any bond. particle[8]:
+ * particles of the rows. */
 static bool row_has(const struct bond_row_block_buffer *room, const int32_t *particle, int l, int used, bool by_offset,
                     int k)
 {
@@ -212,7 +213,7 @@ int lattice_bonds_count_directed_bonds(const struct lattice_bonds *bonds)
 }
 
 /* Fills *column with the bonds from particle i + l to particle j + l, l = 0 .. 7: neighbours, inverse lengths and
- * weights. m: data from which rows are made; bonds: bit l is set if the bond of particle i + l exists; the others
+ * weights. inputs: data from which rows are made; bonds: bit l is set if the bond of particle i + l exists. Other bonds
  * become padding, with inverse length and weight 0. */
 static void fill_column(struct column_copy *column, const struct bond_row_inputs *inputs, int32_t i, int32_t j,
                         unsigned bonds)
@@ -255,7 +256,7 @@ static bool whole_families(const struct lattice_bonds *bonds)
 
 /* Fills block g of eight rows (the bonds of eight particles) of b from the bonds in buffer->regular, which follow from
  * the map of lattice sites. If the particles have bonds to all their neighbours, and a recent block had equal bonds,
- * copies the stencil of that block and the sums over its bonds. m: data from which rows are made. */
+ * copies the stencil of that block and the sums over its bonds. inputs: data from which rows are made. */
 void bond_row_block_fill_by_bonds_found_on_lattice(struct bonds *b, struct bond_row_block_buffer *buffer, int64_t g,
                                                    const struct bond_row_inputs *inputs)
 {

@@ -1,5 +1,5 @@
-/* Derives the common properties of the eight bonds of a column, so that the hot loops need not read them eight
- * times. */
+/* Derives the properties that the eight bonds of a column have in common, so that force loops read one value instead of
+ * eight. (A column contains the k-th bonds of the eight rows of a block, SELL-C layout.) */
 #include <math.h>
 #include <string.h>
 

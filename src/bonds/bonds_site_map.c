@@ -1,6 +1,6 @@
-/* Rows of bonds of particles on a lattice: a map of its sites gives the neighbours of eight consecutive particles
- * without a search, and their lengths and weights are computed side by side. Bits equal those of single rows; irregular
- * places (ends of lattice rows, cracks, mirror images) are left to the search. */
+/* Finds the bonds of particles on a lattice by a map from lattice sites to particles, for eight consecutive particles
+ * at a time and without a search. Lengths and weights are bitwise equal to those computed for one particle. Particles
+ * at ends of lattice rows, at cracks and beside mirror images are left to the neighbour search. */
 #include "bonds_parts.h"
 
 #include <math.h>
@@ -9,14 +9,14 @@
 #include "base/memory.h"
 #include "bonds/surface.h"
 
-/* Smallest difference between the cutoff and the distance of a lattice site [spacings]. Particles may be LATTICE_NEAR
- * from their sites, so that with this difference round-off decides nothing; horizons of whole spacings (tolerance 1e-7)
- * still pass. */
+/* Smallest allowed difference between the cutoff and the distance of a lattice site [spacings]; if a site is closer to
+ * the cutoff, no map is made. Particles may be LATTICE_NEAR off their sites, so round-off does not decide whether a
+ * site is within the cutoff. Horizons of whole spacings (tolerance 1e-7) are allowed. */
 #define BAND (4 * LATTICE_NEAR)
 enum { HALF_MOST = 16 }; /* largest reach of bonds for which blocks of eight rows are made from a map [spacings] */
 
-/* Largest number of lattice sites per particle for which a map is made. If few particles of a body exist, few memory
- * pages of the map are written. */
+/* Largest number of lattice sites per particle for which a map of the sites is made. Memory pages of the map without
+ * particles are not written, so that sparse bodies need little memory. */
 #define SPARSE_MOST 256.0
 
 /* ---- the map of sites -------------------------------------------------------------------------------------------- */
@@ -190,8 +190,8 @@ int lattice_site_map_list_neighbours_of_particle(const struct lattice_site_map *
 
 /* Appends to *to the bonds from particles i .. i + 7 of p to their neighbours on one line of the lattice parallel to x.
  * l: map from lattice sites to particles; site: index in the map of the site of particle i; row: the sites of the line
- * within the cutoff, relative to that site; number: number of neighbours in a full neighbourhood on all lines before
- * this one. Returns false if the particles on the line do not have consecutive indices. */
+ * within the cutoff, relative to that site; number: number of neighbours that a full neighbourhood has on all lines
+ * before this one. Returns false if the particles on the line do not have consecutive indices. */
 static bool row_bonds(const struct lattice_site_map *l, const struct particles *p, int64_t site,
                       const struct stencil_row *row, int64_t i, int number, struct lattice_bonds *to)
 {

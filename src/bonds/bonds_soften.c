@@ -1,5 +1,5 @@
-/* Storage of bonds that soften (struct softened of bond_storage.h): made with the rows, inherited by rebuilt ones,
- * saved and restored, and what it says about energy and damage. */
+/* Stores the state of bonds that soften (struct softened of bond_storage.h): allocates it with the bond rows, copies it
+ * to rebuilt rows, saves and restores it, and computes dissipated energy and damage from it. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -7,16 +7,18 @@
 #include "bonds/struts.h"
 #include "bonds_parts.h"
 
-/* Least shares of a neighbourhood that have parted, and that press, where bonds count as struts, and the least stretch
- * of those that press, divided by the onset of softening [1]: five times the tensile strength, a judgement. */
+/* Thresholds from which on the bonds of a particle count as struts across a crack (row_has_struts). STRUT_SHARE: least
+ * volume of the neighbours beyond open softened bonds, and least volume of those in compression, divided by the volume
+ * of the neighbourhood [1]. STRUT_STRETCH: least compressive stretch, divided by the stretch at which softening begins
+ * [1]: five times the tensile strength, chosen by judgement. */
 #define STRUT_SHARE 0.1
 #define STRUT_STRETCH 5
 
-/* Allocates b->soft.near if a material has a strength surface (failure criterion in stress): a mark for each block of
- * eight rows (the bonds of eight particles) in which a particle of p may be near its strength surface. Sets
- * b->soft.gate, the stretch of a bond beyond which its block is marked later [1]: SURFACE_NEAR times the least strain
- * on a surface, for the weakest particle. A new block is marked if one of its rows had no previous row, or one in a
- * marked block. previous: previous bonds or NULL; source: materials. */
+/* Allocates b->soft.near, a flag for each block of eight bond rows, if a material has a strength surface (failure
+ * criterion in stress). The flag is 1 if a particle of p in the block may be near its surface. Sets b->soft.gate, the
+ * stretch of a bond above which later force loops set the flag of its block [1]: SURFACE_NEAR times the least strain on
+ * a surface, for the weakest particle. source: materials. previous: bonds before a rebuild, or NULL; flags of blocks
+ * with a particle that had no row there, or a row in a flagged block, are set at once. */
 static void rows_watch(struct bonds *b, const struct bonds *previous, const struct bond_source *source,
                        const struct particles *p)
 {
@@ -34,8 +36,9 @@ static void rows_watch(struct bonds *b, const struct bonds *previous, const stru
     }
 }
 
-/* Allocates the strain rates of rows, b->soft.rate, if the strength of a material depends on the strain rate (limit).
- * Rows that are rebuilt from the previous bonds `previous` (or NULL) keep their rate. */
+/* Allocates the strain rates of bond rows, b->soft.rate and b->soft.beyond, if the strength of a material depends on
+ * the strain rate (limit). Copies them from the previous bonds, `previous`, for particles that had a row there; NULL:
+ * none had. */
 static void rates_make(struct bonds *b, const struct bonds *previous, const struct bond_limit *limit)
 {
     bool any = false;
@@ -218,9 +221,11 @@ real bonds_row_softening_damage(const struct bonds *b, const struct particles *p
     return sum / b->family_volume[row];
 }
 
-/* Returns true if bonds of row `row` of b (all bonds of one particle) act as struts
- * (bonds_any_softened_crack_carries_compression): the volumes of the neighbours to which bonds have ended and are
- * parted, and of those to which bonds press, are both at least STRUT_SHARE of the volume of all neighbours. */
+/* Returns true if bonds of row `row` of b (all bonds of one particle of p) carry compression across a softened crack
+ * (bonds_any_softened_crack_carries_compression). Both of these volumes must be at least STRUT_SHARE of the volume of
+ * all neighbours: of neighbours whose bonds have softened to zero and are still stretched beyond that point, and of
+ * neighbours whose intact bonds are compressed by more than STRUT_STRETCH onset stretches. limit: onset stretches by
+ * pair of materials. */
 static bool row_has_struts(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                            int64_t row)
 {

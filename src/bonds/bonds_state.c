@@ -1,4 +1,5 @@
-/* Arrays of state-based models that are made with the rows. */
+/* Allocates the arrays of state-based models in the bond storage (per bond row, particle and mirror image), and
+ * computes the weighted volumes of the neighbourhoods. */
 #include "bonds_parts.h"
 
 #include "base/memory.h"
@@ -13,10 +14,10 @@ real state_based_weighted_volume_of_intact_bonds(const struct bonds *b, int64_t 
 }
 
 /* Computes the weighted volume Q = sum w r^2 over the bonds of each row of block g of eight rows of b (the bonds of
- * eight particles of p) [m^2], in b->state.weighted. If b->state.local, and if all lattice sites within the horizon of
- * the particle are occupied, the sum is over the bonds that exist; bonds that soften, or that broke by softening, count
- * with the weight that they had before. Else Q is that of the undamaged family: of a full one on the lattice or, near
- * faces, of the particle's surface class (surface.h). */
+ * eight particles of p) [m^2], in b->state.weighted. With b->state.local the sum is over the bonds that exist, if all
+ * lattice sites within the horizon of the particle are occupied; bonds that soften, or that broke by softening, count
+ * with the weight before. Otherwise Q is that of an undamaged full neighbourhood on the lattice. For particles near
+ * faces it is that of their surface class (surface.h) in both cases. */
 static void row_block_weigh(struct bonds *b, const struct particles *p, const struct bond_source *s, int64_t g)
 {
     const struct family *f = &s->family;

@@ -1,5 +1,6 @@
-/* Cache of the last blocks of eight rows of a lattice. On a uniform lattice most blocks have the surroundings of a
- * recent one, and its stencil, weights and sums are equal to the last bit. */
+/* Caches the bonds of the last blocks of eight bond rows on a lattice. On a uniform lattice the neighbours of most
+ * blocks are arranged as those of a recent block, whose stencil, weights and sums are then equal to the last bit and
+ * need not be computed again. */
 #include <string.h>
 
 #include "bonds_parts.h"

@@ -1,13 +1,16 @@
-/* Stencils: lists of columns that blocks of eight rows with equal bonds share. */
+/* Stores stencils: lists of bond vectors and weights that blocks of eight bond rows with equal bonds share, instead of
+ * storing their bonds one by one. */
 #include <string.h>
 
 #include "bonds_parts.h"
 #include "base/memory.h"
 
-/* Largest number of stencils; number of lists by hash. */
+/* STENCILS_MOST: largest number of stencils (bonds that equal blocks share) in a table. HASHES: number of hash values,
+ * with one list of stencils each. */
 enum { STENCILS_MOST = 2048, HASHES = 4096 };
 
-/* All stencils (bonds that many blocks of eight rows have in common), with lists by hash to find equal ones. */
+/* Table of stencils (bonds that many blocks of eight rows have in common), with a list for each hash value to find
+ * equal ones. Several bond storages share one table; the last one to be freed frees it. */
 struct stencil_table {
     int n, users; /* number of stencils; number of bond storages that share them */
     struct stencil stencil[STENCILS_MOST];
@@ -97,8 +100,9 @@ static bool stencils_equal(const struct stencil *a, const struct stencil *b)
            arrays_equal(a->w, b->w, a->columns, sizeof *a->w);
 }
 
-/* Returns a hash of the stencil p (columns of bonds that many blocks of eight rows share), from 0 to HASHES - 1
- * (Fowler, Noll and Vo). It is computed from the index distance and the first weight of each column. */
+/* Returns a hash of the stencil p (bonds that many blocks of eight rows share), from 0 to HASHES - 1, by the method of
+ * Fowler, Noll and Vo. It depends on the index distance (neighbour minus particle) and the first weight of each column
+ * of p. */
 static int hash_of(const struct stencil *p)
 {
     const uint64_t prime = UINT64_C(0x100000001b3);
@@ -176,9 +180,9 @@ void bond_column_read_eight_bonds(struct column_copy *copy, const struct bonds *
 }
 
 /* Returns true if block number row_block of eight rows of b (the bonds of eight particles) may have bonds to mirror
- * images of p; false only if it has none. Images have indices behind those of all particles. The columns of a stencil
- * (each with one bond of each of the eight particles) ascend by their neighbours, up to the padding of less than eight
- * lanes. So no column leads to an image if the last one ends two blocks before the images. */
+ * images of p; false only if it has none. Images have indices above those of all particles. Blocks without a stencil
+ * are not examined (true). In a stencil, bonds are sorted by neighbour, up to padding of fewer than eight lanes; there
+ * is none to an image if the last one is far enough below the first image. */
 bool bond_row_block_may_have_bonds_to_mirror_images(const struct bonds *b, const struct particles *p, int64_t row_block)
 {
     const int64_t columns = bond_row_block_bond_slots_per_particle(b, row_block);

@@ -1,18 +1,21 @@
-/* Strength surfaces start the softening of bonds. Of each particle the strain is averaged over its neighbourhood, in n
- * means over intact bonds that reach R = delta sqrt(n + 0.3) far; where its stress is on the surface, all bonds of the
- * particle that have not begun to soften do so from their present stretch on. Forces and energy do not jump.
+/* Starts the softening of bonds where the stress of a particle reaches a strength surface (failure criterion
+ * in stress). All bonds of the particle that have not begun to soften then soften from their present stretch
+ * on, so that forces and energy do not jump. The stress follows from the strain of the particle, averaged n
+ * times over the intact bonds of its neighbourhood; the averages extend over a radius of about delta sqrt(n +
+ * 0.3), with the horizon delta.
  *
- * Strain of a particle, with the reference vectors xi and present vectors y of its bonds, their weight omega V, omega =
- * 1/r, and the share 1 - d of its stiffness that a bond keeps (0 once it is broken):
+ * Strain of a particle, with the reference vectors xi and present vectors y of its bonds, their weight omega
+ * V, omega = 1/r, and the share 1 - d of its stiffness that a bond keeps (0 once it is broken):
  *
  *     E = sym[(R^T sum omega V (1 - d) y xi - sum omega V (1 - d) xi xi) K^-1],   K = sum omega V xi xi
  *
- * K is that of the first neighbourhood, after pre-cracks: exact for uniform strain beside faces, too, and smaller where
- * bonds have softened. R is the rotation of (sum omega V (1 - d) y xi) (sum omega V (1 - d) xi xi)^-1.
+ * K is that of the first neighbourhood, after pre-cracks: exact for uniform strain beside faces, too, and
+ * smaller where bonds have softened. R is the rotation of (sum omega V (1 - d) y xi) (sum omega V (1 - d) xi
+ * xi)^-1.
  *
- * The mean is needed only where the strain of the particle itself is on the surface or beyond: at a crack, where
- * strains differ from particle to particle. This strain is needed only in blocks of eight rows with stretches that are
- * near the least one on the surface, which sweeps of forces mark. */
+ * Averages are computed only for particles whose own strain is on the surface or beyond, as at a crack, where
+ * strains differ from particle to particle. Own strains are computed only in blocks of eight bond rows with a
+ * stretch near the least one on the surface, which force loops flag (soft.near). */
 #include <math.h>
 
 #include "base/memory.h"
@@ -23,12 +26,13 @@
 #define LEAST_ONSET 0.3 /* least stretch at which a bond may begin to soften, divided by sigma_t/E [1] */
 #define SUDDEN 1e-4     /* relative difference of onset and end of a bond that begins beyond its critical stretch [1] */
 #define NEAR_LEAST 0.5  /* least ratio of stress to strength of particles among which the largest is sought [1] */
-/* Smallest determinant of a moment divided by that of an isotropic moment [1]; below it, bonds lack in a direction. */
+/* Smallest determinant of a moment matrix of bonds, divided by that of an isotropic matrix with equal trace [1]. Below
+ * it the bonds have too few directions, and the matrix counts as singular. */
 #define SPANS 1e-6
 
-/* Working data of one evaluation of the strength surfaces (failure criteria in stress) of all particles. A row is the
- * list of the bonds of one particle. Strains are averaged over the neighbourhood as many times as the material
- * requires. */
+/* Working data of one evaluation of the strength surfaces (failure criteria in stress) of all particles; exists during
+ * the evaluation. A row is the list of the bonds of one particle. Strains are averaged over the neighbourhood as many
+ * times as the material requires. */
 struct evaluation {
     const struct bonds *b;
     const struct particles *p;
@@ -173,8 +177,8 @@ static ALWAYS_INLINE void moments_strain(struct moments *sum, real *strain, cons
     }
 }
 
-/* Computes the strains of those particles of block g of eight rows (the bonds of eight particles) that are marked in
- * wanted[8], and stores them in e->strain[0]. dim: number of dimensions, known at compile time. */
+/* Computes the strains of those particles of block g of eight rows (the bonds of eight particles) for which wanted[8]
+ * is true, and stores them in e->strain[0]. dim: number of dimensions, known at compile time. */
 static ALWAYS_INLINE void row_block_strain_of(struct evaluation *e, int64_t g, const bool *wanted, const int dim)
 {
     struct moments sum[LANES];
@@ -187,9 +191,8 @@ static ALWAYS_INLINE void row_block_strain_of(struct evaluation *e, int64_t g, c
     }
 }
 
-/* Computes the strains of those particles of block g of eight rows (a row has the bonds of one particle; eight are
- * stored together) that are marked in wanted[8], and stores them in e->strain[0]. Does nothing if no particle is
- * marked. */
+/* Computes, for dim 2 or 3, the strains of those particles of block g of eight rows (the bonds of eight particles) for
+ * which wanted[8] is true, and stores them in e->strain[0]. */
 static void row_block_strain(struct evaluation *e, int64_t g, const bool *wanted)
 {
     bool any = false;
@@ -218,9 +221,9 @@ static int64_t row_of_strain(const struct evaluation *e, int32_t j, real *sign)
 }
 
 /* Marks the rows of the neighbours to which the intact bonds of row `row` lead, because the mean over a neighbourhood
- * includes their strains: sets their e->distance to `distance` if it is still 0. distance: 1 for a row whose strength
- * surface (failure criterion in stress) is evaluated, one more for each bond further away. Several threads may mark one
- * row. */
+ * includes their strains: sets e->distance of each to `distance` if it is still 0. e->distance is 1 for a row whose
+ * strength surface (failure criterion in stress) is evaluated, and one more for each bond further away. Several threads
+ * may mark one row. */
 static void mark_family_rows(struct evaluation *e, int64_t row, uint16_t distance)
 {
     for (struct bond_iterator it = bond_iterator_of_row(e->b, row); bond_iterator_advance(&it);) {
@@ -231,8 +234,9 @@ static void mark_family_rows(struct evaluation *e, int64_t row, uint16_t distanc
     }
 }
 
-/* Computes the mean of the strains, e->strain[0], of row `row` (bonds of one particle) and of the rows of all
- * neighbours to which its intact bonds lead. Stores the mean in e->strain[1]. */
+/* Computes the mean of the strains e->strain[0] of the particle of row `row` and of the neighbours to which its intact
+ * bonds lead, and stores it in e->strain[1]. Neighbours without bonds to all of their own neighbours are left out, and
+ * images beyond clamped planes. */
 static void row_average(struct evaluation *e, int64_t row)
 {
     const int dim = e->p->dim, count = symmetric_tensor_component_count(dim);
@@ -322,10 +326,10 @@ static bool row_can_start(const struct evaluation *e, int64_t row)
     return false;
 }
 
-/* Computes the strains of those particles of block g of eight rows (the bonds of eight particles) whose material has a
- * strength surface (failure criterion in stress) and that have bonds to all their neighbours, one of which can still
- * begin to soften. If the stress of a particle is at least the fraction `least` [1] of the stress on the surface (times
- * the relative strength of the particle), sets its e->distance to 1 and its e->share to this ratio. Returns true if
+/* Computes the stress of particles in block g of eight rows (the bonds of eight particles), divided by the stress on
+ * their strength surface (failure criterion in stress), and stores this ratio in e->share. Only particles with such a
+ * surface and with bonds to all their neighbours count, if one of these bonds can still begin to soften. Sets
+ * e->distance to 1 where the ratio is at least `least` [1] times the relative strength of the particle. Returns true if
  * there is such a particle. */
 static bool row_block_find(struct evaluation *e, int64_t g, real least)
 {
@@ -344,10 +348,10 @@ static bool row_block_find(struct evaluation *e, int64_t g, real least)
     return any;
 }
 
-/* Finds the rows (bonds of one particle) in which a bond can still begin to soften and whose stress is at least the
- * fraction `least` [1] of the stress on the strength surface (failure criterion in stress). For these rows, sets
- * e->distance to 1 and e->share to the ratio of both stresses. The stress follows from the particle's own strain, not
- * averaged over neighbours. Returns true if there is such a row. */
+/* Finds the particles whose stress, divided by the stress on their strength surface (failure criterion in stress), is
+ * at least `least` [1] times their relative strength, and of which a bond can still begin to soften. For their rows
+ * (bonds of one particle), sets e->distance to 1 and e->share to the ratio of both stresses. The stress follows from
+ * the particle's own strain, not averaged over neighbours. Returns true if there is such a row. */
 static bool find_candidates(struct evaluation *e, real least)
 {
     bool any = false;

@@ -1,5 +1,6 @@
-/* Sums over the bonds of all particles as if all were peridynamic: volumes of neighbours, and the critical time
- * step. */
+/* Computes sums over bonds: volumes of the neighbours of each particle, bounds of frequencies from which the critical
+ * time step follows, and the fracture energy. Volumes and time step are computed as if all particles were peridynamic,
+ * or from the stored bonds. */
 #include "bonds/surface.h"
 #include "bonds_parts.h"
 

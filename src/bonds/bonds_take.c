@@ -1,4 +1,5 @@
-/* Copies bonds broken by load from rows of a body of which other particles are made (data/hollow.h). */
+/* Copies broken and softened bonds of a body to the bonds of a new set of particles of this body, which contains
+ * additional particles in cells that had none (data/hollow.h). */
 #include <math.h>
 
 #include "bonds_parts.h"

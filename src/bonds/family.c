@@ -40,10 +40,11 @@ static real influence(const struct family *f, real r)
     }
 }
 
-/* Returns the weight that a bond of length r [m] has in the elastic constants of a lattice, up to a constant factor.
- * omega: influence function of the neighbourhood f of a particle. The weight is omega r if the energy is one of
- * stretches, omega r^2 if it is one of elongations. An energy of displacements is isotropic with any weights by
- * direction; for it the weight is r, that of bonds without influence function. */
+/* Returns the factor with which a bond of length r [m] contributes to the elastic constants of a lattice, up to a
+ * constant. With the influence function omega of the neighbourhood f it is omega r if the energy of a bond is quadratic
+ * in its stretch, and omega r^2 if it is quadratic in its elongation. If it is quadratic in the relative displacement
+ * vector, the lattice is isotropic for any factors by direction; the factor is then r, as without influence
+ * function. */
 static real stiffness_weight(const struct family *f, real r)
 {
     switch (f->energy) {

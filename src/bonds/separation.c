@@ -1,14 +1,16 @@
-/* Work of separation of a lattice, which relates critical stretch and energy release rate.
+/* Computes the work of separation of a lattice, which relates critical stretch and energy release rate.
  *
- * Both halves of a full lattice move apart, normal to a plane between two layers. A bond across the plane whose
- * component normal to it is z and whose length is r has the extension e = D z/r at the opening D and breaks at D = s_c
- * r^2/z. With the energy density W of a particle (kernels/pd/state_laws.h, without rotation: the halves stay straight)
- * the work per area is
- *     G = 2 sum_layers h int (dW/dD) dD = K s_c^2,   W = [A S^2 + B/Q sum w |eta|^2]/2,  S = sum w r e/Q,  eta: D
- * exactly, as W is quadratic in D between two breaks. Bonds that resist eta, not e, store more energy the more oblique
- * they are before they reach s_c: G of the model with rotations grows with the logarithm of horizon over spacing and
- * has no continuum limit. Counting crossing bonds that are all stretched by s_c (Madenci & Oterkus 2014, right for e)
- * underestimates it by factors of 1.7 in 2D and 2.7 in 3D at m = 3.015, omega = delta/r. */
+ * Both halves of a full lattice move apart by the opening D, normal to a plane between two layers at distance
+ * h. A bond across the plane, of length r and with the component z normal to the plane, has the extension e =
+ * D z/r and the relative displacement |eta| = D; it breaks at D = s_c r^2/z. With the energy density W of a
+ * particle (kernels/pd/state_laws.h; A, B: constants; w, Q: weight of a bond, weighted volume; no rotation,
+ * since the halves stay straight) the work per area is
+ *     G = 2 sum_layers h int (dW/dD) dD = K s_c^2,   W = [A S^2 + B/Q sum w |eta|^2]/2,   S = sum w r e/Q
+ * exactly, as W is quadratic in D between two breaks; models without rotations have e^2 instead of |eta|^2.
+ * Bonds that resist eta store more energy before they reach s_c, the more oblique they are: G of the model
+ * with rotations grows with the logarithm of horizon over spacing and has no continuum limit. Counting
+ * crossing bonds that are all stretched by s_c (Madenci & Oterkus 2014, right for e) underestimates it by
+ * factors of 1.7 in 2D and 2.7 in 3D at a horizon of 3.015 spacings, omega = delta/r. */
 #include <math.h>
 #include <stdlib.h>
 

@@ -1,4 +1,5 @@
-/* Factors of bonds near faces, for all particles (surface.h). */
+/* Computes the factors by which the weights of bonds near faces are multiplied, and stores them for all particles
+ * (surface.h). */
 #include "bonds/surface.h"
 
 #include <string.h>

@@ -1,9 +1,11 @@
-/* Classes of particles with equal surroundings, and groups of bonds that share one factor.
+/* Divides particles near faces into classes with equal surroundings, and their bonds into groups that share one factor
+ * on their weight.
  *
- * The surroundings of a particle are its neighbours and theirs, RADIUS neighbourhoods deep, seen through the mirrors
- * across the axes that give the smallest hash. Both directions of a bond, and a bond and its mirror image, are in one
- * group; so a factor is a function of a particle's class and of the offset in its mirrors, and equal from both
- * particles. Most bodies have few classes: the cost of the fit depends on shape, not on size. */
+ * The surroundings of a particle are its neighbours and theirs, RADIUS neighbourhoods deep, reflected at those axes
+ * that give the smallest hash; mirrored surroundings are thus equal. Both directions of a bond, and a bond and its
+ * mirror image, are in one group. A factor is therefore a function of the class of a particle and of the reflected
+ * lattice offset of its neighbour. Most bodies have few classes, so the cost of the fit depends on shape, not on
+ * size. */
 #include <string.h>
 
 #include "base/memory.h"
@@ -136,10 +138,10 @@ static void kinds_refine(struct kinds *s, const struct particles_near_faces *b, 
 
 /* ---- classes ----------------------------------------------------------------------------------------------------- */
 
-/* Returns a reflection under which the surroundings of the particles of kind number `kind` have the smallest hash
- * (colour) of all reflections. (The particles of a kind have equal surroundings.) A reflection is a set of axes, with
- * bit d for axis d; sets are compared as numbers. Returns the smallest such set >= `from`; -1 if there is none. s:
- * kinds, with the hashes; b: particles near faces. */
+/* Returns the smallest reflection >= `from` under which the surroundings of the particles of kind number `kind` have
+ * the smallest hash (colour) of all reflections; -1 if there is none. A reflection is a set of axes, as a number with
+ * bit d for axis d. (The particles of a kind have equal surroundings.) s: kinds, with the hashes; b: particles near
+ * faces. */
 static int mirrors_of(const struct particles_near_faces *b, const struct kinds *s, int32_t kind, int from)
 {
     const uint64_t *own = s->colour + ((int64_t)kind << b->offset.dim);
@@ -218,18 +220,19 @@ static void groups_join(int64_t *parent, int64_t one, int64_t other)
         parent[x] = y;
 }
 
-/* Returns the index of a bond in tables [classes, offsets], which have one entry for equal bonds. The bond leads from
- * particle t (an index among b, those near faces) to the neighbour at lattice offset number k. The particles of a class
- * have equal surroundings up to mirrors; the offset is reflected by the mirrors that map the particle to its class. */
+/* Returns the index in tables [classes, offsets] of the bond from particle t to its neighbour at lattice offset number
+ * k. A class contains particles with equal surroundings up to reflections; the offset is reflected like the particle to
+ * the axes of its class. t: index of the particle among b, those near faces; a: classes. */
 static int64_t entry_of(const struct bond_classes *a, const struct particles_near_faces *b, int64_t t, int k)
 {
     return (int64_t)a->class_of[t] * b->offset.n + b->offset.mirrored[a->mirrors[t] * b->offset.n + k];
 }
 
-/* Joins the table entries of both directions of every bond whose factor may change, so that the bonds i-j and j-i get
- * one factor. The entries are [classes, offsets]; a class has particles with equal surroundings up to mirrors. b:
- * particles near faces; first[n]: first particle of each of n kinds (particles with equal, not mirrored surroundings),
- * which represents the others; parent: union-find forest of the table entries. */
+/* Joins the entries i-j and j-i of every bond near faces in tables [classes, offsets], so that both get one factor. (A
+ * class contains particles with equal surroundings up to reflections.) b: particles near faces; first[n]: first
+ * particle of each of n kinds, which represents all particles with equal, not reflected surroundings; parent:
+ * union-find forest of the table entries. Bonds between particles with complete neighbourhoods are left out; their
+ * factor is 1. */
 static void bonds_join(const struct bond_classes *a, const struct particles_near_faces *b, const int64_t *first,
                        int32_t n, int64_t *parent)
 {

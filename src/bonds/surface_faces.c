@@ -1,4 +1,5 @@
-/* Faces of a body of lattice particles: outward areas, and normals that average the steps of a staircase over a family.
+/* Computes the faces of a body of lattice particles: outward areas, and normals averaged over a neighbourhood, because
+ * a slope on a lattice is a staircase.
  *
  * A particle without its nearest neighbour up or down an axis, or cut from it by a crack, has a face of area 1 there.
  * Faces within a neighbourhood that bonds connect and whose normals are less than 90 degrees apart form one face with
@@ -12,10 +13,11 @@
 
 #define FLAT 0.2 /* variance [spacings^2]; a staircase of any slope has at most 1/12 + 1/12 */
 #define ROUGH 0.4
-/* Exponent by which strains that load a face gain weight where fewer faces are nearby than at a plane face
- * (surface_fit.c). With 0, particles ahead of a crack are too soft as well, and stress-intensity factors are 1 %
- * larger at 100 particles. Models with rotations use 0: it hardly changes stress-intensity factors there, and makes
- * frequencies of beams of 20 layers 1 % lower. Empirical. */
+/* Exponent by which the mean product of face normals decreases where fewer faces are nearby than at a plane face
+ * (normals_gather); strains that load such faces then have more weight in the fit of bond factors (surface_fit.c). With
+ * 0, particles ahead of a crack are too soft as well, and stress-intensity factors are 1 % larger at 100 particles.
+ * Empirical. Models with rotations use 0: it hardly changes their stress-intensity factors, and makes frequencies of
+ * beams of 20 layers 1 % lower. */
 #define NEAR 3
 
 enum { CHAIN = 3 }; /* layers over which area and dipole of a face are distributed */
@@ -108,18 +110,18 @@ static struct mean_face mean_face_of(const struct raw_faces *raw, int64_t t)
     return mean;
 }
 
-/* Smoothed face of a particle. project: matrix that turns its axis-parallel face areas into the mean normal N of the
- * faces nearby; square: its contribution to N (x) N. Where the faces nearby are not in one plane, both are
- * interpolated to those of the particle's own face. */
+/* Smoothed face of a particle. project: matrix that projects face areas along the axes onto the mean normal N of the
+ * faces nearby; square: contribution of the face to the mean of N (x) N. Where the faces nearby are not in one plane,
+ * both are interpolated to those of the particle's own face. */
 struct smooth {
     real project[DIM_MAX][DIM_MAX], square[DIM_MAX][DIM_MAX];
 };
 
-/* Computes how the lattice face of a particle is smoothed, in *to: the matrix that projects the area of the face onto
- * the mean normal N of the faces nearby, and its contribution to the mean of N (x) N. Without a face the matrix is the
- * identity and the contribution 0. On the lattice inclined faces are steps. They are smoothed fully if the variance of
- * their positions about a plane is at most FLAT, not at all from ROUGH on, and in proportion between. raw: faces on the
- * lattice; t: index of the particle among those near faces. */
+/* Computes in *to how the lattice face of a particle is smoothed, because an inclined face is a staircase on the
+ * lattice: the matrix that projects the face area onto the mean normal N of the faces nearby, and the contribution of
+ * the face to the mean of N (x) N. Smoothing is complete if the variance of the positions of these faces about a plane
+ * is at most FLAT, none from ROUGH on, and in proportion between. Without a face the matrix is the identity and the
+ * contribution 0. raw: faces on the lattice; t: index of the particle among those near faces. */
 static void smooth_make(struct smooth *to, const struct raw_faces *raw, int64_t t)
 {
     const int dim = raw->body->p->dim;
@@ -156,9 +158,9 @@ struct smooth_faces {
     struct smooth *smooth; /* [n] */
 };
 
-/* Fits a smooth surface (struct smooth) to each particle that lacks a nearest neighbour, because slopes and curves of a
- * body on a lattice are stairs. s->at[particles near faces]: receives the index of the smooth surface of each particle,
- * -1 if the particle has none. raw: the stairs. */
+/* Computes the smoothed face (struct smooth) of each particle that lacks a nearest neighbour along an axis, because
+ * slopes and curves of a body on a lattice are staircases. s->at[particles near faces]: receives the index of the
+ * smoothed face of each particle, -1 if the particle has none. raw: faces on the lattice, not smoothed. */
 static void smooth_faces_make(struct smooth_faces *s, const struct raw_faces *raw)
 {
     const struct particles_near_faces *b = raw->body;
@@ -202,10 +204,10 @@ static void normals_gather(struct surface_fit_targets *f, const struct particles
 
 /* Distributes the face of a particle at one end of `axis` over the layers of particles behind it, as targets for the
  * moments of their bonds. f->area receives the area, extrapolated from the middles of the layers to the face. f->dipole
- * receives weights of sum 0 that describe the change from layer to layer: 1, -1 on the first two layers, or with
- * rotations (`rotates`) 2, -3, 1 on three, a one-sided first derivative of second order at the face; nothing with a
- * single layer. smooth: smoothing of the face; t: index of the particle among b, those near faces; up: 1 for the end in
- * positive direction, else 0. */
+ * receives coefficients of the change from layer to layer: 1, -1 on the first two layers; with rotations (`rotates`)
+ * and three layers 2, -3, 1, a one-sided first derivative of second order at the face; none with a single layer.
+ * smooth: smoothing of the face; t: index of the particle among b, those near faces; up: 1 for the end in positive
+ * direction, else 0. */
 static void face_spread(struct surface_fit_targets *f, const struct particles_near_faces *b,
                         const struct smooth *smooth, int64_t t, int axis, int up, bool rotates)
 {

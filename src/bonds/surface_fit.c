@@ -1,11 +1,16 @@
-/* Factors of bonds near faces: a bounded linear least-squares problem, solved by Newton's method on its dual.
+/* Computes the factors of bonds near faces by a bounded linear least-squares problem, solved by Newton's
+ * method on its dual.
  *
- * With the moments M4 = sum f w r nnnn and M3 = sum f w nnn of a class of particles, the factors f minimise
+ * With the moments M4 = sum f w r nnnn and M3 = sum f w nnn of a class of particles (w, r, n: weight, length
+ * and direction of a bond), the factors f minimise
  *
- *     sum_classes members [ |M4 - (1 + tau) M|^2 + |M3 + M A/2|^2 ] + PRIOR sum_bonds (f - 1)^2,   LEAST <= f <= MOST
+ *     sum_classes members [ |M4 - (1 + tau) M|^2 + |M3 + M A/2|^2 ] + PRIOR sum_bonds (f - 1)^2,
+ *     LEAST <= f <= MOST
  *
- * where |T|^2 = sum_k (T:B_k) P (T:B_k) over a basis B of strains, and P = (1 + STIFF Q)^-1 reduces the weight of
- * strains by the traction that they cause on faces nearby, Q(e, e') = (M:e) : N (x) N : (M:e'). */
+ * with the fourth moment M of a full neighbourhood, the area vector A of the faces of the particle, the
+ * increase tau of M4 that faces require, and the number of particles (`members`) of a class. |T|^2 = sum_k
+ * (T:B_k) P (T:B_k) over a basis B of strains, and P = (1 + STIFF Q)^-1 reduces the weight of strains by the
+ * traction that they cause on faces nearby, Q(e, e') = (M:e) : N (x) N : (M:e'), N: face normal. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,9 +21,9 @@
 
 #define STIFF 1000.0   /* weight of a strain that loads a face: 1/STIFF; empirical */
 #define ROTATIONS -0.2 /* alpha of models with rotations: fitted to bending */
-/* Weight of (f - 1)^2, with the factor f of a bond, relative to the mean square of a bond in its moments; empirical:
- * with a twentieth of it, frequencies of beams of 10 layers are closer by 0.1 %, and time steps shorter by a fifth.
- * Wider limits LEAST and MOST of the factors have the same effect. */
+/* Weight of the term (f - 1)^2 of a bond with the factor f, relative to the mean square of a bond in its moments [1].
+ * Empirical: with a twentieth of it, frequencies of beams of 10 layers are more accurate by 0.1 %, and time steps
+ * shorter by a fifth. Wider limits LEAST and MOST of the factors have the same effect. */
 #define PRIOR 2e-2
 #define LEAST 0.2     /* smallest factor of a bond [1] */
 #define MOST 3.0      /* largest factor of a bond [1] */
@@ -69,8 +74,9 @@ static real component_value(const struct components *c, int k, const real *n)
     return value;
 }
 
-/* Moments of the bonds by offset (direction n, weight w, length r): third w nnn, fourth w r nnnn; fourth moment M of a
- * full neighbourhood; and a basis B_k of symmetric strain tensors. They are the same for all classes of particles. */
+/* Moments of the bonds at each lattice offset (direction n, weight w, length r): third moment w nnn, fourth moment w r
+ * nnnn; the fourth moment M of a full neighbourhood; and a basis B_k of symmetric strain tensors. They are equal for
+ * all classes of particles. */
 struct moments {
     int dim, strains;                /* dimension; number of tensors B_k */
     struct components third, fourth; /* independent components of both moments */
@@ -89,10 +95,9 @@ static real full_of(const struct moments *m, int a, int b, int c, int d)
     return m->full[component_of(&m->fourth, (const int[]){a, b, c, d})];
 }
 
-/* Computes in m the basis of strains by which deviations of moment tensors are measured, as the stresses that they
- * cause: orthonormal symmetric strain tensors B_k; the stresses M:B_k, with the fourth moment M of a full neighbourhood
- * (m->full); and the coefficients by which products of B_k with a moment tensor follow from the components of that
- * tensor. */
+/* Computes in m the basis of strains in which deviations of moment tensors are measured: orthonormal symmetric strain
+ * tensors B_k, the stresses M:B_k, with the fourth moment M of a full neighbourhood (m->full), and the coefficients by
+ * which products of B_k with a moment tensor follow from the components of this tensor. */
 static void strains_make(struct moments *m)
 {
     const int dim = m->dim;
@@ -212,16 +217,17 @@ static void quadratic(const real *by, int rows, int strains, int n, int capacity
         }
 }
 
-/* Means over the particles of a class of what determines the target of its moments: face area, dipole and product of
- * face normals N (x) N. Particles are averaged in all mirrors under which the class is its own image: beyond the
- * surroundings that define the class, particles and their sides may differ. */
+/* Averages, over the particles of a class (particles with equal surroundings), of three properties of faces that
+ * determine the targets of the bond moments: face area, dipole (difference between the first layers behind a face) and
+ * product of face normals N (x) N. A particle counts in all reflections under which its class is unchanged, because
+ * particles of one class may differ beyond the surroundings that define the class. */
 struct class_goal {
     real area[DIM_MAX], dipole, normal2[DIM_MAX][DIM_MAX];
 };
 
-/* Adds three properties of a particle, times `share`, to *to, the goal of its class of particles with equal
- * surroundings: face area, dipole (difference between the first layers behind a face) and N (x) N (N: unit normal of
- * faces nearby). They are reflected across the axes in `mirrors` (one bit each) before. f: these values for all
+/* Adds three properties of a particle, times `share` [1], to *to, the means over its class (particles with equal
+ * surroundings): face area, dipole (difference between the first layers behind a face) and N (x) N (N: unit normal of
+ * faces nearby). Area and N are first reflected across the axes in `mirrors` (bit d: axis d). f: the properties of all
  * particles; dim: number of dimensions; t: index of the particle among those near faces. */
 static void class_goal_add(struct class_goal *to, int dim, const struct surface_fit_targets *f, int64_t t, int mirrors,
                            real share)
@@ -251,11 +257,11 @@ static void class_goals(struct class_goal *goal, int dim, const struct particles
     }
 }
 
-/* Prepares c, the least-squares fit of the bonds of one class (particles with equal surroundings): the quadratic form
- * that weighs deviations of their third and fourth moments, and the target of these moments, less the moments of bonds
- * whose factors are fixed. m: moments of the bonds; b: particles near faces; a: classes; goal: means of the face
- * properties over the particles of the class; alpha: coefficient by which the dipole raises the target of the fourth
- * moments [1]; class: its number, from 1. */
+/* Sets up c, the least-squares fit of the bonds of one class (particles with equal surroundings): the quadratic form
+ * that weighs deviations of their third and fourth moments, and the targets of these moments, from which the moments of
+ * bonds with fixed factors are subtracted. m: moments of the bonds; b: particles near faces; a: classes; goal: means of
+ * the face properties over the class; class: its number, from 1; alpha: relative increase of the target of the fourth
+ * moments for a dipole of 1 [1]. */
 static void class_make(struct class_fit *c, const struct moments *m, const struct particles_near_faces *b,
                        struct class_goal *goal, const struct bond_classes *a, int32_t class, real alpha)
 {
@@ -302,9 +308,9 @@ static real class_squares(const struct surface_fit_problem *q, const struct mome
 
 /* ---- the problem ------------------------------------------------------------------------------------------------- */
 
-/* Lists for each set of bonds that share one factor its entries in tables [classes, offsets], in q->first and q->entry.
- * bonds[sets]: 0 before, receives the number of bonds of each set. An entry stands for one bond of each particle of its
- * class (particles with equal surroundings), and a bond has two entries, one for each of its particles. */
+/* Lists, for each set of bonds that share one factor, its entries in tables [classes, offsets], in q->first and
+ * q->entry. An entry is one bond of each particle of a class (particles with equal surroundings); each bond has two
+ * entries, one from each of its particles. bonds[sets]: 0 before the call, receives the number of bonds of each set. */
 static void group_entries(struct surface_fit_problem *q, real *bonds)
 {
     const struct bond_classes *a = q->alike;
@@ -324,9 +330,10 @@ static void group_entries(struct surface_fit_problem *q, real *bonds)
     memory_free(next);
 }
 
-/* Computes q->prior[sets] for the sets of bonds near faces that share one factor f on their weights: in the
- * least-squares fit the term prior (f - 1)^2 holds f near 1. Then inverts the quadratic forms of all classes (particles
- * with equal surroundings), which weigh deviations of the moments. m: moments of the bonds. */
+/* Computes q->prior[sets], the weight of the term prior (f - 1)^2 that keeps the factor f of each set of bonds near 1
+ * in the least-squares fit: PRIOR times the mean square of a bond's moments times the number of bonds of the set. Then
+ * inverts the quadratic forms of all classes (particles with equal surroundings), which weigh deviations of the
+ * moments. m: moments of the bonds. */
 static void prior_make(struct surface_fit_problem *q, const struct moments *m)
 {
     const struct bond_classes *a = q->alike;
@@ -410,12 +417,12 @@ static void class_fix(struct surface_fit_problem *q, const struct particles_near
     }
 }
 
-/* Fixes in q the factors on the weights of bonds at ends of cracks and in parts of the body with too few layers of
- * particles for the fit (marked in f->thin): to those of the volume method (Le & Bobaru 2018), or to 1 if `rotates`, in
- * models with particle rotations. Bonds at ends of cracks also get the factor 1 if bonds may break: they break next,
- * and the critical stretch is calibrated for factor 1 (otherwise Kalthoff's crack turns to 61 degrees at 1 mm). Thin
- * parts are treated last, so that a bond between both does not depend on the order of its particles. b: particles near
- * faces. */
+/* Fixes in q the factors of bonds where the fit does not apply: at ends of cracks, and in parts of the body with too
+ * few layers of particles (marked in f->thin). The factor is that of the volume method (Le & Bobaru 2018), or 1 if
+ * `rotates`, in models with particle rotations. At ends of cracks it is also 1 if bonds may break: they break next, and
+ * the critical stretch is calibrated for factor 1 (otherwise Kalthoff's crack turns to 61 degrees at 1 mm). Thin parts
+ * are treated last, so that the factor of a bond between both does not depend on the order of its particles. b:
+ * particles near faces. */
 static void plain_parts(struct surface_fit_problem *q, const struct particles_near_faces *b,
                         const struct surface_fit_targets *f, bool rotates)
 {

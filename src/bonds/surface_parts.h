@@ -6,8 +6,8 @@
 #include "bonds/bonds.h"
 #include "bonds/surface.h"
 
-/* The neighbours of a particle inside a lattice, as offsets from the particle in a fixed order. "Offset number k" below
- * is an index into these arrays. */
+/* The neighbours of a particle inside a lattice, as lattice vectors (offsets) from the particle in a fixed order.
+ * "Offset number k" in other comments is the index k of these arrays. All arrays are owned. */
 struct offsets {
     /* number of neighbours; dimension; largest component [spacings] */
     int n, dim, reach;
@@ -34,8 +34,8 @@ struct particles_near_faces {
     uint8_t *whole;     /* [p->n] 1: no neighbour is missing */
 };
 
-/* A neighbour that may be a mirror image. particle: its source, a particle of the body, or the neighbour itself;
- * mirrors: bit d is set if the mirrors between both reverse axis d. */
+/* A particle of the body, and the axes that mirrors reverse between it and the particle or mirror image that this
+ * struct describes. particle: index of the particle of the body; mirrors: bit d is set if axis d is reversed. */
 struct mirrored_particle {
     int64_t particle;
     int mirrors;
@@ -68,9 +68,9 @@ static inline int32_t particles_near_faces_neighbour_at_offset(const struct part
     return b->neighbour[particle_number * b->offset.n + offset_number];
 }
 
-/* Returns the neighbour at offset number `offset` (a relative position on the lattice) of `from`, a particle near faces
- * b or its image in mirrors. The result contains the particle of the body and the axes that mirrors reverse on the way
- * to this neighbour; its member `particle` is -1 if there is no neighbour or the bond is cut. */
+/* Returns the neighbour at offset number `offset` (a lattice vector) of `from`, a particle near faces b or its mirror
+ * image: the particle of the body, and the axes that mirrors reverse between it and this neighbour. The member
+ * `particle` of the result is -1 if there is no neighbour or the bond is cut. */
 static inline struct mirrored_particle mirrored_particle_neighbour_at_offset(const struct particles_near_faces *b,
                                                                              const struct mirrored_particle *from,
                                                                              int offset)
@@ -90,10 +90,9 @@ static inline bool particle_family_is_complete(const struct particles_near_faces
     return b->whole[j < b->p->n ? j : mirror_image_source_particle(b->p, b->source->image, j)];
 }
 
-/* Returns the index, in the list of relative positions of neighbours on the lattice, of the position of the first
- * particle of a bond as seen from its second particle: the opposite of the relative position number `offset` at the
- * first particle. other_particle: the second particle; where it is a mirror image, the relative position is also
- * reflected at the mirror. b: holds the list. */
+/* Returns the offset number (index of a lattice vector in b->offset) of a bond as seen from its second particle: the
+ * opposite of offset number `offset`, by which the first particle sees the bond. other_particle: the second particle;
+ * where it is a mirror image, the vector is also reflected at the mirror. */
 int bond_offset_seen_from_other_particle(const struct particles_near_faces *b,
                                          const struct mirrored_particle *other_particle, int offset);
 
@@ -119,7 +118,8 @@ struct surface_fit_targets {
     uint8_t *thin;                     /* [n] too few layers between two faces: fewer than THIN or THIN_ROTATING */
 };
 
-/* Number of layers from which on a part is not thin: of models without and with particle rotations. */
+/* Smallest number of particle layers between two faces with which a part of a body is not thin: THIN in models without,
+ * THIN_ROTATING in models with rotations of the particles. */
 enum { THIN = 4, THIN_ROTATING = 5 };
 
 /* Computes into f, for each of the particles `near` near faces, the quantities to which the weights (factors on the
@@ -149,9 +149,9 @@ struct bond_classes {
  * bonds into groups with one factor each. Release with bond_classes_free. */
 void bond_classes_group_bonds_near_faces(struct bond_classes *classes, const struct particles_near_faces *near);
 
-/* Returns the particle or mirror image that is offset number `offset_number` (a relative position on the lattice) away
- * from the first particle of class number `class` in `classes`, whose particles (near faces, `near`) have equal
- * surroundings up to reflections; -1 if there is none. The offset refers to the axes of the class, some of which may be
+/* Returns the neighbour at offset number `offset_number` (a lattice vector) of the first particle of class number
+ * `class` in `classes`: a particle or mirror image; -1 if there is none. The particles of a class (near faces, `near`)
+ * have equal surroundings up to reflections, so the offset refers to the axes of the class, some of which may be
  * reversed at this particle. */
 static inline int32_t bond_class_first_particle_neighbour_at_offset(const struct bond_classes *classes,
                                                                     const struct particles_near_faces *near,

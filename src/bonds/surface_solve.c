@@ -1,14 +1,17 @@
-/* Factors of bonds near faces by Newton's method on the dual of their least-squares problem.
+/* Computes the factors of bonds near faces by Newton's method on the dual of their least-squares problem
+ * (surface_fit.c).
  *
- * Multipliers q_c = Q_c (M_c - goal_c), one for each moment of class c, give the factor of a bond as
+ * Multipliers q_c = Q_c (M_c - goal_c), one for each moment of class c (particles with equal surroundings),
+ * give the factor of a bond as
  *
  *     f = 1 - (sum_ends m . q_c)/prior, within its bounds,     m: moments of the bond from one of its ends
  *
- * and those of the least squares satisfy R_c = Q_c^-1 q_c + goal_c - M_c(f) = 0. R is the gradient of a convex function
- * of q, and is linear where no factor meets a bound: Newton's method for such piecewise functions (Qi & Sun 1993) finds
- * its zero in a few steps. Each step is a linear system with the matrix Q_c^-1 + sum m m/prior over the bonds between
- * bounds, solved by conjugate gradients that are preconditioned by the block of each class. That takes a
- * third to a fifth of the products of conjugate gradients in the factors themselves. */
+ * (M_c, goal_c: moments and their targets; Q_c: quadratic form that weighs deviations.) At the minimum R_c =
+ * Q_c^-1 q_c + goal_c - M_c(f) = 0. R is the gradient of a convex function of q, and is linear where no
+ * factor meets a bound: Newton's method for such piecewise functions (Qi & Sun 1993) finds its zero in a few
+ * steps. Each step is a linear system with the matrix Q_c^-1 + sum m m/prior over the bonds between bounds,
+ * solved by conjugate gradients that are preconditioned by the block of each class. That takes a third to a
+ * fifth of the products of conjugate gradients in the factors themselves. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -68,8 +71,8 @@ static real inner(int64_t n, const real *a, const real *b)
 /* Computes value[offsets]: for the bond at each lattice offset of a class (particles with equal surroundings) the
  * scalar product of the moments of the bond and the vector by[thirds + fourths] of this class. The moments of a bond
  * are tensors of rank 3 and 4 formed of its direction; thirds, fourths: numbers of their components, known at compile
- * time. q: moments of all offsets; changes[offsets/2]: pairs of opposite bonds with the mark 0 are skipped; NULL if
- * none is. */
+ * time. q: moments at all offsets; changes[offsets/2]: pairs of opposite bonds with the value 0 are skipped; NULL: none
+ * is skipped. */
 static ALWAYS_INLINE void class_back(const struct surface_fit_problem *q, const uint8_t *changes, const real *by,
                                      real *value, const int thirds, const int fourths)
 {
@@ -87,11 +90,11 @@ static ALWAYS_INLINE void class_back(const struct surface_fit_problem *q, const 
 }
 
 /* Subtracts from to[thirds + fourths] the sum of x times the moments of the bond over all bonds of one class (particles
- * with equal surroundings), the class of `to` and `group`. The moments of a bond are tensors of rank 3 and 4 formed of
- * its direction; thirds, fourths: numbers of their components, known at compile time. q: moments of the bonds at all
- * lattice offsets; x[sets]: a number for each set of bonds that share a factor on their weight; group[offsets]: set of
- * the bond at each offset, -1 for a bond in no set (counts as x = 0). changes[offsets/2]: marks of the pairs of
- * opposite bonds, of which those with the mark 0 are skipped, since their x is 0; or NULL to skip no pair. */
+ * with equal surroundings). Moments of a bond: tensors of rank 3 and 4 formed of its direction; thirds, fourths:
+ * numbers of their components, known at compile time. q: moments of the bonds at all lattice offsets; x[sets]: a number
+ * for each set of bonds that share a factor on their weight; group[offsets]: set of the bond at each offset, -1 for
+ * none (x = 0). changes[offsets/2]: pairs of opposite bonds with the value 0 are skipped, since their x is 0; NULL:
+ * none is skipped. */
 static ALWAYS_INLINE void class_sum(const struct surface_fit_problem *q, const uint8_t *changes, const int64_t *group,
                                     const real *x, real *to, const int thirds, const int fourths)
 {
@@ -130,8 +133,8 @@ static const uint8_t *marks_of(const struct surface_fit_problem *q, const uint8_
 
 /* Computes d->value[classes, offsets], a number for each bond of each class (particles with equal surroundings): the
  * scalar product of the moments of the bond (tensors formed of its direction) and the part of the vector x[classes,
- * moments] that belongs to the class. changes[classes, offsets/2]: pairs of opposite bonds with the mark 0 are skipped;
- * NULL if none is. */
+ * moments] that belongs to the class. changes[classes, offsets/2]: pairs of opposite bonds with the value 0 are
+ * skipped; NULL: none is skipped. */
 static void all_back(struct descent *d, const uint8_t *changes, const real *x)
 {
     const struct surface_fit_problem *q = d->fit;
@@ -148,13 +151,13 @@ static void all_back(struct descent *d, const uint8_t *changes, const real *x)
     }
 }
 
-/* Computes to = Q^-1 by - sum m x, plus the goals if `goals`, for each class (particles with equal surroundings) in the
- * least-squares fit d->fit of the factors on the weights of bonds near faces. `to` and `by` are vectors [classes,
- * d->width] with a number for each moment of a class. The sum is over the bonds of the class: m are the moments of a
- * bond (components of tensors of rank 3 and 4 formed of its direction), and x[groups] has a number for each group of
- * bonds that share a factor, the factor itself or its change. Q is the quadratic form by which the fit weighs
- * deviations of the moments from their goals, the moments that the bonds should have. changes[classes, offsets/2]:
- * pairs of opposite bonds with the mark 0 are skipped, since their x is 0; NULL if none is. */
+/* Computes to = Q^-1 by - sum m x, plus the goals if `goals`, for each class (particles with equal surroundings) in
+ * d->fit, the least-squares fit of the factors on the weights of bonds near faces. to, by: vectors [classes, d->width]
+ * with a number for each bond moment of a class. m: moments of a bond of the class (components of tensors of rank 3 and
+ * 4 formed of its direction), over which the sum extends; x[groups]: factor of each group of bonds that share one, or
+ * its change. Q: quadratic form by which the fit weighs deviations of the moments from their target values, the goals.
+ * changes[classes, offsets/2]: pairs of opposite bonds with the value 0 are skipped, since their x is 0; NULL: none is
+ * skipped. */
 static void all_sum(const struct descent *d, const uint8_t *changes, const real *by, const real *x, bool goals,
                     real *to)
 {

@@ -1,4 +1,5 @@
-/* Contact forces and energies. */
+/* Computes contact forces, contact energies and the critical time step with contact, and saves and restores the state
+ * of contact. */
 #include "contact_internal.h"
 
 #include <math.h>
@@ -72,9 +73,9 @@ void contact_free(struct contact *c)
 }
 
 /* Returns the largest squared frequency [1/s^2] of a freely moving rigid body of contact c between particles of the
- * bodies p on two opposite sides; 0 if no rigid body moves freely. It is assumed that each of the two faces has one
- * particle per spacing, with a contact stiffness of 2 k each. m: material of the particles; stiffness: k divided by the
- * squared volume of a particle [N/m^7]; volume: volume of a particle [m^3]. */
+ * deformable bodies p on two opposite sides; 0 if no rigid body moves freely. Each of the two faces in contact is
+ * assumed to have one particle per spacing, with a contact stiffness of 2 k each. m: material of the particles;
+ * stiffness: k divided by the squared volume of a particle [N/m^7]; volume: volume of a particle [m^3]. */
 static real rigid_swing(const struct contact *c, const struct particles *p, const struct material *m, real stiffness,
                         real volume)
 {
@@ -91,12 +92,12 @@ static real rigid_swing(const struct contact *c, const struct particles *p, cons
 /* Returns the critical time step of particles p that are joined by bonds and pushed by contact c [s]; INFINITY if
  * contact is not possible. bonds_time_step: critical time step of the bonds alone [s]; materials: array of the
  * materials. The step is 2/omega_max for a particle on a flat face, whose squared frequencies by bonds and by contact
- * are added. Bonds: such a particle has half of the bonds of an inner one, so that the square of 2/bonds_time_step
+ * are added. Bonds: a particle at a face has half of the bonds of an inner one, so that the square of 2/bonds_time_step
  * counts half. Contact: two particles in contact with stiffness k have the squared frequency 2 k/mass. The normal
  * stiffness of all contacts of one particle is 1 k in 1D, 1.5 k in 2D and 2 k in 3D (1, 2 or 3 opposite particles, at
  * angles of at least 60 degrees to the face). With the contact distance of LAMMPS, full neighbourhoods and contact with
- * all 2, 8 or 26 neighbours are assumed instead. Rubble has up to eight contacts per particle and needs 0.61 of the
- * bonds' critical step in 2D; the safety factor 0.5 for breaking bonds is below that. */
+ * all 2, 8 or 26 neighbours are assumed instead. Loose particles (rubble) have up to eight contacts and need 0.61 of
+ * the bonds' critical step in 2D; the safety factor 0.5 for breaking bonds is below that. */
 real contact_critical_time_step(const struct contact *c, const struct particles *p, const struct material *materials,
                                 real bonds_time_step)
 {

@@ -1,14 +1,16 @@
-/* Energy error of leap-frog when contact begins and ends between two steps, and its compensation.
+/* Compensates the energy error of leap-frog when contact begins and ends between two steps.
  *
- * With the gap g of a row, stiffness K and energy 1/4 K g^2 for g < 0, the work of the force over two steps is 1/2 K
- * g_n (g_n+1 - g_n-1)/2. Summed over a contact it differs from the change of energy by
+ * With the gap g of a row (a particle of the contact list), stiffness K and energy 1/4 K g^2 for g < 0, the
+ * work of the force over two steps is 1/2 K g_n (g_n+1 - g_n-1)/2. Summed over a contact it differs from the
+ * change of energy by
  *
  *     1/4 K g_n g_n+1    added at the last step with g_n < 0 (g_n+1 > 0), removed at the first such step.
  *
- * Both signs are equally likely, so that faces in contact that vibrate gain energy: up to three times their energy in
- * 1e5 automatic steps. Each row therefore keeps an account of the energy added minus the energy removed. While the
- * account is positive, the force in contact has a part against the rate of the gap, which removes energy. (Adding
- * energy by a force along the rate when the account is negative makes vibrating bodies unstable.) */
+ * Both signs are equally likely, so that faces in contact that vibrate gain energy: up to three times their
+ * energy in 1e5 automatic steps. Each row therefore keeps an account of the energy added minus the energy
+ * removed. While the account is positive, the force in contact has a part against the rate of the gap, which
+ * removes energy. (Adding energy by a force along the rate when the account is negative makes vibrating
+ * bodies unstable.) */
 #include "contact_internal.h"
 
 /* Largest force against the rate of the gap, relative to the change of the contact force in a step [1]; empirical. */

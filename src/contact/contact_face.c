@@ -1,19 +1,21 @@
-/* Contact of faces. The height of a particle above a face follows from the density of the particles of the face, which
- * is smooth along the face although its particles are on a lattice.
+/* Computes contact between faces. The height of a particle above a face follows from the density of the
+ * particles of the face, which is smooth along the face although its particles are on a lattice.
  *
- *     density_i = sum_j m_j W(r_ij/(2 D_ij)),   W(q) = (1 - q)^4 (1 + 4 q)       (Wendland 1995: C2, 0 for q >= 1)
+ *     density_i = sum_j m_j W(r_ij/(2 D_ij)),   W(q) = (1 - q)^4 (1 + 4 q), 0 for q >= 1  (Wendland 1995)
  *     gap_i     = depth(density_i) - mean_i - zero_i,   mean_i = sum_j m_j W rise_j/density_i,
  *                 at least depth(density_i) - 1.9
  *     energy    = sum_i 1/4 k_i gap_i^2  where gap < 0
  *
- * D_ij: mean of the two spacings; m_j = (D_j/D_ij)^(dim-1). depth: the function that returns the height s of a particle
- * above the first layer of a square lattice [spacings]. rise_j: height of the surface of the body above particle j
- * minus 1/2 [spacings] (a curved face has steps on a lattice, the surface has none). zero = 1 + rise_i, or less for
- * particles that are closer in the reference configuration. If both surfaces are high above their particles, contact
- * would begin beyond the range of the field, with a finite overlap as soon as a particle enters the field; the lower
- * bound of the gap prevents it. Each of two faces in contact contributes: together 1/2 k g^2, as the form `pair`.
- * Energies depend on distances alone: forces are central, momentum and angular momentum are conserved. Along a flat
- * face of a square lattice the tangential force is at most 0.7 % of the pressure (54 % with the form `pair`). */
+ * i: particle; j: particles of the face; r_ij: distance; D_ij: mean of the two spacings; m_j =
+ * (D_j/D_ij)^(dim-1). depth: function that returns the height s of a particle above the first layer of a
+ * square lattice [spacings]. rise_j: height of the surface of the body above particle j minus 1/2 [spacings]
+ * (a curved face has steps on a lattice, the surface has none). zero = 1 + rise_i, or less for particles that
+ * are closer in the reference configuration. If both surfaces are high above their particles, contact would
+ * begin beyond the range of W, with a finite overlap as soon as a particle is in this range; the lower bound
+ * of the gap prevents it. Each of two faces in contact contributes: together 1/2 k g^2, as the form `pair`.
+ * Energies depend on distances alone: forces are central, momentum and angular momentum are conserved. Along
+ * a flat face of a square lattice the tangential force is at most 0.7 % of the pressure (54 % with the form
+ * `pair`). */
 #include <math.h>
 
 #include "contact_internal.h"
@@ -173,8 +175,9 @@ real contact_face_energy_of_particle(const struct contact *c, const struct parti
                : 0;
 }
 
-/* Returns the derivative of the contact energy of particle k by the weight with which particle l counts in the density
- * of the face at particle k [J]. k, l: entries of the particles in the contact list c. */
+/* Returns the derivative of the contact energy of particle k by the weight of particle l in the density of the face at
+ * particle k [J]. (The density is the weighted number of particles of the face nearby.) k, l: entries of both particles
+ * in the contact list c. */
 static real face_pull(const struct contact *c, int64_t k, int64_t l)
 {
     const struct contact_face *face = &c->face[c->root[k]];
@@ -304,11 +307,12 @@ static bool same_pairs(const struct contact *c, const struct contact *before, in
     return same;
 }
 
-/* After a search, computes c->face[row].zero, the height above the opposite face at which contact of the particle of
- * row `list_index` begins. For a particle already in contact, the height keeps its contact energy unchanged. For others
- * it is the height at which the surfaces of the bodies meet, or less if the particle is closer in the reference or the
- * present configuration, so that contact begins without a force. previous: contact list before the search;
- * previous_entry: row of the particle in that list, -1 if none; p: particles at their present positions. */
+/* Computes, after a search, c->face[row].zero: the height above the opposite face at which contact of the particle of
+ * row `list_index` begins [spacings]. For a particle already in contact it is such that the contact energy does not
+ * change. For others it is the height at which the surfaces of the bodies touch, less the width of a notch between
+ * them, or less if the particle is closer in the reference or present configuration: contact then begins without a
+ * force. previous: contact list before the search; previous_entry: row of the particle in it, -1 if none; p: particles
+ * at their present positions. */
 void contact_face_set_height_where_contact_begins(struct contact *c, const struct contact *previous,
                                                   int64_t previous_entry, const struct particles *p, int64_t list_index)
 {

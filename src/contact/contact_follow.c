@@ -1,6 +1,6 @@
-/* Rows that contact may push before the next search: their particles count as loaded, so that they move after contact
- * has pushed them, and their blocks of eight rows as active. Rows at faces still at rest are added once particles there
- * move: contact activates no region still at rest. */
+/* Marks the particles on which contact may act before the next search: as loaded, so that they move after contact
+ * forces are known, and their blocks of eight bond rows as active. Particles at faces at rest are added once particles
+ * there move, so that contact activates no region at rest. */
 #include "base/memory.h"
 #include "contact_internal.h"
 
@@ -23,8 +23,8 @@ static bool row_is_near(const struct contact *c, int64_t row)
     return near;
 }
 
-/* Returns true if the particle of p in entry k of the contact list c (particles that may come into contact) is not at
- * its reference position any more. */
+/* Returns true if the particle of p in entry k of the contact list c (particles that may come into contact) has left
+ * its reference position. */
 static bool entry_has_moved(const struct contact *c, const struct particles *p, int64_t k)
 {
     const int32_t i = c->particle[k];
@@ -57,10 +57,10 @@ static bool beside_active(const struct contact *c, int64_t row)
     return beside;
 }
 
-/* Updates the marks of the rows of the contact list c. Rows become ROW_ACTIVE (contact is evaluated from now on) if
- * contact is possible and their particle (of p) or one of its pairs has begun to move. Rows of the pairs of such rows,
- * whose particles then experience contact forces as well, become ROW_SOURCE. Returns true if a row was newly marked
- * ROW_ACTIVE. */
+/* Updates the states of the rows of the contact list c (a row: one particle and the particles that it may touch). A row
+ * becomes ROW_ACTIVE, so that its contact is evaluated from this step on, if contact is possible and its particle (of
+ * p) or one that it may touch has begun to move. Rows of the latter particles, which then also experience contact
+ * forces, become ROW_SOURCE. Returns true if a row has become ROW_ACTIVE. */
 static bool rows_follow(struct contact *c, const struct particles *p)
 {
     int64_t found = 0;
@@ -81,9 +81,9 @@ static bool rows_follow(struct contact *c, const struct particles *p)
     return found > 0;
 }
 
-/* Prepares the particles on which contact forces may act to be moved after these forces are known: marks them as loaded
- * in the loads l, and marks the blocks of b that have their bonds (eight rows, the bonds of eight particles) as active.
- * c: contact, whose rows have been marked; p: particles. */
+/* Marks the particles of p on which contact forces may act as loaded in the loads l, so that they are moved after these
+ * forces are known. Marks the blocks of eight bond rows of b that contain their bonds as active. c: contact, whose rows
+ * have been marked (rows_follow). */
 static void rows_touch(const struct contact *c, const struct particles *p, struct bonds *b, struct loads *l)
 {
     int32_t *list = BARE("contact.list", c->rows, int32_t);

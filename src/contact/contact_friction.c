@@ -1,6 +1,6 @@
-/* Coulomb friction. A spring along the face holds a particle in contact and slides where its force would exceed the
- * coefficient of friction times the normal force. Its energy counts as contact energy; the energy lost by sliding or
- * separation is the work of friction. */
+/* Computes Coulomb friction. A spring along the face resists the slip of a particle in contact, and slides where its
+ * force would exceed the coefficient of friction times the normal force. Its energy counts as contact energy; the
+ * energy lost by sliding or separation is the work of friction. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -56,9 +56,9 @@ void contact_friction_spring_advance(struct contact_spring *s, int dim, const re
 #define COUPLE_MOST 10
 #define INERTIA_LEAST 1e-6 /* relative to the largest principal value of I and to a^2; smaller values are round-off */
 
-/* The particles of the face near the particle of a row, seen as one rigid body. Symbols: a is the position of the
- * row's particle relative to the mean position of the face, v the mean velocity, I the inertia tensor of the face
- * per weight. */
+/* The particles of the face near the particle of a row, as one rigid body, for one evaluation of friction. Symbols: a
+ * is the position of the row's particle relative to the mean position of the face, v the mean velocity, I the inertia
+ * tensor of the face divided by the sum of weights. */
 struct contact_partner {
     real force[DIM_MAX];                  /* normal force on the particle of the row [N] */
     real density;                         /* sum of the weights before normalisation */
@@ -67,9 +67,10 @@ struct contact_partner {
     real slip[DIM_MAX];                   /* slip [m/s] */
 };
 
-/* Computes a part of the motion of the face near the particle of p in row `row` of the contact list c: the normal force
- * on the particle, the density of the face (sum of weights), and its weighted mean position, relative to the particle,
- * and mean velocity. Positions are those a time `lag` before now [s], x - lag v. Other members of the result are 0. */
+/* Computes the motion of the face near the particle of p in row `row` of the contact list c, without its rotation: the
+ * normal force on the particle, the density of the face (sum of weights), the position of the particle relative to the
+ * weighted mean position of the face, and the mean velocity of the face. Positions are those a time `lag` before the
+ * present [s], x - lag v. Other members of the result are 0. */
 static struct contact_partner partner_mean(const struct contact *c, const struct particles *p, int64_t row, real lag)
 {
     struct contact_partner sum = {.density = 0};
@@ -204,8 +205,8 @@ static void reaction_add(const struct contact *c, const struct particles *p, int
 }
 
 /* Adds the friction forces on the particle of row `list_index` of the contact list c to p->f: the force of the row's
- * own spring, and the reactions to the springs of other rows. Mirror images need no reactions, since scenes with
- * mirrors have no friction. */
+ * own spring, and the reactions to the springs of other rows. Mirror images receive no reactions: input files with
+ * planes of symmetry have no friction. */
 void contact_face_add_friction_on_particle(const struct contact *c, struct particles *p, int64_t list_index)
 {
     const int32_t i = c->particle[list_index];

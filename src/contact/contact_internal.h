@@ -15,13 +15,13 @@
     1.35                /* rule of LAMMPS: contact distance of a pair is the smaller of this [mean spacings] and ...   \
                          */
 #define NEAR_LAMMPS 0.9 /* ... this times the distance of the pair in the reference configuration [1] */
-/* Largest ratio of the reduction of a gap to the largest displacement of a particle [1]: 2 because both faces move,
+/* Factor by which a gap can shrink more than the largest displacement of a particle [1]: 2 because both faces move,
  * plus a margin for the curvature of the density field. */
 #define CONTACT_FLATNESS 3
 
-/* State of a row (a particle of the contact list) until the next search. ROW_FAR: too far from all faces. ROW_NEAR: may
- * come into contact, but its particles are at rest. ROW_SOURCE: neighbour of an active row, on which the contact force
- * of that row acts. ROW_ACTIVE: its own contact is evaluated. */
+/* State of a row (a particle of the contact list) until the next search. ROW_FAR: too far from all faces. ROW_NEAR:
+ * near a face, but it and its neighbours in the list are at rest. ROW_SOURCE: neighbour of an active row, whose contact
+ * force acts on it. ROW_ACTIVE: its own contact is evaluated. */
 enum row_state { ROW_FAR, ROW_NEAR, ROW_SOURCE, ROW_ACTIVE };
 
 /* Summary of the contacts of a step. touching: number of contacts; overlap: largest overlap [m]; deepest: index of the
@@ -79,10 +79,10 @@ static inline bool contact_list_particle_may_receive_force(const struct contact 
     return c->followed[list_index] >= ROW_SOURCE;
 }
 
-/* Brings those particles of p into the computation that may come into contact (contact list of c) and that were skipped
- * so far, because they and all neighbours were at rest, but have a neighbour that moves now: marks them in `loads` as
- * particles on which forces act, and in b their bonds as bonds whose forces are computed. Call it in steps in which no
- * pairs of particles near each other are searched for. */
+/* Includes particles in the computation of contact that were skipped because they and all their neighbours were at
+ * rest, if a neighbour now moves. For these particles of p (rows of the contact list of c), marks in `loads` that
+ * forces act on them, and in b that the forces of their bonds are computed. Call it in steps without a search for pairs
+ * of particles. */
 void contact_activate_newly_moving_particles(struct contact *c, const struct particles *p, struct bonds *b,
                                              struct loads *loads);
 
@@ -188,10 +188,10 @@ real contact_pair_onset_distance(const struct contact *c, const struct particles
  * weighted by a kernel. dim: dimensions of space. */
 void contact_profile_tabulate_height_above_flat_face(struct contact_profile *table, int dim);
 
-/* Computes into c->face[row] the gap between the particle of row `list_index` of the contact list of c (particles of p
- * that may come into contact) and the faces beside the particle, and the derivatives of its contact energy. This is the
- * first of two passes over the rows; contact_face_add_force_on_particle adds the forces. Only for laws of the form
- * `surface` (forces of smooth faces). dt: time since the last call [s]; found: receives largest overlap and number of
+/* Computes into c->face[list_index] the gap between the particle of row `list_index` of the contact list of c
+ * (particles of p that may come into contact) and the faces beside it, and the derivatives of its contact energy. First
+ * of two passes over the rows; contact_face_add_force_on_particle adds the forces. Only for laws of the form `surface`
+ * (forces of smooth faces). dt: time since the last call [s]; found: receives largest overlap and number of
  * contacts. */
 void contact_face_store_gap_and_energy_derivatives(struct contact *c, const struct particles *p, int64_t list_index,
                                                    real dt, struct contact_summary *found);
@@ -205,11 +205,11 @@ void contact_face_add_force_on_particle(const struct contact *c, struct particle
  * may come into contact), by the contact law of form `surface` (forces of smooth faces). */
 real contact_face_energy_of_particle(const struct contact *c, const struct particles *p, int64_t list_index);
 
-/* Computes into c->face[row] the height above the face at which contact of particle number `list_index` of the contact
- * list of c (particles of p that may come into contact) begins, for a new list of contacts, by the contact law of form
- * `surface` (forces of smooth faces). previous_entry: entry of the particle on the previous list `previous`, -1 if the
- * particle was not listed. If the particle was in contact on that list, the height is chosen so that its contact energy
- * does not change. */
+/* Computes into c->face[list_index] the height above the face at which contact begins for the particle of row
+ * `list_index` of a new contact list of c (particles of p that may come into contact). Only for laws of the form
+ * `surface` (forces of smooth faces). previous_entry: entry of the particle in the previous list `previous`, -1 if it
+ * was not listed. If the particle was in contact on that list, the height is chosen so that its contact energy does not
+ * change. */
 void contact_face_set_height_where_contact_begins(struct contact *c, const struct contact *previous,
                                                   int64_t previous_entry, const struct particles *p,
                                                   int64_t list_index);
@@ -236,9 +236,9 @@ struct contact_density_contribution {
 };
 
 /* Returns the contribution of entry `other` of the contact list of c (particles of p that may come into contact) to the
- * density at entry `entry` (number of particles of a face nearby, weighted by a kernel), at the positions x - v t,
- * where x and v are the present positions and velocities and t is `time_before_present` [s]. The derivative of the
- * contact energy in the result is that at the present gap. */
+ * density at entry `entry`, the number of particles of a face nearby, weighted by a kernel. time_before_present:
+ * positions are those this time [s] before the present one, x - v t, with present positions x and velocities v. The
+ * derivative of the contact energy in the result is that at the present gap. */
 struct contact_density_contribution contact_face_density_contribution(const struct contact *c,
                                                                       const struct particles *p, int64_t entry,
                                                                       int64_t other, real time_before_present);

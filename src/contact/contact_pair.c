@@ -1,4 +1,4 @@
-/* Contact of pairs of particles, which act as spheres or discs. */
+/* Computes contact between pairs of particles, which act as spheres or discs (contact laws of the form `pair`). */
 #include <math.h>
 
 #include "contact_internal.h"

@@ -1,4 +1,5 @@
-/* Contact in the table of parts, its results in the summary, and the check of overlaps. */
+/* Registers contact in the table of the parts of a run (engine/parts.c), writes its results to the summary, and checks
+ * the overlaps of particles. */
 #include "contact/contact_part.h"
 
 #include <math.h>

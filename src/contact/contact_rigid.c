@@ -1,6 +1,7 @@
-/* Contact of particles with rigid bodies: a particle whose centre is closer than half a spacing to the surface is
- * pushed along its normal by 2 k times the overlap, with k of two particles of its material: the face consists of one
- * cell of material, not two. Energy: k overlap^2. */
+/* Computes contact of particles with rigid bodies. A particle whose centre is closer than half a spacing to the surface
+ * is pushed along its normal by the force 2 k times the overlap, with the energy k overlap^2. k is the stiffness of a
+ * contact between two particles of its material, in which two cells of material are compressed; here it is one cell,
+ * hence the factor 2. */
 #include <math.h>
 #include <stdio.h>
 
@@ -65,8 +66,8 @@ static int64_t near_before(const struct contact *before, int body, int32_t parti
 /* Lists in c->near[body] the particles of the contact list c that may come into contact with rigid body number `body`
  * before the next search: those with a gap below `skin` [m]. Friction springs and the gaps at which contact begins are
  * copied from `before`, the contact before this search. For a new particle that already overlaps the body, contact
- * begins at its present gap, without a force, and at larger gaps as the gap opens. p: particles at their present
- * positions. */
+ * begins at its present gap, without a force, and at larger gaps as the gap opens; in equilibria (c->marked) it begins
+ * at gap 0. p: particles at their present positions. */
 static void near_find_body(struct contact *c, const struct contact *before, const struct particles *p, int body,
                            real skin)
 {
@@ -137,10 +138,10 @@ real contact_rigid_gap_of_particle(const struct contact *c, const struct particl
     return gap_of(c, p, &c->rigid[body_number], near->row[q], normal) - near->zero[q];
 }
 
-/* Returns the overlap of rigid body number `body` with particle q of the list of particles near it (c->near, indices in
- * p) [m]; 0 if both are not in contact. While an equilibrium is computed, marks determine which contacts act, and the
- * overlap of such a contact can be negative. normal[DIM_MAX]: receives the outward unit normal of the body, unless a
- * mark excludes the contact. */
+/* Returns the overlap of rigid body number `body` with particle q of c->near[body], the list of particles near it [m];
+ * 0 if both are not in contact. While an equilibrium is computed, marks determine which contacts act, and the overlap
+ * of such a contact can be negative. p: particles; normal[DIM_MAX]: receives the outward unit normal of the body,
+ * unless a mark excludes the contact. */
 static real overlap_of(const struct contact *c, const struct particles *p, int body, int64_t q, real *normal)
 {
     const uint8_t *marks = contact_rigid_body_active_set_flags(c, body);
@@ -162,9 +163,9 @@ real contact_patch_bounding_box_diagonal(const struct contact *c, const struct p
     return sqrt(width2);
 }
 
-/* Updates the correction of energy in the contact of rigid body number `body` with particle q of the list of particles
- * near it, c->near (indices in p): the energy error that time integration has made so far, and the small force that
- * compensates it. Must be called once per time step. */
+/* Updates the correction of energy in the contact of rigid body number `body` with particle q of c->near[body], the
+ * list of particles near it: the energy error that time integration has made so far, and the small force that
+ * compensates it. Must be called once per time step. p: particles at their present positions. */
 static void balance_step(struct contact *c, const struct particles *p, int body, int64_t q)
 {
     const struct contact_near *near = &c->near[body];
@@ -174,9 +175,9 @@ static void balance_step(struct contact *c, const struct particles *p, int body,
                                             true);
 }
 
-/* Computes the force of rigid body number `body` on particle q of the list of particles near it (c->near, indices in
- * p): normal force, energy correction and friction. Stores it in force[DIM_MAX] [N]. Returns the overlap [m], 0 if both
- * are not in contact. */
+/* Computes the force of rigid body number `body` on particle q of c->near[body], the list of particles near it: normal
+ * force, energy correction and friction. Stores it in force[DIM_MAX] [N]. Returns the overlap [m], 0 if both are not in
+ * contact. p: particles. */
 static real push_of(const struct contact *c, const struct particles *p, int body, int64_t q, real *force)
 {
     const struct contact_near *near = &c->near[body];

@@ -1,4 +1,5 @@
-/* Search for pairs that may come into contact: exposed particles, then neighbours at the present positions. */
+/* Searches for pairs of particles that may come into contact: lists the exposed particles (those near faces), then
+ * finds the neighbours of each at the present positions. */
 #include <math.h>
 #include <string.h>
 
@@ -11,10 +12,10 @@ enum { BREAKS_WAIT = 32 }; /* steps between a broken bond and a search: faces op
 
 /* ---- exposed particles ------------------------------------------------------------------------------------------- */
 
-/* Returns the limit of the neighbour volume below which a particle counts as being in the first layer at a face: the
- * volume of its bonded neighbours divided by that of a full neighbourhood f [1]. In bodies with horizons of 2 to 3
- * spacings, this share is 0.50 (1D) to 0.67 (2D) in the first layer and 0.79 or more in the second. With bonds to
- * nearest neighbours alone it is up to 5/6 in the first layer and 1 in the second. */
+/* Returns the fraction of a full neighbourhood f below which the volume of the bonded neighbours of a particle shows
+ * that the particle is in the first layer at a face [1]. In bodies with horizons of 2 to 3 spacings the volume is 0.50
+ * (1D) to 0.67 (2D) of the full one in the first layer and 0.79 or more in the second. With bonds to nearest neighbours
+ * alone it is up to 5/6 in the first layer and 1 in the second. */
 static real first_layer_share(const struct family *f)
 {
     return f->horizon < 1.5 * f->spacing ? 0.95 : space_dim(f->space) == 1 ? 0.6 : 0.78;
@@ -136,7 +137,7 @@ static void list_exposed(struct contact *c, const struct particles *p, const str
 
 /* ---- pairs ------------------------------------------------------------------------------------------------------- */
 
-/* Input of the search for the pairs of rows. */
+/* Inputs of the search for pairs of particles that may come into contact; exists during one search. */
 struct contact_search {
     const struct contact_law *law;
     const struct particles *p;
@@ -147,8 +148,8 @@ struct contact_search {
     real reach;              /* range of the search [m] */
 };
 
-/* The pairs of consecutive rows of the contact list that one thread has found. other[n]: list entries of the second
- * particles. */
+/* Pairs that one thread has found for consecutive rows of the contact list (a row: one particle and those that it may
+ * touch). other[n]: list entry of the second particle of each pair. */
 struct pair_list {
     int64_t n;
     int32_t *other;
@@ -160,10 +161,10 @@ static void pair_add(struct pair_list *to, int32_t other)
     to->other[to->n++] = other;
 }
 
-/* Finds the particles that may come into contact with the particle of entry k of the contact list, and appends their
- * entries to *to. They are within the range of the search, s->reach; depending on the law, only particles of other
- * bodies count, or only those without a bond to the particle of entry k. near: working memory; marks: one bit per
- * particle, all 0 before and after. */
+/* Finds the particles that may come into contact with the particle of entry k of the contact list, and appends the
+ * numbers of their entries to *to. They are within the search radius s->reach. If contact is between bodies only,
+ * particles of the same body do not count; with the contact distance of one spacing, bonded particles do not count.
+ * near: working memory; marks: one bit per particle, all 0 before and after. */
 static void row_pairs(const struct contact_search *s, struct neighbour_list *near, uint64_t *marks, int64_t k,
                       struct pair_list *to)
 {

@@ -1,6 +1,6 @@
-/* Contact in equilibria: the set of closed gaps is found in alternation with the equilibrium (active-set strategy:
- * Hintermueller, Ito & Kunisch 2003). During the solution exactly the marked contacts act, with k times their overlap
- * of either sign; afterwards contacts that overlap are marked anew. */
+/* Finds the contacts that act in an equilibrium, in alternation with the equilibrium itself (active-set strategy:
+ * Hintermueller, Ito & Kunisch 2003). During a solution exactly the contacts with a mark of 1 act, with k times their
+ * overlap of either sign; afterwards the marks are set anew by the overlaps. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,5 +1,5 @@
-/* Search for particles near other bodies: by bounding boxes of the bodies first, then by cells of the particles inside
- * two boxes. */
+/* Flags particles near other bodies for conversion. Particles outside the bounding boxes of all other bodies are
+ * excluded first; the distances of the others are tested by a cell search. */
 #include "coupling/approach.h"
 
 #include <math.h>

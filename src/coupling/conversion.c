@@ -56,7 +56,8 @@ void convert_particles_at_precracks_to_peridynamic(struct particles *p, const st
 
 /* ---- one pass ---------------------------------------------------------------------------------------------------- */
 
-/* Flags that hold for one step, and are cleared at the end of a conversion. */
+/* Conversion flags of particles, which are set during one step and cleared at the end of a conversion
+ * (convert_marked). */
 #define MARKS (FLAG_LOST_BOND | FLAG_CRACKED | FLAG_STRESSED | FLAG_NEAR)
 
 /* Returns true if particle i of p is a material point whose flags require that it becomes peridynamic: it has lost a

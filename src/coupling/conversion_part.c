@@ -1,4 +1,5 @@
-/* Conversion and its consequences in a step. */
+/* Converts flagged material points of a run to peridynamic particles during a step, and updates mesh, interface zone,
+ * partial stress and contact search accordingly. */
 #include "coupling/coupling_part.h"
 
 #include "base/memory.h"
@@ -18,17 +19,17 @@ void bonded_points_update_strain_from_mesh_or_stress(const struct partial_stress
 
 /* Returns true if the conversion flags of all material points of p must be tested in this step. This is so if there are
  * points on the background grid, which keeps no record of flagged points, or if another process may have flagged points
- * or broken bonds (growth laws of cracks, load steps, reversion). Returns false if all points belong to the mesh of the
- * reference frame r (a mesh of the undeformed body) and no cell of it has recorded a stress above that of conversion.
- * s: scene. */
+ * or broken bonds: growth laws of cracks or load steps of scene s, reversion, or coarse mesh cells, which postpone
+ * conversions. Returns false if all points belong to the mesh of the reference frame r (a mesh of the undeformed body)
+ * and no cell of it has recorded a stress above that of conversion. */
 static bool may_convert(const struct scene *s, const struct particles *p, const struct lagrangian_mesh *r)
 {
     return p->n_free > 0 || p->n_grid_coupled > 0 || s->growths > 0 || scene_has_load_steps(s) || p->low_since ||
            r->levels.returned || mesh_stress_may_exceed_conversion_limit(&r->mesh);
 }
 
-/* Updates positions and velocities of those of n listed particles that are points of the mesh of the reference frame
- * (the undeformed body). context: the run (struct run); list[n]: indices of the particles. It is a callback of struct
+/* Updates positions and velocities of n listed particles, as far as they are points of the mesh of the reference frame
+ * (a mesh of the undeformed body). context: the run (struct run); list[n]: indices of the particles. Callback of struct
  * conversion_sync. */
 static void sync_listed(void *context, const int32_t *list, int64_t n)
 {
@@ -36,8 +37,8 @@ static void sync_listed(void *context, const int32_t *list, int64_t n)
     lagrangian_mesh_update_motion_of_listed_points(e->frame, &e->part, &e->loads, list, n);
 }
 
-/* Requests a contact search if one of n particles that have become peridynamic is at a surface. context: the run
- * (struct run); list[n]: indices of the particles. It is a callback of struct conversion_sync. */
+/* Requests a contact search if one of n particles that have become peridynamic is at a surface of its body. context:
+ * the run (struct run); list[n]: indices of the particles. Callback of struct conversion_sync. */
 static void meet_others(void *context, const int32_t *list, int64_t n)
 {
     struct run *e = context;

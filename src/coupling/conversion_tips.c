@@ -1,6 +1,7 @@
-/* Particles round the ends of pre-cracks, which are peridynamic from the start. Cracks start to grow there; bonds that
- * carry the load from the first step on break at the load at which full peridynamics breaks them, while bonds of
- * particles that convert under load break later at a tip and earlier at a free surface. */
+/* Defines the region around the ends of pre-cracks in which particles are peridynamic from the start, because cracks
+ * start to grow there. Bonds in this region carry the load from the first step on, and break at the load at which they
+ * break if the whole body is peridynamic. Bonds of particles that convert under load break later at a crack tip and
+ * earlier at a free surface. */
 #include <string.h>
 
 #include "coupling/conversion.h"

@@ -1,4 +1,4 @@
-/* Row of the coupling in the table of parts, and its results in the summary. */
+/* Registers the coupling in the table of the parts of a run (engine/parts.c), and writes its results to the summary. */
 #include "coupling/coupling_part.h"
 #include "base/memory.h"
 #include "run/part.h"

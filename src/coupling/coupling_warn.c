@@ -1,4 +1,5 @@
-/* Warnings for several bodies: which of them are in contact, and how. */
+/* Warns of several bodies that pass through each other because they have no contact, and of bodies that touch at the
+ * start without being joined. */
 #include <stdio.h>
 #include <string.h>
 
@@ -43,11 +44,10 @@ static void warn_of_reference(const struct scene *s, const struct lagrangian_mes
         names.text, names.all > 1 ? "are" : "is");
 }
 
-/* Adds a warning to `to` if several bodies of scene s have no contact with each other, with the consequence for the
- * method of the scene. reference: states for each body whether it is in the reference frame (on a mesh of the
- * undeformed body); approaches: true if particles convert when bodies approach each other, so that they have contact
- * and no warning is needed. Adds none if the bodies of the scene cannot meet, or if it accepts this (accept:
- * [contact]). */
+/* Adds warnings to `to` if several bodies of scene s have no contact, so that they pass through each other; the text
+ * depends on the method (pd, mpm, adaptive). reference: states for each body whether it is in the reference frame (on a
+ * mesh of the undeformed body); approaches: true if particles convert when bodies approach each other, so that they
+ * have contact. Adds none if that is so, if the bodies cannot meet, or if the input file has accept: [contact]. */
 static void warn_of_contact(const struct scene *s, const struct lagrangian_mesh *reference, bool approaches,
                             struct warnings *to)
 {
@@ -105,9 +105,9 @@ static int touching(const struct particles *p, const struct cells *cells, int bo
     return pairs;
 }
 
-/* Adds a warning to `to` that names the bodies of run e that touch at the start (particles within 1.5 spacings or the
- * cutoff of bonds, whichever is smaller), have the same velocity and are not joined. Adds none if there are no such
- * bodies. */
+/* Adds a warning to `to` if bodies of run e touch at the start without being joined, and names them. Bodies touch if
+ * particles of both are within 1.5 spacings or the cutoff (largest bond length), whichever is smaller, and have the
+ * same velocity. */
 static void warn_of_touch(const struct run *e, struct warnings *to)
 {
     const struct scene *s = e->scene;

@@ -1,4 +1,5 @@
-/* The interface zone of the material points and its damping. The zone has few particles, each written by one thread. */
+/* Finds the interface zone (material points near peridynamic particles, and their neighbours) and damps relative
+ * velocities in it. The zone has few particles; each is written by one thread. */
 #include "coupling/interface_zone.h"
 
 #include <math.h>
@@ -21,10 +22,10 @@ static bool interface_zone_is_free(const struct particles *p, int32_t j)
     return j < p->n && !(p->flag[j] & (FLAG_DRIVEN | FLAG_MESHED));
 }
 
-/* Sets mark[j] to `as` for all particles j of p within `radius` [m] of one of n particles, list[n], of the same body.
- * Leaves out particles that already have a mark, those whose velocity must not be changed by damping, and, if `as` is
- * POINT, particles that are no material points. s: cells of the neighbour search. Threads that reach the same particle
- * write the same value. */
+/* Sets mark[j] to `as` for the particles j of p that are within `radius` [m] of one of n particles, list[n], of the
+ * same body and are still OUTSIDE. Leaves out particles whose velocity must not be changed by damping and, if `as` is
+ * POINT, peridynamic particles. s: cells of the neighbour search. Several threads may set one entry, to the same
+ * value. */
 static void mark_near(uint8_t *mark, const struct particles *p, const struct bond_source *s, const int32_t *list,
                       int64_t n, real radius, enum mark as)
 {
@@ -74,11 +75,11 @@ static void members_make(struct interface_zone *r, const struct particles *p, co
     members_add(r, mark, slot, p->n, BESIDE);
 }
 
-/* Finds the nearest neighbours with which damping acts on member k of the interface zone r (material points near
- * peridynamic particles, and neighbours). At least one of the two must be a material point of the zone, and no
- * pre-crack of s may separate them. p: particles, of which the members are some; mark, slot: as computed by
- * members_make; to: receives the indices of these neighbours in the list of members, or NULL to count them only; near:
- * working memory. Returns the number of these neighbours. */
+/* Finds the neighbours with which damping acts on member k of the interface zone r (material points near peridynamic
+ * particles, and neighbours): members of the zone within NEIGHBOUR_SPACINGS spacings, in the same body, not separated
+ * by a pre-crack of s. At least one of the two must be a material point of the zone. p: particles; mark, slot: as
+ * computed by members_make; to: receives the indices of these neighbours in the list of members, NULL: they are only
+ * counted; near: working memory. Returns their number. */
 static int64_t pairs_of(const struct interface_zone *r, const struct particles *p, const struct bond_source *s,
                         const uint8_t *mark, const int32_t *slot, int64_t k, struct neighbour_list *near, int32_t *to)
 {

@@ -1,4 +1,5 @@
-/* Pre-cracks as slits of the mesh: choice, peridynamic zones round their ends, approach of their faces. */
+/* Decides which pre-cracks become slits, along which nodes of the mesh are doubled; makes the particles around their
+ * ends peridynamic; and finds slits and voids whose faces approach each other. */
 #include "bonds/sites.h"
 #include "coupling/notch.h"
 
@@ -111,8 +112,8 @@ static real apart(const struct particles *p, int64_t i, int64_t j)
     return sqrt(r2);
 }
 
-/* Numbers of particles whose bonds a crack cuts outside the peridynamic zones around its ends. particles: all of these;
- * elsewhere: those of them that are not points of a mesh. */
+/* Counts of particles whose bonds a crack cuts outside the peridynamic zones around its ends. particles: number of
+ * these particles; elsewhere: number of those among them that are not points of a mesh. */
 struct flanks {
     int64_t particles, elsewhere;
 };
@@ -313,10 +314,10 @@ static real distance_ahead(const struct particles *p, int32_t i, int32_t j, real
     return r > 0 ? r + real_min(0, rate / r) * ahead : 0;
 }
 
-/* Returns a search radius that finds all pairs of particles of p which must be converted because the faces of a slit or
- * void meet [m]. These are pairs that will be nearer than their meeting_distance after the time `ahead` [s]. Two
- * particles approach each other by at most twice the largest speed of the particles beside slits, n->face. spacing:
- * lattice spacing [m]. */
+/* Returns the radius of a search for pairs of particles of p that must be converted because the faces of a slit or void
+ * meet [m]: pairs that will be nearer than their meeting_distance after the time `ahead` [s]. Two particles approach
+ * each other by at most twice the largest speed of the particles beside slits, n->face. The radius is at most
+ * MEET_REACH spacings. spacing: lattice spacing [m]. */
 static real meeting_reach(const struct notches *n, const struct particles *p, real spacing, real ahead)
 {
     const real gap = NOTCH_GAP * spacing;

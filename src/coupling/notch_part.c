@@ -1,4 +1,5 @@
-/* Pre-cracks in the reference frame: set-up, text, and approach of their faces in a run. */
+/* Sets up the pre-cracks of a run as slits of the mesh or as cut bonds, describes the decision as text, and flags
+ * points for conversion where the faces of slits approach each other. */
 #include <math.h>
 #include <stdio.h>
 

@@ -1,6 +1,6 @@
-/* One bond that crosses the cell of a material point: the share of its length inside the cell, its response to strain,
- * and its part in the stiffness that bonds replace (partial_stress.c); reflections at mirrors, by which bonds of images
- * are found. */
+/* Computes what one bond contributes to the cell of a material point that it crosses: the share of its length inside
+ * the cell, its response to strain, and the stiffness that it replaces there (partial_stress.c). Also computes the
+ * reflections at mirrors by which bonds of images are found. */
 #include <math.h>
 
 #include "partial_parts.h"

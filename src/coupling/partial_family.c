@@ -1,4 +1,5 @@
-/* Neighbours within the cutoff of bonds, from the map of lattice sites where there is one. */
+/* Finds the neighbours of a particle within the cutoff (largest bond length) by the map of lattice sites, or by a
+ * search if there is no map or it does not apply. */
 #include "base/memory.h"
 #include "partial_parts.h"
 

@@ -64,10 +64,10 @@ bool cell_stiffness_reduction_limit_state_based(real *tensor, real *mean_strain_
                                                 const struct bonds *b, const struct bond_source *source, int64_t point);
 
 /* Reduces the tensor `tensor` [J] (row-major matrix over symmetric components) of the material point `point` of p, by
- * which bond-based bonds to peridynamic particles reduce the stiffness of its cell, as far as needed for V C - `tensor`
- * without negative eigenvalues. source: inputs of the bonds (horizon, materials, cracks, mirrors); V, C: volume and
- * elastic tensor of the point. A cell with a negative eigenvalue would be unstable with any time step. This has an
- * effect only if particles are not on a lattice or bonds are stiffer than the material. */
+ * which bond-based bonds to peridynamic particles reduce the stiffness of its cell. Reduces it only so far that V C -
+ * `tensor`, with the volume V and elastic tensor C of the point, has no negative eigenvalue, with which the cell would
+ * be unstable at any time step. This has an effect only if particles are not on a lattice or bonds are stiffer than the
+ * material. source: inputs of the bonds (horizon, materials, cracks, mirrors). */
 void cell_stiffness_reduction_limit_bond_based(real *tensor, const struct particles *p,
                                                const struct bond_source *source, int64_t point);
 

@@ -1,11 +1,14 @@
-/* Stiffness of the cell of a material point of state-based PD-MPM bonds (partial_stress.c): symmetric, and as close to
- * the patch test as a positive energy of the point allows.
+/* Computes the stiffness of the cell of a material point of state-based PD-MPM bonds (partial_stress.c):
+ * symmetric, and as close to the patch test as a positive energy of the point allows.
  *
- * With X = (1/Q) sum w r e over the bonds of the point, these bonds store at least 1/2 V kappa X^2, kappa = B/tr zeta,
- * by the Cauchy-Schwarz inequality, and
- *     1/2 V [A (L : eps + X)^2 + kappa X^2 + eps : K eps] >= 1/2 V eps : (K + q L L) eps,   q = A kappa/(A + kappa).
- * Negative eigenvalues of K + q L L are set to 0; they occur for a Poisson's ratio of 0.45 and more in plane strain and
- * in 3D. */
+ * With X = (1/Q) sum w r e and zeta = (1/Q) sum w xi (x) xi over the bonds of the point (w, r, e, xi: weight,
+ * length, extension, reference vector; Q: weighted volume), these bonds store at least 1/2 V kappa X^2, kappa
+ * = B/tr zeta, by the Cauchy-Schwarz inequality, and
+ *     1/2 V [A (L : eps + X)^2 + kappa X^2 + eps : K eps] >= 1/2 V eps : (K + q L L) eps,
+ *     q = A kappa/(A + kappa).
+ * A, B: constants of the model; V, K, eps: volume, stiffness and strain of the cell; L: derivative of the
+ * mean strain by eps. Negative eigenvalues of K + q L L are set to 0; they occur for a Poisson's ratio of
+ * 0.45 and more in plane strain and in 3D. */
 #include <math.h>
 #include <string.h>
 

@@ -1,5 +1,6 @@
-/* Partial stress on a lattice by the table of partial_table.c: the responses of bonds to strain, kept for each material
- * point with bonds, and the tensor of one point: a sum of responses by direction, and a sum of a few dozen tensors. */
+/* Computes the partial stress on a lattice by the table of partial_table.c. The responses of the bonds of each material
+ * point to strain are stored; the tensor of a point is computed from responses summed by bond direction and a few dozen
+ * tabulated tensors. */
 #include "bonds/sites.h"
 #include "base/memory.h"
 #include "partial_table_internal.h"
@@ -86,8 +87,8 @@ static void response_make(const struct bond_fraction_table *t, const struct part
     }
 }
 
-/* The block of eight rows of the last query, and its rows with an intact bond, one bit each: the next query is mostly
- * of this block. */
+/* Result of the last query of partial_table_has_bonds, kept because the next query mostly concerns the same block of
+ * eight bond rows. rows: bit l is set if row l of the block has an intact bond. */
 struct row_block_intact {
     int64_t row_block;
     unsigned rows;
@@ -136,9 +137,9 @@ void bond_fraction_table_update_strain_responses(struct bond_fraction_table *t, 
 
 /* ---- one point --------------------------------------------------------------------------------------------------- */
 
-/* A row whose bonds may cross the cell of a point. j: particle or mirror image of the row; place: number of its site
- * relative to the point; response: entry of its bond responses. A bond starts within its length of any cell that it
- * crosses. */
+/* A particle or mirror image j whose bonds may cross the cell of a material point, because the cell is within a bond
+ * length. place: number of its lattice site in the table with that point at the centre; response: entry of its bond
+ * responses to strain. */
 struct crossing_row {
     int32_t j, place, response;
 };

@@ -1,19 +1,24 @@
-/* Partial stress: the part of its stress that a material point leaves to the bonds that cross its cell. In uniform
- * strain the PD-MPM bonds carry
+/* Computes the partial stress: the part of its stress that a material point leaves to the bonds that cross
+ * its cell. In uniform strain eps the PD-MPM bonds carry
  *     T_q : eps,   T_q = (1/V_q) sum_bonds K xi^2 l_q e (x) e (x) e (x) e
- * where l_q is the share of the reference segment of the bond inside the cell of point q, and e its direction. The
- * point transmits sigma - T_q : C^-1 sigma to the grid and keeps sigma as its state. T_q is geometric, exact in 1D, and
- * the Hessian of an energy: C - T_q is the stiffness of the bonds that the cells replace.
+ * where l_q is the share of the reference segment of the bond inside the cell of point q (volume V_q), and e
+ * its direction. The point transmits sigma - T_q : C^-1 sigma to the grid and keeps its stress sigma as its
+ * state. T_q is geometric, exact in 1D, and the Hessian of an energy: C - T_q, with the elastic tensor C, is
+ * the stiffness of the bonds that the cells replace.
  *
- * State-based bonds also respond to the trace of the strain and in other directions (struct bond_strain_response):
- * their T_q is not symmetric and would cause flutter at any time step. A point j of such bonds therefore has the energy
- * of one neighbourhood, E_j = 1/2 V A S^2 + 1/2 g sum w |Y - R xi|^2,   S = sum w r e/Q + L : eps,   L = 1/D - (1/Q)
- * sum w xi (x) xi in which the bonds of the point determine one part of the mean strain S and its cell the rest; R is
- * the rotation of the cell (kernels/mesh/mesh_law.h), and for ordinary models the second term is that of the stretch of
- * the bonds. The derivatives of E_j by the parts of S and R of the cell act on the cell (particles.end_pull,
- * end_moment). The cell keeps K = C - T', T' = sym T + A sym (L (x) 1/D), which fails the patch test only by the part
- * of T that has no energy: 1 to 4 % of the nodal force S h at flat interfaces. T' is limited so that the energy of the
- * point stays positive (partial_positive.c). */
+ * State-based bonds also respond to the trace of the strain and in other directions (struct
+ * bond_strain_response): their T_q is not symmetric and would cause flutter at any time step. A point j of
+ * such bonds therefore has the energy of one neighbourhood in D dimensions (A, g: stiffness constants; w, r,
+ * Q: weight and length of a bond, weighted volume; 1: unit tensor)
+ *     E_j = 1/2 V A S^2 + 1/2 g sum w |Y - R xi|^2,   S = sum w r e/Q + L : eps,
+ *     L = 1/D - (1/Q) sum w xi (x) xi
+ * in which the bonds of the point (xi, Y: reference and present vector; e here: extension) determine one part
+ * of the mean strain S and its cell the rest; R is the rotation of the cell (kernels/mesh/mesh_law.h), and
+ * for ordinary models the second term is that of the stretch of the bonds. The derivatives of E_j by the
+ * parts of S and R of the cell act on the cell (particles.end_pull, end_moment). The cell keeps K = C - T',
+ * T' = sym T + A sym (L (x) 1/D), which fails the patch test only by the part of T that has no energy: 1 to 4
+ * % of the nodal force S h at flat interfaces. T' is limited so that the energy of the point stays positive
+ * (partial_positive.c). */
 #include <math.h>
 #include <string.h>
 
@@ -25,7 +30,8 @@ enum { ENTRY_MOST = SYM_MAX * SYM_MAX + SYM_MAX }; /* largest number of values o
 
 /* ---- the tensor -------------------------------------------------------------------------------------------------- */
 
-/* Bounding box of all bonds of a row, to skip rows too far from a cell for any of their bonds to cross it. */
+/* Bounding box of all bonds of one particle [m], by which particles too far from a cell for any of their bonds to cross
+ * it are skipped. */
 struct box {
     real low[DIM_MAX], high[DIM_MAX];
 };
@@ -160,8 +166,8 @@ static bool bond_entry(real *entry, real *T, const struct particles *p, const st
 
 /* ---- marks ------------------------------------------------------------------------------------------------------- */
 
-/* Lists for a renewal of entries: the particles around changed ones, whose entries are recomputed, and the rows whose
- * bonds may cross the cells of these particles. */
+/* Particles affected when particles have been converted: those whose stored values of the partial stress are
+ * recomputed, and the rows (bonds of one particle) that may cross their cells. */
 struct renewal {
     int32_t *list; /* particles around the changed ones, of any kind, in ascending order */
     int64_t n;
@@ -170,7 +176,8 @@ struct renewal {
     bool *own; /* [n] true: the particle is one of the changed particles */
 };
 
-/* Marks of particles beside changed particles, as bits; the next function sets them. */
+/* Bits by which mark_dirty marks a particle. OWN: it has changed; DIRTY: a changed particle is so near that its partial
+ * stress must be recomputed; OTHERS_ROW: its bonds may cross the cell of a DIRTY particle. */
 enum { OTHERS_ROW = 1, DIRTY = 2, OWN = 4 };
 
 /* Sets bits in mark[p->n] for the particles that are affected when particles have changed. OWN: a changed particle.

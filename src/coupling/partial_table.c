@@ -1,6 +1,6 @@
-/* Construction of the table for partial stress on a lattice. The share of a bond inside the cell of a point depends
- * only on the start of the bond relative to the point and on the vector of the bond: shares and the tensors of all
- * directions are tabulated once. */
+/* Builds the table for partial stress on a lattice. The share of a bond inside the cell of a point depends only on the
+ * start of the bond relative to the point and on the vector of the bond: shares, and the tensors of all directions, are
+ * tabulated once. */
 #include <math.h>
 #include <string.h>
 
@@ -134,11 +134,12 @@ static void crossings_make(struct bond_fraction_table *t)
 }
 
 /* Computes t->tensor[directions][parts][size]: for each direction of bonds and each part of the response of a bond to
- * strain, the tensor T by which a bond inside a cell over its full length reduces the stiffness of the cell. T_abcd = l
- * e_b dF_a/deps_cd, with the length l of the bond, its unit vector e and its force F
- * (cell_stiffness_reduction_add_bond_contribution). Parts, of which one is 1 and the other 0: 0, the force due to the
- * deformation of the bond itself, along the bond or, if s->rotates (models with particle rotations), in any direction;
- * 1, the force due to the dilatation of the neighbourhood, in state-based models only (struct bond_strain_response). */
+ * strain, the tensor T by which a bond reduces the stiffness of a cell if its full length is inside. T_abcd = l e_b
+ * dF_a/deps_cd, with the length l of the bond, its unit vector e, its force F and the strain eps
+ * (cell_stiffness_reduction_add_bond_contribution). Part 0: force by the deformation of the bond itself, along the bond
+ * or, if s->rotates (models with particle rotations), in any direction. Part 1, in state-based models only: force by
+ * the dilatation of the neighbourhood (struct bond_strain_response). Each tensor is that of a unit response in one
+ * part. */
 static void tensors_make(struct bond_fraction_table *t, const struct bond_source *s)
 {
     t->tensor = NEW("partial.tensor", (int64_t)t->directions * t->parts * t->size, real);

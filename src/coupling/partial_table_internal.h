@@ -1,29 +1,30 @@
-/* The table for partial stress on a lattice: made by partial_table.c, filled with bond responses and summed by
- * partial_responses.c. */
+/* Defines the table for partial stress on a lattice (stress that bonds carry through the cells of material points). It
+ * is made by partial_table.c, filled with strain responses of bonds and summed by partial_responses.c. */
 #ifndef CLEAVE_PARTIAL_TABLE_INTERNAL
 #define CLEAVE_PARTIAL_TABLE_INTERNAL
 
 #include "partial_parts.h"
 
-/* Largest number of bond vectors of a table times parts of a response: a table with more remains empty. */
+/* Largest product of the number of bond vectors of a table and the number of terms of a strain response (one or two). A
+ * table with a larger product remains empty. */
 enum { VECTORS_MOST = 2048 };
 
-/* Fraction of the length of a bond that is inside the cell of a point, for one bond that crosses the cell. vector,
- * direction: numbers of the vector and of the direction of the bond. Crossings are listed by the site at which the bond
- * starts. */
+/* A bond that crosses the cell of a material point. vector, direction: indices of its vector and of its direction,
+ * which a vector and its opposite have in common; share: fraction of its length inside the cell [1]. The table lists
+ * crossings by the lattice site at which the bond starts. */
 struct crossing {
     int16_t vector, direction;
     real share;
 };
 
-/* A lattice site that is within the length of a bond from a point, or the site of the point itself. place: number of
- * the site; at: offset from the point [spacings]. */
+/* A lattice site within the length of a bond from a point, or the site of the point itself. place: number of the site
+ * (see struct bond_fraction_table); at: offset from the point [spacings]. */
 struct near_place {
     int16_t place, at[DIM_MAX];
 };
 
-/* Responses to strain (struct bond_strain_response) of the bonds of all rows of material points, in one entry per row,
- * by the number of the bond's vector. The values of a row are valid until one of its bonds changes. */
+/* Strain responses (struct bond_strain_response) of the bonds of material points. Each point with an intact bond has
+ * one entry, which contains a response for each bond vector and is valid until a bond of the point changes. */
 struct responses {
     int32_t *of;    /* [n] entry of a particle, -1: no row with an intact bond */
     real *response; /* [room][vectors][parts] */

@@ -1,4 +1,4 @@
-/* Reversion: peridynamic particles without broken bonds become material points again once waves have passed. Each
+/* Converts peridynamic particles without broken bonds back to material points (reversion) once waves have passed. Each
  * particle is written by one thread. */
 #include "coupling/reversion.h"
 
@@ -58,11 +58,11 @@ static bool low_stress(const struct reversion_rule *rule, const struct particles
     return stress_largest_principal(stress, p->dim) < limit;
 }
 
-/* Finds the peridynamic particles that may not revert to material points because of their own state. Sets held[i] to 1
- * for particles with a broken or softened bond, for those in the region rule->kept, and for those whose stress has not
- * been low (low_stress) for the whole hold time of `rule`; to 0 for other peridynamic particles. Sets cut[i] to 1 for
- * particles with a broken or softened bond, else to 0. Updates p->low_since, the time since when the stress of a
- * particle is low [s]. t: present time [s]. Returns the number of peridynamic particles with held[i] = 0. */
+/* Finds the peridynamic particles that may not revert to material points because of their own state. cut[i] is set to 1
+ * for a particle i with a broken or softened bond, else to 0. held[i] is set to 1 if cut[i] is 1, if the particle is in
+ * the region rule->kept, or if its stress has not been low (low_stress) for the hold time of `rule`; else to 0. Updates
+ * p->low_since, the time at which the stress of a particle became low [s]. t: present time [s]. Returns the number of
+ * peridynamic particles with held[i] = 0. */
 static int64_t mark_constrained(const struct reversion_rule *rule, struct particles *p, const struct bonds *b, real t,
                                 uint8_t *held, uint8_t *cut)
 {
@@ -85,10 +85,9 @@ static int64_t mark_constrained(const struct reversion_rule *rule, struct partic
 }
 
 /* Sets bound[i] to 1 for peridynamic particles i that must not become material points: a particle marked in `held` is
- * within the cutoff, or one marked in `cut` within BROKEN_HORIZONS horizons. Sets near[i] to 1 for particles i within
- * the cutoff of a peridynamic particle that is not bound. (Particles revert only as a ball with the radius of the
- * cutoff that contains no bound particle; its centre must have near[i] = 1.) rule: cutoff and horizon. All arrays:
- * [p->n]; held, cut: from mark_constrained. */
+ * within the cutoff (largest bond length), or one marked in `cut` within BROKEN_HORIZONS horizons. Sets near[i] to 1
+ * for all particles i within the cutoff of a peridynamic particle that is not bound; only they can be centres of a ball
+ * of particles that revert together. rule: cutoff and horizon. Arrays: [p->n]; held, cut: from mark_constrained. */
 static void mark_bound(const struct reversion_rule *rule, const struct particles *p, const uint8_t *held,
                        const uint8_t *cut, uint8_t *bound, uint8_t *near)
 {
@@ -113,9 +112,9 @@ static void mark_bound(const struct reversion_rule *rule, const struct particles
     memory_free(s.near.at);
 }
 
-/* Sets mark[i] to 1 for particles with wanted[i] = 1 that have a particle j with other[j] = 1 within the cutoff
- * (largest bond length) if `meeting` is true, or that have none if it is false. Sets mark[i] to 0 for all other
- * particles. rule: has the cutoff. Arrays: [p->n]. */
+/* Sets mark[i] to 1 or 0 for all particles i. With `meeting` true, mark[i] is 1 if wanted[i] is 1 and a particle j with
+ * other[j] = 1 is within the cutoff (largest bond length). With `meeting` false, mark[i] is 1 if wanted[i] is 1 and
+ * there is no such particle. rule: has the cutoff. Arrays: [p->n]. */
 static void mark_meeting(const struct reversion_rule *rule, const struct particles *p, const uint8_t *wanted,
                          const uint8_t *other, bool meeting, uint8_t *mark)
 {
@@ -253,10 +252,10 @@ static void crossing_add(struct crossing *to, const struct bonds *b, const struc
 
 /* Computes in *to the stress in the cell of particle i of p from all bonds that cross the cell, sigma = (1/V) sum l F
  * (x) y, and the derivative of this stress by a uniform strain, T = (1/V) sum k r l e e e e [Pa]. V: volume of the
- * cell; l: fraction of the bond inside the cell; F, y: force and present vector of the bond; k, r, e: its stiffness,
- * reference length and direction. In a uniform strain sigma equals the virial stress of the bonds of particle i, but it
- * averages a wave over only half the distance. source: law of the bonds and cells of the search; near: working memory.
- */
+ * cell; l: fraction of a bond inside the cell; F, y: force and present vector of the bond; k, r, e: its stiffness,
+ * reference length and direction. In a uniform strain sigma equals the virial stress of the bonds of particle i; in a
+ * wave it is an average over only half the distance. source: law of the bonds and cells of the neighbour search; near:
+ * working memory. */
 static void crossing_of(struct crossing *to, const struct particles *p, const struct bonds *b,
                         const struct bond_source *source, int64_t i, struct neighbour_list *near)
 {

@@ -1,4 +1,5 @@
-/* Reversion in a run: times of its checks, and its consequences. */
+/* Checks at regular times of a run which peridynamic particles may become material points again (reversion), and
+ * converts them. */
 #include <math.h>
 
 #include "base/memory.h"

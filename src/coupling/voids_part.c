@@ -1,5 +1,5 @@
-/* Voids too narrow for a grid: particles beside them become peridynamic, or a warning says that the grid joins their
- * sides. */
+/* Treats voids (gaps in a body) that are too narrow for a grid: makes particles beside them peridynamic, or warns that
+ * grid nodes couple their two sides. */
 #include <math.h>
 #include <stdio.h>
 
@@ -55,10 +55,10 @@ static bool void_is_within_body(const struct voids *v, const struct particles *p
 }
 
 /* Counts the material points of p beside gaps that are too narrow for the grid to separate their sides. *inside:
- * receives number and first index of those beside voids of a body; *at_plane: the same for gaps between a body and a
- * plane of symmetry. v: voids of bodies whose surface is known, or NULL, then nothing is counted; cells: cells of the
- * search; reach: largest width of such a gap [m]; uncut: true if voids do not divide the mesh of the reference frame
- * (the undeformed body); if false, points of this mesh are left out. */
+ * receives number and first index of the points beside voids within a body; *at_plane: of the points beside gaps
+ * between a body and a plane of symmetry. v: particles beside voids of bodies whose surface is known; NULL: nothing is
+ * counted; cells: cells of the neighbour search; reach: largest width of a gap [m]; uncut: true to count also points of
+ * the mesh of the reference frame (a mesh of the undeformed body), if voids do not divide it. */
 static void closed_on_grid(const struct particles *p, const struct voids *v, const struct cells *cells, real reach,
                            bool uncut, struct closed *inside, struct closed *at_plane)
 {

@@ -1,4 +1,5 @@
-/* The active set: levels of blocks, the list of active blocks, and their state in checkpoints. */
+/* Allocates, lists, saves and restores the active set: activity levels of blocks of eight bond rows or mesh nodes, and
+ * the list of the blocks that computations visit. */
 #include "data/active_set.h"
 
 #include <stdio.h>

@@ -1,4 +1,5 @@
-/* Builds a tree of boxes by halving at the median of their middles, and searches it. */
+/* Builds a tree of bounding boxes, by halving lists of boxes at the median of their middles, and searches it for the
+ * boxes near a point. */
 #include "data/box_tree.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* Search for near particles with linked cells over reference positions. */
+/* Searches for particles near a reference position by linked cells. */
 #include "data/cells.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* Cracks of a body with planes of symmetry: their parts in the body, and their mirror images. */
+/* Clips cracks at planes of symmetry to the modelled part of the body, and lists them with their mirror images. */
 #include <math.h>
 #include <string.h>
 

@@ -1,4 +1,5 @@
-/* Invariants and principal values of symmetric tensors, and the table of derived fields. */
+/* Computes invariants and principal values of symmetric tensors, and lists the output fields that are derived from
+ * stored ones in a table. */
 #include "data/derived_fields.h"
 
 #include <math.h>

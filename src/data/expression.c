@@ -1,4 +1,4 @@
-/* Evaluation of compiled expressions. */
+/* Evaluates expressions of the input file that have been compiled to a list of operations. */
 #include "data/expression.h"
 
 #include <math.h>

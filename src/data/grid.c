@@ -1,4 +1,4 @@
-/* The background grid: a box of nodes that grows with its material points. */
+/* Allocates the background grid and extends its box of nodes as material points move. */
 #include "data/grid.h"
 
 #include <math.h>

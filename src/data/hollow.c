@@ -1,4 +1,4 @@
-/* Cells whose particles are not made. */
+/* Releases the list of hollow cells: mesh cells inside a body whose particles are not created. */
 #include "data/hollow.h"
 
 #include "base/memory.h"

@@ -1,4 +1,5 @@
-/* Surfaces from faces: cancels inner faces, finds open edges and components, orients normals outwards. */
+/* Makes surfaces of bodies from faces: cancels inner faces, finds open edges and components, orients normals
+ * outwards. */
 #include "data/hull.h"
 
 #include <math.h>

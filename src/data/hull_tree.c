@@ -1,4 +1,4 @@
-/* A tree of boxes over the faces of a surface, for winding numbers and distances. */
+/* Builds a tree of boxes over the faces of a surface, and computes winding numbers and distances by it. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -77,7 +77,8 @@ static void node_split(struct hull *s, int32_t at, struct leaflet *leaf)
     node_split(s, left + 1, leaf);
 }
 
-/* Number of trees that have been built: a new tree may have the address of one that was released. */
+/* Number of trees built so far. Together with its address it identifies a tree, since a new tree may have the address
+ * of one that was released. */
 static int trees_built;
 
 void hull_build_face_search_tree(struct hull *s)

@@ -1,4 +1,4 @@
-/* Constants of flow laws that follow from those given by the scene. */
+/* Computes constants of flow laws (plasticity) that follow from those given in the input file. */
 #include "data/law.h"
 
 #include <math.h>

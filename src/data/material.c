@@ -1,4 +1,5 @@
-/* Elastic constants of a material in its space, and the constants of bond-based peridynamics. */
+/* Computes derived constants of a material: wave speeds, elastic constants for line, plane or solid, and the constants
+ * of bond-based peridynamics. */
 #include "data/material.h"
 
 #include <math.h>

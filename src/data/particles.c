@@ -1,4 +1,5 @@
-/* The table of the particles' arrays, and the loops over it that allocate, grow, sort and free them. */
+/* Defines the table of all arrays of struct particles, and allocates, grows, sorts, saves and frees them by loops over
+ * this table. */
 #include "data/particles.h"
 
 #include <math.h>

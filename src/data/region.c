@@ -1,4 +1,5 @@
-/* Constructive geometry by signed distances, functions of time, and the bonds that a crack cuts. */
+/* Computes bounds and volumes of regions (solids that are added, subtracted or intersected), evaluates functions of
+ * time and wave pulses, and tests which bonds a crack cuts. */
 #include "data/region.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* Membership, distance and normal for regions: evaluates the solids of the list in turn, or, in long runs of added or
- * subtracted solids, only those near the point. */
+/* Tests whether points are in a region, and computes distances from it and normals. Evaluates the solids of the region
+ * in turn; of long runs of added or subtracted solids only those near the point. */
 #include <float.h>
 #include <math.h>
 

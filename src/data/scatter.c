@@ -1,4 +1,4 @@
-/* A random field of strength as a function of position. */
+/* Evaluates a random field of strength at positions of particles (scatter.h). */
 #include "data/scatter.h"
 
 #include <math.h>
@@ -30,8 +30,8 @@ real normal_distribution_quantile(real probability)
  * formed of its leading 53 bits. */
 static real noise_of(uint64_t hash) { return normal_distribution_quantile(((real)(hash >> 11) + 0.5) * 0x1p-53); }
 
-/* Number of lattice nodes along each axis that contribute to the field at a point. The lattice has the spacing
- * length/2; omitted nodes have weights below exp(-8) of the largest. */
+/* Number of lattice nodes along each axis whose random numbers contribute to the field at a point. The nodes are half a
+ * correlation length apart; omitted nodes have weights of at most exp(-8) of the largest. */
 enum { NODES = 8 };
 
 /* Computes weight[NODES], the Gaussian weights of those NODES nodes of a random field that are nearest to the

@@ -1,4 +1,5 @@
-/* Curves by which bonds soften, their energy, and the strength that uniformly strained bonds have with them. */
+/* Computes the curves by which bonds soften, the energy that they dissipate, and the strength of a uniformly strained
+ * body of softening bonds. */
 #include "data/softening_states.h"
 
 #define DECAY 5.0 /* exponent of exponential softening at its end */

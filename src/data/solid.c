@@ -1,4 +1,4 @@
-/* Kinds of solids: distance, level and support of each. */
+/* Computes signed distances, level-set values (<= 0 inside) and support functions of each kind of solid. */
 #include <math.h>
 
 #include "base/memory.h"

@@ -1,4 +1,4 @@
-/* Copies of solids: moved, rotated, mirrored, repeated; distances over all copies. */
+/* Makes copies of solids (moved, rotated, mirrored, repeated), and computes distances over all copies. */
 #include <math.h>
 #include <string.h>
 

@@ -1,4 +1,4 @@
-/* Polygons with sharp or round corners, and ellipsoids: exact distances and normals. */
+/* Computes exact distances and normals of polygons with sharp or round corners, and of ellipsoids. */
 #include <math.h>
 #include <string.h>
 

@@ -1,4 +1,5 @@
-/* Strength surfaces of Drucker and Prager, and what they mean for a material. */
+/* Computes the constants of Drucker-Prager strength surfaces (failure criteria in stress) from two strengths, and the
+ * strengths and strains at failure of a material with such a surface. */
 #include "data/strength_surface.h"
 
 #include "data/material.h"

@@ -1,4 +1,5 @@
-/* Sorts points for transfers: by coloured block, then by cell. */
+/* Sorts material points for transfers between points and grid: by block of cells, blocks in the order of their colours,
+ * then by cell. */
 #include "data/transfer_order.h"
 
 #include <omp.h>
@@ -97,8 +98,9 @@ void transfer_order_reserve_arrays(struct transfer_order *o, int64_t point_count
 /* Number of bits that hold the number of a cell in its block. */
 enum { INSIDE_BITS = 16 };
 
-/* Working memory of a counting sort by the ranks of blocks, each thread on its chunk of the list, then by cell inside
- * each block. Points of a cell keep the order of the list, so the result does not depend on the number of chunks. */
+/* Working memory of a sort of points: by the ranks of their blocks (boxes of cells), for which each thread counts one
+ * chunk of the list, then by cell inside each block. Points of a cell keep the order of the list, so the result does
+ * not depend on the number of chunks. */
 struct sorting {
     const struct particles *p;
     const struct grid *g;

@@ -1,4 +1,5 @@
-/* How material points are divided into groups that rotate together. */
+/* Divides material points into groups of neighbours that rotate together, which conserves angular momentum
+ * (turning.h). */
 #include "data/turning.h"
 
 #include <math.h>
@@ -61,10 +62,10 @@ struct division {
     bool odd[DIM_MAX];                /* a row of particles is on the middle, across each axis */
 };
 
-/* Returns an array [bodies] with the division of the bodies that are joined to each body; only the entries of bodies
- * one[b] are filled. The caller frees it with memory_free. p: particles; spacing: lattice spacing [m]; mirror[dim]:
- * positions of planes of symmetry [m], NAN: none; one[bodies]: for each body the first of the bodies that are joined to
- * it. */
+/* Returns an array [bodies] with extent and middle of the bodies that are joined to each body. Joined bodies are
+ * represented by the first of them, one[b] for body b, whose entry alone is filled. The caller frees the array with
+ * memory_free. p: particles; spacing: lattice spacing [m]; mirror[dim]: positions of planes of symmetry [m], NAN:
+ * none. */
 static struct division *divisions_make(const struct particles *p, real spacing, const real *mirror, const int *one,
                                        int bodies)
 {
@@ -88,9 +89,8 @@ static struct division *divisions_make(const struct particles *p, real spacing, 
 }
 
 /* Returns an array of all particles of p, sorted by the group with which they rotate and by position, so that their
- * order does not depend on their numbers. The caller releases it with memory_free. spacing: lattice spacing [m];
- * division: for each body one[b], from divisions_make; one: for each body the first of the bodies that are joined to
- * it. */
+ * order does not depend on their numbers. The caller frees it with memory_free. spacing: lattice spacing [m]; one[b]:
+ * first of the bodies that are joined to body b; division: extent of the bodies, from divisions_make. */
 static struct member *members_sorted(const struct particles *p, real spacing, const struct division *division,
                                      const int *one)
 {

@@ -1,4 +1,5 @@
-/* Finds pairs of particles of a body whose connecting segment leaves its shape. */
+/* Finds pairs of particles of one body between which there is a void: the segment that connects them leaves the shape
+ * of the body. */
 #include "data/voids.h"
 
 #include <math.h>
@@ -221,9 +222,9 @@ bool void_separates_points(const struct voids *v, int body_number, const real *p
 
 /* ---- all particles ----------------------------------------------------------------------------------------------- */
 
-/* Returns true if a void, space without particles, is between the particles of p with the indices `particle` and
+/* Returns true if a void (space without particles) is between the particles of p with the indices `particle` and
  * `other_particle`, both of one body: the segment that connects them leaves the shape of the body. Returns false if v
- * is NULL. */
+ * is NULL, or if one of them is not beside a void. */
 bool void_separates_particles(const struct voids *v, const struct particles *p, int64_t particle,
                               int64_t other_particle)
 {
@@ -241,17 +242,18 @@ real voids_particle_surface_distance_lower_bound(const struct voids *v, const st
     return real_max(0, -void_level(v, p->body[particle], X));
 }
 
-/* Solids of a body around one of its particles: how many of them were seen, how many that are not intersected are
- * within the distance of the search, and those that show which segments are inside the body, one bit each. */
+/* Solids of a body near one of its particles. solids: number of solids examined so far, also the bit of the next one;
+ * within: number of added solids within the search distance; inside: one bit for each convex solid that contains the
+ * particle, so that segments from the particle to points of the solid are inside the body. */
 struct solids_seen {
     int solids, within;
     uint32_t inside;
 };
 
-/* Adds the solids of the region r of a body to *seen, for the point X of this body. An added solid gets its bit in
- * seen->inside if it contains X, or misses it by at most SEAM spacings, and is convex, with its mirror images, within
- * `reach` of it, as are all solids that it is intersected with. If X is outside of one of these, no solid of
- * r gets a bit. Returns false if a solid is subtracted within `reach` of X, or one intersected that is not convex. */
+/* Adds the solids of the region r of a body to *seen, for the point X of this body. Sets the bit in seen->inside of
+ * each added solid that contains X (up to SEAM spacings) and is convex within `reach` [m] of X, also with its mirror
+ * images. Sets no bit for r if X is outside a solid that is intersected. Returns false if a solid within `reach` is
+ * subtracted, or is intersected and not known to be convex. */
 static bool region_add_solids_around_point(struct solids_seen *seen, const struct voids *v, const struct region *r,
                                            const real *X, real reach)
 {
@@ -273,11 +275,11 @@ static bool region_add_solids_around_point(struct solids_seen *seen, const struc
     return true;
 }
 
-/* Returns a set of solids of the body of particle i of p, as one bit each: those of which each segment of at most
- * `reach` [m] from the particle to another point of the solid is inside the body. Two particles at most `reach` apart
- * have no void between them if they have a bit in common. Returns ALONE instead if there is such a solid and no other
- * solid of the body is within `reach`. Returns 0 if solids are subtracted that near, or intersected in a way that is
- * not known to be convex, or if the body has more than SOLIDS_MOST solids. v: shapes of the bodies. */
+/* Returns a set of solids of the body of particle i of p, one bit each: solids of which all segments of at most `reach`
+ * [m] from the particle to other points of the solid are inside the body. Two particles at most `reach` apart have no
+ * void between them if they have a bit in common. Returns ALONE if there is such a solid and no other solid of the body
+ * is within `reach`. Returns 0 if a solid within `reach` is subtracted, or intersected and not known to be convex, or
+ * if the body has more than SOLIDS_MOST solids. v: shapes of the bodies. */
 static uint32_t solids_around(const struct voids *v, const struct particles *p, int64_t i, real reach)
 {
     struct solids_seen seen = {0};
@@ -292,12 +294,11 @@ static uint32_t solids_around(const struct voids *v, const struct particles *p, 
     return seen.within == 1 && seen.inside ? ALONE : seen.inside;
 }
 
-/* Tests whether voids, spaces without material, separate particle i of p from the neighbours `near` of its own body.
- * Returns VOID_NEAR if the straight line to one of them leaves the body, else 0. Adds VOID_ACROSS if the two surfaces
- * that such a line crosses face each other. v: shapes of the bodies. Skips neighbours that need no test: depth[n_all],
- * lower bounds of the distances of particles from the surface [m], shows that the line is inside if the two balls with
- * these radii cover it; inside[n_all], bits of the convex solids that contain a particle, shows it if the two particles
- * have a bit in common. */
+/* Tests whether voids (spaces without material) separate particle i of p from its neighbours `near` in the same body.
+ * Returns VOID_NEAR if the straight line to one of them leaves the body, else 0; adds VOID_ACROSS if the two surfaces
+ * that such a line crosses face each other. v: shapes of the bodies. A line is inside without a test in two cases: the
+ * balls around both particles with the radii depth[n_all] (lower bounds of their distances from the surface [m]) cover
+ * it, or both have a bit in common in inside[n_all] (solids_around). */
 static uint8_t void_search(const struct voids *v, const struct particles *p, const real *depth, const uint32_t *inside,
                            int64_t i, const struct neighbour_list *near)
 {

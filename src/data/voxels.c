@@ -1,4 +1,5 @@
-/* Voxels: grey values at points, and signed distances from the surface of the voxels with certain grey values. */
+/* Reads grey values of a voxel image at points, and computes signed distances from the surface of the voxels with
+ * certain grey values. */
 #include "data/voxels.h"
 
 #include <math.h>

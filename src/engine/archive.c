@@ -1,4 +1,5 @@
-/* State of a run in checkpoints: what is saved and restored, and what is rebuilt from it. */
+/* Saves the state of a run to checkpoints and restores it; what is not stored is rebuilt from the restored particles
+ * and bonds. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,5 +1,5 @@
-/* Reference run of PULSE probes: the same scene on material points alone, which separates the effect of the
- * interface from that of the discretisation. */
+/* Repeats a run that has a PULSE probe (reflected and transmitted part of a wave packet) with material points alone.
+ * This reference run separates the effect of the interface from that of the discretisation. */
 #include <string.h>
 
 #include "engine/engine.h"

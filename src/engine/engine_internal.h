@@ -1,4 +1,5 @@
-/* Declarations shared by the files of src/engine. */
+/* Declarations shared by the files of src/engine: set-up of a run, its replacement by a run with other particles, and
+ * warnings. */
 #ifndef CLEAVE_ENGINE_INTERNAL
 #define CLEAVE_ENGINE_INTERNAL
 
@@ -98,15 +99,15 @@ void run_warn_of_supports_moving_too_fast(const struct scene *s, const struct lo
  * in any material. */
 void run_warn_of_particles_faster_than_waves(const struct particles *p, real wave_speed, struct warnings *warnings);
 
-/* Adds warnings to *warnings about supports of scene s (the input file) that hold all particles of p, about pairs of
- * supports that prescribe different motions of the same particles, and about loads on particles whose motion a support
- * prescribes. */
+/* Adds warnings to *warnings about supports in three cases: a support of scene s (the input file) prescribes the motion
+ * of all particles of p; two supports prescribe different motions of the same particles; a load acts on particles whose
+ * motion a support prescribes. p, loads: particles and loads. */
 void run_warn_of_conflicting_supports(const struct scene *s, const struct loads *loads, const struct particles *p,
                                       struct warnings *warnings);
 
 /* Adds a warning to *warnings for each support of scene s (the input file) at an end face of a body that lies within a
- * grid cell instead of on a row of nodes, where cells have an edge of two particle spacings: the body is then computed
- * too long or too short. The warning states by how much. p, loads: particles and loads; grid: any grid of the run,
+ * grid cell instead of on a row of nodes, where cells have an edge of two particle spacings. The body is then computed
+ * too long or too short; the warning states by how much. p, loads: particles and loads; grid: any grid of the run,
  * whose members `anchor` and `h` give the positions of all nodes. */
 void run_warn_of_supports_between_grid_nodes(const struct scene *s, const struct loads *loads,
                                              const struct particles *p, const struct grid *grid,
@@ -149,10 +150,10 @@ void run_warn_of_solids_without_effect_on_bodies(const struct scene *s, struct w
 void run_warn_of_overlapping_closed_surface_files(const struct scene *s, struct warnings *warnings);
 
 /* Adds a warning to *warnings about each body of scene s (the input file) that moves in one direction from the start
- * and meets no other body, rigid bodies included, within the duration. This is judged by the bounding boxes of the
- * bodies, moved with the extreme initial velocities of their particles in p: boxes that come within one spacing meet.
- * Adds none if forces, gravity, prescribed motion or planes of symmetry may change the flight, or if a box is not
- * known. */
+ * and comes into contact with no other body, rigid bodies included, within the duration. This is judged by the bounding
+ * boxes of the bodies, moved with the extreme initial velocities of their particles in p: boxes within one spacing
+ * count as contact. Adds none if forces, gravity, prescribed motion or planes of symmetry may change the motion, or if
+ * a box is not known. */
 void run_warn_of_bodies_that_never_meet(const struct scene *s, const struct particles *p, struct warnings *warnings);
 
 /* Adds a warning to *warnings about each pair of bodies of scene s (the input file) that overlap at the start. p:

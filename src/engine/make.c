@@ -1,4 +1,4 @@
-/* Set-up of a run from its scene: particles, loads, bonds, grid and time step. */
+/* Sets up a run from its input file: materials, particles, loads, bonds, contact, grid, probes and time step. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -28,8 +28,9 @@ static bool has_peridynamics(const struct scene *s) { return s->method != METHOD
 /* ---- materials --------------------------------------------------------------------------------------------------- */
 
 /* Computes the critical stretch of bonds for each pair of materials of scene s, from the fracture energy of the weaker
- * material or of an interface between bodies; INFINITY in static problems, in which no bond breaks. Allocates the table
- * tables->pair_stretch [materials][materials], to which source->limit then refers. */
+ * material or of an interface between bodies. Allocates the table tables->pair_stretch [materials][materials], to which
+ * source->limit then refers. If the problem is a single equilibrium, in which no bond breaks, source->limit becomes
+ * bond_limit_never instead. */
 static void make_limits(const struct scene *s, struct material_tables *tables, struct bond_source *source)
 {
     tables->pair_stretch = NEW("engine.pair_stretch", s->materials * s->materials, real);
@@ -308,9 +309,9 @@ static status make_particles(struct run *e)
         s, run_check_memory_suffices(s, &e->part, &e->source)); /* with the actual number of particles */
 }
 
-/* Creates the parts of run e that observe it or act on cracks: crack tips, crack growth, static solver, diagnostics and
- * probes. Returns REFUSED, with a message, if the scene does not allow the growth of a crack by stress-intensity
- * factors, the static solver or a probe as it is specified. */
+/* Creates crack tips, crack growth, static solver, diagnostics and probes of run e. Returns REFUSED, with a message, if
+ * the scene does not allow the growth of a crack by stress-intensity factors, the static solver or a probe as it is
+ * specified. */
 static status make_probes(struct run *e)
 {
     const struct scene *s = e->scene;

@@ -1,4 +1,4 @@
-/* Memory and time that the set-up of a run needs, estimated before it is made. */
+/* Estimates the memory and the time that the set-up of a run needs, before the run is set up. */
 #include <stdio.h>
 
 #include "base/memory.h"

@@ -1,4 +1,5 @@
-/* Table of the parts of a run. Its order is that of the columns in history.csv and of the state in checkpoints. */
+/* Lists the parts of a run (contact, mesh, probes and so on) in a table. Its order is that of the columns in
+ * history.csv and of the state in checkpoints. */
 #include <string.h>
 
 #include "base/memory.h"

@@ -1,4 +1,5 @@
-/* Runs a scene: before each step coarse cells follow cracks, after it come checks and reports. */
+/* Advances a run to its end. Before each step the coarse mesh cells are adapted to cracks and stress; after each step
+ * the results are checked and reported. */
 #include "base/memory.h"
 #include "engine_internal.h"
 #include "mesh/mesh_part.h"

@@ -49,8 +49,8 @@ static void put_warnings(struct json *j, const struct warnings *w)
 
 /* ---- fragments --------------------------------------------------------------------------------------------------- */
 
-/* Returns true if a run of `scene` reports fragments: all particles are peridynamic, some bonds are broken or cut by
- * pre-cracks, and the problem is not static. diagnostics: number of broken bonds. */
+/* Returns true if a run of `scene` reports fragments: all particles are peridynamic, a bond is broken or there are
+ * pre-cracks, and the problem is not a single equilibrium. diagnostics: number of broken bonds. */
 static bool has_fragments(const struct scene *scene, const struct diagnostics *diagnostics)
 {
     return scene->method == METHOD_PD && !scene_is_single_equilibrium(scene) &&
@@ -131,7 +131,8 @@ static void put_machine(struct json *j, const struct run_report *r, int64_t step
     json_write_rounded(j, "inactive_share", r->inactive / (real)(steps > 0 ? steps : 1), JSON_TIMING);
 }
 
-/* Writes the times of the sections of the time loop in this process, timers->spent [s], to the JSON object j. */
+/* Writes the computing times of the sections of the time loop in this process, timers->spent [s], to the JSON object j,
+ * as an object "laps". */
 static void put_timers(struct json *j, const struct timers *timers)
 {
     json_begin_object_or_list(j, "laps", '{');

@@ -157,8 +157,8 @@ static void warn_of_lists(const struct scene *s, struct warnings *to)
 }
 
 /* Adds a warning to *to if plastic strain or temperature is requested for frames (outputs of all particles) although no
- * material yields or is heated; a scene that requests all fields gets no warning. asked: fields that the scene requests
- * for frames (bits ASK_...); p, b: particles and bonds, which have plastic arrays if a material yields. */
+ * material yields or is heated. Adds none if all fields are requested. asked: requested fields (bits ASK_...); p, b:
+ * particles and bonds, which have plastic arrays if a material yields. */
 static void warn_of_fields(unsigned asked, const struct particles *p, const struct bonds *b, struct warnings *to)
 {
     enum {
@@ -175,8 +175,8 @@ static void warn_of_fields(unsigned asked, const struct particles *p, const stru
                                 "give one, or remove this field");
 }
 
-/* Adds warnings to *to about regions for which scene s requests frames (outputs of particles) of their own but which
- * contain no particle of p. frame: its hollow cells may contain particles that are not created; no region is then
+/* Adds warnings to *to about regions of scene s with frames (outputs of particles) of their own that contain no
+ * particle of p. frame: mesh of the run; if it has hollow cells, whose particles are not created, no region is
  * reported. */
 static void warn_of_regions(const struct scene *s, const struct lagrangian_mesh *frame, const struct particles *p,
                             struct warnings *to)

@@ -1,4 +1,4 @@
-/* Warnings of pre-cracks that have no effect, and of probes of cracks where nothing can break. */
+/* Warns of pre-cracks that have no effect or cannot grow, and of probes of cracks where nothing can break. */
 #include <math.h>
 
 #include "base/memory.h"

@@ -14,9 +14,9 @@ struct flight {
     bool known;                              /* the box is finite, and no force acts before the body meets another */
 };
 
-/* Computes the bounding box and the range of initial velocities of each deformable body b of scene s from the particles
- * p, and stores them in f[b]. Joined bodies count as the first of them. f: an entry for each body and rigid body; those
- * of rigid bodies are not set. */
+/* Computes the bounding box and the range of initial velocities of each deformable body b of scene s from its particles
+ * p, and stores both in f[b]. Bodies that are joined count as the body with the lowest number. f: one entry for each
+ * body and rigid body; entries of rigid bodies are not set. */
 static void flights_of_particles(const struct scene *s, const struct particles *p, struct flight *f)
 {
     for (int b = 0; b < s->bodies; b++)

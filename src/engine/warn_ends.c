@@ -1,9 +1,9 @@
 /* Warns of supports at an end of a body that is in the middle of a cell of material points.
  *
- * Supports hold nodes. A body end at an odd number of spacings from a node cuts cells of two spacings in half. Nodes
- * half a cell behind the end then have the prescribed displacement, and half a cell has half of its stiffness: of a bar
- * of N spacings the compliance is that of N - 1 + 4. Where the support drives the nodes half a cell before the end as
- * well, it is that of N - 1. */
+ * Supports prescribe the motion of grid nodes. If the end of a body is an odd number of spacings from a node, it cuts a
+ * cell of two spacings in half. The nodes half a cell beyond the end then have the prescribed displacement, and half a
+ * cell has half of its stiffness: a bar of N spacings has the compliance of a bar of N - 1 + 4. If the nodes half a
+ * cell before the end are prescribed as well, it has that of a bar of N - 1. */
 #include <math.h>
 
 #include "engine_internal.h"

@@ -1,10 +1,11 @@
-/* Warns where pd.surface: moments cannot make bodies of bonds as stiff as the continuum: bodies of a few rows, and
- * weights whose solver has given up. */
+/* Warns where bonds corrected by pd.surface: moments do not have the stiffness of the continuum: in bodies of a few
+ * rows of particles, and where the solver of the bond weights has not converged. */
 #include <math.h>
 
 #include "engine_internal.h"
 
-/* Rows of particles up to which a body carries 1.4 to 1.8 times its force; from 5 rows on 2 to 12 % more. */
+/* Largest thickness of a body for which a warning is given [rows of particles]. The force in such bodies is 1.4 to 1.8
+ * times that of the continuum; in bodies of 5 rows and more it is 2 to 12 % too large. */
 #define ROWS_FEW 3.5
 #define ROWS_ENOUGH 5 /* rows of the spacing that is named as a remedy */
 #define UNSOLVED 1e-8 /* residual of the bond weights from which on a warning is given; of converged weights: 1e-13 */

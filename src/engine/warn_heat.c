@@ -7,7 +7,7 @@
 #define ROOM_LEAST 150
 
 /* Adds a warning to *to about each material of scene s whose room temperature is below ROOM_LEAST (150 K), so that it
- * seems to be in degrees Celsius. Adds none if the scene accepts this (accept: [heat]). */
+ * seems to be in degrees Celsius. Adds none if the input file has accept: [heat]. */
 static void warn_of_celsius(const struct scene *s, struct warnings *to)
 {
     for (int m = 0; m < s->materials && !scene_silences_warning(s, ACCEPT_HEAT); m++) {

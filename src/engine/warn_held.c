@@ -48,8 +48,8 @@ static unsigned components_apart(const struct scene *s, const struct particles *
     return apart & a->boundary->components & b->boundary->components;
 }
 
-/* Adds a warning to *to if loads a and b prescribe different motions in the same components of the same particles of p,
- * so that the order of the loads in scene s decides which of them moves the particles. b: the later load. */
+/* Adds a warning to *to if loads a and b of scene s prescribe different motions of particles of p in the same
+ * components; the later load, b, then moves these particles. Does nothing if a motion is not known at all times. */
 static void warn_of_contrary(const struct scene *s, const struct particles *p, const struct load *a,
                              const struct load *b, struct warnings *to)
 {

@@ -1,4 +1,4 @@
-/* Warnings of particles without neighbours: they have no internal force, and a static solver finds no equilibrium. */
+/* Warns of particles without neighbours: they have no internal force, and a static solver finds no equilibrium. */
 #include <math.h>
 #include <stdio.h>
 

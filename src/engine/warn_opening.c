@@ -5,11 +5,12 @@
 #include "engine_internal.h"
 #include "fracture/tips.h"
 
-/* Largest extent of a crack along the axis of a load, divided by its largest extent, with which it lies across [1]. */
+/* Largest extent of a crack along an axis, divided by its largest extent along any axis, with which the crack counts as
+ * lying across this axis [1]. */
 #define ACROSS 0.15
 
-/* Returns true if nothing but the boundaries of scene s sets its bodies in motion: its particles p are at rest and
- * without stress at the start, no rigid body touches them, and no crack grows by a rule. */
+/* Returns true if only the boundaries of scene s set its bodies in motion: there are no initial states, rigid bodies or
+ * cracks that grow by a rule, the particles p are at rest, and all of them are created (p->n == p->n_body). */
 static bool only_boundaries_load(const struct scene *s, const struct particles *p)
 {
     bool only = s->initials == 0 && s->rigids == 0 && s->growths == 0 && p->n == p->n_body;
@@ -20,8 +21,8 @@ static bool only_boundaries_load(const struct scene *s, const struct particles *
 
 /* ---- waves ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the distance of the nearest particle of load l from the start of the crack tip `tip`, in 3D from points of
- * its front [m]. p: particles. */
+/* Returns the distance of the nearest particle (of p) on which load l acts from the position where the crack of `tip`
+ * starts, in 3D from sample points of its front [m]. */
 static real load_distance(const struct load *l, const struct particles *p, const struct crack_tip *tip)
 {
     enum { POINTS = 4 }; /* along each half of the front */

@@ -1,14 +1,15 @@
-/* Warns of strength surfaces (failure criteria in stress) whose strains are averaged over more than a body has. */
+/* Warns of strength surfaces (failure criteria in stress) whose strains are averaged over a radius that is large
+ * compared with the body. */
 #include "engine_internal.h"
 
 #include <math.h>
 
 #include "scene/scene_softening.h"
 
-/* Largest radius over which strains are averaged, divided by the shortest side of a body, without a warning. Measured
- * in a beam of concrete, 0.1 m deep, in eight energy-controlled load steps: with a radius of half of its depth it
- * bears 1.2 times the moment of bonds that only soften, with one of 2.2 depths 2.6 times, as a bending strain has a
- * mean near 0. */
+/* Largest radius over which strains are averaged without a warning, divided by the shortest side of the body [1].
+ * Averages of a bending strain over the depth of a beam are near 0 and delay failure. A concrete beam, 0.1 m deep,
+ * bears 1.2 times the moment of bonds that only soften with a radius of half its depth, and 2.6 times with 2.2 depths
+ * (eight energy-controlled load steps). */
 #define RADIUS_MOST 0.5
 
 /* Returns the shortest side [m] of the box around the particles of p that belong to body number `body` of scene s and

@@ -1,4 +1,4 @@
-/* Warnings of velocities and displacements that break bonds beside driven particles. */
+/* Warns of prescribed velocities and displacements that break bonds beside the driven particles. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -95,7 +95,7 @@ static void warn_of_change(const struct driver *d, const struct scene *s, const 
 /* Adds warnings to *warnings about boundaries of scene s whose prescribed speed, or change of the velocity at t = 0,
  * exceeds the speed at which bonds beside the boundary break. loads: the loads of these boundaries; p: particles. A
  * face moved at speed v strains the material behind it by v/c at once, c being the wave speed. Adds none with static
- * solvers, for method mpm, or if the scene accepts this (accept: [speed]). */
+ * solvers, for method mpm, or if the input file has accept: [speed]. */
 void run_warn_of_supports_moving_too_fast(const struct scene *s, const struct loads *loads, const struct particles *p,
                                           struct warnings *warnings)
 {

@@ -1,5 +1,6 @@
-/* Warns of values of a scene that are probably mistakes of units, found by their consequences, such as an implausible
- * wave speed. A table contains the plausible ranges; the key `accept` of a scene silences them one by one. */
+/* Warns of values in the input file that are probably mistakes of units, found by their consequences, such as an
+ * implausible wave speed. A table contains the plausible ranges; words of the key `accept` silence the warnings one by
+ * one. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -63,9 +64,9 @@ static const struct {
                       "its times (s) and duration"},
 };
 
-/* Adds a warning to *to if `value` is outside least .. most, unless the scene accepts implausible values of the
- * quantity k. subject: part of the scene that has this value; note: text with the numbers from which the value is
- * computed, or "". */
+/* Adds a warning to *to if `value` is outside least .. most, unless the key `accept` of scene s contains the quantity
+ * k. subject: name of the object that has this value, such as a material or body; note: text with the numbers from
+ * which the value is computed, or "". */
 static void units_judge_between(const struct scene *s, enum accept k, real least, real most, const char *subject,
                                 real value, const char *note, struct warnings *to)
 {
@@ -78,9 +79,9 @@ static void units_judge_between(const struct scene *s, enum accept k, real least
                         rule[k].look, (int)strcspn(word, "|"), word);
 }
 
-/* Adds a warning to *to if `value` is outside the plausible range of the quantity k in the table `rule`, unless the
- * scene accepts implausible values of k. subject: part of the scene that has this value; note: text with the numbers
- * from which the value is computed, or "". */
+/* Adds a warning to *to if `value` is outside the plausible range of the quantity k in the table `rule`, unless the key
+ * `accept` of scene s contains k. subject: name of the object that has this value, such as a material or body; note:
+ * text with the numbers from which the value is computed, or "". */
 static void units_judge(const struct scene *s, enum accept k, const char *subject, real value, const char *note,
                         struct warnings *to)
 {
@@ -277,9 +278,9 @@ static real load_stress_at(const struct scene *s, const struct particles *p, con
            particles_bounding_box_longest_edge(p);
 }
 
-/* Updates the largest values in *f by the stress or displacement that the load l applies or prescribes at time t [s] at
- * particle number k of its list (indices in p). Rotations and displacements that are not known are left out. s:
- * scene. */
+/* Extends the ranges of stress and displacement in *f by the values that the load l of scene s applies or prescribes at
+ * time t [s] at particle number k of its list (indices in p). Rotations are left out, and displacements that are not
+ * known. */
 static void load_figures_at(const struct scene *s, const struct particles *p, const struct load *l, int64_t k, real t,
                             struct load_figures *f)
 {

@@ -1,5 +1,5 @@
-/* Compares the bonds that LAMMPS creates, pairs within its cutoff, with those of the scene, to find which LAMMPS has to
- * cut. */
+/* Finds the pairs of particles that LAMMPS would bond, because they are within its cutoff, although they have no bond
+ * in the exported input file; LAMMPS has to exclude these. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -174,10 +174,10 @@ static void touched_list(struct particles_at_cut_bonds *t, const struct lammps_e
     }
 }
 
-/* For each particle of the export x listed in t, those with a cut bond, lists the neighbours to which LAMMPS would bond
- * the particle, and the kind of each pair: bonded or cut in the scene. Computes t->key of the particle: the sum of a
- * hash of its material, loads and lattice position and of hashes of the lattice vectors to the neighbours at its cut
- * bonds. a: work arrays, after touched_list. */
+/* Lists, for each particle at a cut bond (list t of the export x), those of its neighbours in LAMMPS that are in t as
+ * well, and the kind of each pair: bonded or cut in the exported input file. Computes t->key of the particle: the sum
+ * of a hash of its material, loads and lattice position and of hashes of the lattice vectors to the neighbours at its
+ * cut bonds. a: work arrays, after touched_list. */
 static void touched_near(struct particles_at_cut_bonds *t, const struct lammps_export *x, struct search *a)
 {
     for (int64_t k = 0; k < t->n; k++) {

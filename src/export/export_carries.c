@@ -1,5 +1,5 @@
-/* Determines what of a scene LAMMPS can run: features without a LAMMPS command are refused; features for which LAMMPS
- * has one fixed rule become keys to change. */
+/* Determines which features of an input file LAMMPS can simulate. Features without a LAMMPS command are refused;
+ * features for which LAMMPS has one fixed rule become keys that must be changed. */
 #include <math.h>
 
 #include "export_parts.h"

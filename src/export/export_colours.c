@@ -1,10 +1,10 @@
-/* Colours of particles, for the only means of LAMMPS to omit bonds: pairs of types that are excluded while its first
- * neighbour list is built.
+/* Assigns colours to the particles at cut bonds. They become particle types of LAMMPS, which can omit bonds only by
+ * excluding pairs of types while its first neighbour list is built.
  *
- * On a lattice, a key consists of the position modulo the reach of bonds and the bonds that are cut: two neighbours
- * with given keys have a unique offset, and all such pairs are cut or none. The number of colours then does not grow
- * with the length of a crack. Elsewhere keys are not unique; a particle that does not fit takes another colour of its
- * key that fits, or a new one. */
+ * On a lattice, the key of a particle consists of its position modulo the reach of bonds and of its cut bonds: two
+ * neighbours with given keys have a unique offset, and all such pairs are cut or none. The number of colours then does
+ * not grow with the length of a crack. Elsewhere keys are not unique; a particle to which the colour of its key does
+ * not apply gets another colour of this key, or a new one. */
 #include "export_parts.h"
 
 #include "base/memory.h"
@@ -67,9 +67,9 @@ static bool colour_take(struct colouring *a, int64_t k, int32_t c)
 
 /* Assigns a colour, which becomes a particle type of LAMMPS, to each particle listed in a->t (particles with cut
  * bonds). All pairs of particles with the same two colours must be of one kind, bonded or cut. A particle gets the
- * first colour for which this holds of particles with the same key (a hash of its material, loads, lattice position and
- * cut bonds), or a new colour. Returns false if more than COLOURS_MOST colours are needed, or if a pair of colours
- * needs both kinds. */
+ * first colour that fulfils this and belongs to its key (a hash of its material, loads, lattice position and cut
+ * bonds), or a new colour. Returns false if more than COLOURS_MOST colours are needed, or if a pair of colours needs
+ * both kinds. */
 static bool colours_share(struct colouring *a)
 {
     for (int64_t k = 0; k < a->t->n; k++) {

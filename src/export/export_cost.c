@@ -1,4 +1,5 @@
-/* Estimates the cost of a run in LAMMPS beside Cleave, and lists what it lacks. */
+/* Writes an estimate of the run times of an export in LAMMPS and in Cleave, and which features of Cleave LAMMPS
+ * lacks. */
 #include <math.h>
 
 #include "export_parts.h"

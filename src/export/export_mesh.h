@@ -1,4 +1,4 @@
-/* The particles of a scene or a run in the order in which meshes of other programs list them. */
+/* Sorts the particles of a scene or a run into the order in which meshes of other programs list them. */
 #ifndef CLEAVE_EXPORT_MESH
 #define CLEAVE_EXPORT_MESH
 

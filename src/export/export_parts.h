@@ -52,7 +52,9 @@ struct particles_at_cut_bonds {
     uint64_t *key; /* [n] particles with equal keys may share a colour */
 };
 
-/* Largest number of colours; kinds of a pair of colours: no neighbours so far, bonded, without bond. */
+/* COLOURS_MOST: largest number of colours (numbers of particles, which become particle types of LAMMPS). PAIR_UNKNOWN,
+ * PAIR_BONDED, PAIR_CUT: particles of two colours are not neighbours so far, have bonds, have bonds that must be
+ * cut. */
 enum { COLOURS_MOST = 3000 };
 enum { PAIR_UNKNOWN, PAIR_BONDED, PAIR_CUT };
 

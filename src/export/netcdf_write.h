@@ -1,7 +1,7 @@
 /* Writes netCDF files of the classic format with 64-bit offsets (CDF-2; NetCDF User's Guide, "File format
- * specifications"): first dimensions, arrays and attributes are defined, then netcdf_write_header writes the header,
- * then the numbers of all arrays follow in the order of their definition: first of the arrays of fixed length, then for
- * each record of the arrays with a dimension of records. Failed writes are found by ferror(w->to). */
+ * specifications"). First dimensions, arrays and attributes are defined; then netcdf_write_header writes the header.
+ * Then the numbers of all arrays are written in the order of their definition: first the arrays of fixed length, then
+ * for each record the arrays with a dimension of records. Failed writes are found by ferror(w->to). */
 #ifndef CLEAVE_NETCDF_WRITE
 #define CLEAVE_NETCDF_WRITE
 

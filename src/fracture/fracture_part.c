@@ -1,4 +1,4 @@
-/* Row of the cracks in the table of parts. */
+/* Registers crack tips and growing cracks in the table of the parts of a run (engine/parts.c). */
 #include "fracture/fracture_part.h"
 #include "base/memory.h"
 #include "run/part.h"

@@ -1,4 +1,5 @@
-/* Fragments by joining the ends of every bond (union-find): the particle with the lowest index is the leader. */
+/* Finds fragments by joining both particles of every intact bond (union-find). The particle with the lowest index
+ * represents a fragment. */
 #include "fracture/fragments.h"
 
 #include <stdlib.h>

@@ -1,4 +1,5 @@
-/* Growth of cracks at prescribed speed or under SIF control, and the bonds that fade behind their tips. */
+/* Advances cracks that grow at a prescribed speed or are controlled by stress-intensity factors (SIF), and gradually
+ * reduces the weights of the bonds behind their tips. */
 #include "fracture/growth.h"
 
 #include <math.h>
@@ -47,10 +48,11 @@ static void target_speed_find(struct growing_crack *g, const struct growth_contr
     if (wanted == 0 && g->target_speed < SLOWEST * m->rayleigh) g->target_speed = 0;
 }
 
-/* Updates the speeds by which stress-intensity factors control crack g. g->filtered_speed, the speed of the tip
- * smoothed in time, follows from g->speed in the last step of length dt [s]; g->target_speed from new factors at time t
- * [s]. control: these factors, or NULL if they are not known, then the target speed becomes 0. horizon: horizon of the
- * bonds [m]. Must be called before g->speed is overwritten. Does nothing for cracks of prescribed speed. */
+/* Updates the speeds of crack g if its toughness controls its speed; does nothing otherwise. g->filtered_speed follows
+ * g->speed, the tip speed in the last step of length dt [s], with a delay of the order of the time in which a Rayleigh
+ * wave travels one horizon. g->target_speed follows from new stress-intensity factors after the start of growth.
+ * control: these factors; NULL: not known, the target speed becomes 0; horizon: of the bonds [m]; t: present time [s].
+ * Call it before g->speed is overwritten. */
 static void target_speed_update(struct growing_crack *g, const struct growth_control *control, real horizon, real t,
                                 real dt)
 {
@@ -223,11 +225,11 @@ static void step_back(struct growing_crack *g, struct bonds *b)
 }
 
 /* Reduces the weights of the bonds of b in g->fading, which the tip has crossed, to w0 (1 - grown/damping)^exponent,
- * and removes bonds without weight from the list. `grown` is the growth of the crack since its tip crossed the bond, w0
- * the weight of the bond at that time; p: particles; f: neighbourhood, half its horizon is the default of `damping`.
- * The lost energy is computed at the present positions: half of the loss of the previous step and half of that of this
- * step. Bonds change one after the other, each from its weight of the previous step, so that the losses sum to the
- * whole energy. Returns the number of directed bonds whose weight becomes 0. */
+ * and removes bonds without weight from the list. grown: growth of the crack since its tip crossed the bond [m]; w0:
+ * weight of the bond at that time; damping: length g->rule->damping, by default half the horizon of f. Computes the
+ * lost energy at the present positions of p: half of the loss of the previous step and half of that of this step. Bonds
+ * change one after the other, so that the losses add up to the whole energy. Returns the number of directed bonds whose
+ * weight becomes 0. */
 static int64_t fade(struct growing_crack *g, struct bonds *b, struct particles *p, const struct family *f)
 {
     const struct growth_rule *r = g->rule;

@@ -1,4 +1,4 @@
-/* Representative position of several particles. */
+/* Computes a representative position of several particles, such as those at a crack tip. */
 #include "fracture/places.h"
 
 #include <math.h>
@@ -21,7 +21,7 @@ static bool places_near(const struct place *a, const struct place *b, int dim, r
 }
 
 /* Returns true if position a comes after b in the order of x, then y, then z. dim: number of coordinates. Coordinates
- * that differ by less than EQUAL_POSITION * reach count as equal; reach: distance that positions in one group may have
+ * that differ by at most EQUAL_POSITION * reach count as equal; reach: largest step between positions of one group
  * [m]. */
 static bool comes_after(const struct place *a, const struct place *b, int dim, real reach)
 {

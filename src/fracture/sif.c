@@ -1,4 +1,4 @@
-/* The interaction integral over the particles round a crack tip. */
+/* Computes stress-intensity factors by the interaction integral over the particles around a crack tip. */
 #include "fracture/sif.h"
 
 #include <math.h>
@@ -150,8 +150,9 @@ static void sif_point_stress(const struct sif_tip *tip, const struct sif_motion 
 }
 
 /* Computes s->point[k]: position, area and fields of particle s->particle[k] of p in the axes of the crack. The fields
- * are displacement gradient, stress and, if m has velocities, velocity and acceleration minus that caused by loads. m:
- * motion of the particles; stencil: weights by which gradients at this particle are computed. */
+ * are displacement gradient, stress, acceleration minus that caused by loads and, if m has velocities, the velocity and
+ * its derivative along the crack. m: motion of the particles; stencil: weights by which gradients at this particle are
+ * computed. */
 static void point_make(struct sif_points *s, int64_t k, const struct sif_motion *m,
                        const struct gradient_stencil *stencil, const struct particles *p)
 {

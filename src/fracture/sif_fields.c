@@ -1,4 +1,5 @@
-/* Crack-tip fields at rest and in motion, universal functions and speed factors. */
+/* Computes the fields at crack tips at rest and in motion, and the universal functions and factors by which the tip
+ * speed changes stress-intensity factors. */
 #include "fracture/sif_fields.h"
 
 #include <complex.h>

@@ -1,4 +1,4 @@
-/* Gradients at particles by moving least squares and by the first-order peridynamic differential operator. */
+/* Computes gradients at particles by moving least squares and by the first-order peridynamic differential operator. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -118,8 +118,9 @@ static bool least_squares(struct gradient_stencil *s, const struct particles *p,
 }
 
 /* Computes the gradient weights of particle i of p by moving least squares over its neighbours in the stencil s.
- * Neighbours behind cracks are removed from s. rule: support radius and cracks. s->order: receives 2 if the polynomials
- * are quadratic, 1 if only linear ones are possible, 0 if none are (there are then no weights). */
+ * Neighbours behind cracks get smaller weights, or are removed from s if rule->diffraction is 0. rule: support radius
+ * and cracks. s->order: receives 2 if the polynomials are quadratic, 1 if only linear ones are possible, 0 if none are
+ * (there are then no weights). */
 static void stencil_mls(struct gradient_stencil *s, const struct gradient_rule *rule, const struct particles *p,
                         int64_t i)
 {
@@ -140,9 +141,10 @@ static void stencil_mls(struct gradient_stencil *s, const struct gradient_rule *
 /* ---- peridynamic differential operator --------------------------------------------------------------------------- */
 
 /* Computes the gradient weights of particle i of p by the peridynamic differential operator (Madenci, Barut & Futch
- * 2016): g_ij V_j = omega K_i^-1 xi_ij V_j [1/m], with K_i = sum omega xi xi^T V_j and omega = delta/r. The weights are
- * stored in the stencil s, whose neighbours must be set; neighbours behind cracks are removed from s. rule: delta and
- * cracks. s->order: receives 1, or 0 if K_i is singular. */
+ * 2016): g_ij V_j = omega K_i^-1 xi_ij V_j [1/m], with K_i = sum omega xi xi^T V_j and omega = delta/r. Stores them in
+ * the stencil s, whose neighbours must be set. For neighbours behind cracks r is the distance around the tip
+ * (distance_round_cracks); they are removed from s if it exceeds the support radius. rule: delta and cracks. s->order:
+ * receives 1, or 0 if K_i is singular. */
 static void stencil_pddo(struct gradient_stencil *s, const struct gradient_rule *rule, const struct particles *p,
                          int64_t i)
 {

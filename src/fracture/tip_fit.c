@@ -1,4 +1,4 @@
-/* Stress-intensity factors by a fit of displacements. */
+/* Computes stress-intensity factors by fitting the Williams series to the displacements around a crack tip. */
 #include "fracture/tip_fit.h"
 
 #include <math.h>

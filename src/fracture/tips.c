@@ -1,4 +1,4 @@
-/* Crack tips: assignment of damaged particles to cracks, growth and speed of the cracks. */
+/* Tracks crack tips: assigns damaged particles to cracks, and computes growth and speed of the cracks. */
 #include "fracture/tips.h"
 
 #include <math.h>
@@ -114,9 +114,9 @@ static bool are_side_by_side(const struct flood *f, const struct crack_tip *a, c
            is_behind(f, b, j);
 }
 
-/* Returns true if the longest crack would become shorter if crack number `gone`, with all cracks that have become a
- * part of it in this sample, became a part of crack number `keep`: one of them is longer than `keep`, and both its ends
- * are nearer to the start of `keep` than to one another. f: assignment of damaged particles to cracks. */
+/* Returns true if a crack would become shorter by merging crack number `gone`, with all cracks merged into it in this
+ * sample, into crack number `keep`. This is so if one of the former is longer than `keep` and has both its ends nearer
+ * to the start of `keep` than to one another. f: assignment of damaged particles to cracks. */
 static bool merging_would_shorten(const struct flood *f, int keep, int gone)
 {
     const struct crack_tip *whole = &f->t->tip[keep];

@@ -1,7 +1,7 @@
-/* Area of the faces that cracks have made. The front of a pre-crack is divided into strips one spacing wide: in each,
- * the crack extends as far as particles follow one another without a gap that have lost half of the damage by a plane
- * cut; there a diffuse front has its middle. Of cracks without a pre-crack, half of the particles count, since each has
- * one on the other side. */
+/* Computes the area of the faces that cracks have made. The front of a pre-crack is divided into strips one spacing
+ * wide. In each strip the crack extends as far as particles follow one another without a gap whose damage exceeds half
+ * of that beside a plane cut, the value in the middle of a diffuse crack front. Of cracks without a pre-crack, half of
+ * the damaged particles count, since each has one on the other side. */
 #include <math.h>
 
 #include "base/memory.h"

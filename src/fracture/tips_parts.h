@@ -11,8 +11,8 @@ enum { TIP_BEFORE = 255 }; /* label of particles damaged by a pre-crack */
 #define TIP_START_REACH 2.5 /* range of the first damaged particles from the end of a pre-crack [spacings] */
 #define TIP_EQUAL 1e-6      /* tolerance of equal lengths [spacings] */
 
-/* Number of peridynamic particles that are tested together. Only peridynamic particles lose bonds, and most of them are
- * neither damaged nor part of a crack, so that whole pieces of the list can be skipped. */
+/* Number of entries of the list of peridynamic particles that are tested together. Most parts of the list have no
+ * damaged particle and no particle of a crack, so that a whole part can be skipped at once. */
 enum { TIP_PIECE = 64 };
 
 /* Returns the end (index after the last entry) of the part of the list of peridynamic particles of p that begins at
@@ -30,18 +30,18 @@ static inline bool particles_have_consecutive_numbers(const int32_t *particle_nu
     return particle_number[count - 1] - particle_number[0] == count - 1;
 }
 
-/* Extent of a crack. farthest: largest distance of its particles from its start [m]; place: position of its end, the
- * middle of the farthest particles (of one group, if they form several) [m]; ends: number of separate groups of
- * farthest particles; particles: number of particles of the crack. */
+/* Extent of a crack from its start. farthest: largest distance of its particles from its start [m]; place: position of
+ * its tip, the middle of the farthest particles (of the group with the largest x, if they form several) [m]; ends:
+ * number of separate groups of farthest particles; particles: number of particles of the crack. */
 struct crack_extent {
     real farthest, place[DIM_MAX];
     int64_t ends, particles;
 };
 
 /* Computes the extent of the crack of every tip of t from those particles of p that belong to the crack: the largest
- * distance of a particle from the start of the crack, the position of this farthest particle, and the number of
- * branches, i.e. of separate groups of particles at most one spacing nearer. extent: receives an element for each of
- * TIPS_MAX tips; must be 0 on entry. */
+ * distance of a particle from the start of the crack, the number of groups of particles that are at most one spacing
+ * nearer (branches), and the middle of the group with the largest x. extent: receives an element for each of TIPS_MAX
+ * tips; must be 0 on entry. */
 void tips_compute_crack_extents(const struct crack_tips *t, const struct particles *p, struct crack_extent *extent);
 
 /* Search for particles near a position, with a result array that is reused. p: particles; c: search cells over their

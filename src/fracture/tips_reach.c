@@ -1,4 +1,4 @@
-/* Extent of each crack, and position of its tip. */
+/* Computes the extent of each crack and the position of its tip. */
 #include <math.h>
 
 #include "base/memory.h"

@@ -1,4 +1,4 @@
-/* Starts of crack tips: the ends of pre-cracks inside the body. */
+/* Creates crack tips at the ends of pre-cracks inside the body, where cracks can start to grow. */
 #include <math.h>
 #include <string.h>
 

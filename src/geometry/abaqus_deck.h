@@ -1,5 +1,5 @@
-/* An Abaqus deck while it is read, and its sets. A set of a part has the name Part.Set and, once the part is placed,
- * Instance.Set; sets outside parts have their own name alone. */
+/* Declares the state of the reader of an Abaqus input deck (.inp file), and functions for its sets. A set of a part has
+ * the name Part.Set and, once the part has an instance, Instance.Set; sets outside parts have their own name alone. */
 #ifndef CLEAVE_ABAQUS_DECK
 #define CLEAVE_ABAQUS_DECK
 
@@ -15,7 +15,8 @@ struct abaqus_label_scope {
     bool placed;                                  /* has an instance */
 };
 
-/* A deck while it is read. */
+/* State of the reader of an Abaqus input deck, while it is read. s: text that is read; m: mesh under construction;
+ * scope: [scopes] parts of the deck, entry 0 for all that is outside parts. */
 struct abaqus_input_deck {
     struct geometry_file *s;
     struct element_mesh *m;

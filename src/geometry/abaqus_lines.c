@@ -1,4 +1,4 @@
-/* Lines, fields and keywords of Abaqus .inp files. */
+/* Splits Abaqus .inp files into lines, fields and keywords. */
 #include "abaqus_lines.h"
 
 #include <ctype.h>

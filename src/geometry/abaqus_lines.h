@@ -4,7 +4,7 @@
 
 #include "source.h"
 
-/* Capacity of a field of a line [byte]; largest number of parameters of a keyword. */
+/* FIELD: capacity of a field of a line [byte]; PARAMETERS_MAX: largest number of parameters of a keyword. */
 enum { FIELD = 96, PARAMETERS_MAX = 16 };
 
 /* A keyword line of an Abaqus file: its name and its parameters of[n], such as *ELSET, ELSET=grip, GENERATE. */

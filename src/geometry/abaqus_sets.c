@@ -101,9 +101,10 @@ static int set_index(const struct abaqus_input_deck *d, const struct abaqus_labe
     return part ? set_index(d, NULL, name, of_nodes) : -1;
 }
 
-/* Adds what the text `field` of a data line names to set number `set` of deck d: the members of a set, as Name or
- * Instance.Name, or the node or element Instance.Number. part: part of the instance that the keyword names; NULL: none.
- * Returns REFUSED, with a message, if there is no such set, or if there are too many members. */
+/* Adds the items that the text `field` of a data line names to set number `set` of deck d: the members of another set,
+ * given as Name or Instance.Name, or one node or element, given as Instance.Number. part: part of the instance that the
+ * keyword names; NULL: none. Returns REFUSED, with a message, if there is no such set, or if there are too many
+ * members. */
 static status set_join(struct abaqus_input_deck *d, int set, const struct abaqus_label_scope *part, const char *field)
 {
     const bool of_nodes = d->m->set[set].of_nodes;

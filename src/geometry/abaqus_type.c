@@ -1,4 +1,4 @@
-/* Which element types of Abaqus are read, left out or refused. */
+/* Determines by its name whether an Abaqus element type is read, left out or refused. */
 #include "abaqus_type.h"
 
 #include <stdlib.h>
@@ -19,14 +19,15 @@ static const char *const left_out[] = {
     "PSI",  "ASI",     "B2",      "B3",     "PIPE",    "ELBOW", "FRAME", "SAX",  "MAX",  "RAX",   "R2D",
     "RB",   "SFMAX",   "COH",     "CIN",    "F2D",     "F3D",   "FAX",   "DC1D", "AC1D", "ACIN",  "LS"};
 
-/* Shapes with number of nodes that are read; dimension, number of nodes, kind of element. */
+/* Element shapes that are read: dimension, number of nodes, kind of element. */
 static const struct abaqus_shape shapes[] = {
     {1, 2, ELEMENT_LINE},         {1, 3, ELEMENT_LINE},       {2, 3, ELEMENT_TRIANGLE},    {2, 6, ELEMENT_TRIANGLE},
     {2, 4, ELEMENT_QUAD},         {2, 8, ELEMENT_QUAD},       {2, 9, ELEMENT_QUAD},        {3, 4, ELEMENT_TETRAHEDRON},
     {3, 10, ELEMENT_TETRAHEDRON}, {3, 5, ELEMENT_PYRAMID},    {3, 13, ELEMENT_PYRAMID},    {3, 6, ELEMENT_PRISM},
     {3, 15, ELEMENT_PRISM},       {3, 8, ELEMENT_HEXAHEDRON}, {3, 20, ELEMENT_HEXAHEDRON}, {3, 27, ELEMENT_HEXAHEDRON}};
 
-/* Letters that may follow the number of nodes: reduced integration, hybrid, temperature and so on; 5: of shells. */
+/* Letters that may follow the number of nodes in the name of an element type without changing its shape: reduced
+ * integration, hybrid, temperature and so on; 5: shells. */
 #define VARIANTS "DEHIMPRSTVW5"
 
 status abaqus_find_shape_of_element_type(const struct abaqus_shape **shape, const struct geometry_file *file,

@@ -1,4 +1,4 @@
-/* Element types of Abaqus. */
+/* Declares the shapes of the element types of Abaqus, and the search for a type by its name. */
 #ifndef CLEAVE_ABAQUS_TYPE
 #define CLEAVE_ABAQUS_TYPE
 

@@ -1,4 +1,4 @@
-/* Operations on finite-element meshes that all file formats share. */
+/* Implements operations on finite-element meshes that the readers of all file formats share. */
 #include "elements.h"
 
 #include <math.h>

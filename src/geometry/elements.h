@@ -212,10 +212,10 @@ void surface_builder_add_side(struct surface_builder *b, const int32_t *corner_n
  * surface_builder_divide_sides_into_faces later divides this side into faces. */
 void surface_builder_add_side_with_middle_nodes(struct surface_builder *b, const struct patch *side);
 
-/* Computes for the surface b the sagitta b->sagitta, below which edges count as straight, and b->pieces, into how many
- * pieces each curved edge is divided in 3D, such that chords are at most `max_chord_error` [m] from the curve (NAN:
- * 1/256 of the largest sagitta). path: file, for the message. Returns REFUSED, with a message, if too many pieces were
- * needed. */
+/* Computes for the surface b the sagitta b->sagitta below which edges count as straight, and b->pieces, the number of
+ * pieces into which a curved edge is divided in 3D. max_chord_error: largest distance between chords and curve [m], NAN
+ * for 1/256 of the largest sagitta; path: file, for the message. Returns REFUSED, with a message, if too many pieces
+ * were needed. */
 status surface_builder_set_chord_tolerance(struct surface_builder *b, const char *path, real max_chord_error);
 
 /* Divides all sides with middle nodes that b has stored into faces, curved ones into several, for which nodes are added

@@ -46,7 +46,7 @@ static const signed char side_at[ELEMENT_KINDS][ELEMENT_SIDES_MAX] = {[ELEMENT_T
                                                                       [ELEMENT_PRISM] = {2, 3, 4, 0, 1},
                                                                       [ELEMENT_HEXAHEDRON] = {2, 3, 4, 5, 0, 1}};
 
-/* A file while its mesh is read. */
+/* An Exodus II file and the mesh into which it is read; exists only while the file is read. */
 struct exodus {
     struct exodus_file file;
     struct geometry_file *s;
@@ -309,8 +309,8 @@ static status element_set_add(struct exodus *x, int64_t number)
 }
 
 /* Reads nodes, blocks and sets of the file x into the mesh. Side sets are read before node sets: if a side set and a
- * node set have the same name, the side set gets it, since it contains more information. Returns REFUSED for an invalid
- * file. */
+ * node set have the same name, the side set keeps it, since it contains more information. Returns REFUSED for an
+ * invalid file. */
 static status mesh_read(struct exodus *x)
 {
     const struct exodus_file *f = &x->file;

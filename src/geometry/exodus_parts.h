@@ -1,4 +1,4 @@
-/* Declarations for the readers of both forms of netCDF files, classic and netCDF-4. */
+/* Declarations shared by the readers of Exodus II files in both formats of netCDF, classic and netCDF-4 (HDF5). */
 #ifndef CLEAVE_EXODUS_PARTS
 #define CLEAVE_EXODUS_PARTS
 

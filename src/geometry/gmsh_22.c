@@ -1,4 +1,4 @@
-/* Nodes and elements of Gmsh .msh files of format 2.2, text or binary (Gmsh reference manual, "File formats"). */
+/* Reads nodes and elements of Gmsh .msh files of format 2.2, text or binary (Gmsh reference manual, "File formats"). */
 #include "gmsh_parts.h"
 
 /* Reads a count from the file g into *n and advances to the next line. In format 2.2 counts are text even in binary

@@ -1,4 +1,4 @@
-/* Nodes and elements of Gmsh .msh files of format 4.1, text or binary (Gmsh reference manual, "File formats"). */
+/* Reads nodes and elements of Gmsh .msh files of format 4.1, text or binary (Gmsh reference manual, "File formats"). */
 #include "gmsh_parts.h"
 
 /* Reads the first line of a section of the file g in format 4.1: the number of blocks into *blocks, the number of nodes

@@ -1,4 +1,4 @@
-/* Nodes, elements and physical groups of Gmsh files, which both of their formats have (Gmsh reference manual, "File
+/* Reads the nodes, elements and physical groups that both formats of Gmsh files contain (Gmsh reference manual, "File
  * formats"). */
 #include <stdio.h>
 #include <string.h>

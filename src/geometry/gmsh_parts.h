@@ -5,7 +5,8 @@
 
 #include "elements.h"
 
-/* Largest number of groups of an entity. */
+/* Largest number of physical groups of one entity (point, curve, surface or volume) of a Gmsh file; further ones are
+ * not read. */
 enum { GROUPS_MAX = 16 };
 
 /* An element type of Gmsh: its number in files, its shape, its number of nodes (the corners come first) and its
@@ -16,7 +17,8 @@ struct gmsh_type {
     int nodes, order;
 };
 
-/* A Gmsh file while it is read. */
+/* State of the reader of a Gmsh file, while it is read: the file, the mesh that is made from it, and the physical
+ * groups of the file with the entities (points, curves, surfaces, volumes) that belong to them. */
 struct gmsh {
     struct geometry_file *s; /* the text of the file, and where it is read */
     struct element_mesh *m;  /* the mesh that is made from the file */

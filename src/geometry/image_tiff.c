@@ -41,7 +41,7 @@ static toff_t tiff_seek(thandle_t handle, toff_t offset, int whence)
 /* Callback of libtiff for closing the file `handle`. Does nothing and returns 0, since the caller owns the bytes. */
 static int tiff_close(thandle_t handle) { return (void)handle, 0; }
 
-/* Callback of libtiff for the size of the file `handle` [byte]. */
+/* Returns the size of the file `handle` [byte], as the callback of libtiff for this. */
 static toff_t tiff_size(thandle_t handle) { return (toff_t)((struct geometry_file *)handle)->length; }
 
 /* ---- pages ------------------------------------------------------------------------------------------------------- */
@@ -56,7 +56,8 @@ static int tag_of(TIFF *tiff, uint32_t tag)
 
 enum { SAMPLES_MOST = 64, TILE_MOST = 1 << 22 }; /* samples per pixel; pixels of a tile of a small image */
 
-/* Layout of the samples of a page of a TIFF file, with the numbers of the format. */
+/* Describes how the samples (grey or colour values) of one page of a TIFF file are stored. Made by samples_of from the
+ * tags of the page; integers are values of the TIFF format. */
 struct samples {
     int bits, format, photometric, count,
         orientation;       /* bits and type of a sample; meaning; samples per pixel; order */
@@ -116,7 +117,8 @@ static status check_samples(const struct samples *a, const char *path)
                       a->orientation);
 }
 
-/* Samples of a page while they are read. */
+/* Pixel values of one page of a TIFF file while the page is read, and their layout in the file (`of`). Exists only in
+ * samples_read. */
 struct planes {
     const struct samples *of;
     int used;         /* samples per pixel that are kept */

@@ -1,4 +1,4 @@
-/* Image pages while they are read. */
+/* Declares the pages (images) of an image file or stack as grey values, and the readers of PNG and TIFF files. */
 #ifndef CLEAVE_PAGES
 #define CLEAVE_PAGES
 

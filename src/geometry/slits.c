@@ -8,12 +8,14 @@
 
 #define SAME 1e-6 /* distance of corners that coincide, divided by the size of their face [1] */
 
-/* A face of a mesh: corners, centre, and longest distance from its first corner [m]. */
+/* One face of an element mesh (in 2D a segment, in 3D a triangle): positions of its corners and centre, and the longest
+ * distance `size` from its first corner to another [m]. */
 struct sheet {
     real corner[DIM_MAX][DIM_MAX], centre[DIM_MAX], size;
 };
 
-/* Faces found to be slits, owned by the caller. */
+/* List of n faces of an element mesh that coincide with another face, i.e. free surfaces (slits) inside the body. dim:
+ * number of dimensions. The caller releases `at` with memory_free. */
 struct sheets {
     int dim;
     int64_t n;
@@ -28,7 +30,7 @@ static real corner_distance(const real *a, const real *b, int dim)
     return sqrt(r2);
 }
 
-/* Returns a copy of face number `face` of a surface h, with its centre and size. */
+/* Returns face number `face` of the surface h as a struct sheet: copies its corners, computes its centre and size. */
 static struct sheet sheet_of(const struct hull *h, int64_t face)
 {
     struct sheet s = {.size = 0};
@@ -110,7 +112,8 @@ static void segments_merge(struct sheets *s)
 
 /* ---- in space ---------------------------------------------------------------------------------------------------- */
 
-/* Points in the plane of a face: origin, two unit vectors in the plane, and n points in these coordinates. */
+/* Plane of a 3D face with n points in it. The plane has the origin `from` [m] and orthogonal unit vectors u and v;
+ * at[n]: coordinates of the points along u and v [m]. The function that declares the struct frees `at`. */
 struct flat {
     real from[3], u[3], v[3];
     int n;
@@ -144,7 +147,8 @@ static real triangle_twice_area(const real *a, const real *b, const real *c)
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-/* Compares two plane points a and b for array_sort, by the first, then by the second coordinate. */
+/* Compares two plane points a and b (real[2]) for array_sort, by their first coordinate, then by the second. Returns
+ * -1, 0 or 1. */
 static int by_place(const void *a, const void *b)
 {
     const real *p = a, *q = b;

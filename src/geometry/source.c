@@ -1,4 +1,4 @@
-/* Reading of external files; their content is not trusted. */
+/* Reads external geometry files. Their content is not trusted: malformed values and truncated files are refused. */
 #include "source.h"
 
 #include <math.h>

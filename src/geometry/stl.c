@@ -1,4 +1,5 @@
-/* Reads STL: triangles without units, names or connectivity, as text or binary. */
+/* Reads STL files, text or binary, into an element mesh. STL has separate triangles without units, names or
+ * connectivity; coincident corners are merged to nodes. */
 #include <math.h>
 #include <stdlib.h>
 #include <strings.h>
@@ -92,7 +93,8 @@ static status words_read(struct element_mesh *m, struct geometry_file *s)
 
 /* ---- merging of corners --------------------------------------------------------------------------------------- */
 
-/* Coordinates of a corner, rounded to whole multiples of a small step, and its node. */
+/* Sort key of node number `at` of the mesh, a corner of a triangle: its coordinates X, rounded to whole multiples of a
+ * small length so that coincident corners have equal keys. */
 struct corner_key {
     real X[DIM_MAX];
     int32_t at;
@@ -107,8 +109,8 @@ static int corner_order(const void *a, const void *b)
     return (p->at > q->at) - (p->at < q->at);
 }
 
-/* Distance below which corners become one node, relative to the extent of the mesh [1]: programs write the same
- * corner with different last digits. */
+/* Distance below which corners of triangles are merged to one node, divided by the extent of the mesh [1]. It is not 0,
+ * since programs that write STL round equal coordinates differently. */
 #define SAME_PLACE 1e-6
 
 /* Returns the largest extent of the nodes of the mesh m along x, y and z [unit of the file]. */

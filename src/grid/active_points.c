@@ -1,4 +1,5 @@
-/* Search for the active cells of material points. */
+/* Finds the active cells of the background grid, those that motion can reach within the next few steps. Transfers
+ * between points and grid skip all other cells (active_points.h). */
 #include "grid/active_points.h"
 
 #include <string.h>
@@ -62,10 +63,10 @@ static int64_t active_points_reach_of(const struct grid *g, enum shape shape, en
     return ACTIVE_POINTS_STEPS * ((transfer == TRANSFER_FLIP ? 2 : 1) * shared + (g->mirror_nodes > 0 ? 2 : 0));
 }
 
-/* Sets r->active_cell to 1 for the active cells of g, else to 0. A cell is active if a point of p in it moves or is
- * loaded (by l or bonds b), or if its lowest node has a prescribed velocity other than 0. now: sorted points to be
- * examined, since points outside this list are still at rest; has_gradient: true if points have velocity gradients
- * (APIC). */
+/* Sets r->active_cell to 1 for the active cells of g, else to 0. A cell is active if one of its points in p moves or
+ * has a force, stress, a load of l or a bond of b. It is also active if a load other than a plane of symmetry
+ * prescribes the velocity of its lowest node. now: sorted points to be examined, since points outside this list are
+ * still at rest; has_gradient: true if points have velocity gradients (APIC). */
 static void active_points_mark(struct active_points *r, const struct transfer_order *now, const struct particles *p,
                                const struct grid *g, const struct bonds *b, const struct loads *l, bool has_gradient)
 {
@@ -81,8 +82,8 @@ static void active_points_mark(struct active_points *r, const struct transfer_or
         if (moves(l, g->wall[k].load)) r->active_cell[g->wall[k].node] = 1;
 }
 
-/* Replaces the arrays of marks of cells in r by longer ones if grid g has more nodes than these have entries. All marks
- * of the new arrays are 0. */
+/* Replaces the arrays active_cell and near of r, which have one flag per cell, by longer ones if grid g has more nodes
+ * than they have entries. All flags of the new arrays are 0. */
 static void make_room(struct active_points *r, const struct grid *g)
 {
     if (r->nodes >= g->n) return;

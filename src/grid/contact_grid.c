@@ -1,13 +1,16 @@
-/* Contact of bodies with grids of their own (Bardenhagen, Brackbill & Sulsky 2000). At nodes that points of two bodies
- * a and b reach, approach is prevented and sliding has friction. The normal n at a node, from a to b, has the direction
- * of the difference of the gradients of both nodal masses (tangential parts cancel for bodies in contact). The gap is
- * that of the points whose shapes reach the node, since masses overlap as soon as bodies share a cell:
+/* Contact of bodies with grids of their own (Bardenhagen, Brackbill & Sulsky 2000). At nodes that points of
+ * two bodies a and b reach, prevents the approach of both bodies and limits their sliding by friction. The
+ * normal n at a node, from a to b, is the direction of the difference of the gradients of both nodal masses
+ * (tangential parts cancel for bodies in contact). The gap g is computed from the coordinates x of the points
+ * whose shape functions reach the node, since nodal masses overlap as soon as bodies share a cell (D:
+ * spacing):
  *     g = min over b of x . n - max over a of x . n - D
- * If g <= 0 and (v_a - v_b) . n > 0 the impulse
+ * If g <= 0 and (v_a - v_b) . n > 0, with nodal masses m and velocities v, the impulse
  *     J_n = m_a m_b/(m_a + m_b) (v_a - v_b) . n,   |J_t| <= friction J_n
- * acts on b, and its negative on a: momentum is conserved to round-off and energy only dissipated. The velocities of
- * the second map (FLIP), which strain points, are unchanged: with contact in them, too, colliding discs gained 9 % of
- * energy. Few nodes are in contact: the loops are serial. */
+ * acts on b, and its negative on a: momentum is conserved to round-off and energy is only dissipated. In
+ * FLIP, the velocities of the second map of momentum to nodes, from which strains follow, do not include
+ * contact: with it, colliding discs gained 9 % of energy. Few nodes are in contact, so that the loops are
+ * serial. */
 #include <math.h>
 #include <string.h>
 
@@ -16,15 +19,17 @@
 
 #define AROUND 2 /* range over which normals are smoothed [cells] */
 
-/* Gap up to which two bodies count as touching [spacings], and least overlap of the shape of a point with a node that
- * counts [cells]. They are above the round-off of positions: bodies that touch exactly at the start, or points whose
- * shapes end at a node, would otherwise be in contact or not by the last digit (3.8 % of the momentum of a rebound). */
+/* Tolerance of contact [1], above the round-off of positions. Two bodies touch if their gap is at most TOUCHING
+ * particle spacings; a point reaches a node if its shape function overlaps the node by more than TOUCHING cells. With a
+ * tolerance of 0, the last digit would decide whether bodies that touch exactly at the start are in contact (3.8 % of
+ * the momentum of a rebound). */
 #define TOUCHING 1e-6
 
 /* ---- nodes shared by two bodies ---------------------------------------------------------------------------------- */
 
-/* Box of nodes that two grids share. first, count: first node and number of nodes along each axis, counted from the
- * common anchor of both grids; n: total number of nodes. */
+/* Box of grid nodes that points of two bodies, each with a grid of its own, may reach. Along axis d it has count[d]
+ * nodes from index first[d] on, counted from the common anchor node of both grids; n: number of all nodes. A local
+ * variable while contact nodes are searched. */
 struct shared {
     int64_t first[DIM_MAX], count[DIM_MAX], n;
 };
@@ -82,9 +87,9 @@ static struct grid_contact_node *node_add(struct grid_contact *c)
 }
 
 /* Appends to the list of contact nodes of c those nodes at which both bodies have more mass than c->smallest_mass and
- * more than the mass below which a node follows a neighbour. s: box of the nodes that points of both bodies may reach;
- * a, b: indices of the bodies in side[]; slot[s->n]: receives the position in the list of each node of the box, -1: not
- * listed. */
+ * grid.light_mass. (Below light_mass, APIC extrapolates the acceleration of a node from heavier neighbours.) s: box of
+ * the nodes that points of both bodies may reach; a, b: indices of the bodies in side[]; slot[s->n]: receives the
+ * position in the list of each node of the box, -1: not listed. */
 static void shared_nodes_find(struct grid_contact *c, const struct shared *s, const struct grid_contact_side *side,
                               int a, int b, int32_t *slot)
 {
@@ -219,12 +224,11 @@ void grid_contact_find_shared_nodes(struct grid_contact *c, const struct grid_co
 
 /* ---- exchange ---------------------------------------------------------------------------------------------------- */
 
-/* Share of the speed of separation before a step at which the impulse of contact leaves two bodies approaching each
- * other, if they separated before the step [1]. In FLIP points receive less than the nodes: the work of an impulse is
- * over the mean of the velocities before and after the step, and the latter is smoothed by the map. An impulse that
- * just stops the approach would therefore add energy. The value is empirical: discs and blocks dissipate with it. Where
- * contact of two bodies has added energy nevertheless, impulses act only on nodes that approach already before the
- * step, which always dissipates. */
+/* Speed with which two bodies may still approach after a contact impulse, divided by their speed of separation before
+ * the step [1]. Applies to bodies that separated before the step and approach after its forces. An impulse that stops
+ * their approach would add energy in FLIP, where points receive less of it than nodes. The value is empirical:
+ * colliding discs and blocks lose energy with it. Once contact of two bodies has added energy nevertheless, impulses
+ * act only on nodes that approach before the step, too. */
 #define PARTING_SHARE 1.6
 
 /* Returns how much of the relative velocity of two bodies along the unit vector along[dim] a contact impulse removes
@@ -238,9 +242,10 @@ static real speed_taken(const real *before, const real *now, const real *along, 
     return real_max(0, dot(now, along, dim) + PARTING_SHARE * real_min(0, parting));
 }
 
-/* Computes the contact impulse at node `node` of c divided by the reduced mass of both bodies, taken[dim] [m/s]. It
- * stops the approach of the bodies and, up to friction, their sliding. before, now: relative velocity of the bodies
- * before and after the forces of the step [m/s]. Returns false if they separate or do not touch. */
+/* Computes taken[dim] [m/s], the contact impulse at node `node` of c divided by the reduced mass m_a m_b/(m_a + m_b) of
+ * both bodies. The impulse stops the approach of the bodies and, up to the friction coefficient c->friction, their
+ * sliding. before, now: relative velocity v_a - v_b before and after the forces of the step [m/s]; dim: number of
+ * components. Returns false, with `taken` unset, if the bodies separate or do not touch. */
 static bool exchange_of(const struct grid_contact *c, const struct grid_contact_node *node, const real *before,
                         const real *now, int dim, real *taken)
 {
@@ -260,8 +265,8 @@ static bool exchange_of(const struct grid_contact *c, const struct grid_contact_
     return true;
 }
 
-/* Sets held[I] of each grid to `mark` (0 or 1) for the nodes I whose velocity is prescribed by walls. side[sides]: the
- * bodies, each with its grid. */
+/* Sets grid.held[I] of the grid of each body to `mark` for all nodes I with a prescribed velocity (a wall).
+ * side[sides]: the bodies, each with its grid; mark: 1 to mark the nodes, 0 to remove the marks. */
 static void walls_mark(const struct grid_contact_side *side, int sides, uint8_t mark)
 {
     for (int k = 0; k < sides; k++)

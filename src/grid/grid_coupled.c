@@ -1,4 +1,5 @@
-/* Selection of the grid-coupled peridynamic particles. */
+/* Selects the grid-coupled particles, i.e. peridynamic particles whose velocity and position the background grid
+ * updates (couplings of Zeng et al. 2021, see grid_coupled.h). */
 #include "grid/grid_coupled.h"
 
 #include <math.h>

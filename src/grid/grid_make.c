@@ -1,4 +1,4 @@
-/* Set-up of the background grids: positions of the nodes, masses, contact. */
+/* Sets up the background grids: positions of the nodes, smallest nodal masses, contact between grids. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -40,9 +40,9 @@ int scene_first_body_of_joined_group(const struct scene *s, int k)
     return -1;
 }
 
-/* Allocates the grids of `grid` for scene s: one for each body (joined bodies count as one) if material points of
- * several bodies may be in contact (the scene has contact, is no single equilibrium, and no coupling moves particles by
- * the grid), else a single grid. */
+/* Allocates the background grids grid->field for scene s. Each body, or group of joined bodies, gets a grid of its own
+ * if material points of several bodies may collide: the input file prescribes contact, the problem is not a single
+ * static equilibrium, and the grid moves no peridynamic particles. Else allocates a single grid. */
 static void make_fields(const struct scene *s, struct grid_method *grid)
 {
     const bool meet = !scene_is_single_equilibrium(s) && s->method != METHOD_PD && s->contact_between != CONTACT_NONE &&
@@ -61,10 +61,10 @@ real grid_shape_function_reach_beyond_cell(const struct scene *s)
                                          : 0.5 * s->spacing;
 }
 
-/* Sets up the background grids mpm of scene s with particles p: position of the nodes, smallest masses, contact between
- * grids. nodes_midway_between_particles: true if bodies have meshes of the undeformed body (reference frame). Unless
- * mpm.origin or a mirror determines the position of the nodes, a node is at the lower corner of the shape of the first
- * body, or of the particles of its list. */
+/* Initialises the background grids mpm of scene s with particles p: position of the nodes, smallest nodal masses,
+ * contact between grids. Unless mpm.origin or a plane of symmetry determines the position of the nodes, a node is at
+ * the lower corner of the first body: of the bounding box of its shape, or of its particles if the shape is unbounded.
+ * nodes_midway_between_particles: true if bodies have meshes of the undeformed body. */
 void background_grids_make(struct grid_method *mpm, const struct scene *s, const struct particles *p,
                            bool nodes_midway_between_particles)
 {

@@ -1,4 +1,5 @@
-/* Row of the grid of the current frame in the table of parts, and its warning. */
+/* Registers the background grid with the engine: defines part_grid, its entry in the table of modules (struct part),
+ * with the functions that free its memory and write or read its restart data. */
 #include "grid/grid_part.h"
 #include "base/memory.h"
 #include "run/part.h"

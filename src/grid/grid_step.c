@@ -1,4 +1,5 @@
-/* A step of the grids of the current frame: transfer to nodes, motion of nodes, transfer to points. */
+/* Advances material points by one step on the background grid: transfer from points to nodes, motion of the nodes,
+ * transfer from nodes to points. */
 #include <math.h>
 #include <string.h>
 
@@ -55,7 +56,8 @@ static status field_sort(struct grid_field *f, const struct particles *p, enum c
     return OK;
 }
 
-/* Largest share of the points of a grid, as its reciprocal, that is sorted apart from the others. */
+/* Reciprocal of the largest fraction of the points of a grid that may have left their cells if only these points are
+ * sorted anew; if more have left, all points are sorted. */
 enum { LEFT_MOST = 4 };
 
 /* Sorts the material points of p on the grid f by cells. Moves only those points in the order that have left their
@@ -119,8 +121,9 @@ status grid_sort_points_into_cells(struct run *e, bool *position_not_finite)
     return OK;
 }
 
-/* Returns the parameters of transfers between the grid of mpm and those peridynamic particles that the grid moves
- * (couplings pm .. pgg). They differ from those of material points in that no stress is transferred or updated. */
+/* Returns the transfer parameters for peridynamic particles that the background grid moves (couplings pm, pg, pmg and
+ * pgg). They differ from those of material points, mpm->transfer, in the list of particles, and in that no stress is
+ * transferred or updated. */
 static struct transfer_data grid_coupled_data(const struct grid_method *mpm)
 {
     struct transfer_data grid_coupled = mpm->transfer;
@@ -186,21 +189,20 @@ static void grids_move(struct run *e, const struct grid_contact_side *side, real
         grid_constrain(&mpm->field[k].grid, transfer, mpm->smallest_mass, e->loads.impulse, &e->loads.constraint_work);
 }
 
-/* Least flight in half a step for which points are mapped ahead of their positions [node distances]: slower bodies keep
- * their bits, and gain some per cent of the energy of their stress in 1e6 steps. */
+/* Smallest displacement of a body in half a step for which grid.ahead is used (field_set_flight) [node distances]. For
+ * slower bodies grid.ahead is 0: their results are bitwise the same as without it, and they gain a few per cent of
+ * their strain energy in 1e6 steps. */
 #define AHEAD_LEAST 1e-4
-/* Largest such flight, by which weights reach beyond a cell [node distances]: those of GIMP are exact up to here. */
+/* Largest displacement in half a step for which grid.ahead is used (field_set_flight) [node distances]. The weights of
+ * points then extend beyond a cell; up to this value, GIMP weights are still exact. */
 #define AHEAD_MOST 0.25
 
-/* Sets f->grid.ahead, a displacement that is added to the positions of the points of the grid f where their weights are
- * computed in the second map of momentum from points to nodes and in the update of their stress [node distances].
- * Without it, a stretched body that moves through the grid gains energy (kernels/mpm/remap_turn.h). The displacement is
- * the common motion of the points in half a step of size dt [s], i.e. dt/2 times the momentum of t, the groups of
- * points that rotate together, divided by their mass. It is 0 if supports, planes of symmetry or absorbing faces act on
- * the points, because nodes there do not move along; for a grid of one body among several that may collide; for linear
- * shape functions, whose slopes jump between cells, and cubic ones, whose weights would reach one more node; and if it
- * is below AHEAD_LEAST or above AHEAD_MOST. If it is not 0, sets the nodal masses to 0, since the second map adds those
- * of the displaced points. */
+/* Sets f->grid.ahead, a displacement [node distances] that is added to the positions of the points of grid f when
+ * weights are computed for the second map of momentum to nodes and for the stress update. Without it, a stretched body
+ * that moves through the grid gains energy (kernels/mpm/remap_turn.h). It is the mean displacement in half a step: dt/2
+ * [s] times momentum/mass of the groups t, which rotate together. It is 0 if walls, mirrors or absorbing faces act on
+ * the points, for one grid of several, for linear and cubic shape functions, and unless between AHEAD_LEAST and
+ * AHEAD_MOST. If not 0, clears the nodal masses, since the second map adds those at the displaced positions. */
 static void field_set_flight(struct grid_field *f, const struct corotating_groups *t, enum shape shape, real dt)
 {
     struct grid *g = &f->grid;
@@ -224,7 +226,8 @@ static void field_set_flight(struct grid_field *f, const struct corotating_group
 }
 
 /* Adds the change of the nodal velocities to the points of run e and maps the momentum of the points to the nodes again
- * (MUSL). side: for each body its own grid, between which contact acts; NULL: no contact. */
+ * (modified update stress last, MUSL). side: data of each grid for contact between bodies, from meeting_find; NULL: no
+ * contact. */
 static void grids_remap(struct run *e, const struct grid_contact_side *side)
 {
     const struct transfer_data grid_coupled = grid_coupled_data(e->grid);
@@ -259,8 +262,9 @@ void grid_map_points_to_nodes(struct grid_method *mpm, struct particles *p, cons
     timer_add_elapsed_to_section(timers, TIMER_SCATTER);
 }
 
-/* Adds `share` times the mean dilatation of the cells of this step to all points of p on the grids mpm
- * (points_add_mean_dilatation), against volumetric locking. */
+/* Corrects stress and volume of all points of p on the grids mpm for the mean dilatation of their cells in this step,
+ * against volumetric locking: adds `share` [1] times the difference from the changes by the dilatation of each point
+ * (points_add_mean_dilatation). */
 static void mean_dilatation_add(struct grid_method *mpm, struct particles *p, real share)
 {
     for (int k = 0; k < mpm->fields; k++) {
@@ -269,11 +273,11 @@ static void mean_dilatation_add(struct grid_method *mpm, struct particles *p, re
     }
 }
 
-/* Sorts points of p of which some have left their cells on the grids mpm. For points with a mean dilatation of cells,
- * replaces half of that of the old cells by half of that of the new cells. coupling: coupling of peridynamic particles
- * and points. Positions that are not finite are left to the next step. Do not call it for materials that yield: a bar
- * that hits a wall then loses 0.4 % of its energy; without this function it gains 0.14 %. Returns FAILED or REFUSED,
- * with a message, if a grid would need too many nodes. */
+/* Sorts the points of p into the cells of the grids mpm after some points have left their cells. If points have a mean
+ * dilatation of their cell, half of it then comes from the old cell and half from the new cell. coupling: coupling of
+ * particles and points. Must not be called for materials that yield: a bar that hits a wall loses 0.4 % of its energy
+ * with this function, and gains 0.14 % without. Returns FAILED or REFUSED, with a message, if a grid would need too
+ * many nodes; positions that are not finite are reported in the next step. */
 static status points_enter_cells(struct grid_method *mpm, struct particles *p, enum coupling coupling)
 {
     bool lost = false;

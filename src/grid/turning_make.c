@@ -1,4 +1,4 @@
-/* Set-up of the groups of points with a common rotation (data/turning.h). */
+/* Sets up the groups of points with a common rotation that the FLIP transfer uses (data/turning.h). */
 #include <math.h>
 
 #include "base/memory.h"
@@ -12,9 +12,9 @@ static int first_of(const struct grid_method *grid, const struct scene *scene, i
     return grid->fields > 1 ? scene->body[b].joined : 0;
 }
 
-/* Finds the bodies of p on which a boundary condition of `loads` with prescribed motion acts, rotations left out: their
- * points do not rotate in groups. For each such body b sets held[one[b]] to true, where one[b] is the lowest number of
- * the bodies that share a grid with body b. */
+/* Finds the bodies of p on which a boundary condition of `loads` prescribes a motion other than a rotation; the points
+ * of such bodies do not rotate in groups. For each such body b sets held[one[b]] to true. one[b]: lowest number of the
+ * bodies that share a grid with body b; held: [bodies], false before. */
 static void mark_held(const struct loads *loads, const struct particles *p, const int *one, bool *held)
 {
     for (int b = 0; b < loads->n; b++) {

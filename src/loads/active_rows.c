@@ -1,11 +1,12 @@
-/* The active set of blocks of eight rows: finds inactive blocks of bonds, and activates them when particles move. */
+/* Finds blocks of eight bond rows whose particles are at rest, so that their bond forces need not be computed, and
+ * activates these blocks when motion reaches them. */
 #include "loads/active_rows.h"
 
 #include <string.h>
 
-/* Returns the highest activity level, that of blocks of eight rows in motion: 1 + the number of blocks (groups of LANES
- * rows of bonds, one row for each particle) over which forces spread in a step. Forces reach over two horizons in
- * state-based models (level 3), over one in bond-based models (level 2). b: bonds of the body. */
+/* Returns the highest activity level, which blocks of eight bond rows with moving particles have. It is 1 plus the
+ * number of horizons over which forces spread in a step: 3 for state-based models, 2 for bond-based ones. b: bonds of
+ * the body. */
 static int most_of(const struct bonds *b) { return b->state.modulus ? 3 : 2; }
 
 /* Returns true if a particle of block `row_block` of eight rows of b (LANES rows of bonds stored together, one row for
@@ -33,10 +34,10 @@ static bool active_set_is_inactive(const struct bonds *b, const struct particles
     return !has_moved(b, p, row_block);
 }
 
-/* Returns the block of eight rows of b (LANES rows of bonds stored together, one for each particle of p) that contains
- * the row of the neighbour at the end of one bond. If the neighbour is a mirror image in l, the row of the particle
- * that it copies is meant. Returns -1 if the bond is padding or there is no such row. column: one bond of each of the
- * LANES rows of a block; lane: number of the row, from 0. */
+/* Returns the block of eight bond rows of b (one row for each particle of p) that contains the row of the neighbour at
+ * the end of one bond. For a neighbour that is a mirror image, it is the block of the particle that the image copies.
+ * column: one bond of each of the LANES rows of a block; lane: number of the row in this block, from 0; l: loads with
+ * the mirror images. Returns -1 if the bond is padding or the neighbour has no row. */
 static int64_t row_block_of(const struct bonds *b, const struct particles *p, const struct loads *l,
                             const struct column_copy *column, int lane)
 {

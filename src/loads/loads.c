@@ -1,4 +1,5 @@
-/* Application of boundary conditions: set-up, forces, walls, and their impulse and work. */
+/* Applies boundary conditions: sets up the loads, adds their forces, prescribes velocities and positions, and computes
+ * impulse and work. */
 #include "loads/loads.h"
 #include "loads/mirrors.h"
 
@@ -125,10 +126,11 @@ void loads_free(struct loads *l)
 
 /* ---- forces on particles ----------------------------------------------------------------------------------------- */
 
-/* Replaces the force on the peridynamic particles (of p) of a load with prescribed velocity by the force that gives
- * them this velocity, m (v_prescribed - v)/dt_velocity. The difference from the previous force is exerted by the
- * support: adds its impulse to l->impulse and its work to l->constraint_work. load->reaction is reduced by the previous
- * forces. by: motion prescribed in this step; dt_velocity: duration of the velocity update [s]. */
+/* Replaces the force on the peridynamic particles of `load`, which prescribes their velocity, by the force that results
+ * in this velocity: m (v_prescribed - v)/dt_velocity. The support exerts the difference from the previous force: adds
+ * its impulse to l->impulse and its work to l->constraint_work. Subtracts the previous forces from load->reaction, as a
+ * load cell would measure, without the inertia of the particles. p: all particles; by: motion prescribed in this step;
+ * dt_velocity: duration of the velocity update [s]. */
 static void drive(struct loads *l, struct load *load, struct particles *p, const struct prescribed_motion *by,
                   real dt_velocity)
 {
@@ -155,7 +157,7 @@ static void drive(struct loads *l, struct load *load, struct particles *p, const
     l->constraint_work += work * (1 + l->damped.increments);
 }
 
-/* Argument of the sum of one force component over all particles. */
+/* Arguments of loads_force_block: the particles p and the component (0 .. dim - 1) of the force that is summed. */
 struct force_sum {
     const struct particles *p;
     int component;
@@ -176,10 +178,10 @@ static void loads_force_block(const void *context, int64_t first, int64_t end, r
     for (int l = 0; l < LANES; l++) *sum += part[l];
 }
 
-/* Adds the impulse of mirror supports in a velocity update of duration dt_velocity [s] to l->impulse [N s]: the sum of
- * all forces on particles p normal to each mirror, and along mirrors that also hold tangential motion. Forces between
- * two particles cancel in this sum; forces from mirror images remain and are the reaction of the support. Along other
- * mirrors the forces from images cancel in pairs. */
+/* Adds the impulse of the supports at planes of symmetry in a velocity update of duration dt_velocity [s] to l->impulse
+ * [N s]. It is the sum of all forces on the particles p normal to each plane, and along planes that also prevent
+ * tangential motion. In this sum, forces between two particles cancel, and forces from mirror images remain, which are
+ * the reaction of the support. Along other planes the forces from images cancel in pairs. */
 static void mirror_impulse(struct loads *l, const struct particles *p, real dt_velocity)
 {
     bool held[DIM_MAX] = {false};
@@ -258,9 +260,9 @@ static void velocities_set(struct loads *l, const struct load *load, struct part
     }
 }
 
-/* Largest deviation of a particle from its prescribed position that counts as round-off [spacings]. Larger
- * deviations are kept: they belong to particles that were material points between nodes of which only some are
- * driven. */
+/* Largest deviation of a particle from its prescribed position that counts as round-off and is corrected [spacings].
+ * Larger deviations remain: such particles were material points between grid nodes of which only some had a prescribed
+ * velocity. */
 #define OFF_PLACE 1e-6
 
 /* Sets the positions of the particles of a load with prescribed displacement to those at the end of the step, so that

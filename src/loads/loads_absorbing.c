@@ -1,5 +1,5 @@
-/* Dashpots of absorbing faces: on particles moved by bonds, on nodes of a grid through the points of the face, and on
- * the mesh nodes of the face. */
+/* Adds the dashpots of absorbing faces: to particles that bond forces move, to grid nodes through the material points
+ * of the face, and to the nodes of the mesh on the face. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -275,10 +275,10 @@ void loads_add_grid_dashpots(struct loads *l, struct grid *g, const struct parti
     memory_free(value);
 }
 
-/* Returns the share (0 to 1) of the face area of a particle that goes to node `corner` of its mesh cell. A cell has
- * 2^dim particles, one in each of its equal parts. place: number of the part of the particle; bit d of `place` and
- * `corner` is 1 for the upper half along axis d. The face is half a spacing in front of the particle, along `axis` in
- * the direction `side` (-1 or 1). */
+/* Returns the fraction (0 to 1) of the face area of a particle that is assigned to node `corner` of its mesh cell. A
+ * cell has 2^dim particles, one in each of its equal parts. place: number of the part of the cell in which the particle
+ * is; bit d of `place` and `corner` is 1 for the upper half along axis d. The face is half a spacing in front of the
+ * particle, along `axis` in the direction `side` (-1 or 1). */
 static real face_weight(int dim, int corner, int place, int axis, int side)
 {
     const bool before = (corner >> axis & 1) == (side > 0), first = (place >> axis & 1) == (side > 0);

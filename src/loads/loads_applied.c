@@ -1,6 +1,7 @@
-/* Applied forces: tractions and body forces on their particles, with their impulse and work. A load is a function of
- * time times a constant share for each particle. Loads on identical lists of particles are combined: the first of them,
- * the leader, visits its particles once for all; loads with equal shares are one term. */
+/* Applies forces to particles (tractions and body forces) and sums their impulse and work. The force of a load on a
+ * particle is a function of time times a constant factor of the particle (its area, volume or mass), its share. Loads
+ * on equal lists of particles are applied in one loop over the list; the first of these loads is called the leader.
+ * Loads with equal shares are added up before. */
 #include <math.h>
 #include <string.h>
 
@@ -85,9 +86,10 @@ void loads_particle_factors_free(struct loads *l)
 
 /* ---- one component of all loads of a leader ---------------------------------------------------------------------- */
 
-/* One component of all loads with one leader, i.e. on the same particles. Term k is value[k] times
- * share[k][particles]; f: forces of all particles; x: their present positions; before: positions at the last
- * application, by number in the list. */
+/* One component of the forces of all loads with one leader, i.e. on one list particle[n]. The force on entry k of the
+ * list is the sum over the terms b of value[b] share[b][k]. f, x: forces [N] and present coordinates [m] of all
+ * particles; before[n]: coordinates of the listed particles when the forces were last applied [m]. Refers to arrays of
+ * the loads and particles; local to a step. */
 struct push {
     const int32_t *particle;
     int terms;
@@ -193,8 +195,8 @@ static void work_block(const void *context, int64_t first, int64_t end, real *su
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
 
 /* Returns the dimensionless factor of a load for the velocity update from t - dt_velocity to t [s]: the mean of its
- * time function f over this interval by the trapezoidal rule. The value at its end alone would be an error of first
- * order, half a step late. The mean also preserves the impulse of a load that is switched at a whole step. */
+ * time function f over this interval by the trapezoidal rule. The trapezoidal rule is accurate to second order, f(t)
+ * alone only to first order. It also gives the exact impulse of a load that is switched on or off at a whole step. */
 static real kick_factor(const struct time_function *f, real t, real dt_velocity)
 {
     return 0.5 * (time_function_value(f, t - dt_velocity) + time_function_value(f, t));
@@ -220,10 +222,10 @@ void loads_add_applied_forces(struct loads *l, struct particles *p, real t, real
         }
 }
 
-/* Returns the dimensionless factor of a load with which its work in the position update about time t [s] is computed.
- * The work must equal the change of the energy m v- . v+/2: the displacement times the mean of two forces, those of the
- * velocity updates before and after it. The force of a velocity update is the mean of the time function f at both ends
- * of its interval, so that the factor is f(t)/2 + (f(t - dt) + f(t + dt))/4. dt: time step [s]. */
+/* Returns the dimensionless factor of a load for its work in the position update about time t [s]: f(t)/2 + (f(t - dt)
+ * + f(t + dt))/4. The work must equal the change of the energy m v- . v+/2, with the velocities v- and v+ half a step
+ * before and after t. It is the displacement times the mean force of the velocity updates before and after, each of
+ * which uses the mean of the time function f at both ends of its interval. dt: time step [s]. */
 static real drift_factor(const struct time_function *f, real t, real dt)
 {
     return 0.5 * time_function_value(f, t) +

@@ -13,23 +13,25 @@
 #include "loads/loads.h"
 #include "base/memory.h"
 
-/* Distance in front beyond which a particle is across a hole: lattice neighbours are at 1, particles across a missing
- * site at 2 [widths]. */
+/* Distance above which the next particle in front is on the other side of a hole [particle widths]. Lattice neighbours
+ * are at distance 1, particles on both sides of a missing site at 2. */
 #define GAP 1.75
 #define BENEATH 0.25 /* smallest distance from the first to the next particle [widths] */
 #define EVEN 1e-4    /* relative difference of volumes that count as equal: lattices may be written in decimals */
-/* Shift of the cubes of particles, so that a cube whose two ends are at middle lines of columns is in one of these
- * columns only [widths]. */
+/* Offset of the cubes of particles relative to the columns [particle widths]. If both ends of a cube are exactly at
+ * middle lines of columns, the offset puts the cube in one of these columns only. */
 #define TO_ONE_SIDE 1e-6
-/* Smallest order parameter at which positions count as lattice sites [1]: 0 without order, 1 on a lattice, sin(2 pi
- * s)/(2 pi s) if positions are shifted by up to s spacings. */
+/* Smallest order parameter at which coordinates count as those of a lattice [1]: the length of the mean direction of
+ * the coordinates, mapped to angles with the period of a spacing (find_site). It is 0 without order, 1 on a lattice,
+ * and sin(2 pi s)/(2 pi s) if positions are shifted at random by up to s spacings. */
 #define ORDER_LEAST 0.05
 #define ORDER_CHANCE 3.0 /* times sqrt(n): sum that n disordered particles may reach by chance */
-/* Columns per mean width of disordered particles; number of particles that are examined; first size of the hash
- * table. */
+/* FINE: number of columns per mean width of disordered particles; SITES_SAMPLED: largest number of particles,
+ * approximately, from which lattice sites are determined; TABLE_FIRST: initial size of the hash table of columns. */
 enum { FINE = 4, SITES_SAMPLED = 1 << 16, TABLE_FIRST = 1 << 10 };
 
-/* The columns of a body normal to a face: lines of particles one behind the other. */
+/* Particles of one body in columns, i.e. lines of particles along the normal of a loaded face, with a hash table of the
+ * columns. Owns its arrays; made by loads_columns_make and released by loads_columns_free. */
 struct columns {
     int body, axes, axis[DIM_MAX - 1]; /* index of the body; number of axes across the columns; these axes */
     real middle[DIM_MAX - 1];          /* coordinates of the middle line of column 0 [m] */
@@ -46,9 +48,9 @@ struct columns {
 
 /* ---- positions of columns ---------------------------------------------------------------------------------------- */
 
-/* Returns the edge of the cube (in 2D the square) that particle i of p stands for [m]: (volume/section)^(1/dim), with
- * the thickness or area b->section; without section the spacing of the scene. For the body c->body, if all its
- * particles have the same volume, returns their common width c->width. */
+/* Returns the edge of the cube (in 2D the square) that represents particle i of p [m]: (volume/section)^(1/dim), with
+ * the thickness or area b->section, or the spacing of the scene if there is no section. For particles of body c->body,
+ * if all have one volume, returns their common width c->width. */
 static real width_of(const struct columns *c, const struct boundary *b, const struct particles *p, int64_t i)
 {
     if (p->body[i] == c->body && c->even) return c->width;
@@ -156,7 +158,8 @@ static int32_t column_number(struct columns *c, int64_t key, bool make)
     return c->number[place];
 }
 
-/* The columns through the cube of a particle: numbers from .. to - 1 along each axis. */
+/* Range of the columns whose middle lines pass through the cube of a particle: column numbers from[a] .. to[a] - 1
+ * along each axis a across the columns. */
 struct span {
     int64_t from[DIM_MAX - 1], to[DIM_MAX - 1];
 };
@@ -341,7 +344,8 @@ static real column_area(const struct columns *c, const struct boundary *b, int d
     return c->step == c->width ? area : area * pow(c->step / c->width, dim - 1);
 }
 
-/* Iterator over the columns of each body that has a selected particle:
+/* Iterator over the bodies that have a selected particle; for each one, `columns` are the lines of particles
+ * normal to the loaded face. Usage:
  *
  *     for (struct faced f = {0}; faced_next(&f, b, p, selected, spacing);) ... f.columns ... */
 struct faced {

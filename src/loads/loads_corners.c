@@ -1,6 +1,6 @@
-/* Corners of the free faces of lattice particles (loads_surface.c): which faces meet in a corner, and the weights with
- * which it moves with the particles around it. The weights are exact for linear fields. Particles, and near mirrors
- * their images, are found by the lattice sites of their bodies. */
+/* Finds the corners of the free faces of lattice particles (loads_surface.c): which faces have a corner in common, and
+ * which particles move it with which weights. The weights are exact for linear fields. Particles, and near planes of
+ * symmetry their mirror images, are found by the lattice sites of their bodies. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,7 +16,9 @@ enum { STENCIL_MOST = 32, SITE_BITS = 18 }; /* particles of a corner; bits of a 
 
 /* ---- sites ------------------------------------------------------------------------------------------------------- */
 
-/* A lattice site of a body, or the corner below it: its key (site_key), and index of the particle or corner there. */
+/* Entry of a sorted list by which positions on the lattice of a body are found. key: lattice site (site_key); value:
+ * index of the particle at the site, or, in a list of face corners, FACE_CORNERS times the number of a face plus that
+ * of its corner half a spacing below the site. */
 struct site {
     int64_t key;
     int32_t value;
@@ -41,7 +43,8 @@ static int64_t site_key(int body, const int64_t *k, int dim)
     return key;
 }
 
-/* Computes k[dim], lattice indices of particle i from the first of its body. Returns false if it is on no site. */
+/* Computes k[dim], the lattice indices of particle i relative to the first particle of its body. Returns false if the
+ * particle is not on a lattice site, to within OFF_LATTICE spacings. */
 static bool place_on_lattice(const struct sites *s, int32_t i, int64_t *k)
 {
     bool on = true;
@@ -68,7 +71,8 @@ static int32_t site_find(const struct sites *s, int64_t key)
     return low < s->n && s->site[low].key == key ? s->site[low].value : -1;
 }
 
-/* Lists in s->site, sorted, the lattice sites of bodies with faces in f. Returns REFUSED if one is off the lattice. */
+/* Lists the lattice sites of all particles of those bodies that have faces in f, sorted, in s->site. Returns REFUSED,
+ * with a message, if a particle of these bodies is not on the lattice. */
 static status sites_make(struct sites *s, const struct surface_faces *f)
 {
     bool has[UINT8_MAX + 1] = {false};
@@ -88,13 +92,15 @@ static status sites_make(struct sites *s, const struct surface_faces *f)
     return OK;
 }
 
-/* Returns the distance of mirror m from the first particle of `body` [half spacings]: odd if midway between sites. */
+/* Returns the distance of the mirror plane m from the first particle of `body` [half spacings]. It is an odd number if
+ * the plane is midway between lattice sites. s: has the spacing and the first particles. */
 static real mirror_steps(const struct sites *s, const struct boundary *m, int body)
 {
     return 2 * (m->at - s->p->X[m->axis][s->first[body]]) / s->spacing;
 }
 
-/* Returns REFUSED if a mirror plane within BESIDE spacings of a face of f is not midway between lattice sites. */
+/* Returns REFUSED, with a message, if a mirror plane within BESIDE spacings of a face of f is not midway between
+ * lattice sites of the body. s: lattice sites, with the planes. */
 static status mirrors_between(const struct sites *s, const struct surface_faces *f)
 {
     for (int m = 0; m < s->boundaries; m++)
@@ -133,7 +139,8 @@ static int32_t site_or_image_find(const struct sites *s, int body, const int64_t
 
 /* ---- corners ----------------------------------------------------------------------------------------------------- */
 
-/* Computes k[dim], the lattice site with corner c of face f as its lower corner (c = 0 .. 1 in 2D, 0 .. 3 in 3D). */
+/* Computes k[dim], the indices of the lattice site whose cube has corner number c of face f at its lower end along each
+ * axis. c: 0 .. 1 in 2D, 0 .. 3 in 3D. */
 static void corner_site(const struct sites *s, const struct surface_face *f, int c, int64_t *k)
 {
     const int dim = s->p->dim, u = dim == 2 ? 1 - f->axis : (f->axis + 1) % 3, v = (f->axis + 2) % 3;
@@ -143,8 +150,9 @@ static void corner_site(const struct sites *s, const struct surface_face *f, int
     if (dim == 3) k[v] += c >= 2;
 }
 
-/* Numbers the corners of the faces f, equal positions alike: sets a->corners and a->corner. s: lattice sites. Returns
- * the corners of all faces, sorted by position, with value = 4 face + corner; free it with memory_free. */
+/* Numbers the corners of the faces f, so that corners at one position have one number: sets a->corners (their count)
+ * and a->corner[face][corner]. s: lattice sites. Returns the corners of all faces, sorted by position, with value =
+ * FACE_CORNERS face + corner. Release with memory_free. */
 static struct site *corners_number(struct surface *a, const struct sites *s, const struct surface_faces *f)
 {
     const int each = a->dim == 2 ? 2 : FACE_CORNERS;
@@ -165,7 +173,8 @@ static struct site *corners_number(struct surface *a, const struct sites *s, con
     return all;
 }
 
-/* Lists in a->part, for each corner, the faces that meet there. all[n]: corners of all faces, from corners_number. */
+/* Lists the faces that have each corner in common, in a->part; those of corner c begin at a->face_first[c]. all[n]:
+ * corners of all faces, from corners_number. */
 static void parts_make(struct surface *a, const struct site *all, int64_t n)
 {
     a->face_first = NEW("loads.face_first", a->corners + 1, int64_t);
@@ -176,7 +185,9 @@ static void parts_make(struct surface *a, const struct site *all, int64_t n)
     }
 }
 
-/* The n particles with which a corner moves: index, mirror bits, position r from the corner [spacings], weight. */
+/* The n particles (or mirror images of particles) whose motion determines that of one corner of a face. For each:
+ * index; bits of the components that a mirror reverses (`turned`); position r relative to the corner [spacings]; weight
+ * `counts` [1]. A local variable while the corner is set up. */
 struct around {
     int n;
     int32_t particle[STENCIL_MOST];
@@ -184,8 +195,9 @@ struct around {
     real r[STENCIL_MOST][DIM_MAX], counts[STENCIL_MOST];
 };
 
-/* Adds to *t with weight `counts` the particle of `body` at `site` (beyond a mirror the source of the image), unless *t
- * has it or is full. off[dim]: `site` minus the site above the corner. Returns false if `site` is empty. */
+/* Adds the particle of body `body` at lattice site `site` to *t with the weight `counts` [1]; beyond a mirror, adds the
+ * particle whose image is there. Does nothing if *t has the particle already or is full. off[dim]: indices of `site`
+ * relative to the site above the corner. Returns false if `site` is empty. */
 static bool corner_reach(struct around *t, const struct sites *s, int body, const int64_t *site, const int64_t *off,
                          real counts)
 {
@@ -202,8 +214,9 @@ static bool corner_reach(struct around *t, const struct sites *s, int body, cons
     return true;
 }
 
-/* Fills *t with the particles that determine the position of the corner below lattice site `site` of body `body`: those
- * whose cubes meet in the corner, with weight 1, and those behind them along each axis, with weight SECOND_LAYER. */
+/* Collects in *t the particles that determine the position of a corner, half a spacing below lattice site `site` of
+ * body `body` along each axis: those whose cubes have this corner, with weight 1, and those in the second layer along
+ * each axis, with weight SECOND_LAYER. s: lattice sites. */
 static void corner_around(struct around *t, const struct sites *s, int body, const int64_t *site)
 {
     const int dim = s->p->dim;
@@ -262,8 +275,9 @@ static void corner_weights(const struct around *t, int dim, real *w)
     }
 }
 
-/* Computes a->place of corner c, its reference position: the weighted mean of the particles and images t that move it,
- * exactly, so that forces have no moment. first: first particle of the body; site[dim]: lattice site above c. */
+/* Computes the reference position a->place of corner c [m] as the weighted mean of the reference positions of the
+ * particles and images t that move the corner. No other value is used, so that forces on the corner cause no moment of
+ * the body. first: first particle of the body; site[dim]: indices of the lattice site above the corner. */
 static void corner_place_make(struct surface *a, int64_t c, const struct sites *s, int32_t first, const int64_t *site,
                               const struct around *t)
 {
@@ -276,7 +290,8 @@ static void corner_place_make(struct surface *a, int64_t c, const struct sites *
     }
 }
 
-/* Finds in a the particles that move each corner, and its position. s: lattice sites; all: sorted corners of f. */
+/* Finds for each corner of surface a the particles that move it, their weights, and the reference position of the
+ * corner. s: lattice sites; f: faces; all: corners of the faces f, sorted, from corners_number. */
 static void corners_make(struct surface *a, const struct sites *s, const struct site *all,
                          const struct surface_faces *f)
 {

@@ -1,8 +1,9 @@
-/* Prescribed velocities and displacements: values and formulas times a function of time, and rotations.
+/* Computes prescribed velocities and displacements: values and formulas times a function of time, and rotations.
  *
- * Rotating particles move on circles: their velocity in a step is the difference of their positions at both ends over
- * the step, so that no step leaves the circle, however long it is. Displaced particles likewise; their position at the
- * end is set exactly (loads_impose_prescribed_motion, walls of the mesh), so that round-off does not accumulate. */
+ * The prescribed velocity in a step is the difference of the prescribed positions at its start and end, divided by the
+ * step. Rotating particles thus stay on their circles however long a step is. Positions of displaced particles are also
+ * set exactly at the end of a step (loads_impose_prescribed_motion, walls of the mesh), so that round-off does not
+ * accumulate. */
 #include <math.h>
 
 #include "loads/loads.h"

@@ -1,4 +1,4 @@
-/* Mirror images of particles: selection of particles with images, and motion of images. */
+/* Creates the mirror images of particles at planes of symmetry and updates their motion. */
 #include <float.h>
 #include <math.h>
 #include <string.h>

@@ -1,5 +1,6 @@
-/* Loads whose shares change from step to step: formulas of time, and pressure that follows the surface. Their shares
- * include functions of time and formulas; all else is done as for other loads. */
+/* Updates loads whose factors per particle (shares) change from step to step: loads with formulas of time, and pressure
+ * that follows the surface. The shares of these loads include the time function and the formula; their forces are
+ * applied as for other loads (loads_applied.c). */
 #include <math.h>
 #include <string.h>
 

@@ -1,11 +1,11 @@
-/* Pressure on every free face of a body.
+/* Applies pressure to all free faces of a body.
  *
- * A particle is a cube (in 2D a square) of a lattice; each of its faces without a neighbour counts with its area along
- * its outward normal. These faces are the surface of the body of cubes: each column of particles along an axis ends
- * twice with equal areas, so that the resultant of a uniform pressure vanishes to the last digit, and on a lattice its
- * moment too, as both ends are on one line. Steps of a curved or sloping surface sum to its projected areas, as for
- * tractions. Columns are those of tractions (loads_columns.c), which also handle scattered particles. A face on a
- * mirror does not count: the body continues there. */
+ * A particle represents a cube (in 2D a square) of a lattice. Each face of the cube without a neighbour contributes its
+ * area along its outward normal. Each column of particles along an axis has two ends with equal areas, so that the
+ * resultant of a uniform pressure vanishes to the last digit; on a lattice also its moment, as both ends are on one
+ * line. Steps of a curved or sloping surface sum to its projected areas. The columns are found as for tractions
+ * (loads_columns.c), also for particles that are not on a lattice. A face in a plane of symmetry does not count, since
+ * the body continues there. */
 #include <math.h>
 #include <string.h>
 
@@ -14,8 +14,8 @@
 #include "base/memory.h"
 #include "data/extent.h"
 
-/* Parameters of the visit of free ends of columns of particles along one axis: the function `found` is called with
- * `context` for each end. */
+/* Arguments of end_found, which is called for both ends of each column (line) of particles along one axis. `found` is
+ * called with `context` for each end that is a free face. */
 struct ends {
     const struct boundary *boundary, *all; /* boundary with axis and side; boundaries of the scene */
     int n;                                 /* number of boundaries of the scene */
@@ -39,8 +39,8 @@ static bool is_mirrored(const struct ends *e, int32_t i)
     return false;
 }
 
-/* Calls the function e->found for the free face of particle i, which is at an end of a column (line) of particles. Does
- * nothing if the face is in a plane of symmetry. context: the visit e (struct ends); area: area of the face [m^2]. */
+/* Calls e->found for the free face of particle i, which is the first or last one of a column (line) of particles. Does
+ * nothing if the face is in a plane of symmetry. context: e, a struct ends; area: area of the face [m^2]. */
 static void end_found(void *context, int32_t i, real area)
 {
     const struct ends *e = context;
@@ -72,8 +72,8 @@ static void surface_faces_free(struct surface_faces *f)
     *f = (struct surface_faces){0};
 }
 
-/* Parameters of face_pressed: the sum of the areas of free faces along their outward normals, and a list of the
- * faces. */
+/* Arguments of face_pressed: for each particle the sum of the area vectors (area times outward normal) of its free
+ * faces, and a list of these faces. Owned by the caller. */
 struct pressed {
     real *const *area;           /* by component [particles] [m^2] */
     struct surface_faces *faces; /* list for a pressure that follows the surface; NULL: none */

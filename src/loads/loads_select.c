@@ -1,4 +1,5 @@
-/* Selects the particles on which a boundary condition acts, and computes their shares of its value. */
+/* Selects the particles on which a boundary condition acts, and computes their shares: the area, volume or mass of each
+ * particle by which the value of the boundary condition is multiplied. */
 #include <math.h>
 
 #include "loads/loads.h"

@@ -1,4 +1,6 @@
-/* Boundary conditions of a static problem: only their values at the end matter. */
+/* Converts the boundary conditions of a scene to those of a static problem, in which loads and prescribed displacements
+ * have their values at the end of the simulated time. Computes their prescribed displacements, forces, reactions and
+ * work in this state. */
 #include "loads/loads.h"
 
 #include <math.h>

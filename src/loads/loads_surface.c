@@ -1,13 +1,14 @@
-/* Pressure that follows the surface of a body of lattice cubes (corners of its faces: loads_corners.c).
+/* Pressure p that follows the surface of a body on a lattice, where each particle is a cube (loads_corners.c: corners
+ * of the faces).
  *
- * The free faces of the cubes meet in corners. A corner moves with the particles around it: x = sum w x_i, with sum w =
- * 1 and sum w X_i = X, so that it is exact in every uniform deformation. The faces between corners (in 2D segments; in
- * 3D quadrilaterals, divided along either diagonal, the mean of both) enclose a volume V. A pressure p does the work -p
- * dV: the force on a corner is -p dV/dx, half of each of its segments, a third of each of its triangles, and the force
- * on a particle follows from the weights. So the forces of a closed surface have the energy p V, no resultant and no
- * moment, whatever the deformation, and rotate with the body; on part of a surface each face contributes its own share.
- * Near a mirror a corner also moves with images, whose displacement is that of their sources with some components
- * reversed. V is that of the part on this side; its derivative by a source is the force of the whole surface on it. */
+ * A corner of the free faces moves with the particles around it: x = sum w x_i, with sum w = 1 and sum w X_i = X, which
+ * is exact in every uniform deformation. The faces (in 2D segments; in 3D quadrilaterals, divided along either
+ * diagonal, the mean of both) enclose the volume V. The pressure does the work -p dV, so that the force on a corner is
+ * -p dV/dx: half the area of each adjacent segment, or a third of each adjacent triangle, times -p. The weights w
+ * distribute this force to the particles. The forces of a closed surface thus have the potential energy p V and rotate
+ * with the body, with neither resultant nor moment. Near a plane of symmetry a corner also moves with mirror images,
+ * whose displacement is that of particles with some components reversed; V is the volume on the side of the
+ * particles. */
 #include "loads_surface_internal.h"
 #include "base/memory.h"
 #include "base/team.h"
@@ -16,7 +17,8 @@
 
 /* ---- the surface of a load --------------------------------------------------------------------------------------- */
 
-/* Lists in a, for each particle of load l, the corners that it moves. particles: number of particles in the run. */
+/* Makes the list, for each particle of load l, of the corners of surface a that it moves, with their weights
+ * (a->share_*): the transpose of the list of particles by corner. particles: number of all particles. */
 static void shares_transpose(struct surface *a, const struct load *l, int64_t particles)
 {
     int32_t *place = NEW("loads.place", particles, int32_t);
@@ -104,7 +106,8 @@ static bool is_torn(const struct surface *s, const real *const *x, int corners)
     return torn;
 }
 
-/* Computes to[2][2], the halves of the area vector of a 2D face at its ends x [m^2]. sign: orientation, 1 or -1. */
+/* Computes to[2][2] [m^2]: for each of the two ends of a 2D face, half of the area vector of the face. x: positions of
+ * the ends [m]; sign: orientation, 1 or -1; s: has the thickness. */
 static void segment_area(const struct surface *s, const real *const *x, real sign, real *to)
 {
     for (int c = 0; c < 2; c++) {
@@ -151,7 +154,8 @@ static void surface_face_area(struct surface *s, int64_t q)
         quadrilateral_area(x, s->sign[q], to);
 }
 
-/* Computes s->x of corner c: reference position plus displacements of p, times s->weight, reversed where s->turned. */
+/* Computes the present position s->x of corner c [m]: its reference position plus the weighted displacements of the
+ * particles of p that move it. Displacement components that a mirror reverses (s->turned) are subtracted. */
 static void surface_corner_place(struct surface *s, const struct particles *p, int64_t c)
 {
     for (int d = 0; d < s->dim; d++) {

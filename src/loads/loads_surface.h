@@ -27,9 +27,9 @@ status load_surface_make_from_free_faces(struct load *l, const struct surface_fa
                                          const struct boundary *all_boundaries, int boundary_count, struct particles *p,
                                          real spacing);
 
-/* Computes, for each particle of the load to which the surface s belongs, the area vector that its forces act on,
- * pointing into the body, from the present positions of the particles p. area: [dim][number of particles of the load]
- * [m^2]. */
+/* Computes into `area` the area vector of each particle of the load to which the surface s belongs, by which the
+ * pressure is multiplied to obtain the force on the particle, from the present positions of p. It points into the body.
+ * area: [dim][number of particles of the load] [m^2]. */
 void load_surface_compute_area_vectors(struct surface *s, const struct particles *p, real *const *area);
 
 /* Frees the surface s, which load_surface_make_from_free_faces has made, with its arrays; s may be NULL. */

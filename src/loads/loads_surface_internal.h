@@ -4,7 +4,7 @@
 
 #include "loads_surface.h"
 
-/* Largest number of corners of a face, that in 3D. */
+/* Largest number of corners of the face of a particle: four, in 3D. */
 enum { FACE_CORNERS = 4 };
 
 /* The surface of one load: its faces, their corners, and the particles that move the corners. All arrays are owned. */
@@ -29,7 +29,8 @@ struct surface {
 
 struct site; /* a lattice site with its particle (loads_corners.c) */
 
-/* The sites of the lattices of all bodies with faces, and where mirrors are. */
+/* The lattice sites that particles occupy in all bodies with free faces of a load, and the planes of mirrors, from
+ * which surface_corners_make finds the corners of the faces. `site` is owned. */
 struct sites {
     const struct particles *p;
     const struct boundary *all; /* boundaries of the scene, including mirrors */

@@ -1,5 +1,5 @@
-/* Nodes constrained by boundary conditions: of the grid, found anew in every step, and of the mesh, whose box of nodes
- * never changes. */
+/* Finds the nodes whose motion boundary conditions constrain: nodes of the background grid, in every step, and nodes of
+ * the mesh of the undeformed body, once. A wall is the prescribed velocity of one component of a node. */
 #include <math.h>
 #include <string.h>
 
@@ -97,10 +97,10 @@ static void node_at(const struct grid *g, const struct mesh *mesh, int64_t I, re
     for (int d = 0; d < g->dim; d++) x[d] = grid_node_position(g, d, at / g->stride[d] % g->count[d]);
 }
 
-/* Returns true if the position of mesh node I does not tell whether `load` constrains it. This is so at slits, gaps
- * between cells at which each side has its own node at the same position. Whether such a node is driven depends on the
- * material of its cells. A plane of symmetry does not constrain it along an axis along which the slit separates its
- * material from the mirror image. Returns false without mesh or slits. */
+/* Returns true if the position of mesh node I is not sufficient to decide whether `load` constrains it. This is so at
+ * slits, gaps between cells at which each side has its own node at one position: whether such a node is driven depends
+ * on the material of its cells. A plane of symmetry, too, does not constrain the node along axes along which the slit
+ * separates its material from the mirror image. Returns false without mesh or slits. */
 static bool place_misleads(const struct mesh *mesh, const struct load *load, int64_t I)
 {
     if (!mesh || !mesh->slits.split) return false;
@@ -215,8 +215,9 @@ static int64_t driven_share(struct loads *l, const struct load *load, const stru
     return n;
 }
 
-/* Motion that a load prescribes in this step and in the previous one. A wall is the prescribed velocity of one
- * component of a node. */
+/* Motion that one load prescribes in this step and in the previous one, prepared for evaluation at many nodes. If it is
+ * equal at all nodes (`uniform`), `wall` contains the prescribed velocity of each component (without the node
+ * number). */
 struct driven_by {
     struct prescribed_motion now, before;
     bool uniform;              /* the motion is that of `wall` at every node */
@@ -257,7 +258,8 @@ static bool points_choose_driven_nodes(const struct loads *l, int which, const s
 }
 
 #define MOSTLY (0.5 * (1 - 1e-9)) /* share of its mass from points of a load with which a node is driven [1] */
-/* If no node reaches MOSTLY: share divided by the largest share, from which on a node is driven [1]. */
+/* Applies if no node has the fraction MOSTLY of its mass from points of a load. The load then drives the nodes with at
+ * least this multiple of the largest fraction [1]. */
 #define NEARLY_LARGEST 0.9
 #define HEAVY 0.01 /* mass from points of a load, divided by the largest one, below which a node is ignored [1] */
 

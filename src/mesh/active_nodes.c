@@ -1,4 +1,5 @@
-/* The active set of the mesh: blocks of eight nodes along x. */
+/* Active set of the mesh of the undeformed body: finds blocks of eight nodes along x that are at rest, so that
+ * computations skip them, and activates these blocks when motion reaches them. */
 #include "mesh/active_nodes.h"
 
 #include <string.h>
@@ -31,10 +32,10 @@ static bool nodes_empty(const struct mesh *mesh, int64_t block)
 
 static void mesh_activate(struct mesh *mesh, int64_t block);
 
-/* Activates (raises to activity level 1) the blocks of nodes (eight along x) of `mesh` to which motion spreads from
- * block `near` across slits, gaps between cells at which a node has a second node at the same position. These are the
- * blocks with second nodes of nodes of `near`. If `moves` is true (nodes of `near` move) and `near` itself has second
- * nodes, the blocks of the nodes at their positions are activated, too. */
+/* Activates the blocks of nodes (eight along x) of `mesh` to which motion spreads from block `near` across slits. At a
+ * slit (a gap between cells) several nodes have one position: a regular node and extra nodes. Raises blocks with extra
+ * nodes that belong to regular nodes of `near` to at least activity level 1. If moves is true (the nodes of `near`
+ * move), also activates the blocks with the regular nodes of extra nodes of `near`. */
 static void slits_activate(struct mesh *mesh, int64_t near, bool moves)
 {
     const struct mesh_slits *s = &mesh->slits;

@@ -1,4 +1,5 @@
-/* Bodies in the reference frame: choice, mesh, and their part of a step. */
+/* Bodies in the reference frame, i.e. with a mesh of the undeformed body whose nodes move with the material: chooses
+ * which bodies, makes their mesh, and advances it in a step. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,14 +10,15 @@
 #include "mesh/mesh_part.h"
 #include "loads/mirrors.h"
 
-/* Largest deviation of layers of particles from half spacings at a plane of symmetry [spacings]: round-off of positions
- * and of lengths in scenes. */
+/* Largest accepted deviation of the distance of a layer of particles from a plane of symmetry from an odd number of
+ * half spacings [spacings]. Allows for round-off of positions and of lengths in input files. */
 #define PLANE_SHIFT_MOST 1e-3
 
 /* ---- choice of the frame ----------------------------------------------------------------------------------------- */
 
-/* How the particles of a body lie at a plane of symmetry. MISFIT: its layers are not at half spacings from the plane,
- * so that the mesh has no nodes there; APART: its nearest layer is farther than half a spacing. */
+/* Position of a body relative to a plane of symmetry. PLANE_FITS: its mesh has nodes on the plane. PLANE_MISFIT: its
+ * layers of particles are not an odd number of half spacings away, so that the mesh has no nodes on the plane.
+ * PLANE_APART: its nearest layer is farther than half a spacing away. */
 enum plane_fit { PLANE_FITS, PLANE_MISFIT, PLANE_APART };
 
 /* Returns whether the nodes of the mesh of body `body` of p fit the plane of symmetry of boundary b: PLANE_MISFIT if

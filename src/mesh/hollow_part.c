@@ -1,6 +1,6 @@
-/* Cells of two spacings inside coarse cells without particles. The particles that are needed are determined once for
- * the start, and again when the levels of cells change: the particles are then made anew from the lattice, with the
- * motion of the nodes around them. */
+/* Cells inside coarse cells for which no particles are created, to save memory and time (edge of a cell: two spacings).
+ * Determines which particles are needed at the start, and again when the coarsening levels of cells change. New
+ * particles are then created on the lattice, with displacement and velocity interpolated from the nodes. */
 #include <math.h>
 #include <string.h>
 
@@ -11,10 +11,10 @@
 #include "grid/grid_part.h"
 
 enum { PAYS = 400000 }; /* number of particles that are not created, above which this saves time; measured */
-/* Ranges of cells around level 0 (the finest cells) that have particles, as a margin for crack growth. MARGIN: around
- * all of level 0; AHEAD: around those cells of level 0 that had no particles before, as level 0 goes on growing there.
- * Measured on half of Kalthoff's plate in space at 0.5 mm, beside one range of 8: 3 replacements of the run instead of
- * 4, and 381,504 particles instead of 517,760. */
+/* Distances from cells of level 0 (the finest) within which particles are created, as a margin for crack growth
+ * [cells]. MARGIN: around all cells of level 0; AHEAD: around those that had no particles before, where level 0 is
+ * extending. Measured on half of Kalthoff's plate in 3D, spacing 0.5 mm, compared with a single distance of 8: the
+ * simulation is set up anew 3 times instead of 4, with 381,504 particles instead of 517,760. */
 enum { MARGIN = 4, AHEAD = 16 };
 
 /* ---- the start --------------------------------------------------------------------------------------------------- */
@@ -70,9 +70,10 @@ static status box_find(struct grid *box, const struct scene *s)
                             s->body[0].name);
 }
 
-/* Returns true if a pre-crack of scene s is so near the position X[dim] [m] that particles are needed there: nearer
- * than the cutoff of the bonds plus two cells or, to an end of the crack, by as much as the zone around ends that is
- * peridynamic from the start is larger. source: has the cutoff; h: edge of a cell [m]. */
+/* Returns true if particles are needed at the position X[dim] [m] because of a pre-crack of scene s: if X is within the
+ * cutoff of bonds plus two cells of the crack. At an end (edge in 3D) of the crack the distance is larger by the cutoff
+ * plus the radius of the zone that is peridynamic from the start. source: has cutoff and horizon; h: edge of a cell
+ * [m]. */
 static bool near_cracks(const struct scene *s, const struct bond_source *source, const real *X, real h)
 {
     const real flank = source->family.cutoff + 2 * h;

@@ -1,4 +1,5 @@
-/* Points for frames in coarse cells without particles: one for each quadrature point. */
+/* Makes material points for output in coarse cells without particles, one for each integration point, so that output
+ * frames show these cells, too. */
 #include <string.h>
 
 #include "base/memory.h"

@@ -1,4 +1,5 @@
-/* Coarse cells: set-up, prolongation to points, sums, checkpoints. */
+/* Coarse cells of the mesh (levels 1, 2, ... of doubled cell edges): set-up, interpolation of nodal motion to material
+ * points, sums of energy and momentum, checkpoints. */
 #include "levels_parts.h"
 
 #include <stdio.h>

@@ -1,4 +1,5 @@
-/* Meshes of coarse cells from the levels of cells: cells, masses, ghosts, hanging nodes, matched inertia. */
+/* Builds the meshes of coarse cells from the coarsening level of each finest cell: cells and nodal masses, nodes at
+ * interfaces between levels (ghosts and hanging nodes), and the cells with a blended mass matrix. */
 #include <string.h>
 
 #include "base/memory.h"
@@ -119,9 +120,9 @@ static void interface_find(struct mesh_levels *l, int level)
     }
 }
 
-/* Sets bit c of mesh->matched at the node at each corner c of a whole cell if all neighbours of the cell are whole
- * cells of its material. Such cells have a mass matrix blended of lumped and consistent mass
- * (kernels/mesh/mesh_inertia.h). */
+/* Sets bit c of mesh->matched[I] if node I is corner c of a cell with a mass matrix blended of lumped and consistent
+ * mass (kernels/mesh/mesh_inertia.h). These are whole cells (with all points, of one material) of which all neighbours
+ * are whole cells of this material, too. */
 static void matched_find(struct mesh *mesh)
 {
     const struct grid *g = &mesh->grid;

@@ -1,7 +1,7 @@
-/* Changes of levels: motion of the nodes of new cells from the old ones. Displacements and velocities are sampled; the
- * remaining momentum of a merged cell is distributed equally to its corners, and is 0 for linear velocities. A split
- * loses kinetic energy, since velocities inside a coarse cell are bilinear; a merged cell has the energy of its
- * corners, which levels_rough.c keeps close to that of its parts. */
+/* Transfers the motion of nodes when the coarsening levels of cells change. New nodes get the displacement and velocity
+ * interpolated at their positions. The momentum that a merged cell lacks by this (0 for linear velocities) is
+ * distributed equally to its corners. Splitting a cell loses kinetic energy, since velocities inside a coarse cell are
+ * interpolated linearly along each axis. Merging cells changes it, within the limit set in levels_rough.c. */
 #include <math.h>
 #include <string.h>
 
@@ -10,8 +10,9 @@
 
 /* ---- from coarse cells to nodes of level 0 ----------------------------------------------------------------------- */
 
-/* The coarse cell that contains a node of level 0 if no cell of level 0 does, and the position of the node in it, 0 to
- * 1 along each axis. level 0: a cell of level 0 contains the node, or no cell. */
+/* Coarse cell that contains a node of level 0 (the finest), and the position t of the node in this cell, 0 to 1 along
+ * each axis. level: coarsening level of the cell; 0: the node is in no coarse cell, or is a corner of a cell of level
+ * 0, and the other members are not set. */
 struct cell_around {
     int level;
     int64_t cell;

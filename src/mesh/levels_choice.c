@@ -1,10 +1,10 @@
-/* Choice of the number of levels of coarse cells: cells must carry the waves that the loads of the scene excite.
+/* Chooses the number of coarsening levels of cells, so that cells resolve the waves that the loads of the scene excite.
  *
- * Matched cells of 4, 8, 16 and 32 spacings disperse a front less than bonds do if waves travel at least 10, 20, 40 and
- * 80 spacings during its rise, and a pulse if it is four times as long. A sudden front loses its peak with the distance
- * that it travels in coarse cells; times of crack starts stay within 1 to 3 % in bodies fifty cell edges thick.
- * Measured errors of pulses of 220 spacings: 0.04, 0.2, 0.8 % with 1, 2, 3 levels; of 60 spacings with 4 levels: 11
- * %. */
+ * Cells of 4, 8, 16 and 32 spacings with matched inertia (kernels/mesh/mesh_inertia.h) disperse a wave front less than
+ * bonds do if the wave travels at least 10, 20, 40 and 80 spacings during its rise; a pulse must be four times as long.
+ * A sudden front loses its peak over the distance that it travels in coarse cells, but crack initiation times change by
+ * only 1 to 3 % in bodies fifty cell edges thick. Measured errors of pulses of 220 spacings: 0.04, 0.2 and 0.8 % with
+ * 1, 2 and 3 levels; of 60 spacings with 4 levels: 11 %. */
 #include <math.h>
 #include <stdio.h>
 

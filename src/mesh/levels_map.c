@@ -1,11 +1,12 @@
-/* Admissible levels of cells: from marks on cells of level 0 to a balanced mesh of levels. */
+/* Computes admissible coarsening levels of cells from flags on the cells of level 0 (the finest), such that levels of
+ * adjacent cells differ by at most one. */
 #include <string.h>
 
 #include "base/memory.h"
 #include "levels_parts.h"
 
-/* Data of the cells of one level (cells with the edge of 2^level finest cells), each array with one entry per node of
- * the grid of the level. */
+/* Data of all cells of one coarsening level (edge of 2^level finest cells) while admissible levels are computed. Each
+ * array has one entry per node of the grid of the level, by the lowest node of a cell. */
 struct level_map {
     uint8_t *ok;               /* a cell of this level, or a part of a coarser one, is admissible */
     uint8_t *some;             /* contains a cell of level 0 with points */
@@ -18,9 +19,9 @@ static struct level_map level_map_make(int64_t n)
     return (struct level_map){base, base + n, base + 2 * n, base + 3 * n};
 }
 
-/* Initialises *to, a map for the cells of level 0 (the finest) of l: which of them may become parts of coarser cells,
- * and up to which level. Only cells with all points of p may. demand[cell]: 1 for cells that must remain at level 0;
- * limit[cell]: highest level for each cell; NULL: no limit. */
+/* Initialises *to, the data of the cells of level 0 (the finest) of l: which cells may become parts of coarser cells,
+ * and up to which level. Only cells with all of their points (particles of p, of one material) may. demand[cell]: not 0
+ * for cells that must remain at level 0; limit[cell]: highest level of each cell, NULL: no limit. */
 static void base_map(struct level_map *to, const struct mesh_levels *l, const struct particles *p,
                      const uint8_t *demand, const uint8_t *limit)
 {

@@ -1,4 +1,5 @@
-/* Coarse cells in a run: initial levels, and changes that follow cracks and stress. */
+/* Coarse cells during a simulation: chooses initial coarsening levels, and changes the levels as cracks grow and
+ * stresses change. */
 #include <math.h>
 #include <string.h>
 
@@ -16,11 +17,11 @@ enum { ZONE_MORE = 5, ZONE_LATE = 4, AROUND_STRESS = 10, AROUND_RING = 10 };
 enum { FLANK_MORE = 2 };
 #define SPLITS 0.5  /* stress at which cells split, divided by the stress at which points convert [1] */
 #define MERGES 0.25 /* stress below which cells may merge, divided by the stress at which points convert [1] */
-/* Largest energy of motion per mass that a coarser cell may lose, divided by the mean energy per mass of the body
- * [1]. */
+/* Largest kinetic and strain energy per mass that may be lost where cells become coarser, divided by the mean energy
+ * per mass of the body [1]. */
 #define ROUGH 0.01
-/* Number of steps between checks whether cells may merge, and number of consecutive checks without a demand for finest
- * cells nearby after which a cell may merge. */
+/* CHECK_STEPS: number of steps between checks whether cells may merge to coarser cells. CALM_CHECKS: number of
+ * consecutive checks in which no finest cells are required nearby before a cell may merge. */
 enum { CHECK_STEPS = 256, CALM_CHECKS = 2 };
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
@@ -329,9 +330,9 @@ static void limits_find(struct lagrangian_mesh *r, const struct particles *p, co
     memory_free(stressed);
 }
 
-/* Marks material points of p again that have lost a bond and could not be converted at that time, because coarse cells
- * were too near. These cells have been split by now. All material points of the cells recorded in l->wanted get the
- * mark; l->wanted is cleared. */
+/* Sets FLAG_LOST_BOND again for material points of p that lost a bond when coarse cells were too near for their
+ * conversion to peridynamic particles (cells with WANTED_LOST_BOND in l->wanted). These coarse cells have been split
+ * since then. Flags all material points of such a cell, sets l->returned, and clears l->wanted. */
 static void lost_bonds_return(struct mesh_levels *l, struct particles *p)
 {
     if (!l->any_wanted) return;
@@ -375,9 +376,9 @@ void mesh_levels_change_cell_levels(struct run *e, const uint8_t *new_cell_level
     l->any_wanted = false;
 }
 
-/* Requests finer cells around particle i of p (in l->wanted) if it is marked for conversion to a peridynamic particle
- * and coarse cells are too near for this (l->safe). If the coarse cell is too near for the bonds of the particle, also
- * removes its marks, so that it is converted later. */
+/* Requests finer cells around particle i of p (in l->wanted) if it is flagged for conversion to a peridynamic particle
+ * and coarse cells are too near (l->safe). If they are so near that bonds of the particle would reach them, also
+ * removes its flags, which delays the conversion of a material point until the cells have been split. */
 static void point_guard(struct mesh_levels *l, struct particles *p, int64_t i)
 {
     const unsigned marks = FLAG_STRESSED | FLAG_NEAR | FLAG_LOST_BOND;

@@ -1,4 +1,5 @@
-/* Private header of the files of coarse cells (include/mesh/levels.h). */
+/* Declarations shared by the files levels*.c of coarse cells: mesh cells in the reference configuration that are larger
+ * than the finest ones (include/mesh/levels.h). */
 #ifndef CLEAVE_LEVELS_PARTS
 #define CLEAVE_LEVELS_PARTS
 
@@ -105,8 +106,8 @@ static inline bool mesh_cell_contributes_forces_to_nodes(const struct mesh *mesh
     return mesh->kind[cell] == CELL_WHOLE || mesh->kind[cell] == CELL_PARTIAL;
 }
 
-/* Copies displacement and velocity to the ghosts of coarsening level `level` > 0 of the mesh l: nodes of that level
- * that move with the node of the next finer level at the same position. */
+/* Copies displacement and velocity from nodes of the next finer level to the ghosts of coarsening level `level` > 0 of
+ * the mesh l at their positions. Ghosts are nodes of this level that move with these finer nodes. */
 void mesh_levels_copy_motion_to_ghosts_of_one_level(struct mesh_levels *l, int level);
 
 /* Sets displacement and velocity of the hanging nodes of the mesh l to the mean of the nodes around them. These are
@@ -124,9 +125,9 @@ void mesh_levels_compute_coarse_cells_and_masses(struct mesh_levels *l, const st
  * mass matrix is to be blended such that waves disperse as with bonds (mesh_levels_match_wave_dispersion_of_bonds). */
 void mesh_levels_find_ghost_and_hanging_nodes(struct mesh_levels *l);
 
-/* Adds the masses of ghosts (nodes at the position of a node of the next finer level) and hanging nodes (in the middle
- * of an edge or face of a coarser cell) of the mesh l to the nodes that determine their motion. transfer_momenta: true
- * to transfer their momentum in grid.momentum [kg m/s], too. */
+/* Adds the masses of ghosts and hanging nodes of the mesh l to the nodes that determine their motion. Ghosts are at the
+ * position of a node of the next finer level, hanging nodes in the middle of an edge or face of a coarser cell.
+ * transfer_momenta: true to transfer their momentum in grid.momentum [kg m/s], too. */
 void mesh_levels_add_masses_of_dependent_nodes(struct mesh_levels *l, bool transfer_momenta);
 
 /* Finds the runs of all coarsening levels of l (rows of consecutive cells of equal material), the spans of nodes with

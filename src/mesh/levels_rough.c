@@ -1,4 +1,5 @@
-/* Energy of motion that cells would lose as parts of coarser ones. */
+/* Estimates the energy that would be lost if cells became parts of coarser cells, and limits their coarsening level by
+ * it. */
 #include <math.h>
 
 #include "levels_parts.h"

@@ -1,4 +1,5 @@
-/* Forces and motion of coarse cells in a step. */
+/* Computes the forces on the nodes of coarse cells and advances these nodes in a step; cells of coarser levels have
+ * longer steps. */
 #include <math.h>
 
 #include "levels_parts.h"

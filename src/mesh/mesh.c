@@ -1,4 +1,5 @@
-/* The mesh of the reference frame: positions of points, masses, runs of whole cells, partial cells, and conversion. */
+/* Makes the mesh of the undeformed body: positions of material points in cells, nodal masses, runs of whole cells and
+ * partial cells. Updates it when points are converted to peridynamic particles. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -10,8 +11,8 @@
 
 #define PLACE_TOLERANCE 1e-6  /* tolerance of the positions of points in a cell [cells] */
 #define VOLUME_TOLERANCE 1e-9 /* relative tolerance of the volumes of points [1] */
-/* Displacements of nodes are multiples of 2^-60 cell edges. This is far below the last bit of a position; the tiny
- * precursor of a wave is rounded to 0, so that nodes ahead of the wave stay at rest. */
+/* Exponent of the rounding of nodal displacements to multiples of 2^-60 cell edges. This is far below the last bit of a
+ * position, but rounds the tiny precursor of a wave to 0, so that nodes ahead of the wave stay at rest. */
 #define DISPLACEMENT_BITS 60
 
 /* ---- positions of points ----------------------------------------------------------------------------------------- */

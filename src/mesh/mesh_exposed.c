@@ -1,11 +1,12 @@
-/* Exposed points of the mesh, whose motion is needed in every step: with bonds, loads or mirror images. */
+/* Finds the exposed points of the mesh, material points with bonds, loads or mirror images, whose motion must be
+ * updated in every step. */
 #include "mesh/active_nodes.h"
 #include "base/memory.h"
 #include "bonds/sites.h"
 #include "mesh_parts.h"
 
-/* Flags of the exposed points (with bonds, loads or mirror images, so that their motion is needed in every step),
- * [particles], and of the cells that contain such points, [cells]. */
+/* Flags while exposed points are searched (points whose motion is needed in every step because of bonds, loads or
+ * mirror images). point: [particles], cell: [cells]; 1 for exposed points and for cells that contain one. */
 struct exposure {
     uint8_t *point, *cell;
 };

@@ -1,5 +1,5 @@
-/* Insertion of particles that become points of the mesh again: mass, momentum and displacement of the nodes around
- * them. */
+/* Inserts particles that become material points of the mesh again: recomputes mass, momentum and displacement of the
+ * nodes around them. */
 #include <math.h>
 #include <string.h>
 

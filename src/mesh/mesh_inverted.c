@@ -1,5 +1,5 @@
-/* Search for inverted cells of the mesh: a linear stress law does not prevent compression of a cell through zero
- * volume. */
+/* Finds inverted cells of the mesh, i.e. cells with a volume ratio of 0 or less. A linear stress law does not prevent
+ * such compression. */
 #include "mesh_parts.h"
 
 /* Returns the ratio of present to reference volume at an integration point of a cell of the mesh, 0 or less if the cell

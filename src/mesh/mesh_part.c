@@ -1,4 +1,5 @@
-/* Row of the bodies in the reference frame in the table of parts. */
+/* Registers the mesh of the undeformed body with the engine: defines part_frame, its entry in the table of modules
+ * (struct part), with functions that free it, write results and warnings, and save or load its restart data. */
 #include "mesh/mesh_part.h"
 #include "base/memory.h"
 #include "run/part.h"

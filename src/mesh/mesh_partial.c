@@ -1,8 +1,9 @@
-/* Partial cells of the mesh and their stiffness by modes (kernels/mesh/mesh_partial.h), from their remaining points.
+/* Computes the stiffness matrices of partial cells of the mesh, in terms of deformation modes
+ * (kernels/mesh/mesh_partial.h), from the points that they contain.
  *
- * The strain at a point is the mean strain plus each bending mode times a product of coordinates +-1/4. The stiffness
- * thus consists of sums over the points of D, the matrix of stress by strain at a point, times products of signs: one
- * sum for each set of axes, as the square of a sign is 1. */
+ * The strain at a point is the uniform strain plus, for each bending mode, an amplitude times a product of coordinates
+ * +-1/4. An entry of the stiffness matrix thus is a sum over the points of D, the matrix of stress by strain, times
+ * signs of coordinates. As the square of a sign is 1, there is one such sum for each set of axes. */
 #include <math.h>
 #include <string.h>
 
@@ -12,13 +13,14 @@
 
 enum { TERMS_MAX = 3 }; /* largest number of terms of the strain field of a mode */
 
-/* A term of the strain field of a mode: `factor` times the amplitude of the mode, times the signs of the coordinates
- * along the axes in the bit set `set`, is added to symmetric component `row` of the strain. */
+/* One term of the strain field of a deformation mode of a cell. It adds to symmetric component `row` of the strain:
+ * `factor` times the amplitude of the mode, times the product of the signs of the coordinates along the axes in the bit
+ * set `set`. */
 struct mode_term {
     uint8_t row, set;
     real factor;
 };
-/* The strain field of a mode: the sum of the n terms at[n]. */
+/* Strain field of one deformation mode of a cell: the sum of the n terms at[n]. */
 struct mode_terms {
     int n;
     struct mode_term at[TERMS_MAX];
@@ -66,7 +68,8 @@ static void modes_terms(struct mode_terms *t, int dim)
 
 /* ---- stiffness of one cell --------------------------------------------------------------------------------------- */
 
-/* Parameters of the computation of stiffness matrices of partial cells, which have missing or unequal points. */
+/* Arguments that the functions for stiffness matrices of partial cells have in common (cells with missing or unequal
+ * points): mesh, particles, material data, and numbers of modes and strain components. Made by maker_of. */
 struct cell_maker {
     const struct mesh *mesh;
     const struct particles *p;

@@ -1,5 +1,5 @@
-/* Declarations shared by the files of the room mesh: partial cells and their stiffness, slits, nodal fits, masses and
- * blocks of nodes. */
+/* Declarations shared by the files of src/mesh: partial cells and their stiffness, slits, fits of nodal values, masses
+ * and blocks of nodes. */
 #ifndef CLEAVE_MESH_PARTS
 #define CLEAVE_MESH_PARTS
 

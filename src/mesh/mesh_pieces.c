@@ -1,4 +1,5 @@
-/* Number of pieces of a mesh of all particles: sets that share no node and would pass through each other. */
+/* Counts the connected pieces of a mesh that would contain all particles. Pieces have no node in common, so that
+ * nothing on the mesh would prevent them from passing through each other. */
 #include <math.h>
 #include <string.h>
 

@@ -1,4 +1,5 @@
-/* Projection from points to nodes of a mesh: the nodal field that fits the values at the points. */
+/* Projects a field from the material points of a mesh to its nodes: computes the nodal values whose interpolation fits
+ * the values at the points in the least-squares sense. */
 #include <math.h>
 
 #include "base/memory.h"

@@ -1,6 +1,7 @@
-/* Largest level of cells by the thickness of the body: cells are too stiff in bending if few of them are across a part.
- * Level L is allowed where a cube of CELLS_ACROSS of its cells fits into the body: in the opening of the body, eroded
- * and then dilated by half of this width (Serra 1982). */
+/* Limits the coarsening level of cells by the thickness of the body, since the body is too stiff in bending if few
+ * cells are across a part of it. Level L is allowed where a cube of CELLS_ACROSS of its cells fits into the body. These
+ * are the cells in the morphological opening of the body, i.e. the body eroded and then dilated by half of this width
+ * (Serra 1982). */
 #include <string.h>
 
 #include "mesh_parts.h"

@@ -1,36 +1,38 @@
-/* Slits of the mesh: cells and nodes that free surfaces between points divide (struct mesh_slits in data/mesh.h).
+/* Divides cells and nodes of the mesh at slits, free surfaces between material points such as pre-cracks (struct
+ * mesh_slits in data/mesh.h).
  *
  * Two points are connected if no slit passes between them. The points of a cell form connected pieces, each of which
- * becomes a cell; around a node two pieces are connected if a point of one is connected with a point of the other,
+ * becomes a cell. Around a node, two pieces are connected if a point of one is connected with a point of the other,
  * directly or through other pieces. Regions without points connect nothing: a slit that ends at a face of the body
- * opens there, a slit that ends inside does not. */
+ * opens there, a slit that ends inside the body does not. */
 #include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "mesh_parts.h"
 
-/* Largest number of pieces (points of a cell that no slit separates) around a node: 2^dim cells have at most as many
- * pieces each. */
+/* Largest number of pieces around a node (a piece is a set of points of a cell that no slit separates): 2^dim cells
+ * with at most 2^dim pieces each. */
 enum { PIECES_MOST = CORNERS_MAX * CORNERS_MAX };
 
-/* An extra node or cell under construction, at the position of node or cell `base` of the grid. A piece is a set of
- * points of a cell that no slit separates. Of a node, `pieces` is the set of pieces around it, bit 8 c + g for piece g
- * of the cell of which the node is corner c. Of a cell, `piece` is the number of its piece. open: as in struct
- * mesh_slits. */
+/* Extra node or cell during the construction of slits, at the position of node or cell `base` of the grid. A piece is a
+ * set of points of a cell that no slit separates. For an extra node, `pieces` is the set of pieces that move with it:
+ * bit 8 c + g for piece g of the cell of which the node is corner c. For an extra cell, `piece` is the number of its
+ * piece. open: axes of planes of symmetry that do not constrain the node, as bits. */
 struct extra {
     int64_t base;
     uint64_t pieces;
     int piece;
     uint8_t open;
 };
-/* A list of n extra nodes or cells. */
+/* List at[n] of extra nodes or cells that slits make, owned by the struct slit_maker. */
 struct extras {
     struct extra *at;
     int64_t n;
 };
 
-/* Working data of the construction of slits. nodes: number of nodes of the box, of which each is also a cell. */
+/* Working data for the construction of slits, freed when mesh->slits has been filled. `nodes` is the number of nodes of
+ * the box of nodes; each node is also the lowest node, hence the index, of a cell. */
 struct slit_maker {
     const struct mesh *mesh;
     const struct particles *p;
@@ -86,8 +88,8 @@ static void void_mark(const struct grid *g, int64_t I, uint8_t *mark)
             }
 }
 
-/* Returns true if a slit (a pre-crack as a gap of the mesh), or a particle near a void, is within two cell diagonals,
- * or for the particle two cells, of node I of the mesh of m. */
+/* Returns true if node I of the mesh of m is near a slit (a pre-crack as a gap of the mesh) or a void: within two cell
+ * diagonals of a slit, or within two cells of a particle near a void. */
 static bool slit_near(const struct slit_maker *m, int64_t I)
 {
     const struct grid *g = &m->mesh->grid;
@@ -312,8 +314,8 @@ static int64_t piece_cell(const struct mesh *mesh, int64_t I, int g)
 }
 
 /* Enters the extra cells of m, into which slits (gaps for pre-cracks) divide cells of the grid, in the tables of the
- * mesh: links them to the cells from which they were divided, gives them the corners of these cells, and stores the
- * cell of each point of a divided cell. */
+ * mesh. Links each extra cell to the cell from which it was divided, copies the corner nodes of that cell, and stores
+ * for each point of a divided cell the cell that contains it. */
 static void tables_cells(struct mesh *mesh, const struct slit_maker *m)
 {
     struct mesh_slits *s = &mesh->slits;

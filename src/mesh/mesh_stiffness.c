@@ -1,4 +1,4 @@
-/* Stable time step of the mesh, from the largest eigenvalue of single cells. */
+/* Computes the stable time step of the mesh from the largest eigenvalue of single cells. */
 #include <math.h>
 #include <string.h>
 
@@ -91,15 +91,16 @@ bool mesh_compute_cell_stiffness(const struct mesh *mesh, const struct elastic *
 
 /* ---- time step --------------------------------------------------------------------------------------------------- */
 
-/* Parameters of mesh_scaled_stiffness: stiffness of a cell, scaled by its masses, and its number of rows. */
+/* Argument of mesh_scaled_stiffness: the stiffness K[n][n] of one cell, divided by the square roots of its nodal
+ * masses, and the number n of its unknowns. */
 struct scaled_cell {
     const real *K;
     int n;
 };
 
-/* Computes y[n] = m^-1/2 K m^-1/2 x for one cell and a vector x[n], with its stiffness K and the lumped masses m of
- * its corners. Loops over columns, so that the inner loop uses vector instructions. context: the scaled matrix, a
- * struct scaled_cell. largest_eigenvalue calls it. */
+/* Computes the product y[n] = A x of the matrix A = M^-1/2 K M^-1/2 of one cell with a vector x[n], with the stiffness
+ * K of the cell and the lumped masses M of its corners. context: A, as a struct scaled_cell. Called by
+ * largest_eigenvalue. Loops over columns, so that the inner loop uses vector instructions. */
 static void mesh_scaled_stiffness(void *context, const real *x, real *y)
 {
     const struct scaled_cell *c = context;
@@ -108,11 +109,11 @@ static void mesh_scaled_stiffness(void *context, const real *x, real *y)
         for (int a = 0; a < c->n; a++) y[a] += c->K[b * c->n + a] * x[b];
 }
 
-/* Returns the largest eigenvalue of m^-1/2 K m^-1/2 [1/s^2] for one cell with the points in the bit set `places` (K:
- * stiffness, m: lumped masses of these points at the corners); a stable time step is at most 2 divided by its square
- * root. Argument m: elastic constants; h: edge of the cell [m]; V: volume of a point [m^3]; density: mass density
- * [kg/m^3]. No eigenvalue of the mesh exceeds that of its stiffest cell alone. Cells whose points have one dilatation
- * are softer; this value is an upper bound for them. */
+/* Returns the largest eigenvalue of M^-1/2 K M^-1/2 [1/s^2] of one cell, with its stiffness K and lumped masses M; a
+ * stable time step is at most 2 divided by its square root. m: elastic constants; h: edge of the cell [m]; V: volume of
+ * a point [m^3]; density: mass density [kg/m^3]; places: bit set of the points that exist. No eigenvalue of the mesh
+ * exceeds that of its stiffest cell alone. For cells whose points have one common dilatation, which are softer, the
+ * value is an upper bound. */
 static real cell_eigenvalue(const struct elastic *m, int dim, real h, real V, real density, unsigned places)
 {
     const int corners = 1 << dim, n = corners * dim;

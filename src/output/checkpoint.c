@@ -1,8 +1,8 @@
-/* Checkpoints: two whole files, the newest and the previous one, that guard a run against kills, full disks and damaged
- * bytes.
+/* Writes and reads checkpoints, from which an interrupted simulation is resumed. The newest and the previous checkpoint
+ * are kept as complete files, so that one remains if the process is killed, the disk is full or a file is damaged.
  *
- * File: an HDF5 file with /Cleave (attribute `version`, dataset `scene`) and /state (one list of bytes per archive
- * entry), then a footer (checksum.h). A file is passed to HDF5 only if its hash is right. */
+ * Format: an HDF5 file with /Cleave (attribute `version`, dataset `scene`) and /state (one array of bytes for each
+ * archive entry), then a footer with a hash (checksum.h). A file is passed to HDF5 only if its hash is right. */
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-/* Hashes of files, and the footer by which damaged files are recognised. */
+/* Computes hashes of files, and writes and checks the footer by which damaged files are recognised. */
 #include "output/checksum.h"
 
 #include <errno.h>
@@ -13,10 +13,11 @@ enum { BLOCK = 1 << 14 }; /* size of a read [byte]: fits the stack of any thread
 
 /* ---- the hash ---------------------------------------------------------------------------------------------------- */
 
-/* The hash has LANES_OF_HASH lanes that are computed independently, since within a lane each step waits for the
- * multiplication of the previous one. STRIDE: bytes that are added to all lanes at once. */
+/* LANES_OF_HASH: number of lanes of the hash, which are computed independently, because each step of a lane must wait
+ * for the multiplication of the previous step. STRIDE: number of bytes that are added to all lanes at once, 8 to
+ * each. */
 enum { LANES_OF_HASH = 4, STRIDE = LANES_OF_HASH * 8 };
-/* A hash under construction: its lanes, and the number of bytes added so far. */
+/* Intermediate state of the hash of a file: its lanes, and the number of bytes that have been added. */
 struct hash {
     uint64_t lane[LANES_OF_HASH], length;
 };
@@ -107,7 +108,8 @@ static int hash_file(int fd, uint64_t length, uint64_t *value)
 
 /* ---- the footer -------------------------------------------------------------------------------------------------- */
 
-/* Last bytes of a checked file: mark of Cleave, length of the file before them, and its hash. */
+/* Last bytes of every file that Cleave can check: a constant that identifies such files, the length of the file before
+ * the footer [byte], and the hash of these bytes. */
 struct footer {
     char magic[8];
     uint64_t length, hash;

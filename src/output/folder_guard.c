@@ -1,4 +1,4 @@
-/* Guard of the folders that commands write into. */
+/* Checks folders before commands write into them, so that no files of other programs are overwritten. */
 #include "output/folder_guard.h"
 
 #include <dirent.h>

@@ -20,7 +20,8 @@ enum {
 enum { WANTED = 8 };
 static const char *const wanted_name[WANTED] = {"id", "x", "y", "z", "vx", "vy", "vz", "c_damage"};
 
-/* A dump file of LAMMPS while it is read. bytes: its size; line: number of the line `text`, from 1. */
+/* A dump file of LAMMPS while it is read line by line. bytes: size of the file; text: the current line; line: number of
+ * this line, from 1. */
 struct dump {
     FILE *file;
     const char *path;
@@ -28,8 +29,8 @@ struct dump {
     char text[LINE_ROOM];
 };
 
-/* Header of a time step: its number, the number of particles, and the column of each quantity that is read, -1 if
- * the dump does not have it. */
+/* Header of one time step in a dump of LAMMPS: number of the step, number n of particles, and for each quantity of
+ * wanted_name the number of its column, -1 if the dump does not have it. */
 struct dump_head {
     int64_t step, n;
     int column[WANTED];

@@ -1,4 +1,5 @@
-/* The folder of a run: checks, lock, removal of an older run, and the restart of the output. */
+/* Manages the results folder of a run: checks and locks it, removes the files of an older run, and restores the state
+ * of the output at a restart. */
 #include "output/output.h"
 
 #include <dirent.h>
@@ -26,8 +27,9 @@ void output_install_signal_handling_for_file_writes(void)
 
 /* ---- folders ----------------------------------------------------------------------------------------------------- */
 
-/* Files of a run in the order of their removal: checkpoints first, because no checkpoint may exist without the
- * frames to which it refers. begin: required first characters of a table; NULL: any. */
+/* Files in a results folder in the order of their removal: checkpoints first, because no checkpoint may exist without
+ * the frames to which it refers. begin: first characters by which a table of Cleave is recognised; NULL: not
+ * checked. */
 static const struct {
     const char *name, *begin;
 } made[] = {
@@ -130,7 +132,7 @@ static status folder_check(const char *folder, const char *scene_text, enum outp
     return checked;
 }
 
-/* Returns true if the folder holds any file of a run other than scene.yaml. */
+/* Returns true if the folder contains any file of a run other than scene.yaml. */
 static bool has_run(const char *folder)
 {
     bool any = has_frames(path_join(folder, "frames").text);

@@ -1,5 +1,6 @@
-/* Table of the fields of frames, and the functions that copy fields from the particles. Symmetric tensors are in VTK's
- * order xx yy zz xy yz xz. Components that the space lacks are 0, but plane strain has zz. */
+/* Table of the fields of output frames, and the functions that copy the fields from the particles. Symmetric tensors
+ * have six components in the order of VTK, xx yy zz xy yz xz. Components that do not exist in 1D or 2D are 0, except
+ * the out-of-plane stress zz in plane strain. */
 #include "output_fields.h"
 
 #include <math.h>
@@ -301,8 +302,8 @@ const struct frame_field frame_fields[FRAME_FIELDS] = {
     {"/Cleave/reference", "m", HDF_F64, 0, ROW_VECTOR, true, copy_reference},
 };
 
-/* First and last index of the fields that are written only if the scene requests them; bit k of the request selects
- * field k + 1. */
+/* First and last number of the fields of output frames that are written only if the input file requests them. Bit k of
+ * s->extra.asked requests field number k + 1. */
 enum { FIELD_ON_DEMAND = 13, FIELD_ON_DEMAND_LAST = 21 };
 
 /* Returns true if an output frame of source s contains `field`, a row of frame_fields: its data exist and, if the

@@ -11,9 +11,9 @@ struct frame_contents {
     struct frame_extra extra;
 };
 
-/* Which components of a row are stored. ROW_WHOLE: all; ROW_VECTOR: the first dim ones; ROW_TENSOR: those of a
- * symmetric tensor in VTK's order that exist in the space, xx in 1D, xx yy zz xy in 2D, all in 3D. The others are 0,
- * the fill value of the dataset. */
+/* Which components of a row (the stored numbers of one particle) are set. ROW_WHOLE: all; ROW_VECTOR: the first dim
+ * ones; ROW_TENSOR: the components of a symmetric tensor in VTK's order that exist in the space, xx in 1D, xx yy zz xy
+ * in 2D, all in 3D. The others are 0, the fill value of the dataset. */
 enum row_kind { ROW_WHOLE, ROW_VECTOR, ROW_TENSOR };
 
 /* Describes a dataset of an output frame (state of the run at one time). A row has the numbers of one particle, or of

@@ -1,4 +1,5 @@
-/* Paths, and files that are written under a temporary name, synced and renamed. */
+/* Composes paths, and writes files safely: under a temporary name first, which is renamed when the data are on the
+ * disk. */
 #include "output/output_files.h"
 
 #include <dirent.h>
@@ -73,8 +74,8 @@ bool path_is_folder(const char *path)
 
 /* ---- unfinished files -------------------------------------------------------------------------------------------- */
 
-/* Paths of the files that are being written at present, by the stepping thread or by the thread that writes frames;
- * "" marks an unused entry. */
+/* Paths of the files that are being written at present, by the main thread or by the thread that writes output frames.
+ * "" denotes an unused entry. */
 enum { UNFINISHED_MOST = 8 };
 static struct path unfinished[UNFINISHED_MOST];
 static pthread_mutex_t unfinished_lock = PTHREAD_MUTEX_INITIALIZER;

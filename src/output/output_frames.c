@@ -22,7 +22,8 @@ enum { FRAME_VERSION = 2 }; /* version of the format of frames */
 
 /* ---- one frame --------------------------------------------------------------------------------------------------- */
 
-/* Everything that is needed to write one output frame in another thread. */
+/* One output frame that is to be written, with copies of its data, so that a thread of its own can write it while the
+ * simulation goes on. Made by job_make; the output owns it until the frame has been written. */
 struct frame_job {
     struct path path;            /* path of the file */
     struct output *o;            /* output of the run; borrowed */
@@ -69,8 +70,8 @@ static void job_copy_fields(struct frame_job *job, const struct frame_contents *
     }
 }
 
-/* Removes the field of contact forces from the frame (output file of one time) of `job` if all contact forces are 0,
- * and marks the frame as one without contact. */
+/* Omits the field of contact forces from the output frame of `job` if all contact forces are 0, and sets
+ * job->untouched. */
 static void job_drop_contact(struct frame_job *job)
 {
     const float *force = (const void *)job->field[FIELD_CONTACT];
@@ -335,7 +336,8 @@ status output_write_frame(struct output *o, const struct particles *p, real t, i
 
 /* ---- after a restart --------------------------------------------------------------------------------------------- */
 
-/* A particles file, checked once for all frames that link to it. */
+/* Result of the check of one particles file after a restart. It is kept while output frames that link to this file are
+ * checked, so that the file is read only once. */
 struct particles_seen {
     int32_t number;            /* -1: none has been checked */
     char name[PATH_NAME_ROOM]; /* relative to the folder of the run */

@@ -1,4 +1,5 @@
-/* HDF5 operations of the program. After the first fault all further operations on a file do nothing. */
+/* Wrappers of the HDF5 functions that Cleave uses. After the first fault all further operations on a file do nothing,
+ * so that a caller may check for faults only at the end. */
 #include "output/output_hdf5.h"
 #include "output/output_files.h"
 
@@ -156,7 +157,8 @@ void hdf_write_rows(struct hdf *f, const char *name, enum hdf_type type, int64_t
 
 /* ---- tables ------------------------------------------------------------------------------------------------------ */
 
-/* A table (dataset of HDF5) that is being written. */
+/* A dataset with one or two dimensions while it is written to an HDF5 file in chunks. Local to the function that writes
+ * the dataset. */
 struct table {
     hid_t set, space, native; /* handles: dataset, its dataspace, type of a number in memory */
     int rank;                 /* number of dimensions of the dataset */

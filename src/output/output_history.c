@@ -21,7 +21,7 @@ static uint64_t hash_bytes(uint64_t hash, const char *bytes, size_t n)
     return hash;
 }
 
-/* A line of history.csv under construction: memory stream `to` with its text. */
+/* One line of history.csv while its text is composed in the memory stream `to`. */
 struct line {
     char *text;
     size_t length;

@@ -1,5 +1,5 @@
-/* Writes the indices of the frames of a series: frames.hdf.series for ParaView, frames.xdmf for VisIt and other readers
- * of XDMF. */
+/* Writes the index files of a series of output frames (of the whole run or of one region): frames.hdf.series for
+ * ParaView, frames.xdmf for VisIt and other readers of XDMF. */
 #include "output_index.h"
 
 #include <errno.h>

@@ -1,5 +1,6 @@
-/* Lock of a folder for one run at a time. POSIX record locks end with their process, also on file systems that several
- * machines share (NFS supports them). The lock file names the process and is removed when the run ends. */
+/* Locks a results folder, so that only one process writes into it. Uses POSIX record locks, which are released when
+ * their process ends, also on file systems that several machines share (such as NFS). The lock file contains the number
+ * of the process and is removed when the run ends. */
 #include "output/output_lock.h"
 
 #include <errno.h>
@@ -11,7 +12,8 @@
 
 #include "output/output_files.h"
 
-/* Name of the lock file of a folder; beginning of its text, before the number of the process. */
+/* lock_name: name of the lock file in a folder; lock_begin: first characters of its text, followed by the number of the
+ * process. */
 static const char lock_name[] = ".running", lock_begin[] = "process ";
 
 enum { TRIES = 100 }; /* a lock file may be removed between open and lock */

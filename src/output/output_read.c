@@ -1,4 +1,4 @@
-/* Reads frames and their times, for plot and compare. */
+/* Reads output frames and their times, for `cleave plot` and `cleave compare`. */
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>

@@ -19,7 +19,8 @@
  * frames. */
 enum { TEMPORAL_MOST = 2000 };
 
-/* A temporal file under construction. */
+/* Contents of a temporal file while it is written: the output frames of one series and their fields. Owns its
+ * arrays. */
 struct temporal {
     const char *folder;            /* folder of the run */
     int n;                         /* number of times */

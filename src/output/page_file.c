@@ -1,4 +1,4 @@
-/* Pages of `cleave report` as files. */
+/* Recognises and removes the HTML pages that `cleave report` writes into results folders. */
 #include "output/page_file.h"
 
 #include <fcntl.h>

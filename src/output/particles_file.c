@@ -1,4 +1,5 @@
-/* Writes and checks the files of what does not change from frame to frame. */
+/* Writes and checks particles files, HDF5 files with the data of particles that do not change from one output frame to
+ * the next. */
 #include "particles_file.h"
 
 #include <string.h>
@@ -8,7 +9,7 @@
 
 enum { PARTICLES_VERSION = 1, VTK_VERTEX = 1 }; /* version of the format; VTK's type of a cell of one point */
 
-/* Datasets, besides fields, that frames link to their particles file. */
+/* Paths of the datasets, besides those of fields, that every output frame replaces by links to its particles file. */
 static const char *const linked[] = {
     "/VTKHDF/NumberOfPoints",  "/VTKHDF/NumberOfCells",   "/VTKHDF/NumberOfConnectivityIds",
     "/VTKHDF/Connectivity",    "/VTKHDF/Offsets",         "/VTKHDF/Types",

@@ -1,16 +1,17 @@
-/* The particles file of a series of frames, particles_NNNNNN.h5 in the folder of the frames: what does not change while
- * the particles stay the same. It is written before the first frame that uses it, whose number it has, and never
- * again; frames link to its datasets, which have the same paths as in a frame that is complete by itself. Another one
- * is written once particles or material points of coarse cells are added or lost, that is, once its contents differ.
- * Frames and particles file have the same hash of these contents, so that a frame beside the file of another run is
- * recognised. */
+/* Declares the functions that write and check particles files. A particles file, particles_NNNNNN.h5 in the folder of
+ * the output frames (states at output times), stores the data that stay the same in many frames. It is written once,
+ * before the first frame that uses it, and has the number of this frame. Frames link to its datasets, which have the
+ * paths that they would have in the frame itself. A new particles file is written once its contents would differ, i.e.
+ * once particles or material points of coarse cells are added or removed. Frames and their particles file store one
+ * hash of these contents, by which a particles file of another run is recognised. */
 #ifndef CLEAVE_PARTICLES_FILE
 #define CLEAVE_PARTICLES_FILE
 
 #include "output_fields.h"
 #include "output/output_files.h"
 
-/* Contents of a particles file, the fields that do not change between frames, copied from the particles. */
+/* Contents of one particles file: the fields of the particles that do not change between output frames, copied from the
+ * particles. Made by particles_file_collect_contents for one file, released by particles_file_free. */
 struct particles_file {
     struct path path; /* path of the file */
     int64_t n;        /* number of rows */

@@ -1,5 +1,5 @@
-/* Completes pictures. The end of a file shows whether it is whole; the mark of Cleave is placed near the end, where
- * viewers ignore it. */
+/* Marks finished pictures as drawn by Cleave and checks that they are complete. The mark is near the end of a file, at
+ * a position that viewers ignore. */
 #include "output/picture_file.h"
 
 #include <errno.h>
@@ -14,8 +14,8 @@ enum { END_LENGTH = 64, END_SLACK = 3 }; /* bytes in which the mark is sought; l
 
 #define BYTES(text) text, sizeof text - 1
 
-/* For each format of pictures: the bytes at the end of a complete file, and the mark by which Cleave recognises its
- * own pictures: a chunk, comment, box or extension that the format provides for such data. */
+/* Describes one format of pictures: the bytes at the end of a complete file, and the mark by which Cleave recognises
+ * its own pictures. The mark is a chunk, comment, box or extension that the format provides for such data. */
 static const struct picture_end {
     const char *end; /* last bytes of a whole file; "": a sequence of boxes up to the length of the file */
     size_t end_length;

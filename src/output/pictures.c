@@ -1,4 +1,4 @@
-/* Table of the names of pictures. */
+/* File names of the pictures that `cleave plot` draws. */
 #include "output/pictures.h"
 
 #include <stdio.h>

@@ -1,5 +1,5 @@
-/* Earlier names of columns of history.csv and of results of summary.json. src/python/cleave/_tables.py has the same
- * list. */
+/* Maps names that other versions of Cleave use for columns of history.csv and results in summary.json to the names of
+ * this version. src/python/cleave/_tables.py has a copy of the table. */
 #include "output/renamed_results.h"
 
 #include <string.h>

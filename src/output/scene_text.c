@@ -1,4 +1,4 @@
-/* Compares the texts of scenes, and names the first line in which two of them differ. */
+/* Compares the texts of two input files (scenes), and reports the first line in which they differ. */
 #include "output/scene_text.h"
 
 #include <stdio.h>

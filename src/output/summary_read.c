@@ -14,10 +14,11 @@
 #include "output/output_files.h"
 #include "output/renamed_results.h"
 
-/* Largest depth of nested values; largest file [byte]; room for a key with its dots [byte]. */
+/* DEPTH_MAX: largest depth of nested values; SIZE_MAX_BYTES: largest file that is read [byte]; KEY_ROOM: capacity of a
+ * dotted key [byte]. */
 enum { DEPTH_MAX = 64, SIZE_MAX_BYTES = 64 << 20, KEY_ROOM = 512 };
 
-/* State of the reading of a summary, a JSON text. */
+/* State of the parser while it reads one summary.json: position in the text, and the wanted value once it is found. */
 struct reader {
     const char *at;                 /* next byte; the text ends with a 0 byte */
     const char *found;              /* first byte of the wanted value; NULL: not found so far */

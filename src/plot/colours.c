@@ -1,5 +1,5 @@
-/* Colour tables. Colours are distinguishable with any colour vision; the lightness of scales changes uniformly, so that
- * they remain readable in grey. */
+/* Defines the colour tables of pictures. Colours are distinguishable with any colour vision, and the lightness of
+ * colour scales changes uniformly, so that they remain readable in grey. */
 #include "plot/colours.h"
 
 #include <math.h>
@@ -7,7 +7,7 @@
 
 #include "base/base.h"
 
-/* A colour of a colour table: its position, 0 to 1; red, green and blue, 0 to 255. */
+/* One support point of a colour scale: position `at` in the scale, 0 to 1, and its colour, with components 0 to 255. */
 struct stop {
     double at, red, green, blue;
 };
@@ -25,7 +25,8 @@ static const struct stop diverging[] = {
     {0.4, 200, 217, 228}, {0.5, 226, 226, 226}, {0.6, 240, 209, 192}, {0.7, 244, 165, 130},
     {0.8, 214, 96, 77},   {0.9, 178, 24, 43},   {1.0, 103, 0, 31},
 };
-/* Ten evenly spaced colours of cividis (Nunez, Anderton & Renslow 2018), which look alike with any colour vision. */
+/* Ten evenly spaced colours of cividis (Nunez, Anderton & Renslow 2018), which appear similar with any colour
+ * vision. */
 static const struct stop cividis[] = {
     {0, 0, 34, 78},
     {0.111111, 18, 53, 112},

@@ -1,4 +1,4 @@
-/* Layout of pictures of curves: margins, panels one above another, the key. */
+/* Computes the layout of pictures of curves: margins, panels one above another, and the key (legend). */
 #include <math.h>
 #include <string.h>
 

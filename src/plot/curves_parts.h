@@ -1,10 +1,12 @@
-/* Declares what the files of src/plot that draw curves share. */
+/* Declares types, constants and functions for the pictures of curves of a run: layout, axes, key (legend), and one
+ * function for each kind of picture. */
 #ifndef CLEAVE_CURVES_PARTS
 #define CLEAVE_CURVES_PARTS
 
 #include "plot/plot.h"
 
-/* Data of curves against time or load step, as sent to gnuplot in the data block $data, and properties of the run. */
+/* History of one run (columns against time or load step) and the properties of the run that its pictures of curves
+ * need. history_curves_draw makes it once for all pictures; pointers are borrowed. */
 struct series {
     const struct history *h; /* history of the run; borrowed */
     int time;                /* column of the time, or of the number of the load step */
@@ -29,9 +31,10 @@ struct value_range {
  * column_index[column_count]. */
 struct value_range history_value_range(const struct history *history, const int *column_index, int column_count);
 
-/* Returns true if two curves of `history`, the columns with the indices column_index[0] and column_index[1], less
- * shift[0] and shift[1], hide each other: away from 0 they differ by less than the width of a line, in all rows or in
- * more than a fourth of them. axis_extent: largest minus smallest value of the axis. */
+/* Returns true if one of two curves of `history` hides the other in a picture. column_index[2]: columns of the curves;
+ * shift[2]: constants that are subtracted from their values; axis_extent: largest minus smallest value of the axis. Two
+ * curves coincide in a row if they differ by at most the width of a line. One hides the other if they coincide in all
+ * rows, or, at values away from 0, in more than a quarter of all rows. */
 bool history_curves_coincide(const struct history *history, const int column_index[2], const double shift[2],
                              double axis_extent);
 
@@ -114,12 +117,12 @@ void curves_write_horizontal_tics(FILE *gnuplot, const struct curves_layout *lay
  * `123.4 µs`. */
 enum { PANEL_GAP = 26, TIME_LETTERS = 9 };
 
-/* Writes the gnuplot commands for the heading of a picture: `title`, and after it `quantity`, the name of what is
- * shown, if `title` ends in a space. */
+/* Writes the gnuplot commands for the heading of a picture to the stream of `gnuplot`. The heading is `title` or, if
+ * `title` ends in a space, `title` followed by `quantity`, the name of the quantity that is shown. */
 void curves_write_title(struct gnuplot *gnuplot, const char *title, const char *quantity);
 
-/* Writes `title` into text[TITLE_LENGTH] and appends `outside`, the number of particles that are outside the picture,
- * unless it is 0. */
+/* Writes the heading of a picture to text[TITLE_LENGTH]: `title`, followed by a note on the number of particles outside
+ * the picture, `outside`, unless this number is 0. */
 void title_append_count_of_particles_outside_view(char *text, const char *title, int64_t outside);
 
 /* Writes the gnuplot commands for the horizontal axis of a picture, with its range and label, to the stream `gnuplot`.

@@ -1,5 +1,5 @@
-/* Films by ffmpeg, which is started without a shell and reads its pictures from a pipe: no folder of pictures remains,
- * and no file name is interpreted as a pattern or an address. */
+/* Makes films from pictures with ffmpeg. ffmpeg is started without a shell and reads the pictures from a pipe, so that
+ * no folder of single pictures remains and no file name is interpreted as a pattern or an address. */
 #include "plot/film.h"
 
 #include <errno.h>
@@ -15,7 +15,8 @@
 #include "output/output_files.h"
 #include "output/picture_file.h"
 
-/* Exit status of a child process whose program does not exist; largest number of words of a command of ffmpeg. */
+/* NOT_FOUND: exit status of a child process whose program does not exist; FILM_WORDS: largest number of arguments of
+ * ffmpeg. */
 enum { NOT_FOUND = 127, FILM_WORDS = 24 };
 static const int FRAMES_PER_SECOND = 8;
 

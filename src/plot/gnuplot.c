@@ -107,8 +107,8 @@ enum { NARROW = 760 }; /* pictures narrower than this have no room beside their 
 void picture_size_set_process_wide(struct picture_size size) { usual = size; }
 struct picture_size picture_size_get_process_wide(void) { return usual; }
 
-/* PDF_LETTERS: factor on the size of letters in a PDF, whose sizes are in points, that gives them the size of letters
- * in a PNG. NARROW_LETTERS: factor on the size of letters in narrow pictures, which then have 7 points. */
+/* Factors on the size of letters. PDF_LETTERS: in PDF files, whose sizes are in points, so that letters are as large as
+ * in PNG files. NARROW_LETTERS: in narrow pictures, whose letters then have 7 points. */
 static const double PDF_LETTERS = 0.5, NARROW_LETTERS = 0.8;
 
 /* Writes to gnuplot g the commands that select the terminal for `format`: SVG, PDF, or PNG by pngcairo (antialiased) if
@@ -151,13 +151,13 @@ static void gnuplot_release(struct gnuplot *g)
     *g = (struct gnuplot){0};
 }
 
-/* Factor on the height of a narrow picture of curves, whose key is below its panel. */
+/* Factor on the height of a narrow picture of curves, which has its key (legend) below the panel. */
 static const double CURVES_HIGHER = 1.35;
 
-/* Returns the height [pixel] of a picture that is laid out for width x height [pixel]: the height that the user has
- * chosen, if any. If the user (picture_size_set_process_wide) has chosen only a width, the height of the layout is
- * scaled with the width; a picture of curves so narrow that its key is below is made CURVES_HIGHER times as high.
- * letters: factor on the size of letters, 1 for pictures of curves. */
+/* Returns the height [pixel] of a picture whose layout is made for width x height [pixel]. It is the height that the
+ * user has chosen with picture_size_set_process_wide, if any; else `height`, scaled with the chosen width. A picture of
+ * curves so narrow that its key (legend) is below the panel is higher by CURVES_HIGHER. letters: factor on the size of
+ * letters, 1 for pictures of curves. */
 static int height_for(int width, int height, double letters)
 {
     const double scale = usual.width ? (double)usual.width / width : 1;
@@ -214,7 +214,7 @@ status gnuplot_open_scaled(struct gnuplot *g, const char *path, enum picture_for
     return open_with_letters(g, path, format, width, height, usual.width ? (double)usual.width / width : 1);
 }
 
-/* Least resolution of images in vector formats [pixel/inch]: journals want 300 to 600. */
+/* Least resolution of images in vector formats [pixel/inch]; journals require 300 to 600. */
 static const double IMAGE_DPI = 432;
 
 int gnuplot_image_pixel_count_along_edge(enum picture_format format, int layout_pixels)

@@ -1,4 +1,4 @@
-/* Colour bar and key of pictures of maps. */
+/* Draws the colour bar and the key (legend) of pictures of maps. */
 #include <math.h>
 #include <string.h>
 
@@ -9,9 +9,9 @@
  * line. BAR_HIGHEST: greatest length of a vertical bar [pixel]. */
 enum { BAR_STEPS = 256, BAR_ACROSS = 2, BAR_HIGHEST = 360 };
 
-/* Positions beside or below the bar [pixel]. NUMBERS: width of tics and blanks beside the numbers of a vertical bar;
- * LABEL_HALF: half height of a line of its label; UNDER_LABEL: of the label of a bar below the panels, from its upper
- * edge; BAR_LOW: height of such a bar; UNDER_BAR: least blank below a vertical bar. */
+/* Distances around the colour bar [pixel]. NUMBERS: width of the tics and blanks beside the numbers of a vertical bar;
+ * LABEL_HALF: half height of a line of its label; UNDER_BAR: least blank below it. For a horizontal bar below the
+ * panels, BAR_LOW is its height, and UNDER_LABEL the distance from its upper edge to its label. */
 enum { BEYOND_WIDE = 84 }; /* width of `0.14 % above` */
 enum { NUMBERS = 26, NUMBERS_NARROW = 20, LABEL_HALF = 12, UNDER_LABEL = 50, BAR_LOW = 12, UNDER_BAR = 30 };
 
@@ -21,7 +21,8 @@ static int bar_from(void) { return picture_size_is_too_narrow_for_side_legend() 
 
 /* ---- colour bar -------------------------------------------------------------------------------------------------- */
 
-/* Scale of the colour bar: label, ends and distance of tics in the unit of the label, format of its numbers. */
+/* Scale of a colour bar: its label, the values at its ends and the distance of its tics (labelled marks) in the unit of
+ * the label, and the printf format of its numbers. */
 struct bar_scale {
     char label[64];
     double low, high, tics;

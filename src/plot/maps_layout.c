@@ -1,21 +1,23 @@
-/* Layout of pictures of maps: margins, panels in rows and columns, places of the colour bar and of the key. */
+/* Computes the layout of pictures of maps: margins, rows and columns of panels, positions of the colour bar and of the
+ * key (legend). */
 #include <math.h>
 #include <string.h>
 
 #include "curves_parts.h"
 #include "maps_parts.h"
 
-/* Margins of the panels, and gaps between them, in usual and in narrow pictures [pixel]. *_OUTSIDE: of outside views,
- * which have no axes at their left, and their directions below them; *_UNTITLED: without a title; EDGE: on the right
- * without a bar or key; RIGHT_MOST: with a key of long names; BETWEEN_NUMBERS: between the numbers of neighbouring
- * columns. */
+/* Margins of the panels and gaps between them [pixel]. *_NARROW: in narrow pictures; *_OUTSIDE: for views of a body
+ * from outside, whose panels have no axis on the left, and the directions of the axes below; *_UNTITLED: without a
+ * title; EDGE: right margin without colour bar or key (legend); RIGHT_MOST: right margin with a key of long names;
+ * BETWEEN_NUMBERS: blank between the numbers at the axes of neighbouring columns. */
 enum { LEFT = 104, LEFT_OUTSIDE = 40, RIGHT = 136, RIGHT_MOST = 420, EDGE = 34, ABOVE = 84, UNTITLED = 56, BELOW = 70 };
 enum { GAP_X = 34, GAP_NARROW = 26 };
 enum { LEFT_NARROW = 74, LEFT_OUTSIDE_NARROW = 14, EDGE_NARROW = 22, ABOVE_NARROW = 62, UNTITLED_NARROW = 40 };
 enum { BETWEEN_NUMBERS = 16 };
 enum { BELOW_NARROW = 62, BELOW_OUTSIDE_NARROW = 78 };
 
-/* Size of the whole picture [pixel]: printed on a text page, its letters have the size of the text. */
+/* Default sizes of the whole picture and least size of a panel [pixel]. They are chosen such that the letters of a
+ * picture as wide as a text page have the size of the text. */
 enum { WIDTH = 1280, WIDTH_SINGLE = 1000, HEIGHT_MAX = 1180, PANEL_MIN = 24 };
 static const double SHAPE_WANTED = 0.72;  /* height of the picture divided by its width */
 static const double TALL_MOST = 1.5;      /* the same of a narrow picture of which the width alone is given */

@@ -1,13 +1,14 @@
-/* Boxes, axes and images of the panels of pictures of maps. */
+/* Draws the panels of pictures of maps: frame, axes and image. */
 #include <math.h>
 #include <stdio.h>
 
 #include "curves_parts.h"
 #include "maps_parts.h"
 
-/* Least distance of tics of the vertical axis [pixel]. */
+/* Least distance of the tics (labelled marks) of a vertical axis, in usual and in narrow pictures [pixel]. */
 enum { TICS_Y = 36, TICS_Y_NARROW = 22 };
-/* Format of the numbers at axes: numbers of a small body far from the origin have many digits. */
+/* Printf format of the numbers at axes, with many digits, because the coordinates of a small body far from the origin
+ * differ only in the last ones. */
 #define TIC_NUMBERS "%.9g"
 enum { NUMBERS_APART = 14, NUMBERS_APART_LEAST = 8 };     /* blank between numbers of a horizontal axis [pixel] */
 enum { BESIDE_NUMBERS = 50, BESIDE_NUMBERS_NARROW = 44 }; /* label of a vertical axis beside its numbers [pixel] */

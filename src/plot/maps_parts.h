@@ -1,11 +1,12 @@
-/* Panels of pictures that contain an image. */
+/* Declares the layout, the key (legend), the colour bar and the panels of pictures of maps: coloured images of a
+ * quantity over the body. */
 #ifndef CLEAVE_MAPS_PARTS
 #define CLEAVE_MAPS_PARTS
 
 #include "plot/plot.h"
 
-/* Entries of the key (legend) of a picture of maps: colours and their names, of[n]. An entry of transparent colour is
- * a line of text without a coloured square. */
+/* Key (legend) of one picture of maps (coloured images of a quantity): n entries, each a colour and its name. An entry
+ * with a transparent colour is a line of text without a coloured square. */
 struct map_key {
     int n;
     struct category of[CATEGORIES_MOST + 2];
@@ -40,10 +41,11 @@ struct maps_layout {
     int key_columns;            /* number of entries in a row of the key */
 };
 
-/* Sizes [pixel]. GAP_Y: distance of rows of panels. BAR_FROM, BAR_WIDE: position of the colour bar beside the panels,
- * and its width; BAR_STRIP: height of the bar below the panels with its numbers and its label. KEY_SQUARE: width of an
- * entry of the key without its text; KEY_ROW: distance of its rows; KEY_LEFT, KEY_UNDER: blank beside and below it;
- * KEY_LETTER: mean width of its letters. */
+/* Sizes in pictures of maps [pixel]. GAP_Y: distance between rows of panels; BAR_FROM: distance of the colour bar from
+ * the panels; BAR_WIDE: width of the bar; BAR_STRIP: height of a bar below the panels, with its numbers and label.
+ * KEY_SQUARE: width of an entry of the key (legend) without its text; KEY_ROW: distance between rows of the key;
+ * KEY_LEFT, KEY_UNDER: margins beside and below the key; KEY_LETTER: mean width of a letter of the key. Names that end
+ * in NARROW: values for narrow pictures. */
 enum { GAP_Y = 42, BAR_FROM = 26, BAR_FROM_NARROW = 16, BAR_WIDE = 16, BAR_STRIP = 62 };
 enum { KEY_SQUARE = 40, KEY_ROW = 22, KEY_LEFT = 14, KEY_UNDER = 6 };
 static const double KEY_LETTER = 8.2, KEY_LETTER_NARROW = 6.6;

@@ -1,4 +1,4 @@
-/* The standard pictures of a finished or running run. */
+/* Draws the standard pictures of a simulation, which may still be running, from its results folder. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -32,7 +32,7 @@ static status draw_map(const struct plot_request *r, const char *path, enum map 
     return picture_draw_panels_of_frames((struct output_picture){path, r->format}, title, map, view, cloud, clouds);
 }
 
-/* Contents of the selected frames of a run. */
+/* Quantities that occur in the selected output frames of a run, by which it is decided which maps are drawn. */
 struct contents {
     bool damage, cracks, kinds; /* a particle is damaged; one is on a crack; there are two kinds of particles */
     double cracked;             /* share of particles on cracks in the last frame [1] */
@@ -131,8 +131,8 @@ static status draw_outside(const struct plot_request *r, const struct run_frames
     return draw_map(r, cracks.text, MAP_CRACKS, &view, cloud, frames->shown);
 }
 
-/* Type of functions that draw pictures of the selected frames, as the request r asks. cloud[frames->shown]: particles
- * of each output frame that are drawn. */
+/* Type of functions that draw pictures of the selected output frames according to the request r. cloud[frames->shown]:
+ * drawn particles of each frame. */
 typedef status draw_clouds_fn(const struct plot_request *r, const struct run_frames *frames,
                               const struct plotted_particles *cloud);
 

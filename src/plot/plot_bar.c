@@ -8,7 +8,8 @@
 #include "base/memory.h"
 #include "curves_parts.h"
 
-/* Room for a path [byte]; number of panels, one for each quantity; significant digits of numbers at axes. */
+/* PATH_LENGTH: capacity of a path [byte]; QUANTITIES: number of panels, one for each quantity; DIGITS: significant
+ * digits of the numbers at axes. */
 enum { PATH_LENGTH = 4096, QUANTITIES = 4, DIGITS = 6 };
 
 #define TINT "#e8f1f9" /* background of peridynamic parts of a bar with both kinds */
@@ -72,8 +73,8 @@ bool run_find_exact_solution_probe(const char *folder, char probe_name[NAME_MAX_
 
 /* ---- scales ------------------------------------------------------------------------------------------------------ */
 
-/* Scale of the vertical axis of a panel. factor: unit of the axis in SI units; low, high: ends of the axis in this
- * unit; zero: all values are 0. */
+/* Scale of the vertical axis of one panel. factor: unit of the axis [SI unit of the quantity]; low, high: ends of the
+ * axis in this unit; zero: true if all values are 0; label: text of the axis. */
 struct scale {
     double factor, low, high;
     bool zero;

@@ -1,6 +1,6 @@
-/* Paints an outside view of a solid: every particle is a cube of the lattice in parallel projection, and each pixel
- * shows the nearest cube. A face of the body has one colour because its cubes show the same face; the three directions
- * differ in brightness. Neither lighting nor surface detection is needed. */
+/* Paints a view of a solid body from outside. Each particle is a cube in parallel projection, and each pixel shows the
+ * nearest cube. The brightness of a cube depends on the direction of the face that is visible, so that a plane face of
+ * the body has one colour. Neither lighting nor surface detection is needed. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -10,12 +10,13 @@
 /* Half edge of a cube divided by the spacing; slightly more than 0.5 to close the gaps of a strained lattice. */
 static const double HALF = 0.52;
 
-/* Cosines of the angle between the normal of a face and the view: from STRAIGHT on, the brightness is 1; below OBLIQUE
- * (20 degrees), it is that of the axes; it is linear between, as the faces of a flat side of a deformed body differ by
- * a few degrees. */
+/* Cosines of the angle between the normal of a face and the direction to the viewer. The brightness of a face is 1 from
+ * STRAIGHT on; below OBLIQUE (20 degrees) it is the mean of FACE_BRIGHTNESS over the axes (face_brightness); it is
+ * linear between both, as normals on a flat side of a deformed body differ by a few degrees. */
 static const double STRAIGHT = 0.999, OBLIQUE = 0.94;
 
-/* A picture of a 3D body under construction. pixel: [height][width] colours; size: width and height [pixel]. */
+/* Image of a 3D body while it is painted. pixel: [height][width] colours; size: width and height [pixel]; view:
+ * rectangle that is shown. */
 struct scene_canvas {
     struct colour *pixel;
     float *depth; /* [height][width] depth of the painted surface, towards the viewer [m] */
@@ -24,8 +25,9 @@ struct scene_canvas {
     const struct view *view;
 };
 
-/* A cube that deforms with the body: half sizes of the undeformed cube [m], F and its inverse, and the direction
- * towards the viewer before the deformation. Planes of symmetry cut off what is beyond them. */
+/* Deformed cube that represents one particle in the picture: half edges of the undeformed cube [m], deformation
+ * gradient F and its inverse, and the direction to the viewer, transformed to the undeformed cube. The parts of the
+ * cube beyond planes of symmetry are not drawn. */
 struct cube {
     double half[3], F[3][3], inverse[3][3], towards[3];
     const struct plotted_particles *cloud; /* for its planes of symmetry */
@@ -115,9 +117,10 @@ static double cube_reach(const struct cube *b, const double *direction)
     return reach;
 }
 
-/* Returns the brightness of a face of a cube, 0..1: the mean of the brightnesses of the three axes, weighted by the
- * squared components of the normal. It is 1 if the view is along the normal, within 2.6 degrees. face: axis of the
- * face; towards[3]: direction to the viewer. b: the cube. */
+/* Returns the brightness of a face of the deformed cube b, 0 to 1: the mean of FACE_BRIGHTNESS over the three axes,
+ * weighted by the squared components of the normal of the face. It increases to 1 if the direction to the viewer is
+ * along the normal, within 2.6 degrees. face: axis of the face in the undeformed cube; towards[3]: direction to the
+ * viewer (unit vector). */
 static double face_brightness(const struct cube *b, int face, const double *towards)
 {
     double length = 0, facing = 0, shade = 0;

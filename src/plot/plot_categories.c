@@ -1,5 +1,5 @@
-/* Fields with named values (kind, body, material, fragment, level): a colour for each value, and the key of the values
- * that occur. */
+/* Assigns colours to the values of fields with named values (kind, body, material, fragment, level), and lists the
+ * values that occur for the key (legend). */
 #include <math.h>
 #include <string.h>
 

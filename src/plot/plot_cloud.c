@@ -1,4 +1,4 @@
-/* Selects the particles of a frame that a map shows. */
+/* Selects the particles of an output frame that a map shows, and computes their drawn positions. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -6,12 +6,12 @@
 #include "base/memory.h"
 #include "plot/plot.h"
 
-/* SAMPLES: largest number of particles that are sampled to estimate the spacing; SAMPLES_MIN: least number, if the
- * number of distance comparisons limits it. */
+/* Numbers of particles that are sampled to estimate the spacing: at most SAMPLES, and at least SAMPLES_MIN if more
+ * would require over COMPARISONS comparisons of distances. */
 enum { SAMPLES = 200, SAMPLES_MIN = 9 };
 static const double COMPARISONS = 2e7;
-/* Largest difference between the distances of two layers of particles from a plane at which both count as equally near
- * [spacings]. */
+/* Tolerance for distances from a plane [spacings]: two layers of particles whose distances differ by less count as
+ * equally near. */
 static const double TIE = 1e-3;
 
 /* ---- spacing ----------------------------------------------------------------------------------------------------- */
@@ -136,10 +136,10 @@ static double nearest_coordinate(const struct output_frame *f, int normal, doubl
     return at;
 }
 
-/* Computes for each layer of particles of output frame f along the axis `normal` what makes it worth showing, and
- * stores it in weight[layers], which is 0 at the beginning: the sum of damage; if no particle is damaged, the largest
- * magnitude of value[f->n]; nothing without values (NULL). from: coordinate of the first layer [m]; spacing: distance
- * of layers [m]. Returns the largest weight. */
+/* Computes weight[layers], by which the layer that a slice shows is chosen, for each layer of particles of output frame
+ * f along the axis `normal`: the sum of damage. If no particle is damaged, it is the largest magnitude of value[f->n]
+ * instead (0 if value is NULL). weight: 0 before; from: coordinate of the first layer [m]; spacing: distance of layers
+ * [m]. Returns the largest weight. */
 static double layers_weigh(double *weight, int layers, const struct output_frame *f, int normal, const float *value,
                            double from, double spacing)
 {
@@ -282,8 +282,9 @@ static void cloud_axes(struct plotted_particles *c, const struct output_frame *f
     c->camera = camera_along_axis(c->normal, c->normal == 1 ? -1 : 1);
 }
 
-/* Does the work of plotted_particles_select_from_frame for a frame f that has the sizes of its particles, or whose
- * particles are of one size. */
+/* Selects in c the particles of output frame f that a map with the given projection shows, with their drawn positions,
+ * deformation and fields (plotted_particles_select_from_frame). projection: NULL for a default slice. The sizes of
+ * particles must be in f->spacing, unless all particles have one size. */
 static void cloud_select(struct plotted_particles *c, const struct output_frame *f, const struct projection *projection)
 {
     struct projection open = {.normal = -1};

@@ -96,7 +96,7 @@ static void set_axis(FILE *to, const char *axis, const char *label, int colour, 
     curves_write_vertical_tics(to, axis, 0, top, pixels);
 }
 
-/* Largest upper end of the axis for the share of peridynamic particles [%]. */
+/* Largest value of the upper end of the axis for the share of peridynamic particles [%]. */
 static const double SHARE_TOP = 104;
 
 /* Returns true if the values in a column of the history are not all equal. h: history of the run. */
@@ -149,8 +149,8 @@ static status draw_crack(struct output_picture sheet, const char *title, const s
 
 /* ---- energies ---------------------------------------------------------------------------------------------------- */
 
-/* Energies that are drawn, as columns of the history. shift: what is subtracted from each before it is drawn [J]; low,
- * high: ends of all that is drawn [J]. */
+/* Energies that a picture shows as curves. Energy k is in column[k] of the history and is drawn less the constant
+ * shift[k] [J]. low, high: range of the vertical axis [J]. */
 struct energies {
     int column[LEDGER_ROWS];
     const struct ledger_row *row[LEDGER_ROWS];
@@ -164,8 +164,9 @@ struct energies {
 #define ENERGY_SHOWN 5e-4
 #define WORK_COLOUR "#c8c8c8" /* of the external work */
 
-/* A kinetic energy at the start of more than HEAVY times all that changes later, as of a heavy hammer, is subtracted,
- * unless less than NOTHING of it changes. */
+/* HEAVY: initial kinetic energy, divided by the largest later change of any energy, above which it is subtracted in the
+ * picture, since it would flatten the curves (as of a heavy hammer). NOTHING: largest change, divided by the initial
+ * kinetic energy, that counts as round-off; the energy is then not subtracted. */
 enum { HEAVY = 10 };
 #define NOTHING 1e-6
 
@@ -276,7 +277,8 @@ static double coarse_tic_distance(double top)
     return decade * (lead >= 5 ? 5 : lead >= 2 ? 2 : 1);
 }
 
-/* Position of the label of the balance error, whose numbers may be wide, and in narrow pictures [pixel]. */
+/* Distance of the label of the balance error from the left edge of the picture, in usual and in narrow pictures
+ * [pixel]. It leaves space for wide numbers at the axis. */
 static const double LABEL_AT = 16, LABEL_AT_NARROW = 10;
 
 /* Least extent of the axis of the balance error in both directions [%]; smaller errors are round-off. */

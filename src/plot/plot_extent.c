@@ -1,5 +1,5 @@
-/* Deformation of the particles of a picture, which are drawn as squares and cubes of the lattice that deform with the
- * body: a stretched body has no gaps between its particles, and a crack has. */
+/* Computes the deformation of the particles of a picture, which are drawn as squares or cubes that deform with the
+ * body: a stretched body then has no gaps between its particles, while a crack has. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -8,14 +8,13 @@
 #include "data/cells.h"
 #include "plot/plot.h"
 
-/* NEAR_REACH: largest lattice distance of neighbours [spacings], so that diagonal ones are included. STRAIN_SEEN:
- * strain below which a deformation is not visible, as particles are drawn a tenth wider than the spacing. PARTED,
- * PARTED_MORE: two neighbours that have both lost bonds are drawn as connected up to the elongation PARTED, or
- * PARTED_MORE times the elongation that 99 % of the surely connected pairs do not exceed, if this is more. LONGEST:
- * largest length at which a pair is drawn as connected [spacings]. JUMP, JUMP_TIMES: a pair is drawn apart if its
- * elongation exceeds JUMP plus JUMP_TIMES the median of the pairs of its particle, because material points may separate
- * without damage. LOOSE: share of lost bonds above which a particle is rubble, whose drawn size does not depend on its
- * neighbours. ACROSS: a neighbour is on one side of its particle if it is at most so far from the axis [spacings]. */
+/* Constants of the tests which neighbours are drawn as connected. NEAR_REACH: largest lattice distance of neighbours
+ * [spacings], diagonal ones included; ACROSS: largest distance from an axis of a neighbour that counts as on that side
+ * [spacings]. STRAIN_SEEN: strain below which a deformation is not visible. PARTED, PARTED_MORE: neighbours that have
+ * both lost bonds are apart above the elongation PARTED, or PARTED_MORE times that of 99 % of the certainly connected
+ * pairs, if larger. LONGEST: largest drawn length of a pair [spacings]. JUMP, JUMP_TIMES: a pair is apart if its
+ * elongation exceeds JUMP plus JUMP_TIMES the median of its particle, as material points may separate without damage.
+ * LOOSE: fraction of lost bonds above which a particle is loose, and drawn independently of its neighbours. */
 #define NEAR_REACH 1.5
 #define ACROSS 0.3
 #define STRAIN_SEEN 0.02
@@ -25,11 +24,13 @@
 #define JUMP 0.75
 #define JUMP_TIMES 4
 #define LOOSE 0.6
-/* Largest number of surely connected pairs that are sampled; of pairs of a particle of which the median is taken. */
+/* SURE_MOST: largest number of pairs of certainly connected neighbours that are sampled. NEAR_MOST: largest number of
+ * pairs of one particle from which the median of elongations is computed. */
 enum { SURE_MOST = 100000, NEAR_MOST = 64 };
 
-/* Pairs of neighbours of a frame. limit: opening above which two particles without all their bonds are apart;
- * magnify: factor on displacements in the picture. */
+/* Data for the tests whether two neighbours in output frame f are drawn as connected. limit: opening (elongation along
+ * the axes of the lattice) above which neighbours that have both lost bonds are drawn apart; magnify: factor on
+ * displacements in the picture. */
 struct pairs {
     const struct output_frame *f;
     struct particles part; /* reference positions alone */
@@ -49,9 +50,9 @@ static double elongation(const struct output_frame *f, int64_t i, int64_t j)
     return sqrt(now / first) - 1;
 }
 
-/* Returns the elongation of the pair of particles i and j along the axes of the lattice: that of a diagonal pair counts
- * by its squared length in spacings, so that both kinds of pairs across an opening crack are apart at the same opening.
- */
+/* Returns the elongation of the pair of particles i and j along the axes of the lattice, (|x_j - x_i|/|X_j -
+ * X_i| - 1) for a pair along an axis. For a diagonal pair it is multiplied by the squared length of the pair
+ * in spacings, so that both kinds of pairs across an opening crack count as apart at equal openings. */
 static double opening(const struct pairs *p, int64_t i, int64_t j)
 {
     double first = 0;
@@ -118,8 +119,9 @@ static double parted_limit(const struct pairs *p)
     return limit;
 }
 
-/* Returns the bit of the side of a particle on which its neighbour with the relative reference position xi[3] is, as
- * of deformation_gradients_fit_to_displacements; 0 for a diagonal neighbour. own: spacing of the particle [m]. */
+/* Returns the bit that denotes the side of a particle on which its neighbour is: 1 << (2 a + b) for axis a, with b = 0
+ * towards larger coordinates and b = 1 towards smaller ones; 0 for a diagonal neighbour. xi[3]: reference position of
+ * the neighbour relative to the particle [m]; own: spacing of the particle [m]. */
 static unsigned side_bit(const double *xi, double own)
 {
     unsigned bit = 0;
@@ -131,8 +133,8 @@ static unsigned side_bit(const double *xi, double own)
     return across == 1 ? bit : 0;
 }
 
-/* Returns true if the neighbours i and j of the output frame p->f, which are not drawn as connected, have a gap between
- * them: rubble, which moves as it likes, has none. */
+/* Returns true if a gap is drawn between the neighbours i and j of output frame p->f, which are not drawn as connected:
+ * if none of them has lost more than the fraction LOOSE of its bonds. Between loose particles no gap is drawn. */
 static bool gap_between(const struct pairs *p, int64_t i, int64_t j)
 {
     return fmaxf(p->f->damage[i], p->f->damage[j]) <= LOOSE;

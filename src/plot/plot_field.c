@@ -1,4 +1,5 @@
-/* Fields that `cleave plot --field` draws: fields of frames and derived fields (data/derived_fields.h). */
+/* Table and values of the fields that `cleave plot --field` can draw: fields of output frames, and fields derived from
+ * these (data/derived_fields.h). */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,7 +9,7 @@
 #include "plot/plot.h"
 #include "scene/words.h"
 
-/* Component of a field that denotes the magnitude of its vector. */
+/* Value of the component of a field that denotes the magnitude of the vector. */
 enum { MAGNITUDE = -1 };
 
 static const struct plot_field fields[] = {

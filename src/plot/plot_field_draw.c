@@ -1,4 +1,4 @@
-/* `cleave plot DIR --field NAME`: one picture, or a film, of one field. */
+/* Draws one field of a run as a picture or a film, for `cleave plot DIR --field NAME`. */
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>

@@ -1,4 +1,4 @@
-/* Selects the frames of a run that are shown; paths and titles of pictures. */
+/* Selects the output frames of a run that pictures show, and composes the paths and titles of pictures. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>

@@ -1,4 +1,4 @@
-/* Maps of damage, kind and fields: panels with their axes, titles. */
+/* Draws pictures of maps of damage, particle kind and fields: panels with their axes, and titles. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
-/* Draws pre-cracks of plane bodies over a map. Each face of a pre-crack is a line that follows the particles beside it,
- * because a pre-crack that is a slit of the mesh causes no damage. Where both lines meet they are one, as long as the
- * gap between them is not visible. */
+/* Draws pre-cracks of plane bodies over a map, since a pre-crack that is a slit of the mesh causes no damage. Each of
+ * the two faces of a pre-crack is drawn as a line that moves with the particles beside it. A gap between the faces that
+ * is too narrow to be visible is filled, so that both lines appear as one. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -8,23 +8,24 @@
 
 /* Colours of the faces. FACE: in maps of damage; GAP: in maps of fields, the white of a gap. */
 static const struct colour FACE = {122, 16, 32, 255}, GAP = {255, 255, 255, 255};
-/* LINE_HALF: half width of a line, at least LINE_LEAST pixels, so that it looks alike in pictures of any resolution;
- * GAP_SEEN: distance of the faces from which the gap between them is left open [widths of the image]; FLAT: an image
- * that is more than so many times wider than high, as of a thin strip, counts as so wide. */
+/* LINE_HALF: half width of a line, at least LINE_LEAST pixels; GAP_SEEN: distance of the faces from which the gap
+ * between them is not filled. Both are fractions of the width of the image, so that pictures of any resolution look
+ * alike; for images more than FLAT times as wide as high, of FLAT times the height. */
 static const double LINE_HALF = 1.0 / 600, LINE_LEAST = 0.7, GAP_SEEN = 1.0 / 400, FLAT = 12;
 
-/* BESIDE: largest distance of the particles whose motion is that of a face [spacings]; RUBBLE: damage above which a
- * particle has no part of a face. */
+/* BESIDE: largest distance from a face of the particles with which the face moves [spacings]. RUBBLE: damage above
+ * which a particle does not contribute to the motion of a face [1]. */
 static const double BESIDE = 1.05, RUBBLE = 0.65;
 
-/* OBLIQUE: product of the direction cosines of a line from which it is not along the lattice; TRIMMED: largest distance
- * from a face up to which the image is changed so that the face is straight [spacings]; BEYOND: so far beyond the face
- * squares are blanked before it is filled, so that no sliver of them is left [pixel]. */
+/* Constants of faces_trim. OBLIQUE: least product of the direction cosines of a pre-crack that is not along the lattice
+ * [1]. TRIMMED: largest distance from a face up to which pixels are changed to make the face straight [spacings].
+ * BEYOND: distance by which pixels are made blank also on the body's side of a face [pixel]. */
 static const double OBLIQUE = 0.02, TRIMMED = 0.9, BEYOND = 1.5;
 
-/* Displacements of the faces of a pre-crack, by sections of one spacing along it. u[side][2 * section + axis]: sum of
- * the displacements of the particles beside the section [m]; weight[side][section]: their number, by nearness;
- * place[side][section]: sum of their coordinates along the pre-crack [m], weighted alike. */
+/* Displacements of both faces (sides 0 and 1) of one straight pre-crack, each divided into sections along the
+ * pre-crack. Sums over the particles beside a section, weighted by nearness: u[side][2 section + axis], displacements
+ * [m]; weight[side][section], weights; place[side][section], coordinates along the pre-crack [m]. Made by faces_make;
+ * the caller frees the arrays. */
 struct faces {
     double from[2], along[2], length, section;
     double begin, end; /* part of the length along which there are particles [m] */
@@ -96,9 +97,9 @@ static void face_add_motion(struct faces *f, const struct plotted_particles *c, 
     f->end = fmax(f->end, fmin(s + 0.5 * reach / BESIDE, f->length));
 }
 
-/* Returns the section of a face of the pre-crack f from which, with the section `own`, the displacement at the distance
- * s [m] along it is interpolated: the next one on the side of s or, where no particle is beside that, the other one;
- * `own` if there is neither. side: face, 0 or 1. */
+/* Returns the second section for the linear interpolation of the displacement of a face of pre-crack f at the
+ * coordinate s [m] along it; the first one is section `own`, which contains s. It is the adjacent section on the side
+ * of s, or, if no particle is beside that, on the other side; `own` if there is neither. side: face, 0 or 1. */
 static int other_section(const struct faces *f, int side, int own, double s)
 {
     const int step = s < f->place[side][own] / f->weight[side][own] ? -1 : 1;
@@ -109,10 +110,10 @@ static int other_section(const struct faces *f, int side, int own, double s)
     return own;
 }
 
-/* Computes the drawn position x[2] [m] of the point at the distance s [m] along pre-crack f on one of its faces: the
- * initial position plus the mean displacement of the particles beside the face, which is linear between the mean
- * positions of the particles of the sections into which the face is divided, and beyond the last of them up to the end
- * of the face. side: face, 0 or 1. Returns false if no particle is beside the section at s. */
+/* Computes the drawn position x[2] [m] of the point with coordinate s [m] along pre-crack f on one of its faces: its
+ * initial position plus the displacement of the face. The displacement is interpolated linearly between the mean
+ * displacements of two sections of the face, and extrapolated beyond the last one. side: face, 0 or 1. Returns false if
+ * no particle is beside the section at s. */
 static bool face_at(const struct faces *f, int side, double s, double *x)
 {
     const int own = (int)fmin(fmax(s / f->section, 0), f->sections - 1);
@@ -127,9 +128,9 @@ static bool face_at(const struct faces *f, int side, double s, double *x)
     return true;
 }
 
-/* Completes the points x[2][2] [m] of the two faces of the pre-crack f, of which is[side] says whether there are
- * particles beside them. Without particles on one side there is no point, unless the pre-crack is in a plane of
- * symmetry: then both points are that of the other side, moved into the body by `inside` [m]. */
+/* Completes the points x[2][2] [m] of both faces of pre-crack f if only one face has a point. If the pre-crack is in a
+ * plane of symmetry, both points become that of the existing face, moved into the body by `inside` [m]; else neither
+ * face has a point. is[side]: whether the face has a point, updated. */
 static void faces_complete(const struct faces *f, double x[2][2], bool is[2], double inside)
 {
     const int own = is[0] ? 0 : 1;
@@ -167,9 +168,9 @@ static void line_paint(struct colour *pixel, int width, int height, const double
                 pixel[(int64_t)row * width + column] = c;
 }
 
-/* Computes the points x[2][2] of both faces of the pre-crack f at the distance s along it [m], in pixels of an image of
- * width x height that shows the rectangle of the view v; is[side] receives whether the face has a point there. inside:
- * as of faces_complete [m]. */
+/* Computes the points x[2][2] of both faces of pre-crack f at the coordinate s along it [m], in pixels of an image of
+ * width x height pixels that shows the rectangle of the view v. is[side]: receives whether the face has a point there.
+ * inside: distance by which the points of a pre-crack in a plane of symmetry are moved into the body [m]. */
 static void faces_find_pixels(const struct faces *f, const struct view *v, int width, int height, double s,
                               double inside, double x[2][2], bool is[2])
 {
@@ -206,9 +207,10 @@ static void fill_up_to_body(struct colour *pixel, int width, int height, const d
     }
 }
 
-/* Makes both faces of the open pre-crack f straight if it is oblique to the lattice. The squares of particles lie
- * partly beyond its line: blanks the pixels between the faces, and fills those between a face and the particles of its
- * side. pixel[height][width]: image of the view v; per_metre: pixels per metre; spacing: of the particles [m]. */
+/* Makes the drawn faces of the open pre-crack f straight if it is oblique to the lattice, where the squares of
+ * particles would form steps. Makes pixels between the faces blank, and fills the pixels between each face and the
+ * particles beside it. pixel[height][width]: image of the view v; per_metre: pixels per metre; spacing: spacing of the
+ * particles [m]. */
 static void faces_trim(struct colour *pixel, int width, int height, const struct view *v, const struct faces *f,
                        double per_metre, double spacing)
 {

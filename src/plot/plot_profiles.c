@@ -6,7 +6,8 @@
 #include "base/memory.h"
 #include "curves_parts.h"
 
-/* A particle of a profile. loose: it belongs to a piece of at most LOOSE_MOST particles. */
+/* One particle of a bar in a profile. loose: it belongs to a piece of at most LOOSE_MOST particles, which is drawn as
+ * points. */
 struct station {
     double x;         /* position [m] */
     float value[3];   /* velocity, stress, damage, or a field in value[0] */
@@ -14,7 +15,8 @@ struct station {
     bool loose;
 };
 
-/* One profile: the particles of a frame from left to right. */
+/* Profile of a bar at one output time: its n particles from left to right. Made by profile_make; the caller releases
+ * `at` with memory_free. */
 struct bar_profile {
     struct station *at;
     int64_t n;
@@ -22,10 +24,10 @@ struct bar_profile {
     char label[NAME_MAX_LENGTH]; /* load step or equilibrium; "": the time */
 };
 
-/* SEPARATED: distance of neighbours at which a bar has separated [spacings]. ALL_BONDS: damage above which a particle
- * has no bond left [1]. LOOSE_MOST: most particles of a piece that is drawn as points and does not extend the axes;
- * pieces that fly away are fast. BESIDE: distance of loose particles that are within the picture, over the length of
- * the others. */
+/* SEPARATED: distance of neighbours above which the bar has separated between them [spacings]. ALL_BONDS: damage above
+ * which a particle has no bond left [1]. LOOSE_MOST: largest number of particles of a loose piece, which is drawn as
+ * points and does not extend the axes, since such pieces are fast. BESIDE: largest distance from the other particles at
+ * which loose ones are shown, divided by the extent of the others [1]. */
 static const double SEPARATED = 1.5, BESIDE = 0.2, ALL_BONDS = 0.999;
 enum { LOOSE_MOST = 2 };
 

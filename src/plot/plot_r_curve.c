@@ -1,4 +1,4 @@
-/* Pictures of load steps: energy release rate against crack growth (R-curve). */
+/* Draws the energy release rate against crack growth (R-curve) of runs in load steps. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

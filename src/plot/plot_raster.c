@@ -1,7 +1,6 @@
-/* Paints a flat cloud into pixels.
- *
- * Point symbols would leave gaps or overlap at every scale but one. Here each pixel takes the colour of the nearest
- * particle, so that a body appears as a closed surface and a crack as an open line. */
+/* Paints the particles of a plane body or of a slice into the pixels of an image. Each pixel gets the colour of the
+ * nearest particle, so that a body appears as a closed surface and a crack as an open line. Point symbols would leave
+ * gaps or overlap at most scales. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,7 +13,7 @@
  * lattice cell to close the gaps of rotated or irregular particles. */
 static const double SQUARE = 0.55, DISC = 0.9;
 
-/* A picture of a 2D body or slice under construction. pixel: [height][width] colours; width, height: [pixel]. */
+/* Image of a 2D body or of a slice while it is painted. pixel: [height][width] colours; width, height: size [pixel]. */
 struct canvas {
     struct colour *pixel;
     float *rank; /* [height][width] rank of the painted particle; the smallest wins */
@@ -22,9 +21,10 @@ struct canvas {
     double per_metre[2]; /* pixels per metre */
 };
 
-/* Shape of a particle in the map: the deformation gradient F along the axes of the map, its inverse, and the half width
- * or radius of the undeformed particle [m], of a square the largest of side. square: a square; else a disc. side[k]:
- * distances of the sides of a square from its centre along axis k, towards larger and smaller coordinates [m]. */
+/* Shape of one particle in a map: a square or a disc, deformed by the gradient F along the axes of the map (`inverse`:
+ * of F). Lengths are those before the deformation [m]. half: radius of a disc, or the largest entry of `side`;
+ * side[k][b]: distance from the centre of the side of a square along axis k, towards larger (b = 0) or smaller
+ * coordinates (1). */
 struct outline {
     double F[2][2], inverse[2][2], half, side[2][2];
     bool square;
@@ -39,9 +39,9 @@ static bool is_apart(const struct plotted_particles *c, int64_t i, const double 
     return false;
 }
 
-/* Returns the shape of particle i of c. A side on which a crack or another body begins is half a spacing from the
- * centre, so that a gap is as wide as it is, and half a pixel more, so that a gap below a pixel is no dotted line.
- * pixel: edge of a pixel [m]. */
+/* Returns the shape of particle i of c. On a side where a crack or another body begins, a square ends half a spacing
+ * plus half a pixel from its centre, so that a gap is drawn in its true width. The half pixel prevents that a gap
+ * narrower than a pixel is drawn as a dotted line. pixel: edge of a pixel [m]. */
 static struct outline outline_of(const struct plotted_particles *c, int64_t i, double pixel)
 {
     const double wide = c->size ? c->size[i] - c->spacing : 0; /* additional width of a coarse cell's point */

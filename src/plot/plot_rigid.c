@@ -1,5 +1,5 @@
-/* Draws rigid bodies in maps: their shapes from the scene, with the positions and rotations of the frame, evaluated in
- * each pixel. */
+/* Draws rigid bodies in maps. Their shapes are those in the scene, translated and rotated as the output frame states,
+ * and are evaluated in each pixel. */
 #include <math.h>
 #include <string.h>
 
@@ -9,7 +9,8 @@
 
 static const struct colour RIGID = {120, 120, 126, 255}; /* colour of rigid bodies */
 
-/* Largest extension of a picture to show rigid bodies beside the particles, relative to its longer side. */
+/* Largest extension of the rectangle of a picture that shows rigid bodies beside the particles, divided by the longer
+ * side of the rectangle [1]. */
 #define BESIDE 0.3
 enum { MARCH_MOST = 300 }; /* largest number of steps along the line of sight of a pixel */
 
@@ -18,7 +19,8 @@ struct colour rigid_body_colour(enum map map)
     return map == MAP_CRACKS ? colour_mixed_with_white(RIGID, GHOST) : RIGID;
 }
 
-/* Computes where the point of a rigid body that is now at x[dim] was at the start, X[dim] [m]. at: its placement. */
+/* Computes the initial position X[dim] [m] of the point of a rigid body that is at x[dim] [m] at present. at: present
+ * translation and rotation of the body. */
 static void position_at_start(const struct rigid_placement *at, int dim, const double *x, real *X)
 {
     for (int a = 0; a < dim; a++) {

@@ -7,7 +7,7 @@
 #include "curves_parts.h"
 #include "output/summary_read.h"
 
-/* Largest numbers of probes and of crack paths that are drawn; least number of samples for a picture. */
+/* PROBES_SHOWN, PATHS_SHOWN: largest numbers of probes and of crack paths that are drawn. */
 enum { PROBES_SHOWN = 3, PATHS_SHOWN = 6 };
 
 /* Finds the probes whose values of `quantity` are in the history h: for each there is a column called by the name of
@@ -156,7 +156,8 @@ status sif_curves_draw(const char *title, const struct series *series)
 
 /* ---- paths of tips ----------------------------------------------------------------------------------------------- */
 
-/* Path of a crack tip in a history. */
+/* Path of one crack tip, as recorded in a history by a probe: columns of its positions, its ends, and its angles
+ * compared with those of an experiment. */
 struct tip_path {
     char name[NAME_MAX_LENGTH];
     int x, y, length;                    /* columns of the position and of the length */
@@ -228,7 +229,8 @@ static bool ray_of(const struct tip_path *w, double end[2])
     return isfinite(angle);
 }
 
-/* Size of the picture of paths, and least width of its panel [pixel]. */
+/* PATH_WIDE, PATH_HIGH: largest width and height of the picture of crack paths; PATH_LOW: least width of its panel
+ * [pixel]. */
 enum { PATH_WIDE = 940, PATH_HIGH = 760, PATH_LOW = 200 };
 
 /* Computes the corners low[2] and high[2] [m] of a rectangle that contains the ends of the n paths w and of the lines

@@ -1,14 +1,15 @@
-/* Sizes of the particles of lists, which frames do not store: in a list with fine and coarse zones every particle is
- * drawn in its own size. */
+/* Estimates the sizes in which particles of bodies that were read from particle lists are drawn. Output frames do not
+ * store these sizes, and in a list with fine and coarse zones they differ. */
 #include <math.h>
 
 #include "base/memory.h"
 #include "data/cells.h"
 #include "plot/plot.h"
 
-/* REACH: largest distance at which the neighbours of a particle are searched [spacings]. SAME: neighbours up to so many
- * times as far as the nearest one count as equally near, because beside a zone of half the spacing the particles of the
- * fine zone are nearer than the others. GRADED: ratio of the largest size to the smallest from which sizes differ. */
+/* REACH: largest distance within which the neighbours of a particle are searched [spacings]. SAME: only neighbours up
+ * to this multiple of the distance of the nearest one determine the size of a particle, since beside a zone of half the
+ * spacing the other neighbours are farther. GRADED: least ratio of the largest size to the smallest at which particles
+ * are drawn in sizes of their own. */
 static const double REACH = 4, SAME = 1.3, GRADED = 1.5;
 enum { NEAREST_MOST = 2 * DIM_MAX };
 

@@ -1,4 +1,4 @@
-/* Pictures of load against displacement. */
+/* Draws the load against the displacement of supports and rigid bodies. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -6,7 +6,8 @@
 #include "output/pictures.h"
 #include "curves_parts.h"
 
-/* After the last force above this fraction of its largest value the broken body only moves apart. */
+/* Fraction of the largest force below which a body counts as broken. When the force has exceeded it for the last time,
+ * later displacements are those of parts that fly apart. */
 #define FORCE_LEFT 0.01
 #define DRIVEN 0.02      /* least component of a displacement along which a body is driven, as a share of its length */
 #define ROUND_OFF 1e-9   /* displacements below this number of spacings are round-off */
@@ -27,14 +28,16 @@ bool run_has_load_steps(const char *folder)
 
 /* ---- load over displacement -------------------------------------------------------------------------------------- */
 
-/* One component of a vector quantity in a history, for example NAME.force_x, and the sign with which it is drawn. */
+/* One component of a vector quantity in a history, for example the column NAME.force_x. Its values are those of the
+ * column, less `from`, times `sign`. */
 struct component {
     int column, axis; /* index of the column; axis of the component, 0 .. 2 for x y z */
     double from;      /* the quantity is the difference of the values of the column from this one */
     double sign;      /* -1 or 1 */
 };
 
-/* The components of a vector quantity in a history, of[n]; n is 0 if the history does not have it. */
+/* Components of[n] of a vector quantity in a history, one for each axis; n is 0 if the history does not have the
+ * quantity. */
 struct components {
     int n;
     struct component of[3];
@@ -108,14 +111,15 @@ static double first_sign(const struct history *h, const struct component *c)
     return 1;
 }
 
-/* A curve: one component of the force and of the displacement of a support or rigid body. */
+/* One curve of the picture: a component of the force on a support or rigid body against a component of the
+ * displacement. */
 struct reaction {
     char name[NAME_MAX_LENGTH];
     bool rigid; /* the force is that on a rigid body, else that of a support on the body */
     struct component force, displacement;
     int64_t peak; /* row of the largest load */
 };
-/* All curves of a picture, of[n], and the ends of its axes. */
+/* All curves of[n] of a picture of load against displacement, and the ends of its axes. */
 struct reactions {
     int n;
     bool moving; /* a support or rigid body moves */
@@ -149,10 +153,10 @@ static void reaction_append(struct reactions *r, const struct history *h, const 
     snprintf(a->name, sizeof a->name, "%s", name);
 }
 
-/* Appends to r the curves of the support or rigid body `name` in the history h: one for each component whose largest
- * displacement is at least DRIVEN times that of the largest one. A body that moves by `still` [m] or less is appended
- * only if `resting` is true: the largest component of its force, without a displacement. Nothing is appended if there
- * is no force. rigid: true for a rigid body. */
+/* Appends to r the curves of the support or rigid body `name` in the history h: one for each component of its
+ * displacement that reaches at least the fraction DRIVEN of the largest component. A body that moves by `still` [m] or
+ * less gets a curve only if `resting` is true: the largest component of its force, without a displacement. Appends
+ * nothing if there is no force. rigid: true for a rigid body. */
 static void reactions_add_body(struct reactions *r, const struct history *h, const char *name, bool rigid, double still,
                                bool resting)
 {

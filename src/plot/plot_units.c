@@ -5,7 +5,8 @@
 
 #include "plot/plot.h"
 
-/* src/python/cleave/_fields.py has the same table; test_python compares them. */
+/* SI prefixes with their factors, from yotta to yocto. src/python/cleave/_fields.py has a copy of the table, which
+ * test_python compares. */
 const struct unit unit_prefix[UNIT_PREFIXES] = {
     {1e24, "Y"},  {1e21, "Z"},  {1e18, "E"},  {1e15, "P"},  {1e12, "T"},  {1e9, "G"},
     {1e6, "M"},   {1e3, "k"},   {1, ""},      {1e-3, "m"},  {1e-6, "µ"},  {1e-9, "n"},

@@ -1,4 +1,5 @@
-/* Rectangle and range of values of a map, determined by the bulk of the particles instead of a few distant ones. */
+/* Chooses the rectangle and the range of values that maps show. Both are determined by most of the particles, so that a
+ * few distant particles or extreme values do not matter. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -90,8 +91,9 @@ static int64_t count_outside(const struct view *v, const struct plotted_particle
     return outside;
 }
 
-/* Largest height of the rectangle of a view over its width, and largest width over its height: beside a more slender
- * body there is space for the numbers of the axis across it. */
+/* Largest ratio of height to width (UPRIGHT_MOST) and of width to height (FLAT_MOST) of the rectangle of a map. The
+ * rectangle around a more slender body is widened, so that there is space for the numbers at the axis across the
+ * body. */
 static const double UPRIGHT_MOST = 8, FLAT_MOST = 20;
 
 /* Widens the rectangle of the view v of a slender body at both sides. */
@@ -132,9 +134,9 @@ struct view view_make_around_particles(const struct plotted_particles *cloud, in
     return v;
 }
 
-/* EXTREME: share of the values beyond the end of the colours, at least EXTREMES_LEAST values; HOT: largest share of a
- * hot spot, such as the particles beside a contact, that may be so much beyond the others that the end of the colours
- * is HOT_TIMES the value that this share exceeds. */
+/* Constants of the upper end of a colour scale (magnitude_of). EXTREME: fraction of the values that may be above the
+ * end; at least EXTREMES_LEAST values. HOT, HOT_TIMES: the end is at most HOT_TIMES the value that the fraction HOT of
+ * all values exceeds, so that a small region of high values, such as a contact, does not determine it. */
 static const double EXTREME = 0.002, HOT = 0.01, HOT_TIMES = 1.5;
 enum { EXTREMES_LEAST = 3 };
 
@@ -239,7 +241,8 @@ static bool view_shows_any(const struct view *v, const struct plotted_particles 
     return any;
 }
 
-/* Largest size of the rectangle of --crop over that of the body. */
+/* Largest side of a rectangle that the option --crop may request, divided by that of the rectangle around
+ * everything. */
 static const double CROP_MOST = 200;
 
 /* Returns REFUSED, with a message, if the view v is cropped to a rectangle that shows no particle and no rigid body, or

@@ -7,7 +7,8 @@
 #include "base/memory.h"
 #include "rigid/rigid_part.h"
 
-/* Largest numbers of arrows of a load: usually, of a body force, in a bar; room for texts [byte]. */
+/* Largest numbers of arrows that are drawn for a load (ARROWS_MOST), for a body force or initial velocities
+ * (ARROWS_FIELD), and for initial velocities in a bar (ARROWS_BAR). HOW, TEXT: capacities of texts [byte]. */
 enum { ARROWS_MOST = 22, ARROWS_FIELD = 60, ARROWS_BAR = 4, HOW = 160, TEXT = 160 };
 
 /* ---- words ------------------------------------------------------------------------------------------------------- */
@@ -54,9 +55,9 @@ static const char *unit_of_value(const struct boundary *b)
 
 /* ---- loads ------------------------------------------------------------------------------------------------------- */
 
-/* State of a load at the time at which its magnitude is largest. t: this time [s]; most: magnitude then, in the unit in
- * which such loads are printed; particles: number of particles on which the load is not 0; varies: the magnitude
- * differs between particles or times. */
+/* Load at the time at which its magnitude is largest. t: this time [s]; most: its magnitude then, in the unit in which
+ * such loads are printed; particles: number of particles on which it is not 0; varies: true if the magnitude differs
+ * between particles or times. */
 struct acting {
     double t, most;
     int64_t particles;
@@ -121,9 +122,9 @@ static struct acting acting_at(const struct run *e, const struct load *l, const 
     return a;
 }
 
-/* Sets the mark of particle `particle`, which has a face under pressure, to 1. context: uint8_t array with a mark for
- * each particle. Called by pressure_boundary_visit_free_faces for each face, whose axis, side and area do not matter
- * here. */
+/* Sets the flag of particle `particle`, which has a face under pressure, to 1. context: uint8_t array with a flag for
+ * each particle. Called by pressure_boundary_visit_free_faces for each face; axis, side and area of the face are
+ * ignored. */
 static void face_on(void *context, int32_t particle, int axis, int side, real area)
 {
     (void)axis, (void)side;
@@ -208,9 +209,9 @@ static void describe_boundary(char *text, const struct boundary *b, int dim, con
 /* Returns the smallest stride with which at most `most` of n elements are selected. */
 static int64_t stride_for(int64_t n, int64_t most) { return n > most ? (n + most - 1) / most : 1; }
 
-/* Selection of the particles of a load that are drawn: those on every `every`-th layer of the lattice along each axis,
- * so that they cover the whole load. layers[d]: number of layers along axis d; from[d]: coordinate of the first layer
- * [m]. */
+/* Particles of a load at which arrows are drawn: those on every `every`-th layer of the lattice along each axis, so
+ * that the arrows cover the whole load. layers[d]: number of layers along axis d; from[d]: coordinate of the first
+ * layer [m]; spacing: distance of layers [m]. */
 struct chosen {
     double from[DIM_MAX], spacing;
     int64_t layers[DIM_MAX], every;

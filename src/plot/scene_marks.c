@@ -1,4 +1,4 @@
-/* Draws pre-cracks, probes and levels over the particles of a scene. */
+/* Draws pre-cracks, probes, regions and the outlines of coarse mesh cells over the particles of a scene. */
 #include "scene_marks.h"
 #include "fracture/tips.h"
 #include "probes/probes.h"

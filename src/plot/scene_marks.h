@@ -1,13 +1,14 @@
-/* Marks that the picture of a scene shows above its particles: loads, pre-cracks, probes and regions. */
+/* Declares the functions that draw symbols over the picture of an input file: for loads, pre-cracks, probes and
+ * regions. */
 #ifndef CLEAVE_SCENE_MARKS
 #define CLEAVE_SCENE_MARKS
 
 #include "engine/engine.h"
 #include "plot/plot.h"
 
-/* Marks of the picture of a scene while they are written. to: receives gnuplot commands and data blocks; plot: receives
- * the elements of the plot command, which follows after all data; engine: run in its initial state, whose scene is
- * drawn. */
+/* Symbols over the picture of one input file while they are written to gnuplot, and the view of the picture. to: stream
+ * that receives gnuplot commands and data blocks; plot: stream that collects the elements of the plot command, which is
+ * written after all data blocks; engine: run in its initial state, whose input file is drawn. */
 struct scene_overlay {
     FILE *to, *plot;
     const struct run *engine;

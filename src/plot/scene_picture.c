@@ -1,5 +1,5 @@
-/* `cleave plot --scene SCENE`: draws the scene in its initial state. Particles, loads, levels and everything else are
- * created by run_set_up_from_scene, as in a run, so that the picture shows what will be computed. */
+/* Draws a scene in its initial state, for `cleave plot --scene SCENE`. Particles, loads and mesh cells are created by
+ * run_set_up_from_scene, as in a run, so that the picture shows what will be computed. */
 #include "plot/scene_picture.h"
 
 #include <math.h>
@@ -15,15 +15,17 @@
 #include "step/report.h"
 #include "mesh/mesh_part.h"
 
-/* Margins of the panel, its size, and the line height of the key, and those of narrow pictures, which have the key
- * below the panel [pixel]. */
+/* Layout of the picture of a scene [pixel]: margins of the panel, largest and smallest size of the panel, width of the
+ * key (legend) and height of its lines. *_NARROW: in narrow pictures, which have the key below the panel;
+ * ABOVE_UNTITLED: upper margin without a title. */
 enum { PICTURE_LEFT = 100, PICTURE_KEY = 400, PICTURE_ABOVE = 66, PICTURE_BELOW = 66, KEY_LINE = 23 };
 enum { LEFT_NARROW = 74, RIGHT_NARROW = 18, ABOVE_NARROW = 44, BELOW_NARROW = 82, KEY_LINE_NARROW = 18 };
 enum { PANEL_WIDEST = 860, PANEL_HIGHEST = 760, PANEL_LOWEST = 90, ABOVE_UNTITLED = 18 };
 
-/* Key: largest size of its letters, width of an entry without its text, and blank beside the key of a narrow picture
- * [pixel]. In such a picture with several columns: width of an entry without its text [pixel], and for which gnuplot
- * takes a letter [pixel]. */
+/* Constants of the key (legend). KEY_LETTERS: largest size of its letters [point]; SAMPLE: width of an entry without
+ * its text [pixel]; KEY_BESIDE: blank beside the key of a narrow picture [pixel]. In a narrow picture with several
+ * columns of entries, SAMPLE_NARROW is the width of an entry without its text, and GNUPLOT_LETTER the width that
+ * gnuplot assumes for a letter [pixel]. */
 static const double KEY_LETTERS = 12, SAMPLE = 50, KEY_BESIDE = 6;
 static const double SAMPLE_NARROW = 44, GNUPLOT_LETTER = 7.06;
 enum { TEXT_ROOM = 200 };
@@ -58,8 +60,8 @@ static void cloud_add(struct plotted_particles *c, const real *x, int dim, doubl
     c->colour[c->n++] = colour;
 }
 
-/* Returns the edge of the square or cube of particle i of p [m]: for a particle of a list the one of its volume, which
- * differs in a graded list, else the spacing of the scene s. */
+/* Returns the edge of the square or cube by which particle i of p is drawn [m]. For a particle that was read from a
+ * file it follows from its volume, which may vary in a list; for others it is the spacing of the scene s. */
 static real particle_size(const struct scene *s, const struct particles *p, int64_t i)
 {
     if (!s->body[p->body[i]].file || s->dim < 2) return s->spacing;

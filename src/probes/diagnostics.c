@@ -1,4 +1,4 @@
-/* Balances of energy and momentum, the first break, and the check for diverged particles. */
+/* Computes the balances of energy and momentum, records where bonds break first, and checks for diverged particles. */
 #include "probes/diagnostics.h"
 
 #include <math.h>
@@ -181,7 +181,8 @@ status diagnostics_save_or_load(struct diagnostics *w, struct archive *a)
     return OK;
 }
 
-/* Kinetic energy below which all energies are round-off, divided by that of the body moving at its wave speed [1]. */
+/* Kinetic energy below which all energies are round-off, divided by the kinetic energy of the body moving at the wave
+ * speed [1]. */
 #define ENERGY_OF_ROUND_OFF 1e-24
 
 bool diagnostics_energy_is_round_off(const struct diagnostics *w, real mass, real wave_speed)

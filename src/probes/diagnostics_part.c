@@ -1,4 +1,5 @@
-/* The balance of energy and momentum and the results of cracks, in the summary and in checkpoints. */
+/* Writes the balances of energy and momentum and the results of cracks to summary.json, and saves them in
+ * checkpoints. */
 #include <math.h>
 #include <stdio.h>
 

@@ -1,4 +1,4 @@
-/* Closed forms of waves in a uniform bar (exact.h). */
+/* Evaluates closed-form solutions of waves in a uniform bar (exact.h). */
 #include "probes/exact.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* Probes: their updates in every step, and their values for the history. */
+/* Updates probes in every step, and computes the values that they add to a sample of history.csv. */
 #include "probes/probes.h"
 
 #include <math.h>

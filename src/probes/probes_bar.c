@@ -1,8 +1,9 @@
-/* A computed bar compared with a closed form (exact.h).
+/* Compares a computed bar with a closed-form solution (exact.h), for probes of kind EXACT.
  *
- * There are two stresses, which differ in a peridynamic bar that is not calibrated: the bond flux, which balances
- * momentum, and E x strain. Results without a suffix use the flux; those with `_strain` compare E x strain with E x the
- * exact strain. */
+ * Two stresses are compared, which differ in a peridynamic bar that is not calibrated: the bond flux, i.e. the force of
+ * the bonds across a plane divided by its area, which balances momentum, and Young's modulus E times the strain.
+ * Results without a suffix are those of the flux; those with the suffix `_strain` compare E times the computed strain
+ * with E times the exact strain. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -137,7 +138,7 @@ enum figure {
     FIGURES
 };
 
-/* Sets of solutions that have a result, one bit each. */
+/* Sets of closed-form solutions for which a result of the EXACT probe exists, as bits 1 << EXACT_*. */
 #define STEP (1 << EXACT_STEP_BAR)
 #define PLASTIC (1 << EXACT_PLASTIC_BAR)
 #define EVERY ((1 << EXACT_FORMS) - 1)

@@ -1,4 +1,4 @@
-/* Set-up of the bar of an EXACT probe: its particles in order, its ends, and its loads. */
+/* Sets up the bar of an EXACT probe: the order of its particles, the kinds of its ends, and its loads. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

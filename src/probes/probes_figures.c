@@ -1,4 +1,4 @@
-/* Quantities that probes measure, and their results in summary.json. */
+/* Computes quantities that probes measure, and reports the results of probes for summary.json. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -128,7 +128,8 @@ void probe_compute_reaction_of_supports(const struct probe *q, const struct load
 
 /* ---- sums over a region ------------------------------------------------------------------------------------------ */
 
-/* Argument of a sum over the particles of probe q in run o. component: axis, for momentum. */
+/* Arguments of the functions that return the contribution of one particle to a sum over the particles of probe q in run
+ * o. component: axis, for momentum; unused otherwise. */
 struct region_sum {
     const struct probe *q;
     const struct observed_run *o;
@@ -223,8 +224,8 @@ void probe_compute_momentum_of_particles(const struct probe *q, const struct par
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 
-/* Receiver of the results of probe q (a requested measurement) in run o: emit(context, name of the probe, name of the
- * result, value). */
+/* Function that receives the results of one probe q (a requested measurement) in run o, and its context. It is called
+ * as emit(context, name of the probe, name of the result, value). */
 struct emitter {
     void (*emit)(void *context, const char *probe, const char *quantity, real value);
     void *context;

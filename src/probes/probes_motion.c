@@ -1,5 +1,5 @@
-/* Motion of the particles of a probe at the time of a sample. Leap-frog has velocities half a step before and after
- * that time. */
+/* Computes the motion of the particles of a probe (a requested measurement) at the time of a sample. Leap-frog
+ * integration provides velocities only half a step before and after that time, between which they are interpolated. */
 #include "base/memory.h"
 #include "probes_parts.h"
 

@@ -1,4 +1,5 @@
-/* Rows of the table of parts: probes; growing cracks and reference values. */
+/* Registers probes with the engine: defines part_probing, their entry in the table of modules (struct part). Also
+ * advances growing cracks, and computes reference values of the initial state for probes. */
 #include "probes/probes_part.h"
 #include "base/memory.h"
 #include "fracture/fracture_part.h"

@@ -1,4 +1,5 @@
-/* Shared declarations of the files of probes: a probe bound to its particles, and its state. */
+/* Declares the types and functions that the files of probes (measurements during a run) share: a probe, the particles
+ * that it observes, and its state. */
 #ifndef CLEAVE_PROBES_PARTS
 #define CLEAVE_PROBES_PARTS
 
@@ -36,8 +37,8 @@ struct probe_memory {
     struct rigid_memory rigid; /* RIGID */
 };
 
-/* Motion of the particles of a probe at the time of a sample (probes_motion.c): stored before the step and
- * interpolated after it. */
+/* Positions and velocities of the particles of one probe at the time of a sample (line of history.csv). They are copied
+ * before a time step and interpolated to the time of the sample after it (probes_motion.c). Owned by the probe. */
 struct sampled_motion {
     bool kept;                     /* x and v are those of t and t_velocity */
     bool complete;                 /* v is interpolated to t */
@@ -45,8 +46,8 @@ struct sampled_motion {
     real *x[DIM_MAX], *v[DIM_MAX]; /* [probe.n] in the order of probe.list [m], [m/s] */
 };
 
-/* A probe of a run: its request from the scene, the particles that it observes, and its state. Capitals in comments:
- * the kinds of probes that use a member. */
+/* A probe of a run: its request from the input file, the particles that it observes, and its state. Capitals in
+ * comments: the kinds of probes that use a member. */
 struct probe {
     struct probe_request request; /* its region is kept by reference */
     bool of_history;              /* REACTION: added for a support that no probe of the scene measures; no results */
@@ -98,9 +99,8 @@ void probe_motion_store_before_step(struct probe *q, const struct observed_run *
 /* Computes the velocities of the particles of probe q in run o at the time of the sample (line of history.csv). Call it
  * after the time step. Interpolates between the velocities that probe_motion_store_before_step has copied and the
  * present ones; after the last step, extrapolates them and uses the present positions. present_velocity_time: time of
- * the present velocities, and a factor on the result that removes half a step of damping. Does nothing if
- * probe_motion_store_before_step was not called, as for equilibria: probe_particle_velocity_component then returns the
- * present velocities. */
+ * the present velocities, and a factor on the result that removes half a step of damping. Does nothing if no velocities
+ * were copied, as for equilibria; probe_particle_velocity_component then returns the present velocities. */
 void probe_motion_interpolate_to_sample_time(struct probe *q, const struct observed_run *o,
                                              const struct velocity_time *present_velocity_time);
 
@@ -233,9 +233,9 @@ void sif_probe_free(struct sif_tracked *w);
  * (stress-intensity factors), before the time step. */
 void sif_probe_store_motion_before_step(struct probe *q, const struct observed_run *o);
 
-/* Computes K_I, K_II, J and their spread between the integration contours of the SIF probe q (stress-intensity factors)
- * in run o at the time of the sample (line of history.csv), and stores them in q->memory.factors. velocity_time: time
- * of the present velocities [s]. */
+/* Computes K_I, K_II and J of the SIF probe q (stress-intensity factors) and their relative differences between its
+ * integration contours. The values are those of run o at the time of the sample (line of history.csv) and are stored in
+ * q->memory.factors. velocity_time: time of the present velocities [s]. */
 void sif_probe_compute_intensity_factors(struct probe *q, const struct observed_run *o, real velocity_time);
 
 /* Returns true if the stress-intensity factors of SIF probe q at its last sample (line of history.csv) are reliable:
@@ -306,7 +306,8 @@ void bar_probe_measure_fields(struct bar *bar, const struct observed_run *o);
  * instead. */
 void bar_probe_compute_bond_flux_stress(const struct bar *bar, const struct observed_run *o, real *flux);
 
-/* Largest number of quantities that an EXACT probe reports of a bar; they are also columns of history.csv. */
+/* Largest number of quantities that an EXACT probe (comparison of a bar with a closed-form solution) reports. Each
+ * quantity is also a column of history.csv. */
 enum { BAR_FIGURES_MAX = 16 };
 
 /* Returns the number of quantities that an EXACT probe (comparison of a bar with a closed-form solution) reports for
@@ -322,7 +323,8 @@ struct column bar_probe_value_column(enum exact_form closed_form, int value_numb
  * probes see it (particles, bonds, time). */
 void bar_probe_compute_values(struct bar *bar, const struct observed_run *o, real *value);
 
-/* Number of columns of the profile of a bar, the table of values along the bar that is written with each frame. */
+/* Number of columns of the profile of a bar, the table of values along the bar that is written with each output frame
+ * (state at one time). */
 enum { BAR_READINGS = 12 };
 
 /* Names and units of the columns of the profile of a bar. */

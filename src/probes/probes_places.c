@@ -1,4 +1,4 @@
-/* Places of probes: the particle nearest to a position, and positions on lines. */
+/* Finds the particle nearest to the position of a probe, and the positions of the points of LINE probes. */
 #include <math.h>
 
 #include "base/memory.h"

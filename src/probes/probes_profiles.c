@@ -1,4 +1,4 @@
-/* Profiles of LINE and EXACT probes as CSV files. */
+/* Writes the profiles of LINE and EXACT probes (values along a line or a bar at one time) as CSV files. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

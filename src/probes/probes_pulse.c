@@ -1,4 +1,4 @@
-/* PULSE probe: the reflected and the transmitted part of a wave packet at an interface. */
+/* Computes the results of PULSE probes: the reflected and the transmitted part of a wave packet at an interface. */
 #include <math.h>
 
 #include "base/memory.h"

@@ -1,4 +1,5 @@
-/* RIGID probe: the angle of a body that rotates as a whole, and quantities that should stay 0. */
+/* Computes the results of RIGID probes: the rotation angle of a body that moves as a rigid body, and quantities that
+ * should remain 0 in this motion. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -13,7 +14,7 @@ const struct column rigid_figure[RIGID_FIGURES] = {{"angle", "rad"},
                                                    {"angular_momentum_error", ""},
                                                    {"kinetic_energy_error", ""}};
 
-/* Argument of sums over the particles of probe q: present and reference centre of mass [m]. */
+/* Arguments of sums over the particles of probe q (indices in p): their present and reference centre of mass [m]. */
 struct rigid_sum {
     const struct probe *q;
     const struct particles *p;

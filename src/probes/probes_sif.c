@@ -1,4 +1,5 @@
-/* SIF probe: a crack tip, fixed or moving, and the integration contours around it. */
+/* Sets up and samples SIF probes (stress-intensity factors): finds the crack tip, which may move, the integration
+ * contours around it, and the fields from which the factors are computed. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -21,7 +22,8 @@ static const real pi = 3.14159265358979323846;
 const struct column sif_figure[SIF_FIGURES] = {
     {"K_I", "Pa m^(1/2)"}, {"K_II", "Pa m^(1/2)"}, {"J", "J/m^2"}, {"contour_spread", ""}};
 
-/* The crack tip of a SIF probe, and the fields from which its factors are computed. Arrays are owned. */
+/* Crack tip of one SIF probe, its integration contours, and the fields from which the stress-intensity factors are
+ * computed. Owned by the probe, and owns its arrays; released by sif_probe_free. */
 struct sif_tracked {
     struct sif_tip tip;
     struct gradient_rule rule; /* how displacement gradients are computed */

@@ -1,10 +1,11 @@
-/* SPALL probe: the first plane across a bar that neither bonds nor material points connect. */
+/* Finds, for SPALL probes, the first plane across a body that neither bonds nor material points connect. */
 #include <math.h>
 
 #include "base/memory.h"
 #include "probes_parts.h"
 
-/* A body cut into columns of particles, one spacing wide along x; plane k is between columns k and k + 1. */
+/* A body divided into columns (slices along x that are one spacing wide), and the connections between them while
+ * separation is searched. Plane k is between columns k and k + 1. Owns its arrays. */
 struct columns {
     int64_t n;
     real low, spacing;     /* centre of column 0, width of a column [m] */

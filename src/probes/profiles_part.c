@@ -1,4 +1,5 @@
-/* CSV files of LINE and EXACT probes: written with every frame, checked on a restart, removed before a new run. */
+/* Writes the CSV files of LINE and EXACT probes with every output frame, checks them at a restart, and removes them
+ * before a new run. */
 #include <stdio.h>
 #include <unistd.h>
 
@@ -6,7 +7,8 @@
 #include "output/output_files.h"
 #include "probes/probes_part.h"
 
-/* First characters of profile files: of a LINE probe and of an EXACT probe. Existing files are recognised by them. */
+/* First characters of profile files, by which existing files are recognised: [0] of a LINE probe, [1] of an EXACT
+ * probe. */
 static const char *const profile_begin[] = {"s [m],", "x [m],"};
 
 /* Writes the profile `text` of `length` bytes to file `name` in the folder with the path `folder`. Does not

@@ -1,4 +1,4 @@
-/* Largest nodal force of the first step, for PATCH probes. */
+/* Records the largest nodal force of the first step, which PATCH probes report. */
 #include <math.h>
 
 #include "probes/probes_part.h"

@@ -1,4 +1,5 @@
-/* Angular momentum of all bodies about their common centre of mass, which is conserved if no outside force acts. */
+/* Computes the angular momentum of all bodies about their common centre of mass, which is conserved if no external
+ * force acts. */
 #include <math.h>
 #include <string.h>
 
@@ -11,8 +12,8 @@ struct turning {
     real mass, moment[DIM_MAX], momentum[DIM_MAX], spin[DIM_MAX], inertia, twice_kinetic;
 };
 
-/* Least scale of angular momentum, relative to the largest one that motion of this kinetic energy and inertia can
- * have [1]. */
+/* Least value by which errors of the angular momentum are divided, as a fraction of the largest angular momentum that
+ * is possible with the kinetic energy and the moment of inertia of the bodies [1]. */
 #define LEAST_TURN 0.01
 
 /* Adds one particle or node to the moments *to of its body: mass, first moments, momentum, angular momentum about the

@@ -1,4 +1,4 @@
-/* The work of supports and applied forces between two equilibria (account.h). */
+/* Computes the work of supports and applied forces between two equilibria (account.h). */
 #include "account.h"
 
 #include <math.h>

@@ -1,11 +1,13 @@
-/* The work of supports and applied forces between two equilibria. */
+/* Declares the functions that compute the work of supports and of applied forces between two equilibria. */
 #ifndef CLEAVE_ACCOUNT
 #define CLEAVE_ACCOUNT
 
 #include "loads/loads.h"
 #include "quasistatic/statics.h"
 
-/* Displacements and forces of an equilibrium, from which the work up to the next one is computed. */
+/* Copy of one equilibrium: displacements and forces of all unknowns, applied forces and positions. The work of the
+ * loads up to the next equilibrium is computed from it. Made by work_account_store_initial_equilibrium, freed when the
+ * work is added. */
 struct work_account {
     struct field u, f;      /* [nodes] displacement [m], force [N] */
     real *applied[DIM_MAX]; /* [particles of the body] applied forces [N] */

@@ -1,4 +1,5 @@
-/* Load steps: the equilibrium at the next pseudo-time, and the balance of energy over a load increment. */
+/* Finds the equilibrium at the next pseudo-time of a run in load steps, and computes the balance of energy over a load
+ * increment. */
 #include <float.h>
 #include <math.h>
 
@@ -20,16 +21,17 @@
 
 #define GAIN_MOST 0.01 /* largest energy gain of a solution, as a share of the uncertainty of the work of loads */
 
-/* Largest number of attempts; factor on the number of substeps from one attempt to the next. */
+/* TRIES_MOST: largest number of attempts to find an equilibrium; SUBSTEPS_FACTOR: factor by which the number of
+ * substeps increases from one attempt to the next. */
 enum { TRIES_MOST = 4, SUBSTEPS_FACTOR = 4 };
 
 /* ---- predictor --------------------------------------------------------------------------------------------------- */
 
-/* Returns the relative growth of the loads from the last equilibrium to pseudo-time t [s]: the value at t divided by
- * the present value, less 1, dimensionless; used to predict displacements. Prescribed displacements are compared if
- * there are any, else applied forces, as scalar product with the present values divided by their square. Returns 0 if
- * the present values are 0. s: unknowns and increment; part: particles; before[dim][particles]: applied forces of the
- * last equilibrium [N]. */
+/* Returns the relative growth of the loads from the last equilibrium to pseudo-time t [s]: their value at t divided by
+ * the present value, less 1 [1]. It is used to predict displacements. Compares prescribed displacements if there are
+ * any, else applied forces, by the scalar product with the present values divided by their square. s: unknowns and
+ * their prescribed increment; part: particles; before[dim][particles]: applied forces of the last equilibrium [N].
+ * Returns 0 if the present values are 0. */
 static real load_growth(const struct statics *s, const struct particles *part, real t, real *const *before)
 {
     real now = 0, initial = 0;
@@ -187,9 +189,9 @@ static status solve_substeps(struct run *e, real t, int substeps, bool *crossed)
 }
 
 /* Finds the equilibrium of run e at pseudo-time t [s]. If faces pass through each other, restores the initial state and
- * divides the increment into SUBSTEPS_FACTOR times as many substeps. Returns FAILED, with a message, if they still do
- * after TRIES_MOST such divisions, or if an equilibrium is not found. One attempt only is made without contact, and for
- * bodies that yield, because yielding is not undone. */
+ * tries again with SUBSTEPS_FACTOR times as many substeps of the increment, at most TRIES_MOST attempts in all. Makes
+ * only one attempt without contact, and for bodies that yield, because yielding cannot be undone. Returns FAILED, with
+ * a message, if faces pass through each other in the last attempt, or if an equilibrium is not found. */
 static status solve_whole(struct run *e, real t)
 {
     const real from = e->statics->t;

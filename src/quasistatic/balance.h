@@ -1,4 +1,4 @@
-/* Solves for the equilibrium of a body at a pseudo-time of its load steps. */
+/* Declares the functions that find the equilibrium of a body at a given pseudo-time of its load steps. */
 #ifndef CLEAVE_BALANCE
 #define CLEAVE_BALANCE
 
@@ -18,7 +18,7 @@ status equilibrium_find_at_time(struct run *e, real pseudo_time);
  * anything is changed, returns INTERRUPTED if the run is to stop, and FAILED if the formula of a load is not finite. */
 status equilibrium_solve_without_work_account(struct run *e, real pseudo_time, real *const *present_applied_forces);
 
-/* Converts those material points of run e that lost bonds or have a high stress to peridynamic particles and finds the
+/* Converts the material points of run e that lost bonds or have a high stress to peridynamic particles, and finds the
  * equilibrium again, until no further point has to be converted. broken_bonds: number of directed bonds that have
  * broken since the last call (a bond between two particles counts twice). Returns FAILED if no equilibrium is found,
  * INTERRUPTED if the run is to stop. */

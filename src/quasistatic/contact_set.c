@@ -1,10 +1,11 @@
-/* Load steps: contact and rigid bodies in equilibrium states. The position of a rigid body follows from the
- * pseudo-time.
+/* Contact and rigid bodies in load steps (successive static equilibria). The position of a rigid body is a function of
+ * the pseudo-time.
  *
- * The set of active contacts is determined in alternation with the equilibrium (contact/contact_touch.c). During a
- * solution active contacts, pairs and positions of rigid bodies change; each change alters the contact energy while
- * nothing else moves. The energy that a solution with contact loses is therefore the work of the loads minus the
- * change of all energies, not the work of the forces along the path. */
+ * The set of active contacts (pairs that carry forces) and the equilibrium are determined alternately
+ * (contact/contact_touch.c). A solution first changes active contacts, pairs and positions of rigid bodies, which
+ * alters the contact energy while the body does not move. The energy that a solution with contact loses is therefore
+ * computed as the work of the loads minus the change of all energies, not from the work of the forces along the
+ * path. */
 #include <math.h>
 #include <stdio.h>
 

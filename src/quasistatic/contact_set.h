@@ -1,4 +1,4 @@
-/* Contact and rigid bodies in the equilibrium states of load steps. */
+/* Declares the functions for contact and rigid bodies in load steps (successive static equilibria). */
 #ifndef CLEAVE_CONTACT_SET
 #define CLEAVE_CONTACT_SET
 

@@ -1,19 +1,19 @@
-/* Crack increments of load steps.
+/* Determines the crack increments of load steps: which bonds break together, and under which load.
  *
- * On a lattice the load at which the most stretched bond reaches its critical stretch oscillates by 30 % while the tip
- * grows by one spacing, and both its mean and its envelope stay above the load of Griffith's energy balance, on any
- * lattice (lattice trapping: Thomson, Hsieh & Rana 1971); with a horizon of 3 spacings by 18 % and 50 % of G_c. A crack
- * therefore grows by several spacings at once: bonds break in the order of their ratios of stretch to critical stretch
- * until the crack area that they represent is two spacings long. The area of a bond is its energy at the critical
- * stretch divided by the crack energy per area of its material. The increment is made at the load at which the body
- * releases as much energy as the increment costs: Griffith's criterion for finite increments (as in Leguillon 2002,
- * with a stress near the strength as second condition). The bonds decide the path.
+ * If single bonds broke, the load at which the next bond reaches its critical stretch would oscillate by 30 % while the
+ * tip grows by one spacing, on any lattice (lattice trapping: Thomson, Hsieh & Rana 1971). With a horizon of 3
+ * spacings, the mean and the envelope of these loads correspond to energy release rates 18 % and 50 % above G_c. A
+ * crack therefore grows by increments of two spacings: bonds break in the order of their ratios of stretch to critical
+ * stretch until the crack area that they represent is that long. The area of a bond is its energy at the critical
+ * stretch divided by the crack energy per area of its material. An increment is made at the load at which the body
+ * releases as much energy as it costs: Griffith's criterion for finite increments (as in Leguillon 2002, with a stress
+ * near the strength as second condition). The path follows from the bonds.
  *
- * The energy release of an increment is attributed to its middle. The load of a state between two increments follows
- * from the sum of both. At the tip of a pre-crack it follows from the first increment and a fictitious previous one,
- * extrapolated from the first two. The load of a state is then exact for its crack length to second order in the
- * increment. The increment itself is made at the load at which it alone is in balance, so that no energy is left
- * over; if loads can only grow, at the larger one of both loads. */
+ * The energy release of an increment belongs to its middle; the load of the state between two increments follows from
+ * the sum of both. At the tip of a pre-crack the previous increment is fictitious, extrapolated from the first two. The
+ * load of a state is thus exact for its crack length to second order in the increment. The increment itself is made at
+ * the load at which it alone is in balance, so that no energy is left over; if loads can only grow, at the larger one
+ * of both loads. */
 #include <math.h>
 
 #include "crack_increment.h"
@@ -33,10 +33,11 @@
 #define REMNANT 0.3    /* share of the largest stretch ratio within which bonds break at the end of SIF-driven fronts */
 #define DUE_ERROR 2e-3 /* relative error of the load size of an increment */
 
-/* Length of a crack increment [spacings]; largest number of secant steps for its load size. */
+/* INCREMENT_SPACINGS: length of a crack increment [spacings]; SECANTS_MOST: largest number of secant steps in the
+ * search for the load size of an increment. */
 enum { INCREMENT_SPACINGS = 2, SECANTS_MOST = 6 };
-/* Number of spacings across the section of a bar in space: line, which parts at once. With the default load steps of a
- * quarter spacing its largest load is right to 1 %. */
+/* Number of spacings of crack growth for which the section of a bar (space: line) counts, since it breaks as a whole.
+ * With the default load steps, this value gives the largest load of a bar with an error of 1 %. */
 #define SPACINGS_OF_BAR 25
 
 /* ---- area of a crack increment ----------------------------------------------------------------------------------- */

@@ -1,4 +1,5 @@
-/* Crack increments, sets of bonds that break together: how load steps find and apply them. */
+/* Declares how load steps (successive static equilibria) find and apply crack increments: sets of bonds that break
+ * together. */
 #ifndef CLEAVE_CRACK_INCREMENT
 #define CLEAVE_CRACK_INCREMENT
 
@@ -11,9 +12,9 @@
 real crack_area_fraction_inside_modelled_body(const struct crack_tips *tips, const struct bond_source *bond_source,
                                               int plane_axis);
 
-/* Returns the crack area [m^2] that is created if all cracks of run e grow by one spacing along their whole fronts,
- * halved on planes of symmetry. Without a pre-crack the front in three dimensions is the shortest side of the body. A
- * bar in one dimension (`space: line`) counts as 25 spacings wide. */
+/* Returns the crack area [m^2] that is created if all cracks of run e grow by one particle spacing along their whole
+ * fronts; on planes of symmetry half of this area. In a 3D body without a pre-crack the front has the length of the
+ * shortest side of the body. A bar in one dimension (`space: line`) counts as 25 spacings wide. */
 real crack_area_of_growth_by_one_spacing(const struct run *e);
 
 /* Determines the next crack increment of run e (the next piece of crack growth) from trial equilibria (solutions that

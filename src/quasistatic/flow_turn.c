@@ -1,4 +1,5 @@
-/* The turn of the direction of plastic flow, and the fall of the yield stress, within a load step. */
+/* Monitors material points that yield in load steps: by which angle the direction of plastic flow turns within a load
+ * step, and by how much the yield stress decreases. Both cause errors that depend on the number of load steps. */
 #include "flow_turn.h"
 
 #include <math.h>
@@ -8,11 +9,11 @@
 #include "kernels/laws/flows.h"
 #include "kernels/laws/law_update.h"
 
-/* Largest turn of the direction of flow in a load step without a warning [degrees], and the largest error of the stress
- * per degree [%]. Measured along two straight segments of strain, 20 to 150 degrees apart, the second of 0.7 to 10
- * yield strains in 1 to 64 load steps, with and without hardening and back stress: the deviatoric stress at the end
- * differs from that of 4000 steps by 0.2 to 0.5 % for each degree by which flow turns in a step, up to 22 % in all, and
- * half as much if the number of steps is doubled. */
+/* TURN_MOST: largest turn of the direction of plastic flow in a load step without a warning [degrees];
+ * ERROR_PER_DEGREE, ERROR_MOST: error of the stress per degree of turn, and its largest value [%]. Measured against
+ * solutions with 4000 steps along two straight strain segments, 20 to 150 degrees apart, the second of 0.7 to 10 yield
+ * strains in 1 to 64 load steps, with and without hardening and back stress. The deviatoric stress at the end then has
+ * an error of 0.2 to 0.5 % for each degree, at most 22 %, and half of it with twice as many steps. */
 #define TURN_MOST 10.0
 #define ERROR_PER_DEGREE 0.5
 #define ERROR_MOST 22.0
@@ -37,10 +38,10 @@ static void deviator(real *x)
     for (int c = 0; c < 3; c++) x[c] -= mean;
 }
 
-/* Returns the stress zz [Pa] that Hooke's law gives for the total strain of a sheet in plane stress, including its
- * change of thickness by plastic flow. It is 0 in an elastic sheet. Without this stress the direction of flow would
- * seem to turn in a bar that yields in tension and compression alternately. poisson: Poisson's ratio; corrections: sum
- * of the normal components xx and yy of the plastic stress correction [Pa]. */
+/* Returns the elastic stress zz [Pa] by Hooke's law for the total strain of a body in plane stress, including its
+ * change of thickness by plastic flow; 0 without plastic flow. Without this stress, the direction of flow would seem to
+ * turn in a bar that yields in tension and compression alternately. poisson: Poisson's ratio; corrections: sum of the
+ * normal components xx and yy of the plastic stress correction [Pa]. */
 static real elastic_stress_of_plastic_thickness(real poisson, real corrections)
 {
     return -(1 - 2 * poisson) / (1 + poisson) * corrections;
@@ -75,10 +76,10 @@ static struct flow_start point_state(const struct particles *p, const struct ela
     return state;
 }
 
-/* Returns by which angle the direction of plastic flow of a point turns in a load step [rad], from where it begins to
- * flow to the end of the step. It begins to flow where the trial stress, which grows in proportion from the start of
- * the step, reaches the yield surface. start, end: states of the point at the two ends of the step; the point must flow
- * in it. */
+/* Returns the angle by which the direction of plastic flow of a point turns in a load step [rad], between the onset of
+ * flow and the end of the step. Flow begins where the trial stress, which grows in proportion from the start of the
+ * step, reaches the yield surface. start, end: states of the point at the start and the end of the step, in which the
+ * point must flow. */
 static real turn_between(const struct flow_start *start, const struct flow_start *end)
 {
     real trial[SYM_MAX], first[SYM_MAX];

@@ -1,4 +1,5 @@
-/* The load size, and the load size at which crack increments are in balance. */
+/* Computes the load size, a scalar measure of the loads (norm of prescribed displacements or of applied forces). Also
+ * computes the load size at which crack increments release as much energy as they cost. */
 #include <math.h>
 
 #include "load_size.h"

@@ -1,5 +1,5 @@
-/* The load size, a number that is proportional to the loads, and the load size at which crack increments are in
- * balance. */
+/* Declares the functions for the load size (a number proportional to the loads) at which a crack increment releases as
+ * much energy as it costs. */
 #ifndef CLEAVE_LOAD_SIZE
 #define CLEAVE_LOAD_SIZE
 
@@ -23,9 +23,10 @@ real crack_increments_load_size_at_joint_balance(const struct crack_increment *i
  * releases as much energy as it costs; INFINITY if it has no cost or releases no energy. */
 real crack_increment_load_size_at_energy_balance(const struct crack_increment *increment);
 
-/* Returns a fictitious crack increment before the first one, for crack_increments_load_size_at_joint_balance, as if the
- * pre-crack had reached its length by increments. Its cost is that of *first; its release is extrapolated linearly from
- * those of the first two increments, *first and *second, and is at least 0. */
+/* Returns a fictitious crack increment that precedes the first one, as if the pre-crack had reached its length by
+ * increments; for crack_increments_load_size_at_joint_balance. first, second: the first two increments. The cost of the
+ * result is that of *first; its release is extrapolated linearly from the releases of *first and *second, and is at
+ * least 0. */
 struct crack_increment crack_increment_extrapolate_before_first(const struct crack_increment *first,
                                                                 const struct crack_increment *second);
 

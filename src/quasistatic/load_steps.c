@@ -1,5 +1,5 @@
-/* Load steps: control of the loads through a sequence of equilibrium states, with crack increments (crack_increment.c)
- * between them. */
+/* Controls the loads through a sequence of equilibrium states (load steps), with crack increments (crack_increment.c)
+ * between these states. */
 #include <math.h>
 #include <stdio.h>
 
@@ -216,15 +216,15 @@ static status step_by_opening(struct run *e)
 
 /* ---- the loop ---------------------------------------------------------------------------------------------------- */
 
-/* Prepares a load step of run e such that its results depend only on data of the checkpoint: a resumed run must compute
- * the same bits. Recomputes the free rigid motions of the unconstrained fragments from their present positions.
+/* Prepares a load step of run e, such that its results depend only on data of the checkpoint and a resumed run is
+ * bitwise equal. Recomputes the free rigid motions of the unconstrained fragments from their present positions.
  * Discards a preconditioner that a resumed run could not rebuild: one made before bonds broke, or one with the
  * stiffness of contact, which depends on the positions at that time.
  *
- * Converts the material points that rigid bodies come near until pseudo-time t [s] before these bodies move: they act
- * on peridynamic particles only, and would else pass into the body without work. Then finds the equilibrium with these
- * particles at the present pseudo-time, and the next crack increment if there was one. Returns FAILED, with a message,
- * if an equilibrium is not found. */
+ * Then converts to peridynamic particles the material points that rigid bodies come near until pseudo-time t [s], since
+ * rigid bodies act on particles only and would pass through points without work. If points were converted, finds the
+ * equilibrium at the present pseudo-time again, and the next crack increment if there was one. Returns FAILED, with a
+ * message, if an equilibrium is not found. */
 static status load_step_begin(struct run *e, real t)
 {
     struct statics *s = e->statics;
@@ -334,9 +334,9 @@ static void warn_large_flow(struct warnings *to, const struct particles *p)
     if (most > FLOW_LARGE) warnings_add_and_print(to, text);
 }
 
-/* Adds to `to`, and prints, a warning if points of a bar (space: line) flow without hardening: the plastic strain of a
- * bar in load steps is then not unique, and one cell takes the whole of it. m: materials of the scene, one for each
- * index in p->material. */
+/* Adds to `to`, and prints, a warning if points of a bar (space: line) flow without hardening. The plastic strain of
+ * such a bar in load steps is not unique: all of it occurs in one cell. m: materials of the scene, one for each index
+ * in p->material. */
 static void warn_of_flow_in_one_cell(struct warnings *to, const struct particles *p, const struct material *m)
 {
     if (p->dim > 1 || !p->plastic_correction[0]) return;

@@ -1,4 +1,5 @@
-/* The gauge of load steps that control an opening: its opening, and the search for loads that give a wanted one. */
+/* Control of load steps by the opening of a crack: computes the opening, the increase of the distance between two gauge
+ * particles on both sides of the crack, and searches for the loads that result in a prescribed opening. */
 #include "opening.h"
 
 #include <math.h>
@@ -13,7 +14,8 @@
 #define OPENING_FAR 1e-2   /* relative error of a prescribed opening that ends the run */
 #define FAR_OFF 2.0        /* largest distance of a gauge position from the body [spacings] */
 
-/* Largest numbers of secant steps, and of steps within a bracket. */
+/* Largest numbers of iterations in the search for the loads of an opening. SECANTS_MOST: steps of the secant method;
+ * BRACKETS_MOST: steps for bodies that yield, within a bracket. */
 enum { SECANTS_MOST = 12, BRACKETS_MOST = 60 };
 
 status crack_gauge_check_positions(const struct scene *scene, const struct particles *part)
@@ -54,8 +56,9 @@ bool body_may_yield(const struct particles *part, const struct bonds *bonds)
     return part->plastic_correction[0] || bonds->plastic_stretch;
 }
 
-/* The search for the pseudo-time at which the opening equals a wanted one. Where points yield, the opening grows with
- * the loads, but its slope changes by a factor of hundreds: the secant method is then confined to a bracket. */
+/* State of one search for the pseudo-time at which the opening of a yielding body equals a prescribed opening. Since
+ * the slope of the opening over the pseudo-time changes by a factor of hundreds where points yield, the secant method
+ * is confined to a bracket as soon as there is one. */
 struct opening_search {
     real t[2];      /* the last two pseudo-times, or the ends of the bracket: opening too small, too large [s] */
     real differ[2]; /* opening at these times minus the wanted opening [m] */

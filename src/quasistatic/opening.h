@@ -1,5 +1,5 @@
-/* The gauge of load steps that control an opening: two particles, on both sides of a crack, whose distance increases.
- */
+/* Declares the functions for load steps that are controlled by the opening of a crack: the increase of the distance
+ * between two gauge particles, one on each side of the crack. */
 #ifndef CLEAVE_OPENING
 #define CLEAVE_OPENING
 

@@ -1,5 +1,6 @@
-/* Static solutions with material points: time steps on the grid with loads that grow and then stay constant, and
- * velocities damped near the critical damping of the lowest mode of the body. */
+/* Finds static equilibria of bodies with material points by dynamic relaxation: time steps on the grid in which the
+ * loads grow and then stay constant, with velocities damped near the critical damping of the lowest mode of the
+ * body. */
 #include <math.h>
 
 #include "relaxation.h"

@@ -1,4 +1,5 @@
-/* Static solutions with material points by damped time steps on the grid. */
+/* Declares the static solver `relaxation`, which finds equilibria of material points by damped time steps on the
+ * grid. */
 #ifndef CLEAVE_ENGINE_RELAXATION
 #define CLEAVE_ENGINE_RELAXATION
 

@@ -1,7 +1,7 @@
-/* Dynamic release of an unstable crack (`steps.then: explicit`). If a crack increment under fixed loads is followed by
- * another one, the motion of the body is integrated in time. Loads and supports stay constant until no bond has broken
- * for the time in which waves cross the body several times; then the motion is damped, and the equilibrium is found
- * from there. */
+/* Computes the dynamic release of an unstable crack in load steps (key `steps.then: explicit`). If a crack increment
+ * under fixed loads is followed by another one, the motion of the body is integrated in time while loads and supports
+ * stay constant. When no bond has broken for the time in which waves cross the body several times, the motion is
+ * damped, and the equilibrium is found from there. */
 #include <math.h>
 #include <string.h>
 
@@ -25,11 +25,12 @@
 #define CROSSINGS_MOST 200.0  /* longest time of a release, in crossing times */
 #define MOTION_SMALL 1e-5     /* ratio of kinetic to strain energy of a body at rest */
 enum { ENERGY_STEPS = 20 };   /* time steps between checks of the energies */
-/* Number of time steps of the clock of a release, so large that no frame or sample is due. */
+/* Number of time steps of a dynamic release, so large that no output frame or sample of history.csv is written before
+ * its end. */
 #define RELEASE_STEPS_MOST (INT64_MAX / 4)
 
-/* Sets boundary[scene->boundaries] to copies of the boundaries of the scene in which loads keep their values at
- * pseudo-time t [s] and supports are at rest, so that a motion in time sees constant loads. */
+/* Sets boundary[scene->boundaries] to copies of the boundaries of the scene with constant values: loads as at
+ * pseudo-time t [s], supports at rest. They apply while the motion of the body is integrated in time. */
 static void boundaries_freeze(const struct scene *scene, struct boundary *boundary, real t)
 {
     for (int b = 0; b < scene->boundaries; b++) {
@@ -57,8 +58,8 @@ static void boundaries_restore(struct boundary *boundary, const struct scene *sc
     array_copy(boundary, scene->boundary, scene->boundaries, sizeof *boundary);
 }
 
-/* Fixes all rigid bodies of the scene if `hold` is true; else lets those with a prescribed velocity move with it
- * again. rigid: the rigid bodies, in the order of the scene. */
+/* Fixes all rigid bodies of the scene if `hold` is true; else restores the prescribed velocity of those that have one.
+ * rigid: the rigid bodies, in the order of the scene. */
 static void rigids_freeze(const struct scene *scene, struct rigid_set *rigid, bool hold)
 {
     for (int k = 0; k < scene->rigids; k++) {

@@ -1,10 +1,11 @@
-/* Tips of SIF-driven cracks: position, stress-intensity factors, direction of growth.
+/* Tips of SIF-driven cracks, whose growth direction follows from their stress-intensity factors: position, factors and
+ * direction of growth.
  *
  * A tip grows in the direction of the largest hoop stress of its stress-intensity factors (Erdogan & Sih 1963;
- * crack_kink_angle_from_sif). The factors are fitted in a frame that follows the direction of growth over a smoothing
- * length: a tip that turned at once, and whose factors were then fitted in a ring that its kink has not yet crossed,
- * would oscillate (fracture/growth.h). Where a pre-crack kinks, the crack grows straight on until the ring contains
- * nothing but the new segment. */
+ * crack_kink_angle_from_sif). The factors are fitted to displacements in a ring around the tip, along axes that follow
+ * the direction of growth over a smoothing length. If they turned at once, the ring would still contain the kink behind
+ * the tip, and the direction would oscillate (fracture/growth.h). After a kink at a pre-crack, the crack grows straight
+ * until the ring contains only the new segment. */
 #include <math.h>
 #include <string.h>
 

@@ -74,17 +74,17 @@ static inline real crack_tip_plane_point_distance(const real *point, const real 
  * plane: the plane in which crack tips move, with its particle spacing and the planes of symmetry. */
 bool sif_tip_path_end_is_on_symmetry_plane(const struct crack_tip_plane *plane, const struct sif_crack_tip *tip);
 
-/* Computes the stress-intensity factors K_I and K_II of a tip and stores them in K[] [Pa m^(1/2)]. They follow from a
- * fit of crack-tip fields to the displacements around the tip (fracture/tip_fit.h), in a frame whose x axis is
- * tip->along. faces_in_contact: crack faces are in contact (crack_faces_are_in_contact), which makes K_I at least 0;
+/* Computes the stress-intensity factors K_I and K_II of a crack tip and stores them in K[] [Pa m^(1/2)]. They follow
+ * from a fit of crack-tip fields to the displacements around the tip (fracture/tip_fit.h), in coordinates whose x axis
+ * is tip->along. faces_in_contact: crack faces are in contact (crack_faces_are_in_contact), which makes K_I at least 0;
  * cracks: data common to all tips; p: particles. Returns false if too few particles are near the tip. */
 bool sif_tip_compute_intensity_factors(const struct sif_cracks *cracks, const struct particles *p,
                                        const struct sif_crack_tip *tip, bool faces_in_contact, real K[2]);
 
-/* Computes the end of the next increment of a tip and stores its two coordinates in the plane of the tips in
- * position[2] [m]. The increment has the direction tip->heading. It is 2 particle spacings long or, if the key
- * steps.energy is set, as long as that energy suffices for; it ends at the first other crack that it meets. l: all
- * tips; p: particles. */
+/* Computes the end of the next increment of a crack tip and stores its two coordinates in the plane of the tips in
+ * position[2] [m]. The increment has the direction tip->heading. Its length is 2 particle spacings or, if the key
+ * steps.energy is set, that for which this energy suffices; the increment ends where it intersects another crack. l:
+ * all tips; p: particles. */
 void sif_tip_compute_end_of_next_increment(const struct sif_cracks *l, const struct particles *p,
                                            const struct sif_crack_tip *tip, real position[2]);
 

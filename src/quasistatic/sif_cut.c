@@ -1,5 +1,5 @@
-/* Increments of SIF-driven cracks: the bonds that cross the next segments of their paths, and the load size at which
- * each increment is due. */
+/* Determines the increments of SIF-driven cracks (growth direction from stress-intensity factors): the bonds that cross
+ * the next segments of their paths, and the load size at which each increment is made. */
 #include <math.h>
 
 #include "sif_cracks.h"

@@ -1,11 +1,10 @@
-/* The plane in which the tips of SIF-driven cracks move: that of a plane body, or in space the plane across the crack
- * fronts.
+/* The plane in which the tips of SIF-driven cracks (growth direction from stress-intensity factors) move: the plane of
+ * a 2D body, or in 3D a plane perpendicular to the crack fronts.
  *
- * In space a front grows as a whole and stays straight; it runs through the body, and its stress-intensity factors
- * are means over its length. Specimens of constant section and through cracks of plates have such fronts; mode III
- * and the effect of the free sides on a front are neglected. The analysis takes place in the plane across the front,
- * onto which particles are projected: a bond is cut in space if its projection is cut in the plane, and lengths
- * become areas by the width of the body along the front. */
+ * In 3D a crack front extends through the body, grows as a whole and stays straight, as in specimens of constant
+ * section and through cracks of plates. Its stress-intensity factors are means along the front; mode III and the effect
+ * of the free sides are neglected. Particles are projected onto the plane: a bond is cut in 3D if its projection is cut
+ * in the plane, and lengths in the plane times the width of the body along the front are areas. */
 #include <math.h>
 
 #include "sif_cracks.h"
@@ -184,8 +183,8 @@ const char *crack_tip_plane_find_or_return_reason(struct crack_tip_plane *plane,
 
 /* ---- areas ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the share (0 to 1) of particle i of p that belongs to the body: 1, halved for each plane of symmetry that is
- * perpendicular to the crack front of `plane` and passes through the particle. */
+/* Returns the fraction of the volume of particle i of p that belongs to the modelled body [1]: 1, halved for each plane
+ * of symmetry that is perpendicular to the crack front of `plane` and contains the centre of the particle. */
 static real share_beside_mirrors(const struct crack_tip_plane *plane, const struct particles *p, int64_t i)
 {
     real share = 1;

@@ -1,4 +1,5 @@
-/* Start of SIF-driven cracks: which pre-cracks have such tips, and where the tips start. */
+/* Starts SIF-driven cracks: selects the pre-cracks whose tips stress-intensity factors direct, and sets the initial
+ * positions of these tips. */
 #include <math.h>
 #include <string.h>
 
@@ -10,12 +11,14 @@
 #define HERE 1e-6    /* largest distance of the tip from the end of its pre-crack [spacings] */
 #define ON_ROW 0.05  /* largest distance of a row of particles from a crack along it [spacings] */
 #define ROW_SEEN 8.0 /* length ahead of the tip in which particles are examined [spacings] */
-/* Smallest distance of rows of particles: that of rows along a lattice axis, not a diagonal [spacings]. */
+/* Least distance of the crack from the next row of particles, for a tip that lies on a row to be moved [spacings]. Rows
+ * along a lattice axis are 1 apart, rows along a diagonal less. */
 #define ROWS_APART 0.9
 enum { ROW_LEAST = 4 }; /* particles of a row along the crack */
 
-/* Stores in tip->length_behind the length [m] of the longest pre-crack, among those of the scene in l, that ends at
- * most HERE spacings from the tip, and in tip->reversed whether the tip is at the first corner of a pre-crack. */
+/* Compares the tip with both ends of every pre-crack of the scene of l; an end within HERE spacings of the tip
+ * coincides with it. Stores in tip->length_behind the largest length of the pre-cracks that end there [m], and sets
+ * tip->reversed to true if such an end is the first corner of its pre-crack. */
 static void crack_behind_tip(const struct sif_cracks *l, struct sif_crack_tip *tip)
 {
     const struct scene *s = l->scene;

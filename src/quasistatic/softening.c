@@ -1,4 +1,5 @@
-/* Bonds that soften in load steps (softening.h). */
+/* Collects the softening bonds of a load step, computes the energy that they dissipate, and updates their largest
+ * stretches and weights at equilibria (softening.h). */
 #include "softening.h"
 
 #include <math.h>
@@ -9,12 +10,13 @@
 #include "kernels/pd/state_driving.h"
 
 #define FACTOR_ERROR 1e-10 /* relative error of a factor */
-/* Least weight of a bond of a state-based model divided by the weight before it softened [1]. */
+/* Smallest weight of a softening bond in a state-based model, divided by its weight before softening [1]. It is
+ * positive, since the weight 0 marks a broken bond. */
 #define LEAST_WEIGHT 1e-9
 enum { BISECTIONS_MOST = 100 }; /* largest number of bisections for a factor */
 
-/* Loop over the intact bonds that have begun to soften: row `row` of all rows, and the iterator `it` over the bonds of
- * this row. */
+/* Loops over the intact bonds of b that have begun to soften. row: receives the index of a bond row (bonds of one
+ * particle); it: iterator whose member `bond` is the present bond. */
 #define FOR_SOFTENING_BONDS(b, row, it)                                                                                \
     for (int64_t row = 0; row < (b)->rows; row++)                                                                      \
         for (struct bond_iterator it = bond_iterator_of_row(b, row);                                                   \

@@ -1,21 +1,23 @@
-/* Bonds that soften in load steps: between two equilibria they are springs of the secant stiffness that belongs to a
- * largest stretch k, which the search for the next equilibrium chooses (softening_step.c). In state-based models k
- * gives their weight (kernels/pd/state_soften.c). */
+/* Declares the storage of softening bonds in load steps (successive static equilibria). Between two equilibria such a
+ * bond is a spring. Its secant stiffness belongs to a largest stretch k, which the search for the next equilibrium
+ * chooses (softening_step.c). In state-based models k determines the weight of the bond (kernels/pd/state_soften.c). */
 #ifndef CLEAVE_QUASISTATIC_SOFTENING
 #define CLEAVE_QUASISTATIC_SOFTENING
 
 #include "bonds/bonds.h"
 
-/* A directed bond that softens, or may begin to. settled: largest stretch k of the last equilibrium, at least the
- * onset; onset, end: stretches at which it begins to soften and breaks [1]; energy: the share of its row in its energy
- * at stretch 1 [J], 1/2 c V V w r, or in state-based models what its whole damage sets free. */
+/* A directed bond that softens or may begin to soften in load steps. settled: its largest stretch at the last
+ * equilibrium, at least `onset`; onset, end: stretches at which the bond begins to soften and at which it breaks [1].
+ * energy: factor [J] by which the normalised dissipation of its softening is multiplied; in bond-based models half of
+ * stiffness times weight times length, since the other row of the bond has the other half. */
 struct softening_bond {
     int64_t entry, row;               /* in the bond storage */
     real stretch;                     /* of the body at a factor of 1 [1] */
     real settled, onset, end, energy; /* k of the last equilibrium, at least the onset [1] */
 };
 
-/* The bonds of a run that soften or may begin to. curve: shape of softening, kept by reference. */
+/* List of the bonds of a run that soften or may begin to soften, for one load step. curve: shape of the softening law,
+ * kept by reference. */
 struct softening_bond_list {
     int64_t n;
     struct softening_bond *bond; /* [n] owned */

@@ -1,17 +1,19 @@
-/* Load steps of bodies whose bonds soften. An equilibrium is a stationary point of the sum of phi over all bonds: with
- * the largest stretch k_0 of a bond at the last equilibrium, its energy psi and dissipation D (data/softening.h),
+/* Finds equilibria of bodies whose bonds soften, one for each load step. An equilibrium is a stationary point
+ * of the sum over all bonds of phi(s), a function of the stretch s. With the largest stretch k_0 of the bond
+ * at the last equilibrium, its stored energy psi and its dissipated energy D (data/softening.h),
  *
  *     phi(s) = psi(s, k_0) for s <= k_0,   psi(s, s) + D(s) - D(k_0) beyond
  *
- * It is found by iteration on secants: with k fixed, bonds are springs, and the body has one equilibrium, which the
- * solver of all load steps finds. Under control by energy its displacements are then scaled by the factor at which
- * bonds that follow them dissipate the wanted energy, which fixes new k, and the loads are scaled likewise. Loads may
- * fall, but dissipation grows, so that the path is followed through snap-back (Gutierrez 2004). Under control by loads
- * the factor is that of the loads. The search ends when the forces with k = max(k_0, s) are balanced.
+ * The iteration uses secant stiffnesses: with a fixed largest stretch k, each bond is a spring, and the
+ * solver of all load steps finds the only equilibrium of the springs. Under energy control the displacements
+ * are then scaled such that bonds stretched in proportion dissipate the given energy; this determines new k,
+ * and the loads are scaled by the same factor. Loads may decrease while the dissipation grows, so that the
+ * path is followed through snap-back (Gutierrez 2004). Under load control the factor is the ratio of the
+ * loads. The iteration ends when the forces with k = max(k_0, s) are balanced.
  *
- * Where a strength surface starts the softening, an equilibrium ends no later than when the next particle reaches it:
- * the factor is at most the one at which its stress does. Its bonds then begin from their stretches at this
- * equilibrium. */
+ * Where a strength surface starts the softening, the factor is limited to the value at which the stress of
+ * the next particle reaches its strength surface. The bonds of this particle then begin to soften from their
+ * stretches at this equilibrium. */
 #include "softening_step.h"
 
 #include <math.h>
@@ -39,10 +41,13 @@
 #define FIRST_SHARE 1e-3   /* share of the energy of a load step that the first one dissipates */
 #define AT_SURFACE 1.002   /* ratio of stress to strength at which an equilibrium ends [1] */
 
-/* Largest numbers of iterations of an equilibrium, of attempts, and of steps of the search for a factor. */
+/* ITERATIONS_MOST: largest number of secant iterations for an equilibrium. TRIES_MOST: largest number of attempts at a
+ * load step, each with half the energy of the previous one. GROWTHS_MOST: largest number of increases of the factor on
+ * the displacements. */
 enum { ITERATIONS_MOST = 400, TRIES_MOST = 5, GROWTHS_MOST = 200 };
 
-/* A search for the next equilibrium. Pointers are borrowed. */
+/* State of the iteration for the equilibrium that ends one load step with softening bonds. It lives for one attempt.
+ * The solver, bonds, particles and bond source are borrowed; the list of softening bonds is owned. */
 struct search {
     struct newton_solver *q;
     struct bonds *bonds;
@@ -55,8 +60,8 @@ struct search {
     real residual; /* of the last state, with k = max(k_0, s) [1] */
 };
 
-/* Sets the displacements of the body in the search f to `factor` times those of the last solution, f->q->u. Also
- * computes forces there, which are not used. */
+/* Sets the displacements of the body in the search f to `factor` [1] times those of the last solution, f->q->u. Calls
+ * the force function of the solver for this, which moves the particles; the forces are not used. */
 static void body_scale(const struct search *f, real factor)
 {
     struct newton_solver *q = f->q;
@@ -73,12 +78,11 @@ static real factor_at_surface(const struct search *f)
     return ratio > 0 ? AT_SURFACE / ratio : INFINITY;
 }
 
-/* Returns the dimensionless factor on the displacements of the last solution of the search f at which bonds have
- * dissipated the energy f->spent in this step. The factor is limited to `most` and to the factor at which the next
- * particle reaches its strength surface. If f->spent is INFINITY (the loads are given), the factor is `most`, which a
- * strength surface reduces at most to `least`. Sets the largest stretches of the bonds to those at this factor. most:
- * loads at the end of the step divided by the present loads; least: loads of the last equilibrium divided by the
- * present loads. f->at_end: set to true if the factor is `most`. */
+/* Chooses the factor on the displacements of the last solution [1] at which bonds have dissipated the energy f->spent
+ * of the load step, and returns it. The factor is at most `most`, and at most the one at which the next particle
+ * reaches its strength surface. With given loads (f->spent INFINITY) the factor is `most`; a strength surface reduces
+ * it at most to `least`. most, least: loads at the end of the step, and at the last equilibrium, divided by the present
+ * loads [1]. Stores the largest stretches of the bonds at this factor, and sets f->at_end to whether it is `most`. */
 static real secants_choose(struct search *f, real most, real least)
 {
     const bool given = !isfinite(f->spent);
@@ -152,9 +156,10 @@ static status search_run(struct run *e, struct search *f)
                                          : "steps.control: energy, which can follow a falling load");
 }
 
-/* Adds to the fracture energy the energy that neighbourhoods of state-based models have lost by softening since the
- * last equilibrium, computed at the mean of the positions then and now. loads: list of mirror images; before[dim]:
- * positions of the particles p at the last equilibrium [m]. Does nothing in bond-based models. b: all bonds. */
+/* Adds the energy that neighbourhoods of state-based models have lost by softening since the last equilibrium to the
+ * fracture energy of the bonds b. The energy is computed at the mean of the present positions of the particles p and
+ * before[dim], their positions at the last equilibrium [m]. loads: list of mirror images. Does nothing in bond-based
+ * models. */
 static void family_losses_add(struct bonds *b, const struct particles *p, const struct loads *loads,
                               real *const *before)
 {
@@ -210,11 +215,11 @@ real softening_materials_least_toughness(const struct scene *s, const struct bon
     return least;
 }
 
-/* Makes one load step of run e, whose bonds soften. Under energy control, bonds dissipate a given energy in each step.
- * If no equilibrium is found, the search is repeated with a half, a quarter .. of this energy. The first step under
- * energy control dissipates only the share FIRST_SHARE of the energy: on a coarse lattice loads may be largest where
- * bonds begin to soften, and the work over a step is computed from both its ends. pseudo_time: pseudo-time at the end
- * of the step under other controls [s]. Returns FAILED, with a message, if no equilibrium is found. */
+/* Makes one load step of run e, whose bonds soften. Under energy control the bonds dissipate a given energy in each
+ * step; if no equilibrium is found, the step is repeated with a half, a quarter .. of it, in at most TRIES_MOST
+ * attempts. The first step dissipates only the fraction FIRST_SHARE, since on a coarse lattice the loads may be largest
+ * where bonds begin to soften. pseudo_time: end of the step under other controls [s]. Returns FAILED, with a message,
+ * if no equilibrium is found. */
 status load_step_solve_with_softening_bonds(struct run *e, real pseudo_time)
 {
     struct statics *s = e->statics;

@@ -1,4 +1,4 @@
-/* Load steps of bodies whose bonds soften. */
+/* Declares the load step of bodies whose bonds soften. */
 #ifndef CLEAVE_SOFTENING_STEP
 #define CLEAVE_SOFTENING_STEP
 

@@ -1,5 +1,5 @@
-/* Static equilibrium of a scene: the loop over the iterations of the solvers (solver/solver.h), and warnings about
- * their result. */
+/* Finds the static equilibrium of the bodies of an input file (scene): iterates the solvers (solver/solver.h) until
+ * they converge, and adds warnings about their result. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -103,7 +103,8 @@ static void warn_large_rotation(struct warnings *to, const struct bonds *b, cons
     if (falsified > TURN_STRAIN_MOST * largest) warnings_add_and_print(to, text);
 }
 
-/* Strain above which linear elasticity does not describe a solid [1]; a limit by judgement. */
+/* Largest stress divided by Young's modulus up to which a solution of linear elasticity is accepted without a warning
+ * [1]; chosen by judgement. */
 #define STRAIN_LARGE 0.1
 
 /* Adds a warning to *to if a stress of particles p exceeds STRAIN_LARGE times Young's modulus of its material, beyond
@@ -123,13 +124,15 @@ static void warn_large_strain(struct warnings *to, const struct particles *p, co
     if (!(most <= STRAIN_LARGE)) warnings_add_and_print(to, text);
 }
 
-/* Closing divided by the largest strain of the body above which faces have met; it reaches 2.6 at corners [1]. */
+/* Ratio of the closing of a crack (struct closing) to the largest strain of the body, above which the crack faces are
+ * reported to pass through each other [1]. Without such contact the ratio is up to 2.6 at corners. */
 #define CLOSED 3
 #define NEXT 1.2 /* largest reference distance of neighbours across a crack face [spacings] */
 
-/* How far crack faces have closed: the largest shortening [1] of the distance between neighbours on both sides of a
- * crack, beyond the width of a notch, and the position [m] midway between these neighbours; the largest change of
- * distance [1] between neighbours that no crack separates. */
+/* How far crack faces have closed in a static equilibrium. most: largest shortening of the distance of two
+ * neighbours on opposite faces, less the width of the crack, divided by their reference distance [1]; place:
+ * point midway between them [m]; strain: largest |change| of the distance of neighbours without a crack
+ * between them, likewise divided [1]. */
 struct closing {
     real most, place[DIM_MAX], strain;
 };

@@ -1,6 +1,6 @@
-/* The linear stiffness of bonds, cells and contact as a sparse block matrix, and the preconditioner that is made from
- * it. State-based models are stiffer than the springs of their bonds; the equilibrium is that of their actual forces,
- * and the matrix affects only the rate of convergence. */
+/* Assembles the linear stiffness of bonds, cells and contact as a sparse block matrix, and builds the preconditioner of
+ * load steps from it. State-based models are stiffer than the springs of their bonds; the equilibrium is that of their
+ * actual forces, and the matrix affects only the rate of convergence. */
 #include <math.h>
 #include <string.h>
 
@@ -42,8 +42,8 @@ static void entry_add(struct springs *s, int64_t row, int64_t column, const real
 
 /* ---- bonds ------------------------------------------------------------------------------------------------------- */
 
-/* The unknowns that determine the displacement of a particle, with their weights: that of a peridynamic particle is its
- * own, that of a point of the mesh follows from the corners of its cell. */
+/* The unknowns on which the displacement of one particle depends, with their weights [1]. A peridynamic particle has an
+ * unknown of its own, with the weight 1; a material point of the mesh has the nodes of its cell. */
 struct movers {
     int n;
     int64_t node[CORNERS_MAX]; /* [n] unknowns */
@@ -198,8 +198,8 @@ static int64_t row_sort(struct block_matrix *a, int64_t first, int64_t end)
     return kept - first;
 }
 
-/* Moves the rows of the matrix a together after entries of one column have been added up, and updates a->first.
- * kept[a->n]: number of remaining entries of each row. */
+/* Closes the gaps between the rows of the matrix a that remain after entries of one column have been added up, and
+ * updates a->first. kept[a->n]: number of remaining entries of each row. */
 static void rows_close(struct block_matrix *a, const int64_t *kept)
 {
     const int size = a->dim * a->dim;

@@ -1,4 +1,5 @@
-/* The preconditioner of load steps: multigrid on the linear stiffness of bonds, cells and contact. */
+/* Declares the preconditioner of load steps: a multigrid method for the linear stiffness of bonds, mesh cells and
+ * contact. */
 #ifndef CLEAVE_SPRINGS
 #define CLEAVE_SPRINGS
 
@@ -6,9 +7,9 @@
 #include "run/run.h"
 
 /* Computes result = M^-1 residual with the preconditioner M (callback `precondition` of solver/equilibrium.h), and
- * removes from the result the free rigid motions of unconstrained fragments (parts of the body that nothing holds).
- * Makes the preconditioner if there is none. run: a struct run; residual: residual forces [N]; result: displacements
- * [m]. */
+ * removes from the result the free rigid motions of unconstrained fragments (parts of the body that no support
+ * constrains). Makes the preconditioner if there is none. run: a struct run; residual: residual forces [N]; result:
+ * displacements [m]. */
 void statics_preconditioner_apply(void *run, const struct field *residual, struct field *result);
 
 /* Makes the multigrid preconditioner from the stiffness of the present bonds, cells and contacts, and stores it in

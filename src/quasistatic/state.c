@@ -1,4 +1,5 @@
-/* The state of load steps in checkpoints and trials. */
+/* Saves and restores the state of load steps, in checkpoints and before trial equilibria, which are undone if they
+ * fail. */
 #include <stdio.h>
 
 #include "softening.h"
@@ -7,8 +8,8 @@
 
 #include "base/memory.h"
 
-/* Sets row, entry and weight of the bonds of list l again after the rows of `bonds` have been rebuilt. A bond is found
- * by its two particles. */
+/* Finds the bonds of list l in the rebuilt rows of `bonds` by their two particles, and sets their row, their index in
+ * the row and their weight again. */
 static void list_find(const struct bonds *bonds, struct break_list *l)
 {
     for (int64_t k = 0; k < l->n; k++) {
@@ -62,9 +63,10 @@ static status increment_archive(struct statics *s, struct bonds *b, struct archi
     return sif_archive(&s->sif, a);
 }
 
-/* Saves to the archive a if a->saving is true, else restores from it: scales and noise of the forces in the solver of
- * s, its counters, whether its preconditioner is still valid, and the last results of load steps for the history.
- * clock: step counter of the run. Returns FAILED, with a message, if the archive cannot be written or lacks them. */
+/* Saves to the archive a if a->saving is true, else restores from it: force scales, round-off level and counters of the
+ * solver of s, whether its preconditioner is still valid, and the results of the last load step for history.csv. clock:
+ * its load step number is set from these results. Returns FAILED, with a message, if the archive cannot be written or
+ * lacks an entry. */
 static status search_archive(struct statics *s, struct run_clock *clock, struct archive *a)
 {
     struct newton_solver *q = &s->balance;

@@ -1,4 +1,5 @@
-/* Load steps as a part of a run: the row of the table of parts. */
+/* Registers load steps with the engine: defines their callbacks for output, warnings, checkpoints and release (struct
+ * part in run/part.h). */
 #include <math.h>
 
 #include "crack_increment.h"
@@ -57,9 +58,9 @@ static void warn_of_large_steps(const struct scene *s, real of_spacing, struct w
         STEP_SPACINGS_MOST * given / spacings);
 }
 
-/* Adds warnings to *to: in load steps of yielding bonds and of steps that dissipate too much energy; for a single
- * equilibrium of parts of the scene of run e that the solution ignores or treats differently. It is the callback `warn`
- * of struct part. */
+/* Adds warnings to *to. In load steps it warns of bonds that yield, and of steps that dissipate too much energy; for a
+ * single equilibrium, of keys of the input file (scene) of run e that the solution ignores or treats differently. It is
+ * the callback `warn` of struct part. */
 static void warn_of_solver(const struct run *e, struct warnings *to)
 {
     const struct scene *s = e->scene;

@@ -1,4 +1,5 @@
-/* The columns that load steps add to history.csv. */
+/* Writes the columns that load steps add to history.csv, and computes the crack area and the energy release rate for
+ * them. */
 #include <math.h>
 #include <string.h>
 
@@ -11,7 +12,8 @@
 #include "fracture/fracture_part.h"
 #include "probes/diagnostics.h"
 
-/* Growth over which a release rate is computed [spacings], since lengths by damage change in steps of one spacing. */
+/* Growth of the cracks over which the energy release rate is computed [spacings], since crack lengths from damage
+ * change in steps of one spacing. */
 #define GROWTH 4
 
 enum { STATICS_COLUMNS = 13 }; /* number of columns of load steps in history.csv; one less in 2D */
@@ -79,11 +81,12 @@ static struct crack_area sif_paths_area(const struct sif_cracks *l, const struct
     return area;
 }
 
-/* Updates in e->statics->record the crack area, the energy released and the release rate, which is computed over the
- * last two growths of the crack. The crack area follows from the paths of SIF-driven tips, unless damaged particles
- * indicate more than 1.5 spacings of further growth. Without such tips it follows from the damaged particles, in 3D
- * from the broken bonds, in a bar from its cuts. Damaged particles change the area in steps of one spacing, so that
- * growth counts only after GROWTH spacings. A load step without growth leaves the rate unchanged. */
+/* Updates in e->statics->record the crack area, the released energy and the energy release rate, a quotient of
+ * differences over the last one to two growths of the crack. The area follows from the paths of SIF-driven tips
+ * (directed by stress-intensity factors), unless damaged particles indicate more than 1.5 spacings of further growth.
+ * Without such tips it follows from damaged particles, in 3D from broken bonds, in a bar from its cuts. Areas from
+ * damaged particles change in steps of one spacing, so that a growth then has GROWTH spacings. A load step without
+ * growth leaves the rate unchanged. */
 static void measure(struct run *e)
 {
     const struct statics *s = e->statics;

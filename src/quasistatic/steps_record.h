@@ -1,4 +1,4 @@
-/* Columns of history.csv that load steps add: crack area, released energy and size of the loads. */
+/* Declares the columns that load steps add to history.csv: crack area, released energy and load size. */
 #ifndef CLEAVE_STEPS_RECORD
 #define CLEAVE_STEPS_RECORD
 

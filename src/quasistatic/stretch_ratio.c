@@ -1,4 +1,5 @@
-/* Bonds whose stretch exceeds the critical stretch, and the order in which they break: largest ratio first. */
+/* Finds the bonds whose stretch exceeds the critical stretch in load steps, and breaks them in the order of the ratio
+ * of both, the largest first. */
 #include <math.h>
 
 #include "stretch_ratio.h"
@@ -93,7 +94,8 @@ struct broken_bond broken_bond_make_record(const struct bonds *b, const struct p
                                 .flag = p->flag[i]};
 }
 
-/* Directed bonds with stretch ratios above a threshold. */
+/* List of directed bonds (each bond has one entry for each of its two particles) whose ratio of stretch to critical
+ * stretch exceeds a threshold. Arrays are owned. */
 struct overstretched {
     int64_t n;
     real *ratio;                /* [n] ratio of stretch to critical stretch [1] */
@@ -125,9 +127,9 @@ static void row_block_overstretched(struct overstretched *o, const struct bonds 
         }
 }
 
-/* Returns the ratio of stretch to critical stretch above which bonds are to be broken so that about `most` pairs of
- * bonds break: just below the `most`-th largest ratio, but at least `least`. ratio[n]: ratios of directed bonds, two
- * entries for each pair. */
+/* Returns the ratio of stretch to critical stretch above which bonds break, such that about `most` bonds do: slightly
+ * below the `most`-th largest ratio, but at least `least`. ratio[n]: ratios of directed bonds, two entries for each
+ * bond. */
 static real stretch_ratio_to_break(const real *ratio, int64_t n, real least, int64_t most)
 {
     if (n <= 2 * most) return least;
@@ -168,11 +170,10 @@ static void bond_record_break(struct bonds *b, struct particles *p, struct bond_
 }
 
 /* Breaks the bonds of run e with the largest ratios of stretch to critical stretch, and appends them to the list of the
- * next crack increment: those whose ratio is within the fraction `ratio_tolerance` of the largest one, at most about
- * max_pairs pairs. Adds their energy at the critical stretch to *added_energy [J] and their crack area to
- * *added_crack_area [m^2]. Returns the number of directed bonds broken. State-based bonds have no energy of their own:
- * the energy that is lost as they break is divided among them, after division by the mean square of their ratios, as in
- * a linear body. */
+ * next crack increment: at most about max_pairs bonds, with ratios within the fraction `ratio_tolerance` of the largest
+ * one. Adds their energy at the critical stretch to *added_energy [J] and their crack area to *added_crack_area [m^2].
+ * The energy that state-based models lose is divided equally among the broken bonds, after division by the mean square
+ * of their ratios, as in a linear body. Returns the number of directed bonds broken, two for each bond. */
 int64_t bonds_break_overstretched(struct run *e, real ratio_tolerance, int64_t max_pairs, real *added_energy,
                                   real *added_crack_area)
 {

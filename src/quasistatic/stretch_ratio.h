@@ -1,4 +1,5 @@
-/* Bonds whose stretch exceeds the critical stretch, and lists of broken bonds. */
+/* Declares the functions that break bonds beyond their critical stretch, and the lists of broken bonds from which a
+ * trial equilibrium restores them. */
 #ifndef CLEAVE_STRETCH_RATIO
 #define CLEAVE_STRETCH_RATIO
 
@@ -24,9 +25,9 @@ int64_t bonds_break_overstretched(struct run *e, real ratio_tolerance, int64_t m
  * energy lost by the solver and by the run. */
 void bonds_break_listed(struct run *e, const struct break_list *l);
 
-/* Restores in b the bonds of the list l, which must be the bonds that were broken last, and the energies, damage and
- * flags of their rows (all bonds of one particle) and particles p from the records of the list. s: state of the load
- * steps (static equilibria), which holds the energies. */
+/* Restores the broken bonds in the list l: the bonds in b, energies and damage of their rows (a row: all bonds of one
+ * particle), the flags of the particles p, and the energies in s, the state of the load steps. The bonds in l must be
+ * those that were broken last. */
 void bonds_restore_broken(struct statics *s, struct bonds *b, struct particles *p, const struct break_list *l);
 
 /* Appends a copy of *record to the list l, whose array grows as needed; free l->bond with memory_free. */

@@ -1,5 +1,5 @@
-/* The system of equations of load steps: its unknowns, the forces on them, contact between solutions, and the
- * preconditioner. */
+/* Assembles the system of equations of load steps: lists its unknowns, computes the forces on them, and sets up contact
+ * and the preconditioner for the solver. */
 #include "system.h"
 #include "unconstrained.h"
 #include "springs.h"

@@ -1,4 +1,4 @@
-/* The system of equations of load steps: the unknowns, and the forces on them. */
+/* Declares the system of equations of load steps: its unknown displacements and the forces on them. */
 #ifndef CLEAVE_SYSTEM
 #define CLEAVE_SYSTEM
 

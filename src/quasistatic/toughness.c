@@ -1,4 +1,5 @@
-/* Crack energy per area: of the bonds that cross a crack at their critical stretch, or G_c as given. */
+/* Computes the crack energy per area: that of the bonds that cross a crack at their critical stretch, or the given
+ * energy release rate G_c. */
 #include <math.h>
 
 #include "toughness.h"

@@ -1,4 +1,4 @@
-/* Energy per area of a crack through a material or between two particles, as load steps use it. */
+/* Declares the energy per area of a crack through a material or between two particles, for load steps. */
 #ifndef CLEAVE_TOUGHNESS
 #define CLEAVE_TOUGHNESS
 

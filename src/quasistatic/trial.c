@@ -1,4 +1,4 @@
-/* Trial equilibria of load steps, and the restoration of the previous state. */
+/* Computes trial equilibria of load steps, and restores the state before them if they are rejected. */
 #include "trial.h"
 #include "stretch_ratio.h"
 #include "system.h"

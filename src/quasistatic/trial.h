@@ -1,4 +1,5 @@
-/* Trial equilibria: bonds break or loads change, then the previous state is restored. */
+/* Declares trial equilibria: solutions with broken bonds or changed loads, after which the previous state can be
+ * restored. */
 #ifndef CLEAVE_TRIAL
 #define CLEAVE_TRIAL
 

@@ -1,8 +1,8 @@
-/* Load steps: fragments of a body that are not fully constrained, and their free rigid motions.
+/* Finds fragments of a body that are not fully constrained in load steps, and their free rigid motions.
  *
- * Such a fragment has no equilibrium under unbalanced loads and no unique one without. Its free rigid motions are
- * kept constant: components of the forces along them are removed (as inertia would balance them), and so are those
- * of the displacements that the preconditioner proposes. The deformation of the fragment remains. */
+ * Such a fragment has no equilibrium under unbalanced loads, and no unique one under balanced loads. Its free rigid
+ * motions are kept constant: components of the forces along them are removed (as inertia would balance them), and so
+ * are components of the displacements that the preconditioner proposes. The deformation of the fragment remains. */
 #include <math.h>
 #include <string.h>
 
@@ -141,7 +141,8 @@ static void unconstrained_search_end(struct search *s)
 
 /* ---- constraints ------------------------------------------------------------------------------------------------- */
 
-/* A fragment during the search, and the constraints on its rigid motions. */
+/* A connected fragment of the body during the search for unconstrained ones: its geometry, and the resistance of
+ * supports, bonds and contact to its rigid motions. It is owned by struct search. */
 struct candidate {
     real centre[DIM_MAX];                    /* mean position of its nodes [m] */
     real moved[DIM_MAX];                     /* mean displacement of its nodes [m] */

@@ -1,4 +1,5 @@
-/* Unconstrained fragments: parts of the body that supports, bonds and contact leave free to move as rigid bodies. */
+/* Declares the search for unconstrained fragments: parts of the body that can move as rigid bodies, since no support,
+ * bond or contact prevents it. */
 #ifndef CLEAVE_UNCONSTRAINED
 #define CLEAVE_UNCONSTRAINED
 

@@ -1,16 +1,18 @@
-/* Load steps: whether the loads on fragments that nothing constrains are balanced. */
+/* Checks in load steps whether the loads on unconstrained fragments are balanced. */
 #include <math.h>
 
 #include "unconstrained.h"
 
-/* Tolerated share of the loads on a fragment that is unbalanced: faces of lattices are uneven (empirical). */
+/* Largest tolerated fraction of the loads on an unconstrained fragment that is not balanced [1]. It is not 0, because
+ * loaded faces of a lattice are uneven; empirical. */
 #define UNHELD_MOST 0.05
 #define UNHELD_SMALL 0.01 /* share of all loads below which unbalanced loads do not end a run (empirical) */
 
-/* Returns how far the applied forces on fragment f (a piece of the body that can move rigidly without resistance) are
- * from balance along its free motions, 0 to 1: the largest |sum| of their components along a motion, divided by the sum
- * of their absolute values, which *size receives. Motions along which the sum of absolute values is at most
- * 1/UNHELD_SMALL of that of the motion chosen before are ignored. s: applied forces; part: particles. */
+/* Returns how far the applied forces on fragment f (a piece of the body that can move rigidly without
+ * resistance) are from balance [1], 0 to 1. It is the largest ratio, over the free motions, of the |sum| of
+ * the force components along a motion to the sum of their absolute values. *size: receives the latter sum of
+ * the motion with this ratio [N], 0 if there is none. Motions whose sum of absolute values is at most
+ * UNHELD_SMALL times *size so far are ignored. s: applied forces; part: particles. */
 static real unbalanced_share(const struct statics *s, const struct particles *part,
                              const struct unconstrained_fragment *f, real *size)
 {

@@ -1,4 +1,4 @@
-/* The unknowns of load steps, and the effect of loads and supports on them. */
+/* Lists the unknowns of load steps, applies prescribed displacements to them, and computes the applied forces. */
 #include <math.h>
 #include <string.h>
 

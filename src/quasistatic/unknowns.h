@@ -1,5 +1,5 @@
-/* The unknowns of load steps (struct statics): displacements of the peridynamic particles, then of the mesh nodes that
- * have mass. */
+/* Declares the list of unknowns of load steps (struct statics): displacements of the peridynamic particles, followed by
+ * those of the mesh nodes that have mass. */
 #ifndef CLEAVE_UNKNOWNS
 #define CLEAVE_UNKNOWNS
 

@@ -1,5 +1,5 @@
-/* Estimates before load steps: the load times at which loads are largest or point in other directions, and the largest
- * ratio of stretch to critical stretch there. */
+/* Finds, before the first load step, the times at which the loads are largest or have other directions, and estimates
+ * the largest ratio of bond stretch to critical stretch at these times. */
 #include <math.h>
 
 #include "balance.h"
@@ -47,15 +47,15 @@ static void products(const struct run *e, real t, real u, real *product)
     }
 }
 
-/* Load times [s] at which the loads are largest, at which they point most against the largest ones (back), and at which
- * they are most perpendicular to them (beside); NAN: never. */
+/* Times at which the loads of one sort have extreme values [s]; NAN: never. largest: the loads are largest; back: they
+ * point most against the largest loads; beside: their component perpendicular to the largest loads is largest. */
 struct worst {
     real largest, back, beside;
 };
 
-/* Scalar products of the loads at the times in struct worst: of the largest loads with themselves; of the loads that
- * point most against them, negative product with the largest loads; of the most perpendicular ones, square of the part
- * perpendicular to the largest loads. */
+/* Largest scalar products of the loads found so far, for the times in struct worst [m^2 or N^2]. largest: of the
+ * largest loads with themselves; back: minus the product of opposing loads with the largest loads; beside: square of
+ * the component of loads perpendicular to the largest loads. */
 struct found {
     real largest, back, beside;
 };

@@ -1,4 +1,5 @@
-/* Reads the frames of a run twice: for particle sets and ranges, then for the values that fit into the page. */
+/* Reads the output frames of a run twice for the HTML page: first for particle sets and ranges of fields, then for the
+ * values that fit into the page. */
 #include "film.h"
 
 #include <math.h>
@@ -7,10 +8,10 @@
 #include "base/arrays.h"
 #include "base/memory.h"
 
-/* FILM_FRAMES_MOST: largest number of frames of a film. FRAMES_FEWER, FRAMES_FEWEST: numbers of frames of films that
- * would otherwise be too large. */
+/* Numbers of output frames that the film on the page shows: at most FILM_FRAMES_MOST; at most FRAMES_FEWER, then
+ * FRAMES_FEWEST, if more would exceed the byte budget of the page. */
 enum { FILM_FRAMES_MOST = 61, FRAMES_FEWER = 21, FRAMES_FEWEST = 11 };
-/* Largest values of stored 16-bit numbers, unsigned and signed. */
+/* Largest values of the 16-bit numbers, unsigned and signed, in which the page stores positions and displacements. */
 enum { U16_MOST = 65535, I16_MOST = 32767 };
 
 /* Plastic strain above which a particle counts as yielded [1]. */

@@ -1,20 +1,22 @@
-/* The frames of a run as a page shows them: selected frames, particle sets that frames share, fields and their ranges.
- * A page has a budget of bytes; animation_select_content_within_byte_budget keeps it. */
+/* Declares the animation of a run in its HTML report: the selected output frames, the sets of particles that frames
+ * have in common, the fields and their ranges. animation_select_content_within_byte_budget limits its size. */
 #ifndef CLEAVE_REPORT_FILM
 #define CLEAVE_REPORT_FILM
 
 #include "page.h"
 #include "plot/plot.h"
 
-/* FILM_FIELDS_MOST: largest number of fields of a page. A cell of level L has 2^L particles along an edge; largest
- * level of cells of intact particles, of cells with damaged ones, and of cells of any particles. */
+/* Limits of the animation in an HTML report. FILM_FIELDS_MOST: largest number of fields. Particles in a cubic cell of
+ * level L, with 2^L particles along an edge, are shown as one. FILM_LEVELS: largest level of cells without damaged
+ * particles; FILM_LEVELS_DAMAGED: with damaged ones; FILM_LEVELS_ALL: with particles in any state. */
 enum { FILM_FIELDS_MOST = 24, FILM_LEVELS = 3, FILM_LEVELS_DAMAGED = 2, FILM_LEVELS_ALL = 15 };
 
-/* Worst state of a particle in all frames of an HTML report. FILM_INTACT: neither damaged nor yielding; FILM_DAMAGED:
- * damage of at most CRACK_DAMAGE, or yielding; FILM_CRACKED: more damage, drawn as part of a crack. */
+/* Worst state of one particle in all output frames of an HTML report. FILM_INTACT: neither damaged nor yielding;
+ * FILM_DAMAGED: damage of at most CRACK_DAMAGE, or yielding; FILM_CRACKED: more damage, shown as part of a crack. */
 enum film_state { FILM_INTACT, FILM_DAMAGED, FILM_CRACKED };
 
-/* A field of the frames as the page stores it, with 8 bits per particle (fragments: 16). */
+/* One field of the particles (a quantity such as damage) as the HTML report stores it, with 8 bits per particle in each
+ * frame, 16 bits for fragments. */
 struct animation_field {
     const struct plot_field *of;
     bool extra;         /* left out first where the budget is short */
@@ -26,8 +28,9 @@ struct animation_field {
     int64_t samples;
 };
 
-/* Particles that consecutive frames have in common. A group is a particle, or a square or cubic cell of particles that
- * the page shows as one particle. Arrays are owned. */
+/* Set of the particles that consecutive output frames of a run have in common, divided into groups. A group is one
+ * particle, or the particles of a square or cubic cell, which the HTML report shows as one particle. Arrays are
+ * owned. */
 struct animation_particle_set {
     int64_t n;                /* number of particles */
     real *X[DIM_MAX];         /* [n] reference positions [m] */
@@ -41,7 +44,8 @@ struct animation_particle_set {
     int32_t *first, *member;  /* particles of group g: member[first[g]] .. member[first[g + 1] - 1] */
 };
 
-/* A frame (state of the run at one time) that was read for a page. used: the page shows the frame. */
+/* One output frame (state of the run at one time) that was read for an HTML report. used: the report shows this
+ * frame. */
 struct animation_frame {
     struct listed_frame listed; /* file and time of the frame */
     int64_t step;               /* number of the time step or load step */
@@ -49,7 +53,8 @@ struct animation_frame {
     bool used;
 };
 
-/* The frames of a run as a page shows them: selected frames, particle sets that frames share, and fields. */
+/* Animation of one run in its HTML report: selected output frames, the sets of particles that frames have in common,
+ * and the fields. Filled by animation_read_frames_of_run, released by animation_free. */
 struct run_animation {
     const char *folder;        /* folder of the run; borrowed */
     const struct scene *scene; /* scene of the run, for its rigid bodies; borrowed; NULL: not known */

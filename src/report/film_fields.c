@@ -1,4 +1,5 @@
-/* Fields of a film: which there are, their ranges, and their values in 8 bits. */
+/* Selects the fields that the film of a report (its animation of output frames) shows, chooses their ranges, and
+ * converts their values to 8 bits. */
 #include <math.h>
 #include <string.h>
 
@@ -6,11 +7,13 @@
 #include "base/memory.h"
 #include "film.h"
 
-/* Values of a frame that are sampled for the stored range; codes: largest value, no value, no fragment. */
+/* SAMPLES_OF_FRAME: approximate number of values per output frame from which the stored range of a field is estimated.
+ * VALUE_MOST, VALUE_NONE: largest stored value of a field in 8 bits, and the code for no value. FRAGMENT_NONE: code for
+ * no fragment, in 16 bits. */
 enum { SAMPLES_OF_FRAME = 4000, VALUE_MOST = 254, VALUE_NONE = 255, FRAGMENT_NONE = 65535 };
 
-/* Share of the values that are beyond each end of the stored range of a field [1], so that a few extreme values do not
- * reduce the resolution of all others. */
+/* Fraction of the sampled values of a field that is cut off at each end of its stored range [1], so that a few extreme
+ * values do not reduce the resolution of all others. */
 static const double BEYOND = 5e-4;
 
 /* Names of the fields of a film in the order of the page. extra: left out first if the page becomes too large; fixed:

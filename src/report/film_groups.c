@@ -10,10 +10,11 @@
  * largest such index. */
 enum { KEY_BITS = 20, KEY_MOST = (1 << KEY_BITS) - 1 };
 
-/* Tolerance of the equality of sizes of particles [1]. */
+/* Largest relative difference from one spacing at which the size of a particle counts as one spacing [1]. */
 static const double EQUAL = 0.01;
 
-/* A particle, the number of the cell in which it is (cell_key), and a number of its material and body. */
+/* A particle during the grouping of particles into cells, for sorting. key: number of its cell (member_of_cell); index:
+ * of the particle; part: number of its material and body. Equal keys and parts form one group. */
 struct member {
     uint64_t key;
     int32_t index;
@@ -49,7 +50,8 @@ static uint64_t cell_index(const struct animation_particle_set *s, const struct 
     return (uint64_t)fmin(fmax(along, 0), KEY_MOST) >> level;
 }
 
-/* Returns particle i of the particle set s of film f as a member of its cell of level `level`. */
+/* Returns particle i of the particle set s of film f as a member of the cell that contains it. level: base-2 logarithm
+ * of the edge of the cell in spacings. */
 static struct member member_of_cell(const struct animation_particle_set *s, const struct run_animation *f, int level,
                                     int64_t i)
 {
@@ -58,8 +60,9 @@ static struct member member_of_cell(const struct animation_particle_set *s, cons
     return (struct member){key, (int32_t)i, (uint16_t)(s->material[i] << 8 | s->body[i])};
 }
 
-/* Returns true if particle i of the particle set s of film f may be merged with others into a cell of level `level` as
- * far as its size and what it suffers in the frames allow. */
+/* Returns true if particle i of the particle set s of film f may be merged with others into a cell with an edge of
+ * 2^level spacings. Its size must be one spacing, and it must not be part of a crack in any frame. If level >
+ * f->levels_damaged, it must be neither damaged nor yielding in any frame. */
 static bool may_merge(const struct animation_particle_set *s, const struct run_animation *f, int level, int64_t i)
 {
     if (s->state[i] == FILM_CRACKED || (s->state[i] == FILM_DAMAGED && level > f->levels_damaged)) return false;
@@ -88,7 +91,8 @@ static void merge_cells(struct animation_particle_set *s, const struct run_anima
     memory_free(m);
 }
 
-/* Sets s->level, the levels of the cells into which the particles of the particle set s of film f are merged. */
+/* Sets s->level for all particles of the particle set s of film f: the cell into which particle i is merged has an edge
+ * of 2^level[i] spacings; 0: the particle is shown alone. */
 static void mesh_levels_set(struct animation_particle_set *s, const struct run_animation *f)
 {
     const double largest = (1 + EQUAL) * cell_edge_length(f, f->levels_all);

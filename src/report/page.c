@@ -1,5 +1,6 @@
-/* Composes a page: head, style, body, arrays in base64, JSON and script. Texts of users are in the JSON alone, in which
- * `<` is escaped, so that nothing that a scene contains can be markup; the policy in the head forbids all traffic. */
+/* Composes an HTML page: head, style, body, arrays in base64, JSON and script. Texts of users are in the JSON alone,
+ * with `<` escaped, so that no text of an input file is read as HTML. The content security policy in the head forbids
+ * the page to load or send anything. */
 #include "page.h"
 
 #include <stdlib.h>

@@ -1,4 +1,5 @@
-/* A page that is being composed: JSON that describes it, and arrays of numbers in base64 to which the JSON refers. */
+/* Declares an HTML report while it is composed: a JSON text that describes it, and arrays of numbers in base64 to which
+ * the JSON refers. */
 #ifndef CLEAVE_PAGE
 #define CLEAVE_PAGE
 

@@ -1,4 +1,5 @@
-/* `cleave report`: chooses what the folder holds, and where the page goes. */
+/* Runs `cleave report`: determines whether the folder contains a run or a study (a series of runs), and where the page
+ * is written. */
 #include "report/report.h"
 
 #include <stdio.h>
@@ -12,7 +13,8 @@
 #include "plot/plot.h"
 #include "report_parts.h"
 
-/* Returns OK if `folder` contains a run or a study, else REFUSED, with a message. */
+/* Returns OK if `folder` contains a run (frames or history.csv) or a study, a series of runs (sweep.csv or
+ * converge.csv), else REFUSED, with a message. */
 static status folder_check_kind(const char *folder)
 {
     const struct printable_name shown = printable_name(folder);

@@ -1,4 +1,4 @@
-/* Parts of a page, each written from files of the folder. */
+/* Declares the functions that write the contents of an HTML report from the files in the folder of a run or study. */
 #ifndef CLEAVE_REPORT_PARTS
 #define CLEAVE_REPORT_PARTS
 

@@ -1,4 +1,4 @@
-/* Page of a run: what its folder holds. Parts that a running or interrupted run lacks are left out. */
+/* Writes the page of a run from its results folder. Contents that a running or interrupted run lacks are left out. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

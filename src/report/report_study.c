@@ -1,4 +1,5 @@
-/* Page of a study: its table, its pictures, and the warnings of its runs. */
+/* Writes the page of a study (a series of runs with varied keys): its table, its pictures, and warnings and failures of
+ * its runs. */
 #include <dirent.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,7 +16,8 @@
 #include "scene/words.h"
 #include "study/study.h"
 
-/* Largest numbers of pictures, of warnings and of reasons of failures on the page; capacity of a warning [byte]. */
+/* PICTURES_MOST, WARNINGS_MOST, REASONS_MOST: largest numbers of pictures, warnings and reasons of failures on the
+ * page. MESSAGE_ROOM: capacity of the text of a warning or reason [byte]. */
 enum { PICTURES_MOST = 12, WARNINGS_MOST = 20, MESSAGE_ROOM = 600, REASONS_MOST = 100 };
 
 static int name_compare(const void *a, const void *b) { return strcmp(*(char *const *)a, *(char *const *)b); }

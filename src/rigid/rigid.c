@@ -1,4 +1,4 @@
-/* Motion of rigid bodies, and distances from their surface. */
+/* Moves single rigid bodies, and computes the signed distance of points from their surface. */
 #include "rigid/rigid.h"
 
 #include <math.h>
@@ -63,7 +63,8 @@ static void spin_of(struct rigid_body *r, real turn[DIM_MAX][DIM_MAX], real *spi
 
 /* ---- at t = 0 ---------------------------------------------------------------------------------------------------- */
 
-/* Largest relative error of the moments of a free body [1]. */
+/* Largest admissible relative error of volume and moments of inertia of a rigid body that moves freely [1]; it is
+ * estimated by refinement. */
 #define MOMENTS_UNCERTAIN 0.01
 
 /* Computes the tensor of inertia of rigid body r about its centre [kg m^2] from the second moments per volume `second`

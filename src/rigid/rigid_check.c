@@ -1,5 +1,5 @@
-/* Checks of rigid bodies: overlaps with particles and mirrors at the start, too large a motion in a step, overlaps with
- * each other. */
+/* Checks rigid bodies: overlaps with particles and planes of symmetry at the start, motion that is too large for one
+ * step, and overlaps with each other. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,5 +1,5 @@
-/* Volume, centre and second moments of regions: a uniform grid of sampling points, and cells that are divided at the
- * surface of the region. */
+/* Computes volume, centre and second moments of regions, by a uniform grid of sampling points and by cells that are
+ * divided at the surface of the region. */
 #include "rigid_moments.h"
 
 #include <math.h>
@@ -7,18 +7,20 @@
 /* Numbers of sampling points of the uniform grid along the longest edge of the box, in 2D and in 3D. */
 enum { SAMPLES = 200, SAMPLES_SPACE = 80 };
 
-/* Divided cells: cells along the longest edge of the box before any division, divisions of the first and of the last
- * refinement, number of evaluated cells after which no further refinement begins. */
+/* Limits of the integration over divided cells. ROOTS: cells along the longest edge of the box before any division.
+ * DIVISIONS_FIRST, DIVISIONS_LAST: divisions of a cell in the first and in the last refinement. CELLS_MOST: number of
+ * evaluated cells after which no further refinement begins. */
 enum { ROOTS = 8, DIVISIONS_FIRST = 3, DIVISIONS_LAST = 20, CELLS_MOST = 4000000 };
 
-/* Change of the moments in a refinement below which it is the last [1]. */
+/* Relative change of the moments in a refinement at which the refinement of cells ends [1]. */
 #define CHANGE_SMALL 1e-3
 
-/* Tolerance with which a sampling point counts as inside a region, over the longest edge of its box. With it, opposite
- * inclined faces are treated alike in spite of round-off. */
+/* Distance outside a region up to which a sampling point counts as inside, divided by the longest edge of the box of
+ * the region [1]. It makes opposite inclined faces count alike in spite of round-off. */
 #define ON_FACE 1e-9
 
-/* Numbers of equal cells along each axis of a box (1 beyond dim) and their edges [m]. */
+/* Division of a box into equal cells. n: number of cells along each axis (1 beyond the dimension of space); edge: edges
+ * of a cell [m]. */
 struct box_cells {
     int n[DIM_MAX];
     real edge[DIM_MAX], longest; /* longest: longest edge of the box [m] */
@@ -70,7 +72,8 @@ static void moments_of_uniform_grid(const struct region *shape, int dim, const r
 
 /* ---- divided cells ----------------------------------------------------------------------------------------------- */
 
-/* Integration of a region over cells that are divided at its surface. */
+/* State of the integration of a region over cells that are divided at its surface: the region, the limit of divisions,
+ * and sums over the cells so far. */
 struct division {
     const struct region *shape;
     int dim, divisions;   /* divisions: largest number of divisions of a cell */
@@ -80,11 +83,12 @@ struct division {
     real volume, first[DIM_MAX], second[DIM_MAX][DIM_MAX];
 };
 
-/* Adds the part of a cell that is in the region to the sums of q. The level set at the middle is a lower bound of the
- * distance from the surface: a cell whose half diagonal is shorter is inside or outside as a whole. Other cells are
- * divided across their longest edges; after the last division their share is linear in the level set, so that no part
- * of the region is too thin to count. middle[dim]: middle of the cell [m]; half[dim]: half of its edges [m]; depth:
- * number of divisions that have led to the cell. */
+/* Adds the part of a cell inside the region to the sums of q. The |level set| at the middle is a lower bound
+ * of the distance from the surface, so that a cell with a shorter half diagonal is inside or outside as a
+ * whole. Other cells are divided across their longest edges. After the last division the fraction of the cell
+ * inside the region is linear in the level set, so that no part of the region is too thin to count.
+ * middle[dim], half[dim]: middle of the cell, and half of its edges [m]; depth: number of divisions that have
+ * led to the cell. */
 static void integrate_cell(struct division *q, const real *middle, const real *half, int depth)
 {
     const int dim = q->dim;
@@ -144,9 +148,9 @@ static void moments_extrapolate(const struct division *coarse, const struct divi
     }
 }
 
-/* Returns the largest relative difference of the moments a and b: of the centre divided by the radius of gyration along
- * the axis, of second moments divided by the square root of the product of the diagonal second moments of b. Returns
- * INFINITY if a or b has no volume or no extent along an axis. */
+/* Returns the largest relative difference of the moments a and b in dim dimensions: of the centres, divided by the
+ * radius of gyration of b along the axis; of second moments, divided by the square root of the product of the diagonal
+ * second moments of b. Returns INFINITY if a or b has no volume, or b no extent along an axis. */
 static real moments_distance(const struct region_moments *a, const struct region_moments *b, int dim)
 {
     real most = a->volume > 0 && b->volume > 0 ? 0 : INFINITY;

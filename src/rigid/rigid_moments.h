@@ -1,10 +1,10 @@
-/* Volume, centre and second moments of the shapes of rigid bodies. */
+/* Declares the computation of volume, centre and second moments of the shapes of rigid bodies. */
 #ifndef CLEAVE_RIGID_MOMENTS
 #define CLEAVE_RIGID_MOMENTS
 
 #include "data/region.h"
 
-/* Moments of a region of uniform density. */
+/* Volume, centre and second moments of one region of uniform density, such as the shape of a rigid body. */
 struct region_moments {
     real volume;                   /* [m^dim] */
     real centre[DIM_MAX];          /* centre of the volume [m] */

@@ -1,4 +1,4 @@
-/* All rigid bodies of a run: set-up, bookkeeping of contact forces, motion, energies, and columns of history.csv. */
+/* Manages all rigid bodies of a run: set-up, work of contact forces, motion, energies, and columns of history.csv. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

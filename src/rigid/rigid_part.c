@@ -1,4 +1,4 @@
-/* Defines the rigid bodies as a part of a run: its entry in the table of parts. */
+/* Registers rigid bodies with the engine: defines their callbacks (struct part in run/part.h). */
 #include "rigid/rigid_part.h"
 #include "base/memory.h"
 #include "rigid/rigid_surface.h"

@@ -1,6 +1,6 @@
-/* Surfaces of rigid bodies by dual contouring (Ju et al. 2002): each cell of a grid that the surface crosses has a
- * point where the planes of the surface at the crossings of its edges meet; each edge that the surface crosses has a
- * face between the cells around it. */
+/* Computes surfaces of rigid bodies by dual contouring (Ju et al. 2002) on a grid, and writes them to VTK files. Each
+ * cell that the surface crosses gets the point nearest to the tangential planes at the crossings of its edges; each
+ * edge that the surface crosses gets a face between the cells around it. */
 #include "rigid/rigid_surface.h"
 
 #include <math.h>
@@ -17,15 +17,18 @@
  * the bounding box of the particles [1]. */
 #define RIGID_BESIDE 0.08
 
-/* Least number of cells along the longest edge in 2D and in 3D, and across the thinnest part; largest number of
- * nodes. */
+/* Sizes of the grid on which a surface is computed. CELLS_PLANE, CELLS_SPACE: cells along the longest edge of the box
+ * in 2D and 3D; THICKNESS_CELLS: least number along its shortest edge; NODES_MOST: largest number of nodes, which takes
+ * precedence. */
 enum { CELLS_PLANE = 200, CELLS_SPACE = 24, THICKNESS_CELLS = 6, NODES_MOST = 200000 };
-/* CELL_EDGES: edges of a cell in space. CROSSING_STEPS, FIT_STEPS: steps of the search for a crossing and for the point
- * of a cell; CROSSING_PRECISION: of a crossing [cells]. */
+/* CELL_EDGES: number of edges of a cell in 3D. CROSSING_STEPS: largest number of steps of the search for the crossing
+ * of the surface with an edge. CROSSING_PRECISION: level set, in cells, at which this search ends. FIT_STEPS: steps of
+ * the fit of the surface point of a cell. */
 enum { CELL_EDGES = 12, CROSSING_STEPS = 30, FIT_STEPS = 60 };
 #define CROSSING_PRECISION 1e-9
 
-/* Crossing of the surface with an edge of the grid: its distance from the lower node [cells], the normal there. */
+/* Crossing of the surface with an edge of the grid. share: distance from the lower node of the edge [cells]; normal:
+ * normal of the surface at the crossing. */
 struct crossing {
     real share, normal[DIM_MAX];
 };
@@ -153,10 +156,10 @@ static int cell_crossings_list(const struct net *g, int64_t k, struct cell_cross
     return n;
 }
 
-/* Finds the point of a grid cell that is nearest, in the least-squares sense, to the planes of the surface at its
- * crossings c[n] with the edges of the cell: on an edge or corner of the body where it has one. The descent begins at
- * the mean of the crossings, where it stays along directions in which the surface is flat. Stores the point in at[dim],
- * in cells from the lowest node of the cell. */
+/* Finds the point of a grid cell with the least sum of squared distances from the tangential planes of the surface at
+ * its crossings c[n] with the edges of the cell. It is on an edge or corner of the body if the cell contains one.
+ * Starts gradient descent at the mean of the crossings, which determines the position in directions along which the
+ * surface is flat. Stores the point in at[dim], in cells from the lowest node of the cell. */
 static void cell_point_fit(const struct cell_crossing *c, int n, int dim, real *at)
 {
     for (int e = 0; e < dim; e++) {

@@ -12,9 +12,9 @@ static struct impedance impedance_of(const struct material *m, real c11, real sh
     return (struct impedance){sqrt(m->density * c11), sqrt(m->density * shear)};
 }
 
-/* Returns the wave impedances of material m with the elastic constants of bonds on the lattice: those of the material
- * for state-based models, those of the sums over the neighbourhood (all neighbours of a particle) for bond-based
- * models. source: neighbourhood; scene: dimension. */
+/* Returns the wave impedances of material m with the elastic constants that bonds on the lattice give it: for
+ * bond-based models sums over the neighbourhood (all neighbours of a particle), for state-based models the constants of
+ * the material. source: neighbourhood; scene: dimension. */
 static struct impedance impedance_lattice(const struct bond_source *source, const struct scene *scene,
                                           const struct material *m)
 {

@@ -1,4 +1,5 @@
-/* Critical time step of bodies of bonds, from their largest frequency. */
+/* Computes the critical time step of bodies of bonds from the largest frequency of the body or of a block of its
+ * lattice. */
 #include "run/critical_step.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* Kinetic energy, momentum, strain energy and plastic work of particles. */
+/* Computes kinetic energy, momentum, strain energy and plastic work of particles. */
 #include "run/energies.h"
 
 #include <math.h>
@@ -125,8 +125,9 @@ real particles_kinetic_energy(const struct particles *p)
     return kinetic;
 }
 
-/* Argument of the sum of the kinetic energy that a velocity update changes. before: [dim] velocities before the update,
- * or NULL to compute them from the forces and dt, the duration of the update [s]. */
+/* Argument of the sums over the velocity update of a step, of which they compute the energy m dv^2/4. before: [dim]
+ * velocities before the update [m/s]; NULL: the change of velocity dv is computed from the forces; dt: duration of the
+ * update [s]. */
 struct kick {
     const struct particles *p;
     real *const *before;
@@ -153,9 +154,9 @@ static real kick_piece(const struct kick *k, int64_t first, int64_t end, real su
     return sum;
 }
 
-/* Adds the sum of m dv^2/4 over particles first .. end - 1 to sum[0] [J], with the change of velocity dv in the step.
- * Points of a mesh do not contribute. context: particles and velocities before the step (struct kick). Called by
- * reproducible_sums for each block. */
+/* Adds the sum of m dv^2/4 over particles first .. end - 1 to sum[0] [J], where dv is the change of velocity in the
+ * step. Particles that the nodes of a mesh move do not contribute. context: particles, and velocities before the step
+ * or the duration of the update (struct kick). Called by reproducible_sums for each block. */
 static void kick_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct kick *k = context;

@@ -1,4 +1,4 @@
-/* Check that bodies joined by the scene are near enough for bonds. */
+/* Checks that bodies that the input file joins by interfaces are near enough to each other for bonds. */
 #include "base/memory.h"
 #include "run/make.h"
 

@@ -1,4 +1,4 @@
-/* The table of energies, and sums over its rows. */
+/* Defines the table of the energies that the energy balance contains, and sums over its rows. */
 #include "run/ledger.h"
 
 #include <math.h>

@@ -1,12 +1,13 @@
-/* Warning how yielding bonds differ from von Mises plasticity. */
+/* Warns how the plasticity of bodies with yielding bonds differs from von Mises plasticity. */
 #include "run/say.h"
 
-/* Strength of a body of bonds that yield individually, relative to von Mises' law without hardening [1], for each
- * space: in tension (pull) and in shear; across: ratio of lateral to axial plastic strain. Bonds of all directions
- * carry K s_y per unit angle: tensile within an angle a of the load direction, compressive beyond it. Zero lateral
- * stress determines a. Plane stress: a - sin(2a)/2 = pi/4, sigma = K s_y (2a + sin(2a) - pi/2), K = 3E/pi. Plane
- * strain: 16/15 of this value, relative to 2/sqrt(3) sigma_y. Space: c - c^3/3 = 1/3 for c = cos a, sigma = 2 (1 - 2
- * c^3) sigma_y. Shear: mean over the same bonds, relative to sigma_y/sqrt(3). across = cot(a)^2. */
+/* Strengths of bodies whose bonds yield individually, relative to von Mises plasticity without hardening [1], for each
+ * space. pull, shear: in tension and in shear; across: ratio of lateral to axial plastic strain. Derivation, with the
+ * yield stress sigma_y, Young's modulus E and the yield stretch s_y = sigma_y/E of a bond: bonds of each direction
+ * carry K s_y per unit angle, in tension within an angle a of the load, in compression beyond; zero lateral stress
+ * determines a. Plane stress: a - sin(2a)/2 = pi/4, sigma = K s_y (2a + sin(2a) - pi/2), K = 3E/pi. Plane strain: 16/15
+ * of this value, relative to 2/sqrt(3) sigma_y. 3D: c - c^3/3 = 1/3 for c = cos a, sigma = 2 (1 - 2 c^3) sigma_y.
+ * Shear: mean over the same bonds, relative to sigma_y/sqrt(3). across = cot(a)^2. */
 static const struct {
     const char *body;
     real pull, shear, across;

@@ -1,5 +1,6 @@
-/* Scattered strength: bounds of stresses are compared with the trigger of the weakest point of a material, the points
- * themselves with their own trigger (point_pd_conversion_stress_threshold). */
+/* Lowers the stress at which material points convert to peridynamics to that of the weakest particle of each material,
+ * if strength scatters. Bounds of stresses are compared with this value, single points with their own
+ * (point_pd_conversion_stress_threshold). */
 #include "run/make.h"
 
 void conversion_stress_reduce_to_weakest_particle(struct elastic *elastic, const struct particles *p)

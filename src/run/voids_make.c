@@ -1,11 +1,12 @@
-/* Voids of the bodies of a run, which bonds do not cross and which cut the mesh. */
+/* Finds the voids of the bodies of a run (slots, slits or gaps), which bonds do not cross and which cut the mesh. */
 #include <math.h>
 #include <stdio.h>
 
 #include "base/memory.h"
 #include "run/make.h"
 
-/* Largest distance along an axis of points in the cells of the mesh around one node, plus a margin [cells]. */
+/* Largest distance along one axis between two material points in the mesh cells around one node, plus a margin
+ * [cells]. */
 #define CELLS_REACH 1.515
 
 real scene_interaction_distance_across_voids(const struct scene *s, real cutoff)

@@ -1,9 +1,9 @@
-/* Particles from a scene: lattices and lists, volumes, masses, initial state.
+/* Creates the particles of an input file (scene) from lattices and lists, with volumes, masses and initial state.
  *
  * The lattice of a body is placed by the bounding box of the first solid of its shape: with m = round(edge / spacing)
- * particles along an edge, particles stand at centre + (k + 1/2 - m/2) spacing for every whole number k. A symmetric
+ * particles along an edge, lattice positions are centre + (k + 1/2 - m/2) spacing for every whole number k. A symmetric
  * solid is filled symmetrically about its centre to the last bit, and solids added later (a driven layer, for example)
- * continue the lattice of the first solid. A body whose first solid is unbounded takes the lattice of the first body.
+ * continue the lattice of the first solid. A body whose first solid is unbounded has the lattice of the first body.
  *
  * Centre and spacing are rounded so that every coordinate is an exact floating-point number. Distances between
  * neighbours are then exactly equal throughout the body (struct stencil), and quantities computed from distances do not

@@ -6,7 +6,8 @@
 #include "data/hollow.h"
 #include "scene/scene.h"
 
-/* Particles in the order of the bodies of the scene, collected before their number is known. Arrays have n entries. */
+/* List of the particles that are to be created, in the order of the bodies of the input file; their number is not known
+ * in advance. Arrays have n entries and grow with the list. */
 struct new_particles {
     const struct scene *scene;
     const struct cells_without_particles *hollow; /* cells whose particles are not created; NULL: none */

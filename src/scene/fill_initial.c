@@ -1,4 +1,4 @@
-/* Initial states of particles: velocities, uniform strains and wave pulses of a scene. */
+/* Applies the initial states of an input file (scene) to particles: velocities, uniform strains and wave pulses. */
 #include <math.h>
 
 #include "data/expression.h"

@@ -1,4 +1,4 @@
-/* Columns of particle lists of all formats: their names, units, defaults and limits. */
+/* Defines the columns of particle lists of all formats: their names, units, defaults and limits. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,4 +1,5 @@
-/* Declares columns, units and notes that the readers of particle lists (CSV, HDF5) share. */
+/* Declares what the readers of particle list files (CSV, Exodus II) share: the columns, their units and defaults, and
+ * the message about a list. */
 #ifndef CLEAVE_PARTICLE_LIST_PARTS
 #define CLEAVE_PARTICLE_LIST_PARTS
 

@@ -176,8 +176,9 @@ static status check_steps(struct reader *r, const struct yaml_node *root)
                                 node_value_to_text_for_message(r, step), s->duration / s->time_step);
 }
 
-/* Returns REFUSED, with a message, if mpm.origin, a node of the grid, is more than FILL_FARTHEST spacings from 0;
- * particles must not be there either. root: tree of the scene, for the location in the message. */
+/* Returns REFUSED, with a message, if mpm.origin, the position of a grid node, is more than FILL_FARTHEST spacings from
+ * the origin of the coordinates, the limit for particles, too. root: tree of the scene, for the location in the
+ * message. */
 static status check_origin(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -350,8 +351,8 @@ static status check_accuracy(struct reader *r, const struct yaml_node *root)
 
 /* Returns REFUSED, with a message, for combinations of material model and surface correction that have no meaning:
  * state-based models in space line; pd.surface: volume with these models; pd.surface: moments on irregular lattices, in
- * space line, or with state-based models that normalise each family. root: YAML tree of the input file (scene), for the
- * location in the message. */
+ * space line, or with state-based models that normalise each neighbourhood by itself. root: YAML tree of the input file
+ * (scene), for the location in the message. */
 static status check_model(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;

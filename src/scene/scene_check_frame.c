@@ -1,5 +1,5 @@
-/* Which bodies can use the reference frame (mpm.frame), which frame `auto` stands for, and the levels of coarse cells
- * of bodies that yield. */
+/* Determines which bodies can use the reference frame (mpm.frame: shape functions on a mesh of the undeformed body),
+ * which frame the value `auto` selects, and the levels of coarse cells of bodies that yield. */
 #include "scene_parts.h"
 
 /* Returns true if a material of the body with the index `body` in s yields (has a yield stress). */

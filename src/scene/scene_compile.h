@@ -6,14 +6,14 @@
 
 enum { EXPRESSION_TEXT = 4000 }; /* longest text, variables written out as numbers */
 
-/* An operand on the stack during compilation: its unit and, if `constant`, its value. A constant operand is pushed by a
- * single step. */
+/* An operand on the stack while an expression is compiled: its unit and, if `constant` is true, its value. A constant
+ * operand is pushed by a single step of the compiled expression. */
 struct operand {
     struct quantity q;
     bool constant;
 };
 
-/* State of the compilation of one expression of a scene from its text to a list of steps. */
+/* State of the compilation of one expression of an input file: from its text to a list of steps of a stack machine. */
 struct expression_compiler {
     struct reader *r;           /* reader of the scene, which has the variables; borrowed */
     unsigned of;                /* allowed variables of the expression: EXPRESS_SPACE | EXPRESS_TIME */

@@ -1,4 +1,5 @@
-/* Declares the writer of the scene as run (scene_echo*.c), which writes values in the form of their keys. */
+/* Declares the writer of scene.yaml, the input file with all keys and defaults of a run (scene_echo*.c). It writes each
+ * value in the form that the type of its key requires. */
 #ifndef CLEAVE_SCENE_ECHO
 #define CLEAVE_SCENE_ECHO
 
@@ -6,7 +7,7 @@
 
 #include "scene_internal.h"
 
-/* Destination and state of the output in YAML. */
+/* Writer of YAML text: its output stream and the state of the current line. */
 struct yaml_writer {
     FILE *out;                 /* receives the text */
     const struct scene *scene; /* the scene that is written */

@@ -1,4 +1,4 @@
-/* Writes examples of values of keys for refusals, from the table of keys. */
+/* Composes examples of the values of keys, for messages that refuse an input file, from the table of keys. */
 #include "scene_internal.h"
 
 #include <ctype.h>

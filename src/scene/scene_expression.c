@@ -115,7 +115,8 @@ static bool missing(struct expression_compiler *c, const char *expected)
 
 /* ---- grammar ----------------------------------------------------------------------------------------------------- */
 
-/* Compiles a sum from the text of c; defined below, and declared here because a factor may be a sum in brackets. */
+/* Compiles a sum from the text of c, and returns false, with a message in c, if it is invalid. It is defined below, and
+ * declared here because a factor may be a sum in brackets. */
 static bool compile_sum(struct expression_compiler *c);
 
 static bool deeper(struct expression_compiler *c, int levels)

@@ -1,4 +1,4 @@
-/* Messages about faults of a scene: location, and the key or value at fault. */
+/* Composes messages about faults of an input file (scene): the location, and the key or value at fault. */
 #include "scene_internal.h"
 
 #include <stdarg.h>

@@ -11,8 +11,8 @@
 #include "scene/units.h"
 #include "scene/words.h"
 
-/* A named region of the scene that is being read (`region`), and the region that refers to it and is being read, too
- * (`outer`; NULL: none). Following `outer` shows whether a region contains itself. */
+/* Entry of a chain of named regions that are being read: the region `region`, and the region `outer` that refers to it
+ * (NULL: none). Following `outer` shows whether a region contains itself. */
 struct naming {
     const struct yaml_node *region;
     const struct naming *outer;
@@ -23,7 +23,8 @@ struct naming {
 /* Kinds of nodes: a single value, a list of nodes, a mapping of keys to nodes. */
 enum node_kind { NODE_SCALAR, NODE_LIST, NODE_MAP };
 
-/* A node of the tree of a scene file. Nodes and texts are in the arena of the reader. */
+/* A node of the YAML tree of an input file: a value, list or mapping with its location. Nodes and texts are in memory
+ * of the reader (struct reader), which arena_free releases as a whole. */
 struct yaml_node {
     enum node_kind kind;
     int line, column; /* location of the key, or of an item without a key; from 1 */
@@ -40,10 +41,12 @@ struct arena_block;
 struct variable;
 struct key;
 
-/* Origin of the first included file (yaml_node.origin); largest number of included files. */
+/* ORIGIN_INCLUDED: value of yaml_node.origin for nodes from the first included file. INCLUDED_MOST: largest number of
+ * included files. */
 enum { ORIGIN_INCLUDED = -2, INCLUDED_MOST = 64 };
 
-/* State of the reading of one scene file: its overrides, and the scene that is being filled. */
+/* Reader of one input file: its text tree, overrides of the command line, included files and variables, and the scene
+ * (struct scene) that it fills. It exists only while the file is read. */
 struct reader {
     const char *name;                      /* name of the scene file, for messages */
     const struct scene_override *override; /* [overrides] values of the command line that replace those of the file */
@@ -249,9 +252,9 @@ const struct quantity *variable_value(struct reader *r, const char *name, char *
 bool number_evaluate_text(struct reader *r, real *value, const char *text, enum unit kind_of_unit, bool allow_infinity,
                           char *message, size_t capacity);
 
-/* Improves the message message[capacity] about the invalid value `text` of key k. If `text` is a length although the
- * key counts spacings, replaces the message by one that states the length in spacings. The spacing of the input file
- * must have been read. r: reader of the input file. */
+/* Replaces the message message[capacity] about the invalid value `text` of key k by a more helpful one, if `text` is a
+ * length although the value of the key is a number of spacings: the new message states the length in spacings. The
+ * spacing of the input file must have been read. r: reader of the input file. */
 void message_suggest_length_as_number_of_spacings(struct reader *r, const struct key *k, const char *text,
                                                   char *message, size_t capacity);
 
@@ -478,9 +481,9 @@ status check_node_is_list_of_valid_length(struct reader *r, const struct key *k,
 status read_input_file_path(struct reader *r, const struct yaml_node *name_node, const char *file_kind, char **path,
                             uint64_t *contents_hash);
 
-/* Words by which a scene names the values of enum space, in the order of that enum. */
+/* Words by which an input file names the values of enum space, in the order of that enum. */
 extern const char *const space_names[];
-/* Words by which a scene names the values of enum probe_kind, in the order of that enum. */
+/* Words by which an input file names the values of enum probe_kind, in the order of that enum. */
 extern const char *const probe_names[PROBES];
 
 #endif

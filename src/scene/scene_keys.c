@@ -7,9 +7,9 @@
 
 #include "output/output.h"
 
-/* Parts of a row of the table of keys. NOWHERE, AT: position of the value in the structure s; FLAG: position of the
- * flag that the key is given; ANY to INSIDE: range of the value, ABOVE and INSIDE without a itself, FROM and BETWEEN
- * with a; REQUIRED, NONE: default. */
+/* Macros for the rows of the table of keys. AT: the value is stored in `member` of the structure s; NOWHERE: it is not
+ * stored; FLAG: member that becomes true if the key is given. Ranges of the value v: ANY; ABOVE: v > a; FROM: v >= a;
+ * BETWEEN: a <= v <= b; INSIDE: a < v <= b. REQUIRED, NONE: the key must be given; it has no default. KEY: one row. */
 #define NOWHERE .place = 0
 #define AT(s, member) .place = 1 + offsetof(struct s, member), .size = sizeof(((struct s *)0)->member)
 #define FLAG(s, member) 1 + offsetof(struct s, member)

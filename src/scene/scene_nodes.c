@@ -1,4 +1,4 @@
-/* Memory of the reader of a scene, and the tree of its nodes. */
+/* Allocates the memory of the reader of an input file (scene) in arenas, and links the nodes of its YAML tree. */
 #include "scene_internal.h"
 
 #include <string.h>

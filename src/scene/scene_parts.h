@@ -1,4 +1,5 @@
-/* Declares the functions that read the parts of a scene: solids, materials, bodies, loads, probes, and their checks. */
+/* Declares the functions that read the parts of an input file: solids, materials, bodies, loads, probes, and their
+ * checks. */
 #ifndef CLEAVE_SCENE_PARTS
 #define CLEAVE_SCENE_PARTS
 
@@ -169,8 +170,8 @@ status check_strength_below_tenth_of_modulus(struct reader *r, const struct yaml
  * materials have one curve. r: reader of the input file. */
 status check_single_softening_law(struct reader *r, const struct yaml_node *material_node, int material_index);
 
-/* Returns the first material of scene s (the input file) for which has(material) returns true; NULL if there is none.
- */
+/* Returns the first material of scene s (the input file) for which condition(material) is true; NULL if there is
+ * none. */
 const struct material *scene_find_first_material_that_satisfies(const struct scene *s,
                                                                 bool (*condition)(const struct material *));
 
@@ -191,10 +192,10 @@ status check_no_absorbing_boundary_if_static(struct reader *r, const struct yaml
  * that static solvers, or particles at randomly shifted positions, do not support. */
 status check_loads_are_supported(struct reader *r, const struct yaml_node *root);
 
-/* Decides where shape functions are evaluated for bodies of scene s (the input file) whose frame is `auto`. The frame
- * is `current` (at the present positions of material points) if a body does not support `reference`, with the reason in
- * body.frame_reason. Otherwise it remains `auto`, and the choice is made when the particles exist. Bodies must have
- * been read before. */
+/* Replaces the setting `auto` of body.frame by `current` in each body of scene s (the input file) that does not support
+ * `reference`, and stores the reason in body.frame_reason. With `current` shape functions are evaluated at the present
+ * positions of material points, with `reference` at their reference positions. Other bodies keep `auto` until the
+ * particles exist. Bodies must have been read before. */
 void scene_resolve_auto_shape_function_frames(struct scene *s);
 
 /* Finds out which particle lists form a lattice, and then sets the default of the correction of bonds near faces (key

@@ -31,9 +31,9 @@ static const struct yaml_node *auto_method(const struct yaml_node *root)
     return method && method->kind == NODE_SCALAR && strcmp(method->text, "auto") == 0 ? method : NULL;
 }
 
-/* Parses a scene in a text of `length` bytes, fills r->scene and writes the scene as run to s->text. With `method:
- * auto` fills only *wish, the request for pilot runs. Returns REFUSED, with a message, for an invalid scene, and for
- * `method: auto` if wish is NULL. */
+/* Parses an input file (scene) in a text of `length` bytes, fills r->scene and writes the scene as run to s->text. With
+ * `method: auto` fills only *wish, the requirements of the pilot runs (short runs that choose method and spacing).
+ * Returns REFUSED, with a message, for an invalid scene, and for `method: auto` if wish is NULL. */
 static status scene_read_all(struct reader *r, const char *text, size_t length, struct pilot_requirements *wish)
 {
     struct scene *s = r->scene;
@@ -58,8 +58,9 @@ static status scene_read_all(struct reader *r, const char *text, size_t length, 
 }
 
 /* Reads an input file (scene) from a text of `length` bytes into r->scene, in the C locale. With `method: auto` stores
- * only the request for pilot runs, in *wish, and frees the scene. Returns REFUSED, with a message and the scene freed,
- * for an invalid scene, and for `method: auto` if wish is NULL; FAILED if memory is exhausted. */
+ * only the requirements of the pilot runs (short runs that choose method and spacing) in *wish, and frees the scene.
+ * Returns REFUSED, with a message and the scene freed, for an invalid scene, and for `method: auto` if wish is NULL;
+ * FAILED if memory is exhausted. */
 static status read_scene(struct reader *r, const char *text, size_t length, struct pilot_requirements *wish)
 {
     struct scene *s = r->scene;
@@ -86,8 +87,8 @@ status scene_read_text(struct scene *s, const char *text, size_t length, const c
 }
 
 /* Reads an input file (scene) from the file `path` into s. override[overrides]: values given on the command line. With
- * `method: auto` stores only the request for pilot runs, in *wish. Returns REFUSED, with a message, for an invalid
- * scene, and for `method: auto` if wish is NULL. */
+ * `method: auto` stores only the requirements of the pilot runs (short runs that choose method and spacing) in *wish.
+ * Returns REFUSED, with a message, for an invalid scene, and for `method: auto` if wish is NULL. */
 static status scene_file_read(struct scene *s, const char *path, const struct scene_override *override, int overrides,
                               struct pilot_requirements *wish)
 {

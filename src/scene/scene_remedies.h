@@ -1,4 +1,5 @@
-/* Refusals of what the method or model of a scene cannot do. Each names a change with which the scene passes. */
+/* Declares functions that refuse an input file because its method or model does not support a setting. Each message
+ * names a change with which the input file is accepted. */
 #ifndef CLEAVE_SCENE_REMEDIES
 #define CLEAVE_SCENE_REMEDIES
 

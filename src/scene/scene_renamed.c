@@ -1,4 +1,5 @@
-/* Replaces keys by which earlier versions named present keys, and notes them in the scene; refuses removed keys. */
+/* Replaces names of keys from earlier versions by the present names, records them in the scene for a warning, and
+ * refuses removed keys. */
 #include "scene_internal.h"
 
 #include <stdio.h>

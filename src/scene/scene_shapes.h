@@ -5,9 +5,9 @@
 #include "scene/shape_file.h"
 #include "scene_internal.h"
 
-/* Settings of a file from which a solid is read, other than its name. set: named set of a mesh; contents: hash of the
- * file as text; scale: length that the number 1 in the file is; within: distance within which points belong to a set of
- * nodes or faces; pixel, slice, origin: edge of a pixel, distance of slices and lower corner of an image. */
+/* Settings, other than the name, of a file from which a solid is read. set: named set of a mesh; contents: hash of the
+ * file, as text; scale: length that the number 1 in the file stands for; within: distance up to which points belong to
+ * a set of nodes or faces. For images, pixel: edge of a pixel; slice: distance of slices; origin: lower corner. */
 struct shape_words {
     char set[LONG_NAME_LENGTH], contents[NAME_MAX_LENGTH];
     real scale, within;                 /* [m] */

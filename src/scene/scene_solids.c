@@ -270,8 +270,8 @@ status read_regions(struct reader *r, const struct yaml_node *root)
 
 /* ---- lists of solids --------------------------------------------------------------------------------------------- */
 
-/* Reads a solid from YAML node n into *s; defined below, and declared here because the operand of an operation may be
- * a group of solids. signed_before: as at the definition. */
+/* Reads a solid from YAML node n into *s. It is declared here because the operand of an operation may be a group of
+ * solids; signed_before and the returned status are explained at its definition below. */
 static status read_solid(struct reader *r, const struct yaml_node *n, struct solid *s, bool signed_before);
 
 /* Reads the operand of add, subtract or intersect into s: one solid, or a group if the operand is a list or has

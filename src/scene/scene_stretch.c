@@ -1,4 +1,4 @@
-/* Critical stretch of the bonds of a scene, from energies per area of a crack. */
+/* Computes the critical stretch of the bonds of an input file (scene) from the energy per area of a crack. */
 #include <math.h>
 
 #include "bonds/softening_work.h"

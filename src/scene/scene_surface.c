@@ -15,9 +15,11 @@
 #define RADIUS_PLANE_STRESS 0.65
 #define RADIUS_ELSE 0.9
 
-/* Number of means that the strain of a particle itself counts for, because it is that of its neighbourhood [1]. */
+/* Squared averaging radius of the strain of a single particle, itself a mean over its neighbourhood, divided by the
+ * squared horizon [1]. Each further averaging over neighbourhoods adds 1. */
 #define MEANS_OF_FAMILY 0.3
-/* Largest radius within which strains are averaged [horizons]; takes 10^4 means of families. */
+/* Largest radius within which strains are averaged [horizons]. It requires 10^4 successive averagings over
+ * neighbourhoods. */
 enum { FARTHEST = 100 };
 
 status check_strength_below_tenth_of_modulus(struct reader *r, const struct yaml_node *strength_node,

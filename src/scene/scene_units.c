@@ -1,5 +1,6 @@
-/* Units of numbers in input files: the kinds of units that keys expect, symbols and prefixes, and units as products of
- * these. Only units that are exact powers of ten are read here (min, h, rad and deg: scene_numbers.c). */
+/* Reads units of numbers in input files: symbols with prefixes, and products of their powers. Defines the kinds of
+ * units that keys expect. Only units that are exact powers of ten are read here (min, h, rad and deg:
+ * scene_numbers.c). */
 #include "scene_units_internal.h"
 
 #include <ctype.h>

@@ -1,4 +1,4 @@
-/* Units as exponents of m, kg and s, which numbers (scene_numbers.c) read from text through scene_units.c. */
+/* Declares units as exponents of m, kg and s, and the functions that read them from text (scene_units.c). */
 #ifndef CLEAVE_SCENE_UNITS_INTERNAL
 #define CLEAVE_SCENE_UNITS_INTERNAL
 
@@ -28,8 +28,8 @@ bool unit_read(struct measure *sum, const char *text);
  * Returns the length of the unit; 0 if there is none. */
 size_t unit_read_at_start_of_text(struct measure *sum, const char *text);
 
-/* Returns the row of unit_rows whose unit has the exponents twice[k]/2 of m, kg and s (k = 0, 1, 2): the first such
- * row; NULL if there is none. */
+/* Returns the first row of unit_rows, the table of known units, whose unit has the exponents twice[k]/2 of m, kg and s
+ * (k = 0, 1, 2); NULL if there is none. */
 const struct unit_row *unit_row_of_exponents(const int twice[3]);
 
 /* Writes the misspelt unit `text` to out[capacity] with each symbol in the case in which it is known: GPa for Gpa.

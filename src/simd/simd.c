@@ -1,4 +1,4 @@
-/* Selection of a set of kernels. */
+/* Selects the set of kernels (compiled for one instruction set) that the processor can run. */
 #include "simd/simd.h"
 
 #include <stdio.h>
@@ -60,8 +60,8 @@ const struct simd_set simd_sets[] = {
 };
 const int simd_set_count = COUNT_OF(simd_sets);
 
-/* Pointers to the kernels in use, with the names of the kernels. They and in_use store which set of kernels is
- * selected, the only choice that all runs of the program share. */
+/* Pointers through which the program calls its kernels, one for each kernel and with its name, and the set to which
+ * they belong (in_use). This selection is the only state that all runs of the program share. */
 #define DEFINE(name) __typeof__(&*name) name;
 KERNELS(DEFINE)
 static const struct simd_set *in_use;

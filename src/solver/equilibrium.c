@@ -15,9 +15,9 @@ enum { DIRECTIONS_MOST = 2000 }; /* largest number of directions in a correction
 enum { DIRECTIONS_IDLE = 100 };
 enum { EVALUATIONS_MOST = 10 }; /* largest number of force evaluations of a line search */
 
-/* Largest strain of the displacement increment over which a difference of forces is taken. The second-order terms of
- * the difference are of its size; the round-off of forces, a strain of 1e-14 in a body of 100 spacings, is 1e-8 of the
- * difference. */
+/* Largest strain of the displacement increment over which a difference of forces is computed [1]. The relative error by
+ * second-order terms is of the size of this strain. The round-off of forces, which corresponds to a strain of 1e-14 in
+ * a body of 100 spacings, is 1e-8 of the difference. */
 #define DIFFERENCE_STRAIN 1e-6
 /* Largest rotation of bonds [rad] in the displacement increment over which a difference of forces is taken. It is the
  * tighter limit for fragments that hang on one or two bonds, which rotate and are hardly strained. */
@@ -25,17 +25,17 @@ enum { EVALUATIONS_MOST = 10 }; /* largest number of force evaluations of a line
 /* Largest rotation of bonds in a correction along a direction of negative stiffness [rad]. */
 #define TURN_MOST 0.1
 
-/* Limits of a correction of the displacements. PUSH_LEFT: a line search ends once the force along the correction is
- * below this share of its initial value [1]. WORK_CURVED: the work is integrated by Simpson's rule if the residual
- * after the correction is above this share of the residual before [1]. */
+/* Limits of a correction of the displacements. PUSH_LEFT: ratio of the force along the correction to its initial value
+ * below which a line search ends [1]. WORK_CURVED: ratio of the residual after the correction to the residual before,
+ * above which the work is integrated by Simpson's rule [1]. */
 #define PUSH_LEFT 0.8
 #define WORK_CURVED 0.01
 /* Number of intervals of Simpson's rule for forces that are not smooth along the correction (kinks at contact and
  * yielding). With 2 intervals a 24th of the work beyond a kink would be missed. */
 enum { WORK_PARTS = 16 };
 
-/* Largest and smallest share of the residual [1] that the conjugate gradient iteration of a correction may leave. The
- * smallest share is the accuracy of one-sided differences of forces. */
+/* Largest and smallest fraction of the residual that the conjugate gradient iteration of a correction may leave [1].
+ * The smallest one is the accuracy of one-sided differences of forces. */
 #define FORCING_MOST 0.1
 #define FORCING_LEAST 1e-4
 
@@ -392,12 +392,11 @@ static real dot_held(const struct newton_solver *q, const struct field *incremen
     return sum[1];
 }
 
-/* Corrects in q the work of the loads and the lost energy after a step from one equilibrium to the next. The work was
- * summed along straight lines: along the first correction of the displacements with linearly growing loads, along
- * later corrections with full loads. In fact the displacements follow a curve c s + d s^2 while the growth of the
- * loads increases by the fraction s from 0 to 1. Along this curve no energy is lost, and the work is more/6 larger
- * than the mean of the loads at both ends times the displacement. more: growth of the loads times the displacement of
- * all corrections but the first [J]. */
+/* Corrects in q the work of the loads and the lost energy after a step from one equilibrium to the next. Their sums
+ * assume straight paths: the loads grow linearly along the first correction of the displacements, and are constant
+ * along the later ones. The actual path is approximated by the curve c s + d s^2, with loads linear in s, 0 to 1. Along
+ * it no energy is lost, and the work exceeds the mean of the loads at both ends times the displacement by more/6. more:
+ * growth of the loads times the displacement of all corrections but the first [J]. */
 static void loads_bend(struct newton_solver *q, real more)
 {
     q->bent = more / 6;

@@ -1,4 +1,4 @@
-/* Set-up, application and release of the multigrid preconditioner. */
+/* Builds, applies and frees the multigrid preconditioner. */
 #include "solver/multigrid.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
-/* Aggregates of nodes, from the strength of their connections, and their rigid motions. */
+/* Groups nodes into aggregates, the nodes of the coarser level, by the strength of their connections, and computes the
+ * rigid motions of the aggregates. */
 #include <math.h>
 
 #include "base/memory.h"

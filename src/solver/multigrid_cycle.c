@@ -1,4 +1,5 @@
-/* Loops over the rows of a level: residual, relaxation, restriction and prolongation. Every row has one writer. */
+/* Computes residual, relaxation, restriction and prolongation of a multigrid level, in parallel over matrix rows. Each
+ * row of a result is computed by one thread, so that the result does not depend on their number. */
 #include "multigrid_parts.h"
 
 typedef float four __attribute__((vector_size(16)));

@@ -1,4 +1,4 @@
-/* The coarsest level: U'DU factorisation of its dense matrix. */
+/* Solves the coarsest level of the multigrid preconditioner by a U^T D U factorisation of its dense matrix. */
 #include "base/memory.h"
 #include "multigrid_parts.h"
 

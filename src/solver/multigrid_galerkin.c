@@ -1,6 +1,6 @@
-/* The matrix of a coarser level: restriction (`up`) x matrix x prolongation (`down`). It is computed in slabs of rows,
- * so that matrix x down is never stored as a whole. In a slab each row of matrix x down has one writer, and then each
- * row of the coarser matrix, which adds rows of the slab in ascending order. */
+/* Computes the matrix of a coarser multigrid level: restriction (`up`) x matrix x prolongation (`down`), in slabs of
+ * consecutive rows, so that the product matrix x down is never stored as a whole. Each row of a product is computed by
+ * one thread, which adds its terms in ascending order, so that results do not depend on the number of threads. */
 #include <omp.h>
 #include <stdlib.h>
 

@@ -1,5 +1,5 @@
-/* Diagonal blocks of a level and their inverses, unconstrained fragments, and the largest eigenvalue of the scaled
- * matrix. */
+/* Computes the inverse diagonal blocks of a multigrid level and the largest eigenvalue of its scaled matrix, and finds
+ * unconstrained fragments. */
 #include <math.h>
 
 #include "base/eigenvalue.h"

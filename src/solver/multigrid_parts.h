@@ -1,11 +1,11 @@
-/* Levels of the multigrid preconditioner, and the functions that build and apply them. */
+/* Declares the levels of the multigrid preconditioner, and the functions that build and apply them. */
 #ifndef CLEAVE_MULTIGRID_PARTS
 #define CLEAVE_MULTIGRID_PARTS
 
 #include "solver/multigrid.h"
 
-/* Largest number of levels; largest number of components of a node: displacements, or rigid motions on coarser
- * levels. */
+/* MULTIGRID_LEVELS_MOST: largest number of levels. WIDTH_MOST: largest number of components of a node, which are
+ * displacements on the finest level and may be rigid motions on coarser levels. */
 enum { MULTIGRID_LEVELS_MOST = 12, WIDTH_MOST = 6 };
 
 /* A sparse matrix of blocks between the nodes of a level and those of the next coarser level: the prolongation or its
@@ -40,15 +40,16 @@ struct multigrid_level {
     real *b, *x, *y, *d, *t;  /* [n][width] load, solution, buffer of the solution, correction, residual */
 };
 
-/* The matrix of the coarsest level, factorised as U'DU with the unit upper triangle U and the diagonal D; n is 0 if the
- * level has no matrix. */
+/* Factorised matrix U^T D U of the coarsest level of a multigrid preconditioner, with the unit upper triangular matrix
+ * U and the diagonal matrix D. n is 0 if the level has no matrix. Owned by struct multigrid. */
 struct dense_factorisation {
     int64_t n;     /* number of unknowns */
     real *upper;   /* [n][n] unit upper triangle, row major [1] */
     real *inverse; /* [n] reciprocal pivots [m/N] */
 };
 
-/* A multigrid preconditioner: its levels, level[0] the finest, and the factorised matrix of the coarsest level. */
+/* One multigrid preconditioner: its levels, of which level[0] is the finest, and the factorised matrix of the coarsest
+ * level. Owned by the solver that uses it. */
 struct multigrid {
     int levels;
     struct multigrid_level level[MULTIGRID_LEVELS_MOST];
@@ -81,8 +82,8 @@ static ALWAYS_INLINE void multigrid_copy_matrix_block(const struct multigrid_lev
 /* Number of rows above which a loop on all threads is faster than one in a single thread. */
 enum { ROWS_MANY = 200 };
 
-/* Executes CALL for the rows i = 0 .. N - 1, on all threads if there are many. The loop is expanded in the caller, so
- * that the compiler knows constant arguments of CALL. */
+/* Executes the expression or statement CALL for the rows i = 0 .. N - 1, on all threads if there are more than
+ * ROWS_MANY rows. The loop is expanded in the caller, so that the compiler knows constant arguments of CALL. */
 #define ROWS(N, CALL)                                                                                                  \
     do {                                                                                                               \
         TEAM_LOOP((N) > ROWS_MANY, for (int64_t i = 0; i < (N); i++) CALL;);                                           \
@@ -123,8 +124,8 @@ void multigrid_invert_diagonal_blocks(struct multigrid_level *l);
  * those of level l, and stores them in coarser_level->unconstrained. */
 void multigrid_find_unconstrained_coarse_nodes(const struct multigrid_level *l, struct multigrid_level *coarser_level);
 
-/* Estimates l->largest, the largest eigenvalue of D^-1 K, from below by Lanczos iterations. K: matrix of level l; D:
- * its diagonal blocks. */
+/* Estimates l->largest, the largest eigenvalue of D^-1 K, by Lanczos iterations, whose result is a lower bound. K:
+ * matrix of level l; D: its diagonal blocks. */
 void multigrid_estimate_largest_eigenvalue(struct multigrid_level *l);
 
 /* Groups the nodes of level l with their neighbours in the matrix into aggregates, each of which becomes a node of the

@@ -1,4 +1,4 @@
-/* The smoothed prolongation and its transpose. */
+/* Computes the smoothed prolongation from a coarser multigrid level, and its transpose, the restriction. */
 #include "base/memory.h"
 #include "multigrid_parts.h"
 

@@ -1,4 +1,4 @@
-/* Forces, tangents and residuals shared by the static solvers. */
+/* Computes forces, products with the tangent stiffness, and residuals for the static solvers. */
 #include <math.h>
 
 #include "base/team.h"
@@ -22,9 +22,10 @@ real field_largest_absolute_component(const struct field *vectors, int dim, int6
     return most;
 }
 
-/* Strain of the motion over which a difference of forces is taken. The round-off of positions, eps |x|/dx as a strain,
- * is 1e-14 in a body of 100 spacings: 1e-8 of a force at a strain of 3e-6. The second-order error of central
- * differences is below 1e-10. */
+/* Strain of the displacements over which a difference of forces is computed [1]. The round-off of positions
+ * x, a strain of eps |x|/dx with the machine precision eps and the spacing dx, is 1e-14 in a body of 100
+ * spacings: 1e-8 of a force at a strain of 3e-6. The second-order error of central differences is below
+ * 1e-10. */
 #define TANGENT_STRAIN 3e-6
 
 void static_body_compute_tangent_stiffness_product(const struct static_body *body, const struct field *displacement,

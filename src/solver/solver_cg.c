@@ -1,6 +1,7 @@
-/* Conjugate gradients for K u = b (Hestenes & Stiefel 1952), without a stored matrix: K is the stiffness of the
- * bonds at the reference positions, by differences of forces, preconditioned with Lambda. K is self-adjoint in the
- * inner product with weight 1/2 for particles on a plane of symmetry, whose other half belongs to the mirror image. */
+/* Solves K u = b by conjugate gradients (Hestenes & Stiefel 1952) without a stored matrix. K, the stiffness of the
+ * bonds at the reference positions, is applied by differences of forces; the preconditioner is the diagonal matrix
+ * Lambda. K is self-adjoint in the inner product with weight 1/2 for particles on a plane of symmetry, whose other half
+ * belongs to the mirror image. */
 #include <math.h>
 
 #include "data/extent.h"

@@ -1,4 +1,4 @@
-/* Set-up of static solvers: constraints, preconditioner, norm of the loads; and their archive. */
+/* Sets up static solvers (constraints, preconditioner, norm of the loads), and saves and restores their state. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -9,8 +9,8 @@
 #include "base/team.h"
 #include "solver_parts.h"
 
-/* Largest ratio of the moment of the loads to the sum of |force x distance| that may follow from the irregular
- * arrangement of particles alone [1]. */
+/* Largest ratio of the moment of the loads to the sum of |force x distance| that counts as balanced [1]: the
+ * irregular arrangement of particles alone may cause it. */
 #define TURNING_MOST 0.05
 
 static void field_make(struct field *v, int dim, int64_t n)
@@ -95,9 +95,9 @@ static void make_weights(struct static_solver *s, const struct static_body *body
     }
 }
 
-/* Returns the number of steps of relaxation in which supports are moved to their final positions; 0 if none of those of
- * s moves. The number is the length of `body` in spacings plus 1: in a step, motion spreads through the body by one
- * spacing at most, so that supports that move faster would strain the bonds next to them more than the body. */
+/* Returns the number of relaxation steps in which supports are moved to their final positions; 0 if no support of s
+ * moves. The number is the length of `body` in spacings plus 1: motion spreads through the body by at most one spacing
+ * per step, so that faster supports would strain the bonds next to them more than the rest. */
 static int64_t supports_ramp(const struct static_solver *s, const struct static_body *body)
 {
     const real most = field_largest_absolute_component(&s->driven, s->dim, s->n);

@@ -1,4 +1,4 @@
-/* Row of the table of parts: the static solver. */
+/* Registers the static solver with the engine: defines its callbacks (struct part in run/part.h). */
 #include "solver/solver.h"
 #include "run/part.h"
 

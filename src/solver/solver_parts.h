@@ -1,4 +1,4 @@
-/* Functions shared by the static solvers. */
+/* Declares functions that the static solvers share: forces, stiffness products and residuals. */
 #ifndef CLEAVE_SOLVER_PARTS
 #define CLEAVE_SOLVER_PARTS
 

@@ -1,5 +1,5 @@
-/* Adaptive dynamic relaxation (Kilic & Madenci 2010): motion in pseudo-time with unit steps, fictitious mass and
- * damping, until the body is at rest. */
+/* Finds equilibria by adaptive dynamic relaxation (Kilic & Madenci 2010): motion in pseudo-time with unit time steps,
+ * fictitious masses and damping, until the body is at rest. */
 #include <math.h>
 
 #include "base/team.h"

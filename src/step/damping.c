@@ -1,16 +1,17 @@
-/* Bulk damping: the force -c m v on every particle and node, the mass-proportional part of Rayleigh damping.
+/* Applies bulk damping: the force -c m v on every particle and node, the mass-proportional part of Rayleigh damping.
  *
- * From one step to the next all velocities are multiplied by D = exp(-c dt), half of it before the kick by the forces
- * and half after it, which is second-order accurate in c dt: v+ = D v + s dt f/m with s = exp(-c dt/2), v the velocity
- * before the step. Under a constant force v tends to f/(c m) (c dt/2)/sinh(c dt/2). The scheme dissipates energy for
- * any c dt: the product of the two roots of an oscillator's difference equation is D, so that the amplitude decreases
- * by the factor s in each step, up to round-off.
+ * From one step to the next all velocities are multiplied by D = exp(-c dt): by s = exp(-c dt/2) before the velocity
+ * update by the forces f, and by s after it. This is second-order accurate in c dt: v+ = D v + s dt f/m, with v the
+ * velocity before the step. Under a constant force v tends to f/(c m) (c dt/2)/sinh(c dt/2). The scheme dissipates
+ * energy for any c dt: the product of the two roots of an oscillator's difference equation is D, so that the amplitude
+ * decreases by the factor s in each step, up to round-off.
  *
- * In the code kicks have the length s dt, and velocities are multiplied by D at the end of a step, by s before the
- * first kick. The loss follows from the energy that leap-frog conserves, E = 1/2 m v- . v+/s + U, with v- and v+
- * before and after a kick. With v+ of one step, v- = D v+ and w+ of the next, the forces that do the work give E' -
- * E = -1/2 m (1 - D)/s v+ . (v+ + w+). A support that exerts the force R at the kick does the work 1/2 dt R . (v-/D +
- * v+) beside it: its impulse s dt R over s, times the mean of the velocities that nothing has damped. */
+ * In the code the velocity update by forces has the duration s dt, and velocities are multiplied by D at the end of a
+ * step, by s before the first update. The loss follows from the energy that leap-frog conserves, E = 1/2 m v- . v+/s +
+ * U, with v- and v+ before and after an update. With v+ of one step, v- = D v+ and w+ of the next, the forces that do
+ * the work give E' - E = -1/2 m (1 - D)/s v+ . (v+ + w+). In addition, a support that exerts the force R in the update
+ * does the work 1/2 dt R . (v-/D + v+): its impulse s dt R, divided by s, times the mean of the velocities without
+ * damping. */
 #include <math.h>
 #include <string.h>
 

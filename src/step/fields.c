@@ -1,5 +1,5 @@
-/* Fields of frames that particles do not store: displacement gradients, plastic work and strain, shares of strength
- * surfaces, levels of cells. */
+/* Computes the fields of output frames that particles do not store: displacement gradients, plastic work and strain,
+ * ratios of stress to strength, levels of cells. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -8,8 +8,8 @@
 
 /* Radius of the neighbours of a material point [spacings]: nearest lattice neighbours, diagonal ones included. */
 #define NEAR_REACH 1.5
-/* Least determinant of K divided by (tr K/3)^3, which is 1 if neighbours are isotropic [1]: below it they do not span
- * the space. */
+/* Determinant of K divided by (tr K/3)^3, with K completed to 3 x 3 by its mean eigenvalue, up to which neighbours do
+ * not span the space [1]; it is 1 if they are isotropic. */
 #define SHAPE_LEAST 1e-6
 
 /* ---- displacement gradients -------------------------------------------------------------------------------------- */

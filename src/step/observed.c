@@ -1,4 +1,4 @@
-/* The read-only view of a run that probes measure, and what they measure in every step and where bonds break. Warns of
+/* Provides probes with a read-only view of a run, updates them in every step and at breaks of bonds, and warns of
  * supports whose bonds break. */
 #include <stdio.h>
 

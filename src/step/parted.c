@@ -1,4 +1,5 @@
-/* Numerical fracture of metals in the current frame (parted.h). */
+/* Finds neighbouring material points of metals on the background grid that separate only because shape functions
+ * transmit too little force (numerical fracture, parted.h), and warns of them. */
 #include "step/parted.h"
 
 #include <math.h>
@@ -17,7 +18,8 @@
 #define PARTED_LEAST 1.25
 enum { PARTS_OF_DURATION = 50 }; /* number of comparisons per run: a delay of a fiftieth does not matter */
 
-/* Shape functions with which bodies separate under tension, with their limits. */
+/* Shape functions whose forces are too small in tension, so that bodies on the grid separate, with the limits of
+ * stretch at which a warning is due (struct weak_shape_function). */
 static const struct weak_shape_function weak_shapes[] = {{SHAPE_LINEAR, 1.02, 1.25, 0.01, "linear", "12 to 45"},
                                                          {SHAPE_GIMP, 1.4, 1.4, 0.08, "gimp", "6 to 10"}};
 

@@ -1,4 +1,4 @@
-/* Reports of a run: schedule, frames, checkpoints and the progress line. */
+/* Writes the reports of a run: schedules and writes output frames and checkpoints, and prints the progress line. */
 #include "step/report.h"
 
 #include <math.h>
@@ -264,8 +264,8 @@ static void duration_text(char *text, size_t size, double seconds)
 }
 
 /* Prints the progress line of run e on stderr if PROGRESS_SECONDS (in a file PROGRESS_SECONDS_FILE) have passed since
- * the previous line. Prints nothing in a quiet run. last: true after the last step, when the line is always printed on
- * a terminal. */
+ * the previous line. Prints nothing if e->report->quiet is true. last: true after the last step, when the line is
+ * always printed on a terminal. */
 static void progress(struct run *e, bool last)
 {
     if (e->report->quiet) return;

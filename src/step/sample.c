@@ -1,5 +1,5 @@
-/* Samples: the lines of history.csv. Between the forces and the motion of a step the energies at t_n are known, and the
- * velocities half a step before and after t_n: a sample is taken in three parts (sample.h). */
+/* Takes samples, the lines of history.csv. Energies at t_n are known between the forces and the motion of a step,
+ * velocities only half a step before and after t_n, so that a sample is taken in three parts (sample.h). */
 #include <math.h>
 #include <string.h>
 
@@ -115,8 +115,8 @@ static void fill_record(struct run *e)
     for (int c = 0; c < spin_columns(e->scene, e->frame, NULL); c++) r[c] = l->spin[e->part.dim == 2 ? 2 : c];
 }
 
-/* Stores names and units of the history columns of probes, of the parts of a run and of angular momentum in column[],
- * unless it is NULL. Returns their number. e: the run. */
+/* Stores names and units of the history columns of probes, of the modules of the engine (struct part) and of angular
+ * momentum in column[], unless it is NULL. Returns their number. e: the run. */
 static int own_columns(const struct run *e, struct column *column)
 {
     const struct probes *probes = &e->probing->probes;

@@ -10,18 +10,19 @@
 #include "run/say.h"
 #include "step/checks.h"
 
-/* Relative error of the energy balance from which on it is reported [1]: 10 times the largest in inputs/. */
+/* Relative error of the energy balance above which a warning is given [1]: 10 times the largest error of the input
+ * files in inputs/. */
 #define ENERGY_DOUBTFUL 0.05
-/* Such an error of points that flow on the grid [1]: bars of several diameters that hit a wall have less, shorter bars
- * up to three times as much. */
+/* Relative error of the energy balance above which a warning is given for yielding material points on the grid [1].
+ * Bars of several diameters that hit a wall have smaller errors, shorter bars errors up to three times as large. */
 #define FLOW_DOUBTFUL 0.003
-/* Ratio of the energy that broken bonds have released beyond what they had stored to the largest energy, above which a
- * run warns [1]: far above round-off, and a fifth of the error of the energy balance that tests/scenes allow
+/* Energy that broken bonds have released beyond what they had stored, relative to the largest energy, above which a run
+ * warns [1]. It is far above round-off, and a fifth of the error of the energy balance that tests/scenes allow for
  * peridynamics. */
 #define RELEASED_NOTICED 1e-3
 #define FAST_TIP 5 /* least growth of a tip whose speed is judged [spacings]: the speed of a shorter one varies */
-/* Share of the energy that interface damping dissipates, from which on it is reported [1]: 3 times the largest in
- * inputs/. */
+/* Fraction of the largest energy that interface damping dissipates, above which a warning is given [1]: 3 times the
+ * largest fraction in inputs/. */
 #define DAMPED_DOUBTFUL 0.1
 
 /* Warns that breaking bonds released more energy than they had stored, if the excess is above ENERGY_DOUBTFUL of the
@@ -56,15 +57,15 @@ bool fracture_energy_warn_if_negative(const struct scene *s, const struct diagno
     return true;
 }
 
-/* Least error of the energy balance, relative to the largest energy [1], that is compared with the energy apart from
- * flight: smaller errors are those of the work of loads. A judgement. */
+/* Smallest error of the energy balance, relative to the largest energy [1], of which say_flight warns: smaller errors
+ * are those of the work of loads. Chosen by judgement. */
 #define FLIGHT_LEAST 1e-3
 
-/* Warns of an error of the energy balance that is at least FLIGHT_LEAST and at most ENERGY_DOUBTFUL of the largest
- * energy, but above ENERGY_DOUBTFUL of the largest energy without that of the common motion of all particles. Only for
- * runs with points on the grid. In flight through the grid stress gains energy where points are not mapped ahead of
- * their positions (field_set_flight): with linear shapes a block of 40 x 20 points at 200 m/s gains a fifth in eleven
- * cells. w: energies of the run; to: list of warnings. Returns true if it warns. p: all particles. */
+/* Warns, in runs with points on the grid, of an error of the energy balance that is small relative to the largest
+ * energy (FLIGHT_LEAST to ENERGY_DOUBTFUL) but not without the kinetic energy of the common motion of all particles p.
+ * While bodies fly through cells of the grid, stress gains energy unless points are mapped ahead of their positions
+ * (field_set_flight): with linear shapes a block of 40 x 20 points at 200 m/s gains a fifth in eleven cells. w:
+ * energies of the run; to: list of warnings. Returns true if it warns. */
 static bool say_flight(const struct particles *p, const struct diagnostics *w, struct warnings *to)
 {
     const real error = w->now.balance_error, amount = fabs(error) * w->energy_scale;

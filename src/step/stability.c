@@ -1,4 +1,5 @@
-/* Stability checks: they stop a diverged run and name a remedy: another step, another load, or another method. */
+/* Checks stability during a run: stops a run that has diverged, and names a remedy, such as another time step, load or
+ * method. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,4 +1,5 @@
-/* One time step. Its last function, step, is the algorithm of Zeng et al. 2022. */
+/* Makes one time step. The function `step`, at the end of the file, is the algorithm of Zeng et al. 2022; the functions
+ * before it are its phases. */
 #include "step/step.h"
 
 #include "contact/contact.h"
@@ -226,8 +227,8 @@ bool load_step_convert_points_near_breaks_to_pd(struct run *e, int64_t broken_bo
     return now.converted > 0;
 }
 
-/* Makes one time step of run e by the algorithm of Zeng et al. 2022, section 4, as corrected (MUSL, leap-frog start).
- * Its steps:
+/* Makes one time step of run e by the algorithm of Zeng et al. 2022, section 4, as corrected (MUSL, leap-frog
+ * start). Its steps:
  *
  *     1  mass and momentum of material points to the nodes
  *     2  forces of bonds
@@ -236,10 +237,11 @@ bool load_step_convert_points_near_breaks_to_pd(struct run *e, int64_t broken_bo
  *     5  bonds break
  *     6  momentum of material points to the nodes again
  *     7  velocity gradients, stresses, volumes
- *     8  conversion
+ *     8  conversion of material points to peridynamic particles
  *
- * Bonds break at the positions after step 4 of the previous time step, so that step 5 of the paper is made one time
- * step later. */
+ * Bonds break at the positions after step 4 of the previous time step, so that step 5 of the paper is made
+ * one time step later. Returns FAILED, with a message, if positions of points are not finite or a grid needs
+ * too many nodes. */
 status step(struct run *e)
 {
     struct step now = step_begin(&e->clock, e->scene->damping, &e->grid->transfer);

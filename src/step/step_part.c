@@ -1,4 +1,5 @@
-/* Rows of the table of parts: reports (samples, frames, checkpoints), bulk damping, stability checks. */
+/* Registers three modules with the engine: reports (samples, output frames, checkpoints), bulk damping and stability
+ * checks. Defines their callbacks (struct part in run/part.h). */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-/* The critical time step of a scene, and the choice of the time step.
+/* Computes the critical time step of an input file (scene), and chooses the time step.
  *
  * `bench stability` measures the limits independently, from the growth of the largest mode under the step itself. */
 #include <math.h>
@@ -39,11 +39,11 @@ static real points_share(const struct scene *s)
 }
 
 /* Returns a factor on the critical time step of material points that accounts for nearly incompressible materials [1].
- * tables: elastic constants of the materials of the scene s. Neighbouring nodes that move against each other in all
- * directions feel the stiffness c11 + (dim - 1) c12, a plane wave only c11; r is the ratio of the first to the second.
- * The limits of points_share were measured for r up to 5/3, so the factor is sqrt((5/3)/r), at most 1. (Measured in 3D
- * from nu = 0.25 to 0.499: limits fall to 0.76 to 0.80, the factor to 0.75.) The factor is 1 for linear shape functions
- * with two points per cell and direction, whose limit does not depend on r. */
+ * tables: elastic constants of the materials of the scene s. The stiffness c11 + (dim - 1) c12 acts on neighbouring
+ * nodes that move against each other in all directions, only c11 on a plane wave; r is the ratio of the first to the
+ * second. The limits of points_share were measured for r up to 5/3, so the factor is sqrt((5/3)/r), at most 1.
+ * (Measured in 3D from nu = 0.25 to 0.499: limits fall to 0.76 to 0.80, the factor to 0.75.) The factor is 1 for linear
+ * shape functions with two points per cell and direction, whose limit does not depend on r. */
 static real volume_share(const struct scene *s, const struct material_tables *tables)
 {
     const real observed = 5.0 / 3;
@@ -127,8 +127,8 @@ static real critical_of_lattices(const struct bond_source *all, const struct par
     return step;
 }
 
-/* Largest number of particles for which the highest frequency of the whole body is found by iteration. The iteration
- * takes the time of about 30 rounds of a few time steps each. */
+/* Largest number of particles for which the highest frequency of the whole body is found by iteration, because of its
+ * cost: about 30 rounds, each as expensive as a few time steps. */
 enum { ITERATED_MOST = 15000 };
 
 /* Returns the critical time step of the bonds of the run e [s]. Returns INFINITY for the method mpm, which has no

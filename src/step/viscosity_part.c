@@ -1,4 +1,4 @@
-/* Bulk viscosity of bonds, points on the grid and cells of the reference frame. */
+/* Computes forces and stresses of bulk viscosity in bonds, points on the grid and cells of the reference frame. */
 #include "step/viscosity.h"
 
 #include <math.h>

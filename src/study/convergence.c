@@ -1,4 +1,5 @@
-/* Observed order, grid convergence index and verdict of a result; its intervals are in convergence_interval.c. */
+/* Computes observed order, grid convergence index and verdict of a scalar result; convergence_interval.c computes its
+ * intervals. */
 #include "study/convergence.h"
 
 #include <math.h>

@@ -13,8 +13,8 @@
 #include "study_axis.h"
 #include "study_internal.h"
 
-/* Largest number of scalar results that are drawn, and of panels side by side; largest number of crack tips followed in
- * one run; largest number of intervals of an axis of spacings. */
+/* SHOWN_MOST, SHOWN_WIDE: largest numbers of drawn scalar results, and of panels side by side. TIPS_MOST: largest
+ * number of crack tips followed in one run. TICS_MOST: largest number of intervals of an axis of spacings. */
 enum { SHOWN_MOST = 6, SHOWN_WIDE = 3, TIPS_MOST = 16, TICS_MOST = 7 };
 #define SMOOTH 2.0  /* half of the growth over which positions of a path are averaged [spacings] */
 #define FLICKER 3.0 /* largest apparent motion of a tip that does not grow [spacings] */

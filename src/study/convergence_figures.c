@@ -1,4 +1,4 @@
-/* Results of a convergence study: selection, table and printed summary. */
+/* Selects and evaluates the scalar results of a convergence study, and writes them as a table and a printed summary. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,7 +10,7 @@
 #include "convergence_units.h"
 #include "study/uncertainty.h"
 
-/* Largest number of scalar results that are printed. */
+/* Largest number of scalar results that the printed summary of a convergence study contains. */
 enum { PRINTED_MOST = 24 };
 
 /* Factor from the change of a scalar result, when the horizon is made one spacing longer, to the error that remains in

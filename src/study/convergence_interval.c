@@ -1,12 +1,12 @@
-/* Interval that contains the true value of a result with a given probability (Bayesian).
+/* Computes the interval that contains the true value of a scalar result with a given probability (Bayesian).
  *
- * Model: the means of the levels are m_k = v + a (h_k/h_0)^p + noise, with the value v at spacing 0 that is to be
- * found. The noise consists of the error of the mean, with standard deviation e_k/2, and of a misfit with standard
- * deviation t S, because lattices of different spacings fit a body differently; S is the range of the means.
- * Prior: v is nearly unknown; the order p is uniform between 1/2 (fronts) and 2 (smooth fields); the trend from the
- * coarsest to the finest level is normal with standard deviation S; t is log-uniform up to 1.
- * For each (p, t) the posterior of v is normal and follows from linear least squares; its weight is the likelihood of
- * the means. The posterior is thus a mixture of normal distributions. It widens if the means scatter, oscillate or are
+ * Model: the means of the spacing levels k (0: finest) with spacings h_k are m_k = v + a (h_k/h_0)^p + noise, with the
+ * value v at spacing 0 that is to be found. The noise consists of the error of the mean, with standard deviation e_k/2,
+ * and of a misfit with standard deviation t S, because lattices of different spacings fit a body differently; S is the
+ * range of the means. Prior: v is nearly unknown; the order p is uniform between 1/2 (fronts) and 2 (smooth fields);
+ * the trend from the coarsest to the finest level is normal with standard deviation S; t is log-uniform up to 1. For
+ * each (p, t) the posterior of v is normal and follows from linear least squares; its weight is the likelihood of the
+ * means. The posterior is thus a mixture of normal distributions. It widens if the means scatter, oscillate or are
  * consistent with several orders.
  *
  * `cleave bench uncertainty` compares these intervals with results whose true values are known. */
@@ -14,7 +14,8 @@
 
 #include "study/convergence.h"
 
-/* Numbers of orders of convergence and of misfits t (see above) in the mixture of normal distributions. */
+/* Numbers of orders of convergence p and of misfits t (symbols of the model at the beginning of this file) in the
+ * mixture of normal distributions. */
 enum { ORDERS = 7, MISFITS = 10 };
 #define ORDER_FIRST 0.5   /* range of the order p, sampled in equal steps */
 #define ORDER_LAST 2.0    /* end of the range */

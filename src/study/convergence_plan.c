@@ -1,6 +1,6 @@
-/* Spacings of a convergence study: near the wanted ones, and such that the lattice fits faces and cracks of the scene
- * as at the scene's own spacing. A body that ends between two lattice planes, or a crack that moves from between rows
- * of particles onto a row, would change the problem. */
+/* Chooses the spacings of a convergence study: near the wanted ones, and such that the lattice fits faces and cracks as
+ * at the spacing of the input file (scene). A body that ends between two lattice planes, or a crack that moves from
+ * between rows of particles onto a row, would change the problem. */
 #include <math.h>
 
 #include "base/memory.h"

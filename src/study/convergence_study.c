@@ -12,8 +12,9 @@
 #include "convergence_units.h"
 #include "scene/scene_read.h"
 
-/* Least number of runs per level; largest number of refinements of a scene that is invalid; number of overrides of a
- * study itself; room for a value [byte]. */
+/* RUNS_LEAST: least number of runs per spacing level. FINER_MOST: largest number of refinements of a scene that is
+ * invalid. OVERRIDES_OWN: largest number of keys that a study sets itself. VALUE_ROOM: capacity of the text of a value
+ * [byte]. */
 enum { RUNS_LEAST = 3, FINER_MOST = 2, OVERRIDES_OWN = 6, VALUE_ROOM = 40 };
 #define STEP_RANGE 0.1    /* time steps vary from 0.9 to 1.1 of the scene's own */
 #define SAFETY_MOST 1.0   /* largest time step divided by the critical time step [1] */

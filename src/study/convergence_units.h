@@ -1,4 +1,4 @@
-/* Units in which a convergence study prints and draws its spacings and results. */
+/* Declares the units in which a convergence study prints and draws its particle spacings and results. */
 #ifndef CLEAVE_CONVERGENCE_UNITS
 #define CLEAVE_CONVERGENCE_UNITS
 

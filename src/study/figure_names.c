@@ -1,4 +1,5 @@
-/* Names of all results that summary.json of a run may have. A wrong name is refused before anything runs. */
+/* Lists the names of all results that summary.json of a run may have, so that a wrong name is refused before anything
+ * runs. */
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,7 +10,8 @@
 #include "scene/scene_read.h"
 #include "study/study.h"
 
-/* Capacities of the last part of the name of a result (a number in summary.json), and of its whole name [byte]. */
+/* LEAF_ROOM: capacity of the last part of the name of a result (a number in summary.json). NAME_ROOM: capacity of its
+ * whole name [byte]. */
 enum { LEAF_ROOM = 40, NAME_ROOM = 160 };
 
 /* Returns true if summary.json of runs of the scene s contains numbers on contact. */

@@ -1,5 +1,5 @@
-/* Pilot runs: studies each applicable method at coarse spacings and chooses the cheapest that reaches the accuracy, at
- * the coarsest sufficient spacing. */
+/* Makes pilot runs for `method: auto`: studies each applicable method at coarse spacings, and chooses the method that
+ * reaches the requested accuracy at the lowest cost, at the coarsest sufficient spacing. */
 #include "study/pilot.h"
 
 #include <math.h>
@@ -13,8 +13,8 @@
 #include "scene/spacings.h"
 #include "study/uncertainty.h"
 
-/* Largest ratio of the coarsest spacing of a study to the spacing that is chosen by extrapolation of its errors. For
- * larger ratios the extrapolation with the order of convergence is unreliable. */
+/* Largest ratio of the finest spacing that was run to the spacing that is chosen by extrapolation of the errors [1].
+ * For larger ratios the extrapolation with the order of convergence is unreliable. */
 #define FARTHEST 8.0
 #define FINER_LEAST 1.4    /* least refinement from one study of a method to the next */
 #define FINER_MOST 2.9     /* largest refinement: three levels */

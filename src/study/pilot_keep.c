@@ -1,5 +1,5 @@
-/* Stores the choice of pilot runs with the request that it answers: the same request later has the same answer without
- * runs. */
+/* Stores the choice of pilot runs (short runs that choose method and spacing) together with the request, so that an
+ * equal request is later answered without runs. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,5 @@
-/* Pilot runs: declarations shared by the files pilot*.c. */
+/* Declares what the files pilot*.c share. Pilot runs are short runs at several particle spacings, by which method and
+ * spacing are chosen if the input file has `method: auto`. */
 #ifndef CLEAVE_PILOT_PARTS
 #define CLEAVE_PILOT_PARTS
 
@@ -15,7 +16,8 @@ enum {
 }; /* runs at each spacing and spacings of the first study of a
     * method */
 
-/* A method (with a model) by which the scene can be computed, and the results of its pilot runs. */
+/* A candidate of the choice by pilot runs (short runs at several spacings): one method, with its peridynamic model if
+ * it has one, and the results of its pilot runs. */
 struct pilot_candidate {
     const char *name, *method, *model; /* name of its folder; values of the keys `method` and `model`, model NULL if
                                         * there is none */
@@ -30,7 +32,8 @@ struct pilot_candidate {
     bool unknown;            /* the runs have no result of the requested name */
 };
 
-/* State of the choice of method and spacing by pilot runs: what is required, the candidates, and their results. */
+/* State of one choice of method and particle spacing by pilot runs (short runs at several spacings): the input file,
+ * the required accuracy and time, and the candidate methods with their results. */
 struct pilot_search {
     const char *scene;                     /* path of the scene file; borrowed */
     const struct scene_override *override; /* [overrides] of the user; borrowed */

@@ -1,4 +1,5 @@
-/* Plan of the pilot runs: applicable methods, and what `cleave check` prints about the runs. */
+/* Plans the pilot runs (short runs that choose method and spacing): lists the applicable methods, and prints what
+ * `cleave check` says about the runs. */
 #include <math.h>
 #include <string.h>
 

@@ -1,4 +1,5 @@
-/* Axes of the pictures of a study: their range, whether they are logarithmic, tics and the digits of their numbers. */
+/* Computes the axes of the pictures of a study: their range, whether they are logarithmic, tics and digits of their
+ * numbers. */
 #include <math.h>
 #include <stdio.h>
 
@@ -8,15 +9,15 @@
  * DIGITS_LEAST, DIGITS_MOST: limits of the number of significant digits at an axis. */
 enum { DECADES = 100, DIGITS_LEAST = 4, DIGITS_MOST = 12 };
 
-/* Largest number of intervals of a horizontal axis (STEPS_MOST); least distance of the tics, i.e. labelled marks, of a
- * vertical axis [pixel]. */
+/* STEPS_MOST: largest number of intervals between the tics (labelled marks) of a horizontal axis. TICS_UP: least
+ * distance of the tics of a vertical axis [pixel]. */
 enum { STEPS_MOST = 4, TICS_UP = 31 };
 
 /* Largest deviation of the distances between values, relative to the distance, at which the values count as evenly
  * spaced [1]. */
 static const double EVEN = 1e-6;
 
-/* Margin of an axis at either end, as a share of the length of the axis [1]. */
+/* Margin of an axis at either end, as a fraction of the range of its values, or of the logarithm of this range [1]. */
 static const double MARGIN = 0.06;
 
 double study_picture_horizontal_position_of_value(const struct study_picture *p, int value_index)

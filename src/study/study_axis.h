@@ -1,4 +1,4 @@
-/* Axes of the pictures of a study. */
+/* Declares the axes of the pictures of a study. */
 #ifndef CLEAVE_STUDY_AXIS
 #define CLEAVE_STUDY_AXIS
 

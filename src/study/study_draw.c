@@ -10,10 +10,10 @@
 #include "study/convergence.h"
 #include "study_picture.h"
 
-/* Largest number of lines of a panel; gap between a map and its colour bar [pixel]. */
+/* LINES_MOST: largest number of lines of a panel. COLOUR_GAP: gap between a map and its colour bar [pixel]. */
 enum { LINES_MOST = CURVE_COLOURS, COLOUR_GAP = 8 };
 
-/* A colour bar of positive values begins at 0 if the smallest one is below this share of the largest [1]. */
+/* Ratio of the smallest to the largest value below which a colour bar of positive values begins at 0 [1]. */
 static const double ZERO_NEAR = 0.25;
 
 /* ---- text around the panels -------------------------------------------------------------------------------------- */

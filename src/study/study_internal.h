@@ -1,4 +1,4 @@
-/* Studies: declarations shared by the files study*.c. */
+/* Declares what the files study*.c share: names of runs, labels and sizes of pictures. */
 #ifndef CLEAVE_STUDY_INTERNAL
 #define CLEAVE_STUDY_INTERNAL
 
@@ -17,9 +17,9 @@ uint64_t study_hash_add_text(uint64_t hash, const char *next_text);
 /* Enlarges the hash table of the names of the runs of the study s if the table has no space for one more name. */
 void study_enlarge_run_name_table_if_full(struct study *s);
 
-/* Chooses a name for a run that no other run of s has and writes it to name[CASE_NAME_ROOM]. It is the text
- * `wanted_name`, restricted to characters that every file system accepts. If that is too long, reserved or taken, it is
- * case-HASH, with a hash of the overrides override[override_count] of the run. */
+/* Chooses a name for a run that no other run of the study s has, and writes it to name[CASE_NAME_ROOM]. The name is the
+ * text `wanted_name`, restricted to characters that every file system accepts. If that is too long, reserved or taken,
+ * the name is case-HASH, with a hash of override[override_count], the overrides of the run. */
 void study_choose_case_name(const struct study *s, char *name, const char *wanted_name,
                             const struct scene_override *override, int override_count);
 

@@ -1,4 +1,4 @@
-/* Labels of values and results in pictures of a study: short and distinct. */
+/* Composes labels of values and results in pictures of a study such that they are short and distinct. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

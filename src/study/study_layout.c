@@ -1,4 +1,4 @@
-/* Layout of the pictures of a study: texts around the panels and the space that they need. */
+/* Arranges the pictures of a study: composes the texts around the panels and computes the space that they need. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,5 +1,5 @@
-/* Names of the runs of a study and of their folders. A run has the same name in every study, independent of preceding
- * runs and of the order of its keys. */
+/* Composes the names of the runs of a study and of their folders. A run has the same name in every study, independent
+ * of preceding runs and of the order of its keys. */
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* The options with which a study was made, kept in its folder so that its page can print the command. */
+/* Stores the options with which a study was made in its folder, so that its page can print the command. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

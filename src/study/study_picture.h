@@ -1,4 +1,4 @@
-/* Content of one picture of a study: its scalar results, varied keys, points and layout. */
+/* Declares one picture of a study: its scalar results, varied keys, points and layout. */
 #ifndef CLEAVE_STUDY_PICTURE
 #define CLEAVE_STUDY_PICTURE
 
@@ -6,11 +6,12 @@
 #include "study_axis.h"
 #include "study_internal.h"
 
-/* Largest number of panels of a picture; size of a line of notes [byte]. */
+/* PANELS_MOST: largest number of panels of a picture. NOTE_ROOM: capacity of a line of text below the panels [byte]. */
 enum { PANELS_MOST = 6, NOTE_ROOM = 200 };
 
-/* Sizes in the pictures of a study [pixel]: height of a line of text; height of the title of a panel; width of a colour
- * bar. Largest number of labels along an axis, and of intervals of a colour bar. */
+/* Sizes in the pictures of a study. STUDY_ROW: height of a line of text; STUDY_TITLE: height of the title of a panel;
+ * STUDY_COLOUR_BAR: width of a colour bar [pixel]. STUDY_TICS_MOST: largest number of labels along an axis;
+ * STUDY_COLOUR_STEPS: largest number of intervals of a colour bar. */
 enum { STUDY_ROW = 24, STUDY_TITLE = 45, STUDY_COLOUR_BAR = 14, STUDY_TICS_MOST = 12, STUDY_COLOUR_STEPS = 5 };
 
 /* Role of a varied key in a picture. NONE: it has a single value. ACROSS: its values are along the horizontal axis.
@@ -18,9 +19,9 @@ enum { STUDY_ROW = 24, STUDY_TITLE = 45, STUDY_COLOUR_BAR = 14, STUDY_TICS_MOST 
  * physical meaning, such as a random seed, and runs that differ in it alone are combined to one point with a bar. */
 enum key_role { ROLE_NONE, ROLE_ACROSS, ROLE_LINES, ROLE_HELD, ROLE_CHANCE };
 
-/* A varied key as a picture shows it. given: key and values as they follow -s, in the order of the picture; shown:
- * words of the key, and values without what all of them have in common. If the values are numbers with one unit, they
- * are in ascending order and without the unit. */
+/* A key that a study varies, as one picture shows it. given: key and values in the form of the option -s, in the order
+ * of the picture; shown: the key in words, and the values without the parts that all of them have in common. If all
+ * values are numbers with one unit, they are in ascending order and without the unit. */
 struct plotted_key {
     struct varied_key given, shown;
     char unit[UNIT_ROOM]; /* of the shown values; "": none, or each value has its own */
@@ -38,14 +39,15 @@ struct plotted_key *plotted_keys_create_from_varied_keys(const struct study *stu
  * may be NULL. */
 void plotted_keys_free(struct plotted_key *shown, int key_count);
 
-/* Statistics of the runs that are combined to one point of a line: mean and standard deviation of a result in the unit
- * of its panel, and number of runs. The mean of a point without runs is NAN. */
+/* Mean and standard deviation (`scatter`) of one result, in the unit of its panel, over the `runs` runs that are
+ * combined to one point of a line. The mean of a point without runs is NAN. */
 struct figure_statistics {
     double mean, scatter;
     int runs;
 };
 
-/* One picture of a study: the study, the scalar results that it shows, the roles of the varied keys, and the layout. */
+/* One picture of a study: scalar results (one per panel), roles of the varied keys, points and layout. It exists while
+ * the picture is drawn; the study and its table are borrowed. */
 struct study_picture {
     const struct study_table *table;
     const struct study *study;

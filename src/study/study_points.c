@@ -1,5 +1,5 @@
-/* Points of the pictures of a study: means and scatter of a result over the runs of each point, in the unit of its
- * panel. */
+/* Computes the points of the pictures of a study: means and scatter of a result over the runs of each point, in the
+ * unit of its panel. */
 #include <math.h>
 
 #include "base/memory.h"

@@ -18,12 +18,13 @@
 #include "output/output_files.h"
 #include "study/study.h"
 
-/* Room for the words of a command without its overrides (-s KEY=VALUE). */
+/* Number of words of the command of a run, with the NULL at its end, for which memory is allocated besides its
+ * overrides (-s KEY=VALUE). */
 enum { WORDS_FIXED = 12 };
 
 #define PATIENCE 0.5 /* time after the budget at which runs that have not stopped are killed [s] */
 
-/* State of the runs of a study while they run as processes. */
+/* State of the processes that make the runs of a study. It exists during the call of study_execute_waiting_runs. */
 struct runner {
     struct study *study;
     struct study_options how;

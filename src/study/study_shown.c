@@ -1,5 +1,5 @@
-/* Varied keys as pictures of studies show them: `boundary.0.traction` with the values [0, 10 MPa] and [0, 20 MPa] is
- * `traction on y+` with the unit MPa and the values 10 and 20. */
+/* Converts varied keys to the form in which pictures of studies show them: `boundary.0.traction` with the values [0, 10
+ * MPa] and [0, 20 MPa] becomes `traction on y+` with the unit MPa and the values 10 and 20. */
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
-/* Units of the results of summary.json, which are all in SI. The unit of a result that is also a column of history.csv
- * is read from the header of that file; this table has the others. */
+/* Finds the units of the results in summary.json, which are all in SI. The unit of a result that is also a column of
+ * history.csv is read from the header of that file; a table here has the others. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-/* Values that a key takes in a study, parsed from the text after `-s`. */
+/* Parses the values that a key takes in a study from the text after `-s`. */
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
@@ -8,7 +8,8 @@
 #include "base/memory.h"
 #include "study/study.h"
 
-/* Largest number of values of a key in a study; longest value [characters]. */
+/* VALUES_MOST: largest number of values of a key in a study. VALUE_LONGEST: length of the longest value
+ * [characters]. */
 enum { VALUES_MOST = 10000, VALUE_LONGEST = 1000 };
 
 double value_text_split_number_and_unit(const char *value, const char **unit)

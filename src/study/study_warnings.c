@@ -8,7 +8,8 @@
 #include "output/summary_read.h"
 #include "study/study.h"
 
-/* Capacity of a warning [byte]; largest number of kinds of warnings that are counted. */
+/* WARNING_ROOM: capacity of the text of a warning [byte]. KINDS_MOST: largest number of kinds of warnings that are
+ * counted. */
 enum { WARNING_ROOM = 1024, KINDS_MOST = 64 };
 
 /* A kind of warning: texts that differ only in their numbers, because runs with different spacings print different

@@ -1,4 +1,4 @@
-/* Error bars of the results of a run from an existing convergence study of its scene. */
+/* Reads the error bars of the results of a run from an existing convergence study of its scene. */
 #include "study/uncertainty.h"
 
 #include <math.h>
@@ -12,8 +12,8 @@
 #include "study/study.h"
 #include "step/report.h"
 
-/* Largest relative difference [1] between the spacing of the scene and the spacing of a level of the study whose error
- * bars it may use. */
+/* Largest relative difference between the spacing of a run and the spacing of a level of the study at which the run has
+ * the error bars of the level [1]. */
 #define SAME_LEVEL 0.05
 
 /* Returns the path of the folder NAME_converge with NAME = name, in the parent folder of `folder`, the folder of a run.
