@@ -92,8 +92,9 @@ struct transfer_data {
     const struct transfer_order *order;   /* order in which points are processed: by colour, block and cell */
     const struct partial_stress *partial; /* share of their stress that bonded points leave to bonds */
     const struct elastic *elastic;        /* [materials] elastic constants */
-    real half_width;                      /* l_p of uGIMP: half the reference edge of a particle [m] */
-    real dt;                              /* time step [s] */
+    real half_width; /* half the width over which GIMP averages linear shape functions [m]: half the reference edge of a
+                        particle; half a cell for quadratic B-splines */
+    real dt;         /* time step [s] */
     real dt_velocity;      /* step of the velocities: dt, but dt/2 in the first step (leap-frog start) [s] */
     bool laws;             /* at least one material yields */
     bool mean_dilatation;  /* at least one material has the mean dilatation of cells (elastic.mean_dilatation) */
@@ -288,8 +289,8 @@ typedef int64_t g2p_fn(const struct grid *g, struct particles *p, const struct t
 KERNEL(void, points_add_mean_dilatation, (struct particles *p, const struct transfer_data *transfer, real share));
 
 /* Distributes one value per particle to nodes: adds value[k] N of particle list[k] of p to `field` ([g->n], in the unit
- * of `value`), for k = 0 .. n - 1, with the shape functions N of the nodes. half_width: half the reference edge of a
- * particle, l_p [m]. Serial. */
+ * of `value`), for k = 0 .. n - 1, with the shape functions N of the nodes. half_width: as in struct
+ * transfer_data, l_p [m]. Serial. */
 typedef void spread_to_nodes_fn(const struct grid *g, const struct particles *p, real half_width, const int32_t *list,
                                 int64_t n, const real *value, real *field);
 

@@ -18,13 +18,13 @@
         {GRID_REMAPPED, D, .variant = "-"}, {MESH_CLEAR, D, .variant = "-"}, {MESH_MOVE, D, .variant = "-"},           \
         {MESH_FORCE, D, .variant = "SMALL"}, {MESH_FORCE, D, .variant = "FINITE", .finite = true},                     \
         {CONTACT_SEARCH, D, .variant = "faces pressed"}, {CONTACT_FORCE, D, .variant = "faces pressed"},
-#define SHAPE_JOBS(D, S)                                                                                               \
+#define SHAPE_JOBS(D, S, C)                                                                                            \
     {REMAP, D, .shape = SHAPE_##S, .variant = #S " FLIP"}, {SPREAD, D, .shape = SHAPE_##S, .variant = #S},
 #define TRANSFER_JOB(D, S, T)                                                                                          \
     {P2G, D, .shape = SHAPE_##S, .transfer = TRANSFER_##T, .variant = #S " " #T},                                      \
         {G2P, D, .shape = SHAPE_##S, .transfer = TRANSFER_##T, .variant = #S " " #T},
 #define YIELDING_JOBS(D) {G2P_YIELDS, D, .shape = SHAPE_LINEAR, .transfer = TRANSFER_FLIP, .variant = "LINEAR FLIP"},
-#define TRANSFER_JOBS(D, S) TRANSFER_VARIANTS(TRANSFER_JOB, D, S)
+#define TRANSFER_JOBS(D, S, C) TRANSFER_VARIANTS(TRANSFER_JOB, D, S)
 
 static const struct job all_jobs[] = {PD_VARIANTS(BOND_JOBS) STATE_VARIANTS(BOND_JOBS) DIM_VARIANTS(
     DIM_JOBS) SHAPE_VARIANTS(SHAPE_JOBS) SHAPE_VARIANTS(TRANSFER_JOBS) DIM_VARIANTS(YIELDING_JOBS)};

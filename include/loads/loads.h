@@ -214,8 +214,8 @@ void loads_add_dashpot_forces(struct loads *l, struct particles *p, real dt_velo
 
 /* Appends the absorbing dashpots of the loads l to the list of dashpots of grid g; part of
  * loads_prescribe_grid_velocities, after the prescribed velocities of nodes are set. The kernel kernels->spread
- * distributes the coefficients of the dashpots on particles of p to the nodes. half_width: half the reference edge of a
- * particle [m]. */
+ * distributes the coefficients of the dashpots on particles of p to the nodes. half_width:
+ * transfer_data.half_width [m]. */
 void loads_add_grid_dashpots(struct loads *l, struct grid *g, const struct particles *p, const struct kernels *kernels,
                              real half_width);
 
@@ -278,8 +278,8 @@ void loads_apply_forces_and_motion_constraints(struct loads *l, struct particles
  * These are nodes in the region of a prescribed motion, nodes on a mirror plane, and nodes at least half of whose mass
  * belongs to points of p with prescribed motion. Nodes beyond a mirror plane move as mirror images if the plane is on a
  * node or midway between two, else they are constrained like nodes on the plane. driven_nodes: constrained nodes of
- * this grid, kept between calls, zeroed at first. kernels: maps between points and nodes; half_width: half the
- * reference edge of a particle [m]. Must be called after the first particle-to-grid map. */
+ * this grid, kept between calls, zeroed at first. kernels: maps between points and nodes; half_width:
+ * transfer_data.half_width [m]. Must be called after the first particle-to-grid map. */
 void loads_prescribe_grid_velocities(struct loads *l, struct constrained_set *driven_nodes, struct grid *g,
                                      const struct particles *p, const struct kernels *kernels, real half_width, real t,
                                      real dt);

@@ -311,11 +311,11 @@ static ALWAYS_INLINE void transfer_order_mark_points_that_left_cell(const struct
  * shape: shape function. On return m->velocity contains displacements [m]. return_queue: list to which points of
  * yielding materials are appended for the return mapping. Returns the number of points that have left the cell; they
  * are marked in t->order->left. */
-static ALWAYS_INLINE int g2p_update_points_from_motion(const struct grid *g, const struct grid_cell *c,
-                                                       struct particles *p, const struct transfer_data *t,
-                                                       struct return_mapping_queue *return_queue,
-                                                       struct points_motion *m, const int32_t *list, int n,
-                                                       const int dim, const enum shape shape)
+static G2P_UPDATE_INLINE int g2p_update_points_from_motion(const struct grid *g, const struct grid_cell *c,
+                                                           struct particles *p, const struct transfer_data *t,
+                                                           struct return_mapping_queue *return_queue,
+                                                           struct points_motion *m, const int32_t *list, int n,
+                                                           const int dim, const enum shape shape)
 {
     const struct elastic_points e = points_load_elastic_constants(p, t, m->point, dim);
     if (!t->momentum_only) points_update_stress(p, t, return_queue, &e, m->point, n, m->L, dim, shape);
@@ -388,13 +388,13 @@ static ALWAYS_INLINE int64_t g2p_update_points_of_cell(const struct grid *g, str
 }
 
 /* Defines the function NAME, the loop of g2p over all cells for dimension D, shape function S and transfer scheme T.
- * AVERAGED: true for materials whose points have the mean dilatation of their cells. They have a loop of their own, so
- * that the other loop contains no code for them. */
-#define CELLS(NAME, D, S, T, AVERAGED)                                                                                 \
-    static int64_t NAME(const struct grid *g, struct particles *p, const struct transfer_data *t)                      \
+ * LINKAGE: static or nothing; AVERAGE: true if points have the mean dilatation of their cells. */
+#define LOOP(LINKAGE, NAME, D, S, T, AVERAGE)                                                                          \
+    LINKAGE int64_t NAME(const struct grid *g, struct particles *p, const struct transfer_data *t)                     \
     {                                                                                                                  \
         const struct transfer_order *o = t->order;                                                                     \
         int64_t moved = 0;                                                                                             \
+        const bool average = AVERAGE;                                                                                  \
         _Pragma("omp parallel reduction(+ : moved)")                                                                   \
         {                                                                                                              \
             struct grid nodes = *g; /* as in scatter.h */                                                              \
@@ -404,22 +404,28 @@ static ALWAYS_INLINE int64_t g2p_update_points_of_cell(const struct grid *g, str
             _Pragma("omp for schedule(static)") for (int32_t k = 0; k < o->cells; k++) moved +=                        \
                 g2p_update_points_of_cell(&nodes, &points, &data, &due, o->particle + o->cell_start[k],                \
                                           o->cell_start[k + 1] - o->cell_start[k], D, SHAPE_##S, TRANSFER_##T,         \
-                                          AVERAGED);                                                                   \
+                                          average);                                                                    \
             if (due.n > 0) return_mapping_queue_process_first(&points, &data, &due, D);                                \
         }                                                                                                              \
         return moved;                                                                                                  \
     }
+
+#ifdef ONE_LOOP_OVER_CELLS
+#define INSTANCE(D, S, T) LOOP(, g2p_##D##d_##S##_##T, D, S, T, transfer_uses_mean_dilatation(t, D))
+#else
 #define INSTANCE(D, S, T)                                                                                              \
-    CELLS(g2p_plain_##D##d_##S##_##T, D, S, T, false)                                                                  \
-    CELLS(g2p_averaged_##D##d_##S##_##T, D, S, T, true)                                                                \
+    LOOP(static, g2p_plain_##D##d_##S##_##T, D, S, T, false)                                                           \
+    LOOP(static, g2p_averaged_##D##d_##S##_##T, D, S, T, true)                                                         \
     int64_t g2p_##D##d_##S##_##T(const struct grid *g, struct particles *p, const struct transfer_data *t)             \
     {                                                                                                                  \
         return transfer_uses_mean_dilatation(t, D) ? g2p_averaged_##D##d_##S##_##T(g, p, t)                            \
                                                    : g2p_plain_##D##d_##S##_##T(g, p, t);                              \
     }
+#endif
 #define BOTH(D, S) TRANSFER_VARIANTS(INSTANCE, D, S)
 MAP_VARIANTS(BOTH)
 #undef BOTH
 #undef INSTANCE
+#undef LOOP
 
 #endif

@@ -274,29 +274,39 @@ static ALWAYS_INLINE void p2g_add_points_of_cell(const struct grid *g, const str
     }
 }
 
-/* Defines the function of the first map (points to nodes) for dimension D, shape function S and transfer scheme T.
- * Points with the mean dilatation of their cells have a loop of their own, so that the other loop contains no code for
- * them. */
+/* Adds the points of all cells to the nodes; AVERAGE: true if points have the mean dilatation of their cells. */
+#define LOOP(D, S, T, AVERAGE)                                                                                         \
+    SCATTER(D, t, g, p, p2g_add_points_of_cell(&nodes, &points, &data, list, n, D, SHAPE_##S, TRANSFER_##T, AVERAGE))
+
+/* Defines the function of the first map (points to nodes) for dimension D, shape function S and transfer scheme T. */
+#ifdef ONE_LOOP_OVER_CELLS
+#define INSTANCE(D, S, T)                                                                                              \
+    void p2g_##D##d_##S##_##T(struct grid *g, const struct particles *p, const struct transfer_data *t)                \
+    {                                                                                                                  \
+        const bool average = transfer_uses_mean_dilatation(t, D);                                                      \
+        LOOP(D, S, T, average);                                                                                        \
+    }
+#else
 #define INSTANCE(D, S, T)                                                                                              \
     void p2g_##D##d_##S##_##T(struct grid *g, const struct particles *p, const struct transfer_data *t)                \
     {                                                                                                                  \
         if (transfer_uses_mean_dilatation(t, D)) {                                                                     \
-            SCATTER(D, t, g, p,                                                                                        \
-                    p2g_add_points_of_cell(&nodes, &points, &data, list, n, D, SHAPE_##S, TRANSFER_##T, true));        \
+            LOOP(D, S, T, true);                                                                                       \
         } else {                                                                                                       \
-            SCATTER(D, t, g, p,                                                                                        \
-                    p2g_add_points_of_cell(&nodes, &points, &data, list, n, D, SHAPE_##S, TRANSFER_##T, false));       \
+            LOOP(D, S, T, false);                                                                                      \
         }                                                                                                              \
     }
+#endif
 #define BOTH(D, S) TRANSFER_VARIANTS(INSTANCE, D, S)
 MAP_VARIANTS(BOTH)
 #undef BOTH
 #undef INSTANCE
+#undef LOOP
 
 /* ---- single field of a few points -------------------------------------------------------------------------------- */
 
 /* Adds `value`, a value of point i of p, to the nodal array `field`, distributed to the nodes of g with the weights N
- * of the first map (p2g). half_width: half the reference edge of a particle, l_p [m]; shape: shape function. */
+ * of the first map (p2g). half_width: transfer_data.half_width [m]; shape: shape function. */
 static ALWAYS_INLINE void p2g_spread_point_value(const struct grid *g, const struct particles *p, real half_width,
                                                  int32_t i, real value, real *field, const int dim,
                                                  const enum shape shape)

@@ -72,8 +72,8 @@ static ALWAYS_INLINE void shape_weights_normalise_sum(row_of_points t, row_of_po
 
 /* Computes weights N and slopes dN/dt of the shape function `shape` at the four nodes of a row (nodes around a cell
  * along one axis), for a few points, one per lane. t: distance from the lower node of the cell, l: half width of the
- * particle, inverse_width: 1/(2 l), in node distances; l and inverse_width are read for GIMP and cpGIMP only. The
- * quadratic B-spline is GIMP with l = 1/2, the mean of a hat over a whole cell. */
+ * particle, inverse_width: 1/(2 l), in node distances; l and inverse_width are read for GIMP and cpGIMP only. GIMP with
+ * l = 1/2, the mean of a hat over a whole cell, is the quadratic B-spline. */
 static ALWAYS_INLINE void shape_functions_evaluate_at_row_nodes(const enum shape shape, row_of_points t,
                                                                 row_of_points l, row_of_points inverse_width,
                                                                 row_of_points N[ROW], row_of_points dN[ROW])
@@ -82,9 +82,6 @@ static ALWAYS_INLINE void shape_functions_evaluate_at_row_nodes(const enum shape
     case SHAPE_LINEAR:
         shape_linear(t, N, dN);
         return;
-    case SHAPE_QUADRATIC:
-        shape_gimp(t, points_broadcast(0.5), points_broadcast(1), N, dN);
-        break;
     case SHAPE_CUBIC:
         shape_cubic(t, N, dN);
         break;
@@ -114,7 +111,7 @@ enum { ACROSS = 4, ROWS_MAX = ACROSS * ACROSS };
 
 /* True if loops visit only the rows of nodes in which a point has weights: in 3D, for shape functions with three nodes
  * per direction. In 2D adding weights of 0 costs less than finding these rows. */
-#define SKIPS(dim, shape) ((dim) > 2 && ((shape) == SHAPE_GIMP || (shape) == SHAPE_QUADRATIC))
+#define SKIPS(dim, shape) ((dim) > 2 && (shape) == SHAPE_GIMP)
 
 /* Loop over the nodes k of a row; leaves out the two outer nodes of linear shapes, whose weights are 0. */
 #define ROW_END(dim, shape) ((shape) == SHAPE_LINEAR && !HAS_CORNERS(dim, shape) ? 1 : 0)
@@ -283,8 +280,8 @@ static ALWAYS_INLINE void stencil_find_node_rows_with_weights(struct cell_stenci
 }
 
 /* Computes in stencil s the node weights and slopes of a few points of p in a cell along axis d for the shape function
- * `shape`; not for linear shapes in 2D and 3D. inverse: 1/h of the node distance h [1/m]; half_width: half the
- * reference edge of a particle [m]. */
+ * `shape`; not for linear shapes in 2D and 3D. inverse: 1/h of the node distance h [1/m]; half_width:
+ * transfer_data.half_width [m]. */
 static ALWAYS_INLINE void stencil_compute_axis_weights(struct cell_stencil *s, const struct particles *p, real inverse,
                                                        real half_width, int d, const int dim, const enum shape shape)
 {
@@ -302,8 +299,7 @@ static ALWAYS_INLINE void stencil_compute_axis_weights(struct cell_stencil *s, c
         else
             s->A[d][k] = N[k], s->B[d][k] = dN[k] * inverse;
     }
-    if (SKIPS(dim, shape) && d > 0)
-        stencil_find_node_rows_with_weights(s, shape == SHAPE_GIMP ? l : points_broadcast(0.5), d);
+    if (SKIPS(dim, shape) && d > 0) stencil_find_node_rows_with_weights(s, l, d);
 }
 
 /* Returns true if the weights of points on grid g are computed at positions ahead of the actual ones, shifted by the
@@ -316,7 +312,7 @@ static ALWAYS_INLINE bool grid_weights_use_half_step_ahead_positions(const struc
 }
 
 /* Computes the stencil s: weights and slopes of the shape functions of the n points `list` of p (n <= AT_ONCE, points
- * processed together) in cell c of grid g. half_width: half the reference edge of a particle, l_p [m]. */
+ * processed together) in cell c of grid g. half_width: transfer_data.half_width [m]. */
 static ALWAYS_INLINE void cell_stencil_compute_weights(struct cell_stencil *s, const struct grid *g,
                                                        const struct grid_cell *c, const struct particles *p,
                                                        const int32_t *list, int n, real half_width, const int dim,

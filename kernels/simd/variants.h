@@ -13,16 +13,19 @@
 
 #define STATE_VARIANTS(X) X(2, OSPD) X(3, OSPD) X(2, MOSPD) X(3, MOSPD)
 
-#define SHAPE_VARIANTS(X)                                                       \
-    X(1, LINEAR) X(1, GIMP) X(1, CPGIMP) X(1, QUADRATIC) X(1, CUBIC)            \
-    X(2, LINEAR) X(2, GIMP) X(2, CPGIMP) X(2, QUADRATIC) X(2, CUBIC)            \
-    X(3, LINEAR) X(3, GIMP) X(3, CPGIMP) X(3, QUADRATIC) X(3, CUBIC)
+/* Calls X for the combinations of dimension D, shape function S and the shape function that the kernel is compiled for.
+ * They differ for quadratic B-splines alone: these are GIMP shape functions of particles as wide as a cell
+ * (transfer_data.half_width; Bardenhagen & Kober 2004), and use their kernels. */
+#define SHAPE_VARIANTS(X)                                                                                   \
+    X(1, LINEAR, LINEAR) X(1, GIMP, GIMP) X(1, CPGIMP, CPGIMP) X(1, QUADRATIC, GIMP) X(1, CUBIC, CUBIC)     \
+    X(2, LINEAR, LINEAR) X(2, GIMP, GIMP) X(2, CPGIMP, CPGIMP) X(2, QUADRATIC, GIMP) X(2, CUBIC, CUBIC)     \
+    X(3, LINEAR, LINEAR) X(3, GIMP, GIMP) X(3, CPGIMP, CPGIMP) X(3, QUADRATIC, GIMP) X(3, CUBIC, CUBIC)
 
 /* Calls X for the combinations of dimension and shape function whose points can rotate in groups (data/turning.h): 2D
  * and 3D. */
-#define SHAPE_VARIANTS_TURNING(X)                                              \
-    X(2, LINEAR) X(2, GIMP) X(2, CPGIMP) X(2, QUADRATIC) X(2, CUBIC)            \
-    X(3, LINEAR) X(3, GIMP) X(3, CPGIMP) X(3, QUADRATIC) X(3, CUBIC)
+#define SHAPE_VARIANTS_TURNING(X)                                                                           \
+    X(2, LINEAR, LINEAR) X(2, GIMP, GIMP) X(2, CPGIMP, CPGIMP) X(2, QUADRATIC, GIMP) X(2, CUBIC, CUBIC)     \
+    X(3, LINEAR, LINEAR) X(3, GIMP, GIMP) X(3, CPGIMP, CPGIMP) X(3, QUADRATIC, GIMP) X(3, CUBIC, CUBIC)
 
 #define TRANSFER_VARIANTS(X, D, S) X(D, S, FLIP) X(D, S, APIC)
 /* clang-format on */

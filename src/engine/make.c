@@ -400,7 +400,7 @@ status run_create_and_transfer_from_predecessor(struct run *e, const struct scen
     e->grid->transfer = (struct transfer_data){.order = &e->grid->field[0].order,
                                                .partial = &e->coupling->partial,
                                                .elastic = e->tables.elastic,
-                                               .half_width = 0.5 * s->spacing,
+                                               .half_width = grid_shape_function_reach_beyond_cell(s),
                                                .dt = e->clock.dt,
                                                .dt_velocity = e->clock.dt,
                                                .laws = e->part.plastic_work != NULL};

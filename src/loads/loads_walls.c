@@ -192,7 +192,7 @@ static bool point_is_on(const struct grid *g, const struct particles *p, int32_t
 }
 
 /* Computes l->share[g->n] [kg]: the mass that each node of grid g receives from the material points of `load`. p: all
- * particles; k: interpolation kernels; half_width: half the reference edge of a particle [m]. Returns the number of
+ * particles; k: interpolation kernels; half_width: transfer_data.half_width [m]. Returns the number of
  * points of `load` on g. If it is 0, l->share is not set. */
 static int64_t driven_share(struct loads *l, const struct load *load, const struct grid *g, const struct particles *p,
                             const struct kernels *k, real half_width)

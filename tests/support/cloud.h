@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "kernels/kernels.h"
 #include "bonds/bonds.h"
 #include "bonds/surface.h"
 #include "base/memory.h"
@@ -12,6 +13,13 @@
 
 enum { CLOUD_MATERIALS = 2 };
 #define CLOUD_SPACING 1e-3 /* [m] */
+
+/* Returns transfer_data.half_width [m] for particles at a distance of CLOUD_SPACING on a grid of node distance h [m].
+ */
+static inline real cloud_half_width(enum shape shape, real h)
+{
+    return 0.5 * (shape == SHAPE_QUADRATIC ? h : CLOUD_SPACING);
+}
 
 /* Plan of a body on a lattice of CLOUD_SPACING. The members left at 0 stand for one particle in a direction, a regular
  * lattice, whole volumes and calibration on the lattice. */

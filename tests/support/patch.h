@@ -45,7 +45,8 @@ static inline void patch_grid(struct patch *s, real ratio, real offset)
  * (FLIP) with the shape functions `shape`. */
 static inline void patch_map(struct patch *s, enum shape shape)
 {
-    struct transfer_data t = {.order = &s->order, .partial = &s->partial, .half_width = 0.5 * CLOUD_SPACING};
+    struct transfer_data t = {
+        .order = &s->order, .partial = &s->partial, .half_width = cloud_half_width(shape, s->g.h)};
     transfer_order_sort_points_by_cell(&s->order, &s->c.p, s->c.p.list[KIND_MPM], s->c.p.n_of[KIND_MPM], &s->g);
     grid_clear(&s->g);
     p2g_table[s->g.dim][shape][TRANSFER_FLIP](&s->g, &s->c.p, &t);

@@ -115,7 +115,7 @@ static inline void point_cloud_make(struct point_cloud *s, const struct transfer
     s->t = (struct transfer_data){.order = &s->order,
                                   .partial = &s->partial,
                                   .elastic = s->elastic,
-                                  .half_width = 0.5 * CLOUD_SPACING,
+                                  .half_width = cloud_half_width((enum shape)k->shape, s->g.h),
                                   .dt = 2e-7,
                                   .dt_velocity = 1e-7};
     transfer_order_sort_points_by_cell(&s->order, &s->c.p, s->c.p.list[KIND_MPM], s->c.p.n_of[KIND_MPM], &s->g);

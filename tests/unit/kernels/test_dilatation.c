@@ -67,7 +67,7 @@ static void setting_make(struct setting *s, int dim, enum shape shape, enum tran
     s->t = (struct transfer_data){.order = &s->order,
                                   .partial = &s->none,
                                   .elastic = s->elastic,
-                                  .half_width = 0.5 * CLOUD_SPACING,
+                                  .half_width = cloud_half_width(shape, s->g.h),
                                   .dt = STEP,
                                   .dt_velocity = STEP,
                                   .dilatation = NEW("test.dilatation", p->n, real),

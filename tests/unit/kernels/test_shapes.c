@@ -30,7 +30,7 @@ static void points_make(struct points *s, int dim)
     particles_make(&s->p, dim, POINTS, WITH_STRETCH | WITH_GRADIENT);
     s->g = (struct grid){.dim = dim, .h = 1, .anchor = {0.3, -0.2, 0.1}};
     assert_int_equal(grid_extend_box(&s->g, (real[]){-4, -4, -4}, (real[]){4, 4, 4}, 100000, &changed), OK);
-    s->t = (struct transfer_data){.order = &s->order, .partial = &s->partial, .half_width = 0.25};
+    s->t = (struct transfer_data){.order = &s->order, .partial = &s->partial};
     for (int64_t i = 0; i < POINTS; i++) s->p.volume[i] = 1;
     particles_rebuild_lists_by_kind(&s->p);
 }
@@ -112,6 +112,7 @@ static void test_complete(void **state)
         for (int k = 0; k < (dim == 1 ? PLACES : dim == 2 ? PLACES / 5 : 1); k++) {
             points_place(&s, &seed);
             for (int shape = 0; shape < SHAPES; shape++) {
+                s.t.half_width = shape == SHAPE_QUADRATIC ? 0.5 : 0.25;
                 check_weights(&s, (enum shape)shape);
                 check_slopes(&s, (enum shape)shape, k % 2 ? TRANSFER_APIC : TRANSFER_FLIP);
             }

@@ -55,7 +55,8 @@ static void scene_make(struct scene *s, int dim, int shape)
     assert_int_equal(grid_extend_box(&s->g, from, to, 100000, &changed), OK);
     transfer_order_sort_points_by_cell(&s->order, p, p->list_free, p->n_free, &s->g);
     corotating_groups_make(&s->turning, p, CLOUD_SPACING, (const real[]){0.0075, 0.0055, 0.0035}, one, held, 2);
-    s->t = (struct transfer_data){.order = &s->order, .half_width = 0.5 * CLOUD_SPACING, .dt = 1e-14, .dt_velocity = 1};
+    s->t = (struct transfer_data){
+        .order = &s->order, .half_width = cloud_half_width(shape, s->g.h), .dt = 1e-14, .dt_velocity = 1};
     struct partial_stress none = {0};
     struct elastic elastic[CLOUD_MATERIALS] = {{0}};
     s->t.partial = &none, s->t.elastic = elastic;

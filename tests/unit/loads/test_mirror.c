@@ -327,8 +327,7 @@ static void points_make(struct points *s, struct particles *p, const struct boun
     real from[DIM_MAX], to[DIM_MAX];
     bool changed;
     *s = (struct points){.p = p, .g = {.dim = p->dim, .h = 2 * CLOUD_SPACING}};
-    s->t = (struct transfer_data){
-        .order = &s->order, .partial = &s->partial, .elastic = &steel, .half_width = 0.5 * CLOUD_SPACING, .dt = 1e-7};
+    s->t = (struct transfer_data){.order = &s->order, .partial = &s->partial, .elastic = &steel, .dt = 1e-7};
     for (int d = 0; d < p->dim; d++) {
         s->g.anchor[d] = d < 2 ? offset * s->g.h : 0;
         from[d] = -20 * CLOUD_SPACING, to[d] = 20 * CLOUD_SPACING;
@@ -343,6 +342,7 @@ static void points_step(struct points *s, enum shape shape, enum transfer transf
     struct kernels k;
     real work = 0;
     kernels_choose(&k, s->p->dim, PD_BOND, shape, transfer);
+    s->t.half_width = cloud_half_width(shape, s->g.h);
     s->t.dt_velocity = step == 0 ? 0.5 * s->t.dt : s->t.dt;
     transfer_order_sort_points_by_cell(&s->order, s->p, s->p->list[KIND_MPM], s->p->n, &s->g);
     grid_clear(&s->g);
