@@ -1,4 +1,5 @@
 /* Starts LAMMPS and reads how long it took; bond_style bpm/peri, through `cleave export lammps --style bpm`. */
+#define _GNU_SOURCE /* posix_spawn_file_actions_addchdir_np */
 #include <errno.h>
 #include <fcntl.h>
 #include <spawn.h>

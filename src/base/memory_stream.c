@@ -1,4 +1,5 @@
 /* Streams into memory. */
+#define _GNU_SOURCE /* fopencookie */
 #include "base/memory_stream.h"
 
 #include <errno.h>

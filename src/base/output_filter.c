@@ -1,5 +1,6 @@
 /* Replaces control characters in standard output and error, by streams of the C library with a write function of their
  * own. Where the library has no such streams (neither glibc nor BSD), only messages of status_set are protected. */
+#define _GNU_SOURCE /* fopencookie */
 #include "base/output_filter.h"
 
 #include <errno.h>

@@ -1,4 +1,5 @@
 /* Makes the particles of a scene and sorts them as meshes of other programs list them. */
+#define _GNU_SOURCE /* memmem */
 #include "export_mesh.h"
 
 #include <errno.h>

@@ -1,5 +1,6 @@
 /* Reads Gmsh .msh files, formats 2.2 and 4.1, text or binary (Gmsh reference manual, "File formats"). Physical groups
  * become sets with the group's name, or its number if it has none. */
+#define _GNU_SOURCE /* memmem */
 #include <ctype.h>
 #include <stdio.h>
 #include <strings.h>

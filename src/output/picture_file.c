@@ -1,5 +1,6 @@
 /* Marks finished pictures as drawn by Cleave and checks that they are complete. The mark is near the end of a file, at
  * a position that viewers ignore. */
+#define _GNU_SOURCE /* memmem */
 #include "output/picture_file.h"
 
 #include <errno.h>

@@ -1,4 +1,5 @@
 /* Compares the texts of two input files (scenes), and reports the first line in which they differ. */
+#define _GNU_SOURCE /* memmem */
 #include "output/scene_text.h"
 
 #include <stdio.h>

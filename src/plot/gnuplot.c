@@ -1,4 +1,5 @@
 /* Starts gnuplot without a shell, sets the common style of pictures and waits for the picture. */
+#define _GNU_SOURCE /* asprintf */
 #include "plot/gnuplot.h"
 
 #include <ctype.h>

@@ -1,4 +1,5 @@
 /* Reads grey values of images. `materials` of an image become parts of the body whose shape the image is. */
+#define _GNU_SOURCE /* strverscmp */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

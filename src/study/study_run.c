@@ -1,4 +1,5 @@
 /* Starts the runs of a study as parallel processes, each on its share of the cores. */
+#define _GNU_SOURCE /* program_invocation_name */
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>

@@ -1,5 +1,6 @@
 /* The wrapped calls of faults.h. A wrapped call of the program (__wrap_x) continues in x of this file, which all
  * libraries also call, and x continues in the C library. */
+#define _GNU_SOURCE /* O_TMPFILE */
 #include "faults.h"
 
 #include <stdio.h>

@@ -16,13 +16,13 @@ jobs=${JOBS:-$(getconf _NPROCESSORS_ONLN)}
 
 cppcheck --std=c11 --enable=warning,performance,portability --inline-suppr --quiet -j "$jobs" --template='{file}:{line}: {message} [{id}]' \
     --suppress=uninitvar --suppress=arrayIndexOutOfBoundsCond \
-    --suppress=compareBoolExpressionWithInt -I. -Iinclude -I"$BUILD" -D__x86_64__ -D_GNU_SOURCE \
+    --suppress=compareBoolExpressionWithInt -I. -Iinclude -I"$BUILD" -D__x86_64__ -D_XOPEN_SOURCE=700 -D_DEFAULT_SOURCE \
     '-DCLEAVE_VERSION=""' '-DSIMD_SET="portable"' "$@" 2>>"$found"
 
 # Kernels alone are compiled for a set of vector instructions.
 tidy='for file; do
     case $file in kernels/*) set_of=-DSIMD_SET=\"portable\" ;; *) set_of= ;; esac
-    clang-tidy-14 --quiet "$file" -- -std=c11 -fopenmp -I. -Iinclude -I"$BUILD" -D_GNU_SOURCE "-DCLEAVE_VERSION=\"\"" $set_of $LIBFLAGS
+    clang-tidy-14 --quiet "$file" -- -std=c11 -fopenmp -I. -Iinclude -I"$BUILD" -D_XOPEN_SOURCE=700 -D_DEFAULT_SOURCE "-DCLEAVE_VERSION=\"\"" $set_of $LIBFLAGS
 done 2>/dev/null'
 printf '%s\n' "$@" | xargs -P "$jobs" -n 4 sh -c "$tidy" tidy | grep -E '(warning|error): ' | sed "s|^$PWD/||" | sort -u >>"$found"
 
