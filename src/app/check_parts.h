@@ -198,10 +198,6 @@ void hint_implausible_load_signs_and_magnitudes(const struct run *e, struct warn
  * the error and a remedy. The run must not have taken a step. */
 void print_accuracy_advice(const struct run *e, FILE *out);
 
-/* Adds a line to *warning_list for each setting of the input file of run e that costs more than necessary or has no
- * effect, and for each end of a crack that is exactly on bonds. The run must not have taken a step. */
-void hint_needless_cost_and_unused_settings(const struct run *e, struct warnings *warning_list);
-
 /* Writes to `out` by how much the stiffness of a part of scene s (the input file) with a thickness of `layer_count`
  * particle layers differs at most from that of the material, for example "about 2 % in bending and tension"; in 3D also
  * in torsion. The values are from a table. surface: correction of bonds near faces. */
@@ -218,5 +214,11 @@ void print_advice_on_stiffness_of_particle_lists(const struct run *e, FILE *out)
  * `normal_axis` through the middle of its particles. *plane_position receives the position of this plane along the axis
  * [m] (check_symmetry.c). */
 bool run_is_symmetric_about_mid_plane(const struct run *e, int normal_axis, real *plane_position);
+
+/* ---- check_hints.c ----------------------------------------------------------------------------------------------- */
+
+/* Adds a line to *warning_list for each setting of the input file of run e that costs more than necessary or has no
+ * effect, and for each end of a crack that is exactly on bonds. The run must not have taken a step. */
+void hint_needless_cost_and_unused_settings(const struct run *e, struct warnings *warning_list);
 
 #endif

@@ -2,6 +2,7 @@
 #ifndef CLEAVE_STUDY_INTERNAL
 #define CLEAVE_STUDY_INTERNAL
 
+#include "study/convergence_study.h"
 #include "study/study.h"
 
 /* Beginning of the second line of the file STUDY_SCENE; the options of the study follow in this line. */
@@ -71,5 +72,17 @@ double axis_tick_distance(double range, int max_intervals);
 /* Returns true if all values of the varied key are numbers with the same unit, and then stores a pointer to the text of
  * this unit in *unit. */
 bool varied_key_values_are_numbers_of_one_unit(const struct varied_key *key, const char **unit);
+
+/* ---- pictures of convergence studies (convergence_paths.c) --------------------------------------------------------
+ */
+
+/* Returns the path FOLDER/pictures/KEY.png of a picture of the study in `folder`, with KEY = key (the name of the
+ * picture), or with the ending of another format that picture_size_set_process_wide has set. */
+struct path convergence_picture_path(const char *folder, const char *key);
+
+/* Draws the crack paths of all runs of the study s in one picture. Their data are composed before the picture is
+ * opened, since their extent determines its height. Returns FAILED, with a message, without memory or if gnuplot
+ * fails. */
+status convergence_draw_crack_paths(const struct convergence_study *s);
 
 #endif
