@@ -274,7 +274,7 @@ status load_steps_estimate_run_cost(struct cost *c, struct run *e)
 
 void print_load_steps_cost(const struct run *e, const struct cost *c, int threads)
 {
-    printf("run time       %.2g to %.2g s on %d idle core%s: about %.2g equilibria of %.2g s", c->least, c->most,
+    printf("run time       %.2g to %.2g s on %d idle core%s: up to %.2g equilibria of %.2g s", c->least, c->most,
            threads, threads > 1 ? "s" : "", c->equilibria, c->step);
     const bool known = c->overload > 0 && e->scene->rigids == 0; /* the forces of rigid bodies are not predicted */
     if (known && c->overload < NOTHING_BREAKS && e->scene->steps.control == CONTROL_LOAD)
