@@ -51,7 +51,7 @@ struct softening_range {
 
 /* Peak stresses of a material whose bonds soften, divided by s_0 E' (dimensionless): under uniaxial tension, equal
  * biaxial tension, and pure shear. s_0: stretch at which bonds begin to soften; E': E, in plane strain E/(1 - nu^2).
- * NAN where the space has no such stress; shear is computed in the plane only. */
+ * NAN in 1D, except in tension. */
 struct softening_strength {
     real tension, biaxial, shear;
 };

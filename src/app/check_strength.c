@@ -84,7 +84,7 @@ static void print_surface(const struct scene *s, const struct material *m)
     const real unit = material_uniaxial_tension_modulus(m, s->space) * m->onset_stretch;
     const struct softening_strength own =
         softening_curve_normalised_peak_stresses(&curve, s->space, square(m->critical_stretch / m->onset_stretch));
-    const real own_shear = isnan(own.shear) ? m->young * m->onset_stretch / (1 + m->poisson) : unit * own.shear;
+    const real own_shear = unit * own.shear;
     printf("strength       %s: %.4g Pa in tension, %.4g Pa in equal biaxial tension, %.4g Pa in shear", m->name,
            surface.tension, surface.biaxial, surface.shear);
     if (isfinite(surface.compression)) printf(", %.4g Pa in uniaxial compression", surface.compression);
@@ -127,8 +127,8 @@ void print_softening_and_horizon_limits(const struct scene *s, const struct mate
     const struct softening_strength strength =
         softening_model_normalised_peak_stresses(&curve, s->space, kappa, &model);
     printf("strength       %s: %.4g Pa in tension", m->name, unit * strength.tension);
-    if (s->dim > 1) printf(", %.4g Pa in equal biaxial tension", unit * strength.biaxial);
-    if (s->dim == 2) printf(", %.4g Pa in shear", unit * strength.shear);
+    if (s->dim > 1)
+        printf(", %.4g Pa in equal biaxial tension, %.4g Pa in shear", unit * strength.biaxial, unit * strength.shear);
     printf("; bonds soften %s from a stretch of %.4g to %.4g (kappa %.3g, phi %.3g)\n", law[m->softening],
            m->onset_stretch, softening_breaking_stretch_of_equal_energy(&curve, m->onset_stretch, m->critical_stretch),
            kappa, strength.tension);

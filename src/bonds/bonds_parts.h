@@ -55,6 +55,12 @@ struct bond_row_inputs {
     int room;                           /* largest number of bonds of a row */
 };
 
+/* Returns the weight (factor on the stiffness, [1]) that an intact bond between the particles `particle` and
+ * `other_particle` of p has. source: inputs of the bonds; pairs: micro-moduli by pair of materials. Exchanging the
+ * particles changes no bit. */
+real bond_weight_of_pair(const struct bond_source *source, const struct particles *p,
+                         const struct material_pair_table *pairs, int32_t particle, int32_t other_particle);
+
 /* Allocates the softening data (largest stretch, onset and end of softening) of the bonds b of the particles p. Does
  * nothing if all bonds are brittle. bonds_free releases the data. previous: bonds before a rebuild, whose softening is
  * kept, NULL if there are none; source: inputs of the bonds (horizon, materials, cracks, mirrors). */
@@ -65,6 +71,14 @@ void bonds_allocate_softening_state(struct bonds *b, const struct bonds *previou
  * inputs->old, the previous bonds, keep their state; new bonds have not begun to soften. The neighbours row->nbr must
  * be set. */
 void bond_row_set_softening_state(struct bond_row *row, const struct bond_row_inputs *inputs, int32_t particle);
+
+/* Returns true if the bond with index `bond` in the arrays of b has ended by softening and presses (closing.h).
+ * row_block: block of eight rows (the bonds of eight particles) that contains the bond. */
+static inline bool ended_bond_presses(const struct bonds *b, int64_t row_block, int64_t bond)
+{
+    return bond_row_block_has_begun_softening(b, row_block) && b->soft.settled && !b->soft.whole && b->w[bond] != 0 &&
+           !bond_is_softening(b, row_block, bond) && b->soft.settled[bond] > 0;
+}
 
 /* Fraction of the least strain on a strength surface [1] from which on the stretch of a bond counts as near the
  * surface: its block of eight rows (bonds of eight particles) is then marked for an exact test (bonds_strength.c). */

@@ -119,6 +119,14 @@ static real bond_weight(const struct bond_source *s, const struct particles *p, 
     return weight;
 }
 
+real bond_weight_of_pair(const struct bond_source *source, const struct particles *p,
+                         const struct material_pair_table *pairs, int32_t particle, int32_t other_particle)
+{
+    real xi[DIM_MAX], r2 = 0;
+    for (int d = 0; d < p->dim; d++) xi[d] = p->X[d][other_particle] - p->X[d][particle], r2 += square(xi[d]);
+    return bond_weight(source, p, pairs, particle, other_particle, xi, sqrt(r2));
+}
+
 /* Lists the neighbours with which particle i of p has bonds in row->nbr[capacity], ascending: all within the cutoff if
  * it is peridynamic, only the peridynamic ones if it is a material point. Sets row->n, their number, and
  * row->family_volume, the volume of all neighbours within the cutoff [m^3]. s: cutoff and cells of the search; map: map

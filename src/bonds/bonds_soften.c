@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "base/team.h"
+#include "bonds/closing.h"
 #include "bonds/struts.h"
 #include "bonds_parts.h"
 
@@ -132,6 +133,11 @@ void bonds_copy_softening_of_row(struct bonds *b, const struct particles *p, con
         if (new_index[it.bond.nbr] >= 0) softness_take(b, row, new_index[it.bond.nbr], previous_bonds, it.bond.entry);
 }
 
+void bonds_allocate_softening_stretches_of_equilibrium(struct bonds *b)
+{
+    if (!b->soft.settled) b->soft.settled = memory_new_lazy_zeroed("bonds.settled", b->room * LANES, sizeof(float));
+}
+
 /* Copies the softening of all bonds of b in blocks of eight rows (the bonds of eight particles) where softening has
  * begun: to `packed` if `saving`, else from `packed`. packed: eight entries for each column (the k-th bonds of eight
  * rows) of these blocks, padding included. */
@@ -140,10 +146,15 @@ static void pack_softness(struct bonds *b, struct bond_softening_state *packed, 
     for (int64_t g = 0; g < b->row_blocks; g++)
         for (int64_t k = 0; b->soft.begun[g] && k < b->column_count[g] * LANES; k++, packed++) {
             const int64_t q = b->column[g] * LANES + k;
-            if (saving)
+            if (saving) {
                 *packed = bond_softening_state_read(&b->soft, q);
-            else
-                bond_softening_state_write(b, q, *packed);
+                if (ended_bond_presses(b, g, q)) packed->whole = b->soft.settled[q];
+                continue;
+            }
+            bond_softening_state_write(b, q, *packed);
+            if (b->soft.whole || !(packed->whole > 0)) continue;
+            bonds_allocate_softening_stretches_of_equilibrium(b);
+            b->soft.settled[q] = packed->whole;
         }
 }
 

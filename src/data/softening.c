@@ -75,7 +75,13 @@ real softening_normalised_dissipated_energy(const struct softening_curve *c, rea
 /* ---- uniform strain ---------------------------------------------------------------------------------------------- */
 
 enum { DIRECTIONS = 128, BISECTIONS = 40 }; /* directions of a quadrature over bonds; steps of a bisection */
-#define GROWTH 1.01                         /* factor between two strains of the search for a peak */
+enum {
+    HEIGHTS = 48,
+    TURNS = 48
+};                         /* directions of an octant: heights above a plane times directions round its normal */
+enum { ITERATIONS = 100 }; /* largest number of secant iterations for the strains of shear in space */
+#define STRAIN_ERROR 1e-7  /* difference of two such strains that counts as 0, in units of s_0 */
+#define GROWTH 1.01        /* factor between two strains of the search for a peak */
 
 /* Axial and lateral stress of a neighbourhood of bonds, divided by E' s_0: modulus times stretch at which bonds begin
  * to soften [1]. */
@@ -214,12 +220,55 @@ static real biaxial_at(const struct directions *a, real strain)
     return family_stress(a, strain_without_stress(a, -2 * strain, strain, axial_stress), strain).lateral;
 }
 
-/* Returns the shear stress of the neighbourhood of bonds a, divided by E' s_0 [1], in a plane state with equal tension
- * and compression along two axes. strain: strain along the axis of tension, in units of s_0, the stretch at which
- * softening begins. Returns NAN in 1D and 3D. */
+/* Computes the secant stiffness C of the neighbourhood of bonds a in space, divided by E': its principal stresses at
+ * the principal strains strain[3] are E' times the sum over j of C[i][j] strain[j]. strain: in units of s_0, the
+ * stretch at which softening begins. The mean over all directions is that over one octant. */
+static void solid_secant_stiffness(const struct directions *a, const real strain[3], real C[3][3])
+{
+    const struct softening_model *m = a->model;
+    const bool bonds = !(m->B > 0);
+    real mean[3] = {0}, product[3][3] = {{0}};
+    for (int k = 0; k < HEIGHTS * TURNS; k++) {
+        const real height = (k / TURNS + 0.5) / HEIGHTS, angle = 0.5 * M_PI * (k % TURNS + 0.5) / TURNS;
+        const real flat = 1 - square(height);
+        const real n2[3] = {flat * square(cos(angle)), flat * square(sin(angle)), square(height)};
+        const real share = bond_share(a, dot(n2, strain, 3)) / (HEIGHTS * TURNS);
+        for (int i = 0; i < 3; i++) {
+            mean[i] += share * n2[i];
+            for (int j = 0; j < 3; j++) product[i][j] += share * n2[i] * n2[j];
+        }
+    }
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            const real own = m->rotates ? (i == j ? mean[i] : 0) : product[i][j];
+            C[i][j] = bonds ? 6 * product[i][j] : m->A * mean[i] * mean[j] + m->B * own;
+        }
+}
+
+/* Returns the shear stress of the neighbourhood of bonds a in space, divided by E' s_0 [1], in a state with equal
+ * tension and compression along two axes and no stress along the third. strain: strain along the axis of tension, in
+ * units of s_0, the stretch at which softening begins. The other two strains are found by iteration on secants. */
+static real solid_shear_at(const struct directions *a, real strain)
+{
+    real e[3] = {strain, -strain, 0}, C[3][3] = {{0}}, moved = INFINITY;
+    for (int k = 0; k < ITERATIONS && moved > STRAIN_ERROR; k++) {
+        solid_secant_stiffness(a, e, C);
+        const real across = C[0][1] + C[1][1], along = C[0][0] + C[1][0], out = C[0][2] + C[1][2];
+        const real two = (C[2][0] * out - along * C[2][2]) / (across * C[2][2] - C[2][1] * out) * strain;
+        const real three = -(C[2][0] * strain + C[2][1] * two) / C[2][2];
+        moved = real_max(fabs(two - e[1]), fabs(three - e[2]));
+        e[1] = two, e[2] = three;
+    }
+    return dot(C[0], e, 3);
+}
+
+/* Returns the shear stress of the neighbourhood of bonds a, divided by E' s_0 [1], in a state with equal tension and
+ * compression along two axes and, in space, no stress along the third. strain: strain along the axis of tension, in
+ * units of s_0, the stretch at which softening begins. Returns NAN in 1D. */
 static real shear_at(const struct directions *a, real strain)
 {
-    if (space_dim(a->space) != 2) return NAN;
+    if (a->space == SPACE_LINE) return NAN;
+    if (a->space == SPACE_SOLID) return solid_shear_at(a, strain);
     return family_stress(a, strain, strain_without_stress(a, -10 * strain, strain, stress_sum)).axial;
 }
 

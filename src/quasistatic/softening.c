@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "base/memory.h"
+#include "bonds/closing.h"
 #include "kernels/kernels.h"
 #include "kernels/pd/bond_last.h"
 #include "kernels/pd/state_driving.h"
@@ -119,6 +120,9 @@ void softening_bond_list_store_largest_stretches(const struct softening_bond_lis
 
 /* ---- equilibria -------------------------------------------------------------------------------------------------- */
 
+/* Returns the largest stretch of the bond with index q at the last equilibrium, at least its onset of softening [1]. */
+static real settled_stretch(const struct bonds *b, int64_t q) { return fmaxf(b->soft.settled[q], b->soft.onset[q]); }
+
 /* Stores the largest stretch of bond `bond` of row `row` of b (bonds of one particle of p) as its value at the last
  * equilibrium. A bond that has not exceeded its onset of softening is then no longer marked as softening. limit:
  * critical stretches and softening of bonds. */
@@ -138,7 +142,7 @@ static void settle_bond(struct bonds *b, const struct particles *p, const struct
 void bonds_store_softening_stretches_of_equilibrium(struct bonds *b, const struct particles *p,
                                                     const struct bond_limit *limit)
 {
-    if (!b->soft.settled) b->soft.settled = memory_new_lazy_zeroed("bonds.settled", b->room * LANES, sizeof(float));
+    bonds_allocate_softening_stretches_of_equilibrium(b);
     FOR_SOFTENING_BONDS(b, row, it) settle_bond(b, p, limit, row, &it.bond);
 }
 
@@ -147,7 +151,7 @@ void bonds_restore_softening_stretches_of_equilibrium(struct bonds *b)
     FOR_SOFTENING_BONDS(b, row, it)
     {
         const int64_t q = it.bond.entry;
-        b->soft.most[q] = fmaxf(b->soft.settled[q], b->soft.onset[q]);
+        b->soft.most[q] = (float)settled_stretch(b, q);
         bond_weigh(b, row, q, b->soft.most[q]);
     }
 }
@@ -159,18 +163,50 @@ static void row_weigh_softened(struct bonds *b, int64_t row, bool settled)
     for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_iterator_advance(&it);) {
         const int64_t q = it.bond.entry;
         if (it.bond.w == 0 || !bond_is_softening(b, row / LANES, q)) continue;
-        bond_weigh(b, row, q, settled ? fmaxf(b->soft.settled[q], b->soft.onset[q]) : b->soft.most[q]);
+        bond_weigh(b, row, q, settled ? settled_stretch(b, q) : b->soft.most[q]);
     }
 }
 
-void bonds_add_softening_losses_to_fracture_energy(struct bonds *b, const struct particles *p)
+/* Raises the largest stretches of the last equilibrium of the softening bonds in row `row` of b (bonds of one particle)
+ * to their stretches at the positions of p, but not above their present largest stretches; to these if `last`. */
+static void row_raise_settled(struct bonds *b, const struct particles *p, int64_t row, bool last)
+{
+    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_iterator_advance(&it);) {
+        const int64_t q = it.bond.entry;
+        if (it.bond.w == 0 || !bond_is_softening(b, row / LANES, q)) continue;
+        const real stretch = bond_stretch_at_earlier_time(p, it.bond.inverse_length, b->particle[row], it.bond.nbr, 0);
+        b->soft.settled[q] =
+            last ? b->soft.most[q] : fminf(b->soft.most[q], fmaxf((float)stretch, (float)settled_stretch(b, q)));
+    }
+}
+
+void bonds_add_softening_losses_to_fracture_energy(struct bonds *b, const struct particles *midway,
+                                                   const struct particles *end, bool last)
 {
 #pragma omp parallel for schedule(dynamic, 8)
     for (int64_t g = 0; g < b->row_blocks; g++)
         for (int64_t row = g * LANES; b->soft.begun[g] && row < b->rows && row < (g + 1) * LANES; row++) {
-            const real after = state_row_energy(b, p, row, 0);
             row_weigh_softened(b, row, true);
-            b->fracture_energy[row] += state_row_energy(b, p, row, 0) - after;
+            const real before = state_row_energy(b, midway, row, 0);
+            row_raise_settled(b, end, row, last);
+            row_weigh_softened(b, row, true);
+            b->fracture_energy[row] += before - state_row_energy(b, midway, row, 0);
             row_weigh_softened(b, row, false);
         }
+}
+
+real bonds_largest_growth_over_softening(const struct bonds *b, const struct particles *before,
+                                         const struct particles *now)
+{
+    real most = 0;
+    FOR_SOFTENING_BONDS(b, row, it)
+    {
+        const int64_t q = it.bond.entry;
+        if (!(b->soft.most[q] > settled_stretch(b, q))) continue;
+        const int32_t i = b->particle[row], j = it.bond.nbr;
+        const real grown = bond_stretch_at_earlier_time(now, it.bond.inverse_length, i, j, 0) -
+                           bond_stretch_at_earlier_time(before, it.bond.inverse_length, i, j, 0);
+        most = real_max(most, grown / (b->soft.end[q] - b->soft.onset[q]));
+    }
+    return most;
 }

@@ -23,12 +23,14 @@
 #include "crack_increment.h"
 #include "load_size.h"
 #include "softening.h"
+#include "springs.h"
 #include "stretch_ratio.h"
 #include "toughness.h"
 #include "trial.h"
 #include "unknowns.h"
 
 #include "base/memory.h"
+#include "bonds/closing.h"
 #include "bonds/strength_surfaces.h"
 #include "loads/mirrors.h"
 
@@ -41,10 +43,14 @@
 #define FIRST_SHARE 1e-3   /* share of the energy of a load step that the first one dissipates */
 #define AT_SURFACE 1.002   /* ratio of stress to strength at which an equilibrium ends [1] */
 
-/* ITERATIONS_MOST: largest number of secant iterations for an equilibrium. TRIES_MOST: largest number of attempts at a
+/* ITERATIONS_MOST: largest number of secant iterations in which the residual
+ * of an equilibrium does not halve. TRIES_MOST: largest number of attempts at a
  * load step, each with half the energy of the previous one. GROWTHS_MOST: largest number of increases of the factor on
  * the displacements. */
 enum { ITERATIONS_MOST = 400, TRIES_MOST = 5, GROWTHS_MOST = 200 };
+
+/* Parts of the path between two equilibria for each softening of a bond, and largest number of parts. */
+enum { PATH_PARTS = 4, PATH_PARTS_MOST = 1000 };
 
 /* State of the iteration for the equilibrium that ends one load step with softening bonds. It lives for one attempt.
  * The solver, bonds, particles and bond source are borrowed; the list of softening bonds is owned. */
@@ -119,6 +125,23 @@ static real residual_now(struct newton_solver *q)
     return sqrt(sum) > q->noise ? sqrt(sum) / q->scale : 0;
 }
 
+/* Sets the displacements of solver q to 0, those of bonds that soften, or press at a closed crack, without loads. They
+ * need no iteration, in which all bonds would change between tension and compression at once. */
+static void body_unload(struct newton_solver *q)
+{
+    for (int d = 0; d < q->dim; d++)
+        for (int64_t k = 0; k < q->n; k++) q->u.of[d][k] = 0;
+}
+
+/* Updates which ended bonds of run e press at the present positions (bonds/closing.h). Returns true if any of them has
+ * begun or ceased to. */
+static bool cracks_close_and_open(struct run *e)
+{
+    if (bonds_update_ended_bonds_that_press(&e->bonds, &e->part, &e->source) == 0) return false;
+    statics_preconditioner_free(e->statics);
+    return e->statics->fragments_stale = true;
+}
+
 /* Finds the equilibrium that ends a load step of run e with softening bonds, by the search f. Repeats two parts: a
  * solution with fixed largest stretches of the bonds, which fix their stiffnesses, and a new choice of these stretches
  * from the solution (secants_choose). The tolerance of the solutions is reduced as the stretches converge. Returns
@@ -128,19 +151,23 @@ static status search_run(struct run *e, struct search *f)
     struct statics *s = e->statics;
     const real lost = s->balance.lost, tolerance = s->balance.tolerance, enough = real_max(RESIDUAL_MOST, tolerance),
                before = statics_norm_of_prescribed_loads(e, s->t);
+    real halved = 1;
     status found = OK;
-    for (int k = 0; k < ITERATIONS_MOST && found == OK; k++) {
+    for (int k = 0, idle = 0; idle < ITERATIONS_MOST && found == OK; k++, idle++) {
         const real size = statics_norm_of_prescribed_loads(e, s->t), last = statics_norm_of_prescribed_loads(e, f->end);
         real *applied[DIM_MAX] = {0}, t = isfinite(f->spent) ? f->end / (real)e->clock.steps : f->end;
         while (t < f->end && statics_norm_of_prescribed_loads(e, t) == 0)
             t = real_min(f->end, 2 * t); /* a small part of the loads, from which displacements can be scaled */
         f->residual = 1;
         if ((size > 0 && last > 0) || k > 0) {
+            if (k > 0) residual_now(f->q), cracks_close_and_open(e);
             const real factor = secants_choose(f, size > 0 ? last / size : 1, size > 0 ? before / size : 1);
             f->residual = k > 0 ? residual_now(f->q) : 1;
+            if (f->residual < 0.5 * halved) halved = f->residual, idle = 0;
             if (f->residual <= enough && fabs(factor - 1) <= FACTOR_ERROR) return OK;
             t = f->at_end ? f->end : statics_find_pseudo_time_at_load_size(e, factor * size);
         }
+        if (last == 0 && t == f->end) body_unload(f->q);
         applied_forces_allocate_and_copy(applied, s, &e->part);
         s->balance.tolerance = real_max(tolerance, real_min(SOLVED_LEAST, SOLVED_TO * f->residual));
         found = equilibrium_solve_without_work_account(e, t, applied);
@@ -156,22 +183,38 @@ static status search_run(struct run *e, struct search *f)
                                          : "steps.control: energy, which can follow a falling load");
 }
 
-/* Adds the energy that neighbourhoods of state-based models have lost by softening since the last equilibrium to the
- * fracture energy of the bonds b. The energy is computed at the mean of the present positions of the particles p and
- * before[dim], their positions at the last equilibrium [m]. loads: list of mirror images. Does nothing in bond-based
- * models. */
+/* Sets the particles q to the positions between those in before[dim] (share 0) and those of p (share 1), and updates
+ * their mirror images. q->x[dim] are arrays of their own; loads: list of mirror images. */
+static void particles_place_between(struct particles *q, const struct particles *p, const struct loads *loads,
+                                    real *const *before, real share)
+{
+    for (int d = 0; d < p->dim; d++)
+        for (int64_t i = 0; i < p->n; i++) q->x[d][i] = before[d][i] + share * (p->x[d][i] - before[d][i]);
+    loads_update_mirror_images(loads, q);
+}
+
+/* Adds to the fracture energy the energy that neighbourhoods of state-based models have lost by softening since the
+ * last equilibrium. What a bond loses depends on the path, which is taken as straight and divided such that no bond
+ * passes more than 1/PATH_PARTS of its softening in a part. loads: list of mirror images; before[dim]: positions of the
+ * particles p at the last equilibrium [m]. Does nothing in bond-based models. b: all bonds. */
 static void family_losses_add(struct bonds *b, const struct particles *p, const struct loads *loads,
                               real *const *before)
 {
-    struct particles midway = *p;
+    struct particles midway = *p, end = *p;
     if (!b->soft.whole) return;
     for (int d = 0; d < p->dim; d++) {
         midway.x[d] = BARE("softening.midway", p->n_all, real);
-        for (int64_t i = 0; i < p->n; i++) midway.x[d][i] = 0.5 * (p->x[d][i] + before[d][i]);
+        end.x[d] = BARE("softening.end", p->n_all, real);
     }
-    loads_update_mirror_images(loads, &midway);
-    bonds_add_softening_losses_to_fracture_energy(b, &midway);
-    for (int d = 0; d < p->dim; d++) memory_free(midway.x[d]);
+    particles_place_between(&midway, p, loads, before, 0);
+    const real growth = bonds_largest_growth_over_softening(b, &midway, p);
+    const int parts = (int)real_min(PATH_PARTS_MOST, ceil(real_max(1, PATH_PARTS * growth)));
+    for (int k = 0; k < parts; k++) {
+        particles_place_between(&midway, p, loads, before, (k + 0.5) / parts);
+        particles_place_between(&end, p, loads, before, (k + 1.0) / parts);
+        bonds_add_softening_losses_to_fracture_energy(b, &midway, &end, k == parts - 1);
+    }
+    for (int d = 0; d < p->dim; d++) memory_free(midway.x[d]), memory_free(end.x[d]);
 }
 
 /* Searches for the equilibrium that ends a load step of run e. spent: energy that bonds shall dissipate in the step
@@ -194,6 +237,7 @@ static status step_try(struct run *e, real t, real spent)
         work_account_free(&account);
         bonds_restore_softening_stretches_of_equilibrium(&e->bonds);
         trial_equilibrium_end(e, &saved, false, NULL);
+        cracks_close_and_open(e);
         return found;
     }
     trial_equilibrium_end(e, &saved, true, NULL);

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "base/memory.h"
+#include "bonds/closing.h"
 #include "bonds/struts.h"
 #include "fracture/fragments.h"
 #include "rigid/rigid_surface.h"
@@ -314,6 +315,25 @@ static void say_struts(const struct bonds *b, const struct particles *p, const s
         "cracks do not crush; do not trust larger loads at later times (inputs/strength_surface.md)");
 }
 
+/* Adds to the warnings of run e and prints, once in a run, that the faces of cracks overlap in load steps with
+ * softening bonds (bonds/closing.h), if they do. */
+static void say_overlap(struct run *e)
+{
+    static const char *const begin = "crack faces overlap: ";
+    for (int k = 0; k < e->warnings.n; k++)
+        if (!strncmp(e->warnings.text[k], begin, strlen(begin))) return;
+    const struct bond_overlap found = bonds_find_overlap_at_cracks(&e->bonds, &e->part, &e->source.limit);
+    char text[640];
+    if (found.pairs == 0) return;
+    snprintf(text, sizeof text,
+             "%sat t = %.3g s %lld pairs of particles at ended bonds or at a pre-crack are pressed together by up to "
+             "%.3g m, beyond the strength, without a force: load steps with bonds that soften have no contact there; "
+             "%sset solver: explicit with contact.between: all, or remove the loads that close the crack",
+             begin, e->clock.t, (long long)found.pairs, found.deepest,
+             e->scene->model == MODEL_BOND ? "" : "set model: bond, whose ended bonds press, or ");
+    warnings_add_and_print(&e->warnings, text);
+}
+
 status report_write_outputs_due_after_step(struct run *e)
 {
     struct run_report *r = e->report;
@@ -331,6 +351,7 @@ status report_write_outputs_due_after_step(struct run *e)
     if (last) warn_of_tips_above_rayleigh_speed(&e->fracture->tips, e->scene, &e->warnings);
     if (last || in_steps) warn_when_bonds_first_yield(r, &e->bonds, e->scene, &e->warnings);
     if (last || in_steps || r->sampling.due) say_struts(&e->bonds, &e->part, &e->source.limit, &e->warnings);
+    if (in_steps) say_overlap(e);
     if (r->out) {
         const unsigned due = report_bitmask_of_frame_series_due(r->out, e->scene, &e->clock, e->clock.step);
         if (due) TRY(write_frames(e, due));
