@@ -114,6 +114,19 @@ near "closing costs nothing" "$(column "$work/close" fracture 0.8)" "$(column "$
 "$cleave" run "$work/close.yaml" -o "$work/close_cut" -q -s output.checkpoint=0 --resume 2>/dev/null
 same close close_cut
 
+# A strip driven by displacements, whose notch runs through in one load step: the crack of 4 mm, half of it in the body, dissipates
+# 1 to 1.06 G_c (bonds soften beside it, too), whatever the bonds; the rest is damped. Along straight paths, in parts that no bond softens
+# through at once; state-based bonds dissipated 31 G_c in one part.
+sed -e 's/number: 12, control: energy, energy: 0.075 uJ/number: 4, control: load/' -e 's/traction: .*/displacement: [free, 1.2 um], face: y+, depth: 0.1 mm, time: {ramp: {until: 1 s}}}/' \
+    "$work/notch.yaml" >"$work/jump.yaml"
+start jump_bond "$work/jump.yaml"
+start jump_ospd "$work/jump.yaml" -s model=ospd -s materials.0.poisson=0.22 -s materials.1.poisson=0.22; wait
+for run in jump_bond jump_ospd; do
+    between "$run: area" "$(last $run crack_area)" 3.9e-6 4.1e-6
+    between "$run: fracture over G_c" "$(compute "$(last $run fracture) / 2e-5")" 0.99 1.065
+    between "$run: energy" "$(figure "$work/$run" energy.balance_error)" -2e-3 2e-3
+done
+
 # Beside a mirror the crack has the area and the release rate of the whole body, and half of the energy is released; also of brittle bonds.
 sed -e 's/from: .0, 0., to: .5 mm, 6 mm./from: [0, -6 mm], to: [5 mm, 6 mm]/' -e 's/  - {mirror: .*/  - {traction: [0, -40 MPa], face: y-, time: {ramp: {until: 1 s}}}/' \
     -e 's/^parts: .\(.*\).$/parts: [\1, {region: {box: {from: [0, -6 mm], to: [5 mm, -4.8 mm]}}, material: grip}]/' "$work/notch.yaml" >"$work/whole.yaml"
