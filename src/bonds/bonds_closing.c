@@ -9,7 +9,7 @@
 
 /* Returns the stretch [1] at the present positions of the particles p of the bond with index q in row `row` of b (bonds
  * of one particle). The bond may be broken. */
-static real stretch_of(const struct bonds *b, const struct particles *p, int64_t row, int64_t q)
+static real entry_stretch(const struct bonds *b, const struct particles *p, int64_t row, int64_t q)
 {
     real length2 = 0;
     for (int d = 0; d < p->dim; d++) length2 += square(p->x[d][b->nbr[q]] - p->x[d][b->particle[row]]);
@@ -44,7 +44,7 @@ static int bond_update(struct bonds *b, const struct particles *p, const struct 
 {
     const bool presses = ended_bond_presses(b, row / LANES, q);
     if (!presses && (b->w[q] != 0 || !bond_is_softening(b, row / LANES, q))) return 0;
-    if (presses == (stretch_of(b, p, row, q) < 0)) return 0;
+    if (presses == (entry_stretch(b, p, row, q) < 0)) return 0;
     if (presses)
         ended_bond_release(b, row, q);
     else
@@ -76,7 +76,7 @@ struct bond_overlap bonds_find_overlap_at_cracks(const struct bonds *b, const st
             const struct bond *bond = &it.bond;
             const int pair = p->material[i] * limit->materials + p->material[bond->nbr];
             if (bond->w != 0 || bond->nbr < i) continue;
-            const real stretch = stretch_of(b, p, row, bond->entry);
+            const real stretch = entry_stretch(b, p, row, bond->entry);
             if (!(stretch < -limit->softening[pair].onset)) continue;
             found.pairs++;
             found.deepest = real_max(found.deepest, -stretch / fabs(bond->inverse_length));

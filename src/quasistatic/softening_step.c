@@ -49,8 +49,9 @@
  * the displacements. */
 enum { ITERATIONS_MOST = 400, TRIES_MOST = 5, GROWTHS_MOST = 200 };
 
-/* Parts of the path between two equilibria for each softening of a bond, and largest number of parts. */
-enum { PATH_PARTS = 4, PATH_PARTS_MOST = 1000 };
+/* Largest growth of the stretch of a bond in a part of the path between two equilibria, in units of the stretch over
+ * which it softens [1]: steps under control by energy have one part. Largest number of parts. */
+enum { PART_GROWTH = 2, PATH_PARTS_MOST = 1000 };
 
 /* State of the iteration for the equilibrium that ends one load step with softening bonds. It lives for one attempt.
  * The solver, bonds, particles and bond source are borrowed; the list of softening bonds is owned. */
@@ -133,13 +134,13 @@ static void body_unload(struct newton_solver *q)
         for (int64_t k = 0; k < q->n; k++) q->u.of[d][k] = 0;
 }
 
-/* Updates which ended bonds of run e press at the present positions (bonds/closing.h). Returns true if any of them has
- * begun or ceased to. */
-static bool cracks_close_and_open(struct run *e)
+/* Updates which ended bonds of the search f press at the present positions (bonds/closing.h), and discards what the
+ * load steps s keep of the former bonds. */
+static void cracks_close_and_open(struct statics *s, const struct search *f)
 {
-    if (bonds_update_ended_bonds_that_press(&e->bonds, &e->part, &e->source) == 0) return false;
-    statics_preconditioner_free(e->statics);
-    return e->statics->fragments_stale = true;
+    if (bonds_update_ended_bonds_that_press(f->bonds, f->part, f->source) == 0) return;
+    statics_preconditioner_free(s);
+    s->fragments_stale = true;
 }
 
 /* Finds the equilibrium that ends a load step of run e with softening bonds, by the search f. Repeats two parts: a
@@ -160,7 +161,7 @@ static status search_run(struct run *e, struct search *f)
             t = real_min(f->end, 2 * t); /* a small part of the loads, from which displacements can be scaled */
         f->residual = 1;
         if ((size > 0 && last > 0) || k > 0) {
-            if (k > 0) residual_now(f->q), cracks_close_and_open(e);
+            if (k > 0) residual_now(f->q), cracks_close_and_open(s, f);
             const real factor = secants_choose(f, size > 0 ? last / size : 1, size > 0 ? before / size : 1);
             f->residual = k > 0 ? residual_now(f->q) : 1;
             if (f->residual < 0.5 * halved) halved = f->residual, idle = 0;
@@ -195,8 +196,8 @@ static void particles_place_between(struct particles *q, const struct particles 
 
 /* Adds to the fracture energy the energy that neighbourhoods of state-based models have lost by softening since the
  * last equilibrium. What a bond loses depends on the path, which is taken as straight and divided such that no bond
- * passes more than 1/PATH_PARTS of its softening in a part. loads: list of mirror images; before[dim]: positions of the
- * particles p at the last equilibrium [m]. Does nothing in bond-based models. b: all bonds. */
+ * is stretched by more than PART_GROWTH times its softening in a part. loads: list of mirror images; before[dim]:
+ * positions of the particles p at the last equilibrium [m]. Does nothing in bond-based models. b: all bonds. */
 static void family_losses_add(struct bonds *b, const struct particles *p, const struct loads *loads,
                               real *const *before)
 {
@@ -208,7 +209,7 @@ static void family_losses_add(struct bonds *b, const struct particles *p, const 
     }
     particles_place_between(&midway, p, loads, before, 0);
     const real growth = bonds_largest_growth_over_softening(b, &midway, p);
-    const int parts = (int)real_min(PATH_PARTS_MOST, ceil(real_max(1, PATH_PARTS * growth)));
+    const int parts = (int)real_min(PATH_PARTS_MOST, ceil(real_max(1, growth / PART_GROWTH)));
     for (int k = 0; k < parts; k++) {
         particles_place_between(&midway, p, loads, before, (k + 0.5) / parts);
         particles_place_between(&end, p, loads, before, (k + 1.0) / parts);
@@ -237,7 +238,7 @@ static status step_try(struct run *e, real t, real spent)
         work_account_free(&account);
         bonds_restore_softening_stretches_of_equilibrium(&e->bonds);
         trial_equilibrium_end(e, &saved, false, NULL);
-        cracks_close_and_open(e);
+        cracks_close_and_open(s, &f);
         return found;
     }
     trial_equilibrium_end(e, &saved, true, NULL);

@@ -315,23 +315,25 @@ static void say_struts(const struct bonds *b, const struct particles *p, const s
         "cracks do not crush; do not trust larger loads at later times (inputs/strength_surface.md)");
 }
 
-/* Adds to the warnings of run e and prints, once in a run, that the faces of cracks overlap in load steps with
- * softening bonds (bonds/closing.h), if they do. */
-static void say_overlap(struct run *e)
+/* Adds to `to` and prints, once in a run, the warning that the faces of cracks between particles of p overlap in load
+ * steps with softening bonds b (bonds/closing.h), if they do. limit: onsets of softening; model: of the bonds; t:
+ * pseudo-time [s]. */
+static void say_overlap(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
+                        enum model model, real t, struct warnings *to)
 {
     static const char *const begin = "crack faces overlap: ";
-    for (int k = 0; k < e->warnings.n; k++)
-        if (!strncmp(e->warnings.text[k], begin, strlen(begin))) return;
-    const struct bond_overlap found = bonds_find_overlap_at_cracks(&e->bonds, &e->part, &e->source.limit);
+    for (int k = 0; k < to->n; k++)
+        if (!strncmp(to->text[k], begin, strlen(begin))) return;
+    const struct bond_overlap found = bonds_find_overlap_at_cracks(b, p, limit);
     char text[640];
     if (found.pairs == 0) return;
     snprintf(text, sizeof text,
              "%sat t = %.3g s %lld pairs of particles at ended bonds or at a pre-crack are pressed together by up to "
              "%.3g m, beyond the strength, without a force: load steps with bonds that soften have no contact there; "
              "%sset solver: explicit with contact.between: all, or remove the loads that close the crack",
-             begin, e->clock.t, (long long)found.pairs, found.deepest,
-             e->scene->model == MODEL_BOND ? "" : "set model: bond, whose ended bonds press, or ");
-    warnings_add_and_print(&e->warnings, text);
+             begin, t, (long long)found.pairs, found.deepest,
+             model == MODEL_BOND ? "" : "set model: bond, whose ended bonds press, or ");
+    warnings_add_and_print(to, text);
 }
 
 status report_write_outputs_due_after_step(struct run *e)
@@ -351,7 +353,7 @@ status report_write_outputs_due_after_step(struct run *e)
     if (last) warn_of_tips_above_rayleigh_speed(&e->fracture->tips, e->scene, &e->warnings);
     if (last || in_steps) warn_when_bonds_first_yield(r, &e->bonds, e->scene, &e->warnings);
     if (last || in_steps || r->sampling.due) say_struts(&e->bonds, &e->part, &e->source.limit, &e->warnings);
-    if (in_steps) say_overlap(e);
+    if (in_steps) say_overlap(&e->bonds, &e->part, &e->source.limit, e->scene->model, e->clock.t, &e->warnings);
     if (r->out) {
         const unsigned due = report_bitmask_of_frame_series_due(r->out, e->scene, &e->clock, e->clock.step);
         if (due) TRY(write_frames(e, due));
