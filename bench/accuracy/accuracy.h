@@ -135,9 +135,9 @@ bool accuracy_method_has_coarse_cells(const struct accuracy_method *method);
  * peridynamics, "explicit" in the reference frame, where the load grows slowly, else "relaxation". */
 const char *accuracy_solver_of_point(const struct accuracy_point *point);
 
-/* Returns the result called `quantity` of the probe called `probe` of the finished run e, in SI units; NAN if there is
+/* Returns the result called `quantity` of the probe called `probe` of the finished run, in SI units; NAN if there is
  * no such result. */
-double accuracy_probe_value_of_run(const struct run *e, const char *probe, const char *quantity);
+double accuracy_probe_value_of_run(const struct run *run, const char *probe, const char *quantity);
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 

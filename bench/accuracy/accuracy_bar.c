@@ -38,20 +38,20 @@ static void accuracy_bar_make_scene(const struct accuracy_point *p, struct accur
  * `amplitude`. Velocity and stress of the pulse have this form. */
 static double pulse_rms(double amplitude) { return amplitude * sqrt(0.1 * sqrt(0.5 * M_PI) / 1.6); }
 
-/* Computes the relative errors of stress, part[0], and velocity, part[1], of a bar in the run e of point p, and
+/* Computes the relative errors of stress, part[0], and velocity, part[1], of a bar in the run of point p, and
  * their mean *error. For the smooth pulse these are root mean squares. For the step they are mean absolute errors,
  * because the mean square does not converge with a fixed order at a front. */
-static status accuracy_bar_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
+static status accuracy_bar_measure(const struct accuracy_point *p, struct run *run, double *error, double *part)
 {
     const double impedance = 100; /* rho c [Pa s/m] */
     if (p->at == STEP) {
-        part[0] = accuracy_probe_value_of_run(e, "exact", "L1") / 1;
-        part[1] = accuracy_probe_value_of_run(e, "exact", "L1_velocity") * impedance;
+        part[0] = accuracy_probe_value_of_run(run, "exact", "L1") / 1;
+        part[1] = accuracy_probe_value_of_run(run, "exact", "L1_velocity") * impedance;
         *error = 0.5 * (part[0] + part[1]);
         return OK;
     }
-    part[0] = accuracy_probe_value_of_run(e, "exact", "L2") / pulse_rms(1e-5 * impedance);
-    part[1] = accuracy_probe_value_of_run(e, "exact", "L2_velocity") / pulse_rms(1e-5);
+    part[0] = accuracy_probe_value_of_run(run, "exact", "L2") / pulse_rms(1e-5 * impedance);
+    part[1] = accuracy_probe_value_of_run(run, "exact", "L2_velocity") / pulse_rms(1e-5);
     *error = sqrt(0.5 * (part[0] * part[0] + part[1] * part[1]));
     return OK;
 }

@@ -91,11 +91,11 @@ static void mode_at(const void *context, const real *X, real *v)
     }
 }
 
-/* Returns the projection of the motion of all particles in the run e on the eigenmode m: the sum of mass times v .
+/* Returns the projection of the motion of all particles in the run on the eigenmode m: the sum of mass times v .
  * v_mode, where v_mode is the velocity of the mode at the particle [J]. */
-static double part_in_mode(const struct mode *m, const struct run *e)
+static double part_in_mode(const struct mode *m, const struct run *run)
 {
-    const struct particles *p = observed_run_make_read_only_view(e).part;
+    const struct particles *p = observed_run_make_read_only_view(run).part;
     double sum = 0;
     for (int64_t i = 0; i < p->n; i++) {
         real X[DIM_MAX] = {0}, v[DIM_MAX];
@@ -106,21 +106,21 @@ static double part_in_mode(const struct mode *m, const struct run *e)
     return sum;
 }
 
-/* Starts the run e of point p in an eigenmode and runs it in pieces of 1/300 of its duration until the projection of
+/* Starts the run of point p in an eigenmode and runs it in pieces of 1/300 of its duration until the projection of
  * the motion on the mode is zero for the second time, at three quarters of a period. This time is interpolated linearly
  * between pieces. Sets `measured` to the angular frequency of the mode, or to NAN if the second zero is not reached.
  * Returns FAILED if a step fails. */
-static status accuracy_beam_run(const struct accuracy_point *p, struct run *e)
+static status accuracy_beam_run(const struct accuracy_point *p, struct run *run)
 {
     const struct mode *m = mode_of(p);
     double before = 0, t_before = 0;
     int zeros = 0;
     measured = NAN;
-    bench_engine_set_velocities(e, mode_at, m);
+    bench_engine_set_velocities(run, mode_at, m);
     for (int k = 1; k <= 300; k++) {
-        TRY(bench_engine_run(e, e->clock.steps * k / 300, NULL));
-        run_update_particle_motion_and_stress(e);
-        const double now = part_in_mode(m, e), t = observed_run_make_read_only_view(e).t_velocity;
+        TRY(bench_engine_run(run, run->clock.steps * k / 300, NULL));
+        run_update_particle_motion_and_stress(run);
+        const double now = part_in_mode(m, run), t = observed_run_make_read_only_view(run).t_velocity;
         zeros += k > 1 && now * before < 0;
         if (zeros == 2) {
             measured = 1.5 * M_PI / (t_before + (t - t_before) * before / (before - now));
@@ -131,9 +131,9 @@ static status accuracy_beam_run(const struct accuracy_point *p, struct run *e)
     return OK;
 }
 
-static status accuracy_beam_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
+static status accuracy_beam_measure(const struct accuracy_point *p, struct run *run, double *error, double *part)
 {
-    (void)e;
+    (void)run;
     part[0] = measured / mode_of(p)->frequency - 1;
     *error = fabs(part[0]);
     return OK;

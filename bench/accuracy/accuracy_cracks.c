@@ -72,15 +72,15 @@ static void accuracy_cracks_make_scene(const struct accuracy_point *p, struct ac
         bench_overrides_append(&s->set, "pd.normalisation", "local");
 }
 
-/* Computes the errors of K_I, part[0], and K_II, part[1], in the run e of point p, both relative to the magnitude
+/* Computes the errors of K_I, part[0], and K_II, part[1], in the run of point p, both relative to the magnitude
  * (K_I^2 + K_II^2)^(1/2) of the exact factors. *error is the root of the sum of the squares of both. */
-static status accuracy_cracks_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
+static status accuracy_cracks_measure(const struct accuracy_point *p, struct run *run, double *error, double *part)
 {
     static const char *const factor[2] = {"K_I", "K_II"};
     const double size = pull * sqrt(M_PI * length[p->at]), *wanted = exact[p->at];
     for (int m = 0; m < 2; m++)
         part[m] =
-            (fabs(accuracy_probe_value_of_run(e, "sif", factor[m])) / size - wanted[m]) / hypot(wanted[0], wanted[1]);
+            (fabs(accuracy_probe_value_of_run(run, "sif", factor[m])) / size - wanted[m]) / hypot(wanted[0], wanted[1]);
     *error = hypot(part[0], part[1]);
     return OK;
 }

@@ -90,26 +90,26 @@ static double time_of(const struct crack_tips *t, double length)
 /* Returns the angle of the crack path in a ring around the end of each pre-crack, positive away from the middle plane
  * of the plate [rad]. It is the direction to the damaged particles of all cracks whose distance from the end of the
  * pre-crack is within radius +- width [m], weighted by their damage. Returns NAN if there are none. */
-static double angle_at(const struct run *e, double radius, double width)
+static double angle_at(const struct run *run, double radius, double width)
 {
-    const struct crack_tips *t = &e->fracture->tips;
+    const struct crack_tips *t = &run->fracture->tips;
     double along = 0, across = 0;
-    for (int64_t i = 0; i < e->part.n; i++) {
+    for (int64_t i = 0; i < run->part.n; i++) {
         const int k = t->label[i] - 1;
         if (k < 0 || k >= t->n || !t->tip[k].from_crack) continue;
         const struct crack_tip *tip = &t->tip[k];
-        const double offset[2] = {e->part.X[0][i] - tip->origin[0], e->part.X[1][i] - tip->origin[1]};
+        const double offset[2] = {run->part.X[0][i] - tip->origin[0], run->part.X[1][i] - tip->origin[1]};
         if (fabs(hypot(offset[0], offset[1]) - radius) > width) continue;
-        along += e->part.damage[i] * (offset[0] * tip->along[0] + offset[1] * tip->along[1]);
-        across +=
-            e->part.damage[i] * (offset[1] * tip->along[0] - offset[0] * tip->along[1]) * (tip->origin[1] < 0 ? -1 : 1);
+        along += run->part.damage[i] * (offset[0] * tip->along[0] + offset[1] * tip->along[1]);
+        across += run->part.damage[i] * (offset[1] * tip->along[0] - offset[0] * tip->along[1]) *
+                  (tip->origin[1] < 0 ? -1 : 1);
     }
     return along != 0 || across != 0 ? atan2(across, along) : NAN;
 }
 
-struct fracture accuracy_fracture_of(const struct accuracy_point *p, const struct run *e)
+struct fracture accuracy_fracture_of(const struct accuracy_point *p, const struct run *run)
 {
-    const struct crack_tips *t = &e->fracture->tips;
+    const struct crack_tips *t = &run->fracture->tips;
     struct fracture f = {.start = time_of(t, watched[p->at].start), .speed = NAN};
     int n = 0;
     for (int k = 0; k < t->n; k++)
@@ -117,7 +117,7 @@ struct fracture accuracy_fracture_of(const struct accuracy_point *p, const struc
     f.length /= n;
     const double until = fmin(watched[p->at].until, f.length * (1 - 1e-9));
     if (until > watched[p->at].start) f.speed = (until - watched[p->at].start) / (time_of(t, until) - f.start);
-    for (int r = 0; r < FRACTURE_RINGS; r++) f.angle[r] = angle_at(e, watched[p->at].ring[r], watched[p->at].width);
+    for (int r = 0; r < FRACTURE_RINGS; r++) f.angle[r] = angle_at(run, watched[p->at].ring[r], watched[p->at].width);
     return f;
 }
 
@@ -127,12 +127,12 @@ struct fracture accuracy_fracture_of(const struct accuracy_point *p, const struc
  * did not reach the required length. */
 static double accuracy_fracture_off(double value, double wanted) { return isfinite(value) ? value / wanted - 1 : -1; }
 
-/* Computes the relative errors of the cracks in the run e of point p: part[0] of path angles and length, part[1] of the
+/* Computes the relative errors of the cracks in the run of point p: part[0] of path angles and length, part[1] of the
  * start time, part[2] of the speed. The reference is bond-based peridynamics at a quarter of the scenes' spacing.
  * *error is the root mean square of the three parts. */
-static status accuracy_fracture_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
+static status accuracy_fracture_measure(const struct accuracy_point *p, struct run *run, double *error, double *part)
 {
-    const struct fracture f = accuracy_fracture_of(p, e), *wanted = &fracture_reference[p->at][FRACTURE_QUARTER];
+    const struct fracture f = accuracy_fracture_of(p, run), *wanted = &fracture_reference[p->at][FRACTURE_QUARTER];
     double beside2 = 0;
     for (int r = 0; r < FRACTURE_RINGS; r++)
         beside2 += (isfinite(f.angle[r]) ? pow(f.angle[r] - wanted->angle[r], 2) : 1) / FRACTURE_RINGS;

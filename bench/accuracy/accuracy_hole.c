@@ -87,11 +87,11 @@ static void accuracy_hole_make_scene(const struct accuracy_point *p, struct accu
 
 /* ---- errors ------------------------------------------------------------------------------------------------------ */
 
-/* Computes two relative errors of the run e of point p: part[0] of the displacements in a ring around the hole, part[1]
+/* Computes two relative errors of the run of point p: part[0] of the displacements in a ring around the hole, part[1]
  * of the mean strain u_y/y beside the hole. *error is their root mean square. */
-static status accuracy_hole_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
+static status accuracy_hole_measure(const struct accuracy_point *p, struct run *run, double *error, double *part)
 {
-    const struct particles *q = &e->part;
+    const struct particles *q = &run->part;
     const double h = 10.0 / p->resolution;
     double off2 = 0, size2 = 0, off = 0, size = 0;
     for (int64_t i = 0; i < q->n; i++) {

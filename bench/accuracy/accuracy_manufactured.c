@@ -57,14 +57,15 @@ static void add_stress(const struct particles *p, int64_t i, const real *stiffne
     }
 }
 
-static status accuracy_manufactured_measure(const struct accuracy_point *q, struct run *e, double *error, double *part)
+static status accuracy_manufactured_measure(const struct accuracy_point *q, struct run *run, double *error,
+                                            double *part)
 {
     const struct manufactured *m = accuracy_manufactured_motion_of(q);
-    const struct particles *p = &e->part;
-    const struct observed_run seen = observed_run_make_read_only_view(e);
+    const struct particles *p = &run->part;
+    const struct observed_run seen = observed_run_make_read_only_view(run);
     real stiffness[SYM_MAX * SYM_MAX];
     double off[2] = {0}, all[2] = {0};
-    bonds_compute_particle_stress(&e->bonds, &e->part, &e->source, &e->kernels);
+    bonds_compute_particle_stress(&run->bonds, &run->part, &run->source, &run->kernels);
     material_stiffness_matrix(seen.material, p->dim, stiffness);
     for (int64_t i = 0; i < p->n; i++) {
         real X[DIM_MAX];

@@ -32,13 +32,13 @@ static void accuracy_spall_make_scene(const struct accuracy_point *p, struct acc
     if (adaptive) bench_overrides_append(&s->set, "conversion.alpha", "0.5");
 }
 
-/* Computes the relative errors of the time, part[0], and the position, part[1], at which the bar breaks in the run e.
+/* Computes the relative errors of the time, part[0], and the position, part[1], at which the bar breaks in the run.
  * *error is their root mean square, or 1 if the bar does not break. p: not used. */
-static status accuracy_spall_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
+static status accuracy_spall_measure(const struct accuracy_point *p, struct run *run, double *error, double *part)
 {
     (void)p;
-    part[0] = accuracy_probe_value_of_run(e, "spall", "time") / time_exact - 1;
-    part[1] = accuracy_probe_value_of_run(e, "spall", "position") / place_exact - 1;
+    part[0] = accuracy_probe_value_of_run(run, "spall", "time") / time_exact - 1;
+    part[1] = accuracy_probe_value_of_run(run, "spall", "position") / place_exact - 1;
     *error = isfinite(part[0]) ? sqrt(0.5 * (part[0] * part[0] + part[1] * part[1])) : 1;
     return OK;
 }

@@ -51,27 +51,27 @@ static void accuracy_sudden_make_scene(const struct accuracy_point *p, struct ac
 /* Runs the scene of point p to each of the times instant[] in turn, and stores in factor[] the stress-intensity factor
  * at that time over the exact one (Freund 1990) [1]. Each time is rounded to a step at which all levels of grid cells
  * have the same time, since cells of coarser levels have longer time steps. Returns FAILED if a step fails. */
-static status accuracy_sudden_run(const struct accuracy_point *p, struct run *e)
+static status accuracy_sudden_run(const struct accuracy_point *p, struct run *run)
 {
-    const struct crack_medium m = crack_medium_of_material(&e->scene->material[0], e->scene->space);
+    const struct crack_medium m = crack_medium_of_material(&run->scene->material[0], run->scene->space);
     const double slower = p->at == MOVING ? crack_moving_to_resting_sif_ratio(&m, SPEED_EXACT, speed) : 1;
-    const int64_t stride = mesh_levels_time_steps_per_cycle(&e->frame->levels);
+    const int64_t stride = mesh_levels_time_steps_per_cycle(&run->frame->levels);
     for (int k = 0; k < INSTANTS; k++) {
-        const int64_t whole = stride * llround(instant[k] / (e->clock.dt * (double)stride));
-        const int64_t until = k < INSTANTS - 1 ? whole : e->clock.steps;
-        TRY(bench_engine_run(e, until, NULL));
+        const int64_t whole = stride * llround(instant[k] / (run->clock.dt * (double)stride));
+        const int64_t until = k < INSTANTS - 1 ? whole : run->clock.steps;
+        TRY(bench_engine_run(run, until, NULL));
         /* Forces are those at the beginning of the last step. */
-        factor[k] = accuracy_probe_value_of_run(e, "sif", "K_I") / slower /
-                    crack_sif_after_plane_wave(&m, stress, e->clock.t - e->clock.dt - path_length / m.longitudinal);
+        factor[k] = accuracy_probe_value_of_run(run, "sif", "K_I") / slower /
+                    crack_sif_after_plane_wave(&m, stress, run->clock.t - run->clock.dt - path_length / m.longitudinal);
     }
     return OK;
 }
 
 /* Computes the mean relative error of the stress-intensity factors factor[] over all times of comparison, part[0], and
- * its standard deviation, part[1]. *error is the root of the sum of their squares. p, e: not used. */
-static status accuracy_sudden_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
+ * its standard deviation, part[1]. *error is the root of the sum of their squares. p, run: not used. */
+static status accuracy_sudden_measure(const struct accuracy_point *p, struct run *run, double *error, double *part)
 {
-    (void)p, (void)e;
+    (void)p, (void)run;
     double mean = 0, square = 0;
     for (int k = 0; k < INSTANTS; k++) mean += (factor[k] - 1) / INSTANTS;
     for (int k = 0; k < INSTANTS; k++) square += pow(factor[k] - 1 - mean, 2) / INSTANTS;

@@ -108,13 +108,13 @@ static double best_shift(const struct wave_pulse *w, const struct particles *p, 
     return 0.5 * (low + high) - gone;
 }
 
-/* Computes *error, the root-mean-square error of the velocity in the run e of point p over the root mean square of the
+/* Computes *error, the root-mean-square error of the velocity in the run of point p over the root mean square of the
  * exact velocity. part[0]: distance by which the computed wave is ahead over the radius of its packet; part[1]:
  * relative error of its amplitude. */
-static status accuracy_wave_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
+static status accuracy_wave_measure(const struct accuracy_point *p, struct run *run, double *error, double *part)
 {
     const struct wave_pulse w = pulse_of(p);
-    const struct observed_run seen = observed_run_make_read_only_view(e);
+    const struct observed_run seen = observed_run_make_read_only_view(run);
     const struct material *m = seen.material;
     const double gone = (w.transverse ? m->shear_speed : m->wave_speed) * seen.t_velocity;
     const double shift = best_shift(&w, seen.part, gone);

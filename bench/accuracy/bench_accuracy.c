@@ -11,11 +11,11 @@
 
 /* ---- results of a run -------------------------------------------------------------------------------------------- */
 
-/* Returns the quantity called `quantity` of the probe called `probe` of the finished run e; NAN if there is none. */
-double accuracy_probe_value_of_run(const struct run *e, const char *probe, const char *quantity)
+/* Returns the quantity called `quantity` of the probe called `probe` of the finished run; NAN if there is none. */
+double accuracy_probe_value_of_run(const struct run *run, const char *probe, const char *quantity)
 {
     struct bench_figure figure = {probe, quantity, NAN};
-    bench_figures_read_from_probes(e, &figure, 1);
+    bench_figures_read_from_probes(run, &figure, 1);
     return figure.value;
 }
 

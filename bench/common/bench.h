@@ -102,11 +102,11 @@ status bench_results_copy_table(const char *file_name, const char *text);
  * and creates its run in *e, without output. path: if `text` is given, the name of the scene in messages. s: receives
  * the scene and must keep its address until bench_engine_free. Returns REFUSED or FAILED if the scene is invalid or the
  * run cannot be created; *e and *s are then already released. */
-status bench_engine_make(struct run *e, struct scene *s, const char *path, const char *text,
+status bench_engine_make(struct run *run, struct scene *s, const char *path, const char *text,
                          const struct scene_override *override, int override_count);
 
-/* Releases the run e and its scene s, which bench_engine_make has created. */
-void bench_engine_free(struct run *e, struct scene *s);
+/* Releases the run and its scene s, which bench_engine_make has created. */
+void bench_engine_free(struct run *run, struct scene *s);
 
 /* Type of a function that computes the velocity v[dim] [m/s] at the reference position X[dim] [m]. context: the
  * argument `context` of bench_engine_set_velocities. */
@@ -114,13 +114,13 @@ typedef void bench_field(const void *context, const real *X, real *v);
 
 /* Sets the velocities of all particles, and of the grid nodes of the reference frame, to the values of `velocity_field`
  * at their reference positions. context: passed to `velocity_field`. */
-void bench_engine_set_velocities(struct run *e, bench_field *velocity_field, const void *context);
+void bench_engine_set_velocities(struct run *run, bench_field *velocity_field, const void *context);
 
 /* Runs e to the end of step `last_step` or, if the mesh has coarse cells, which make longer time steps, to the next
  * step at which all cells have the same time: before, the energy is not balanced, and a sample of results would disturb
  * the run. The last step is sampled. section_times: receives, by addition, the times of the sections of a step; may be
  * NULL. Returns FAILED if a step fails. */
-status bench_engine_run(struct run *e, int64_t last_step, struct timers *section_times);
+status bench_engine_run(struct run *run, int64_t last_step, struct timers *section_times);
 
 /* Overrides of scene keys whose values are composed one by one. at[n]: keys, and pointers to the values that
  * bench_overrides_as_array sets; value[n]: the values. */
@@ -146,9 +146,9 @@ struct bench_figure {
     double value;
 };
 
-/* Stores the current values of probe results of the run e in the entries of figure[figure_count] that name their probe
+/* Stores the current values of probe results of the run in the entries of figure[figure_count] that name their probe
  * and quantity; entries for which the run has no such result keep their value. */
-void bench_figures_read_from_probes(const struct run *e, struct bench_figure *figure, int figure_count);
+void bench_figures_read_from_probes(const struct run *run, struct bench_figure *figure, int figure_count);
 
 /* Runs a scene to its end and stores quantities of its probes in figure[figure_count]; NAN if no probe has them. If a
  * pulse probe compares its results with those of material points alone, the scene is also run with material points
@@ -213,12 +213,12 @@ struct bench_block {
 enum { BENCH_BLOCKS = 10 };
 extern const struct bench_block bench_blocks[BENCH_BLOCKS];
 
-/* Creates the run e of a block for timing, with its scene in *s. b: method and dimension; approximate_particle_count:
+/* Creates the run of a block for timing, with its scene in *s. b: method and dimension; approximate_particle_count:
  * approximate number of particles, at least 12 along an edge; step_count: number of time steps; frame_count: number of
  * frames in the output `output`, which may be NULL for a run without output. Returns REFUSED or FAILED if the scene is
  * invalid. Release with bench_engine_free. */
-status bench_block_make(struct run *e, struct scene *s, const struct bench_block *b, double approximate_particle_count,
-                        int64_t step_count, int frame_count, struct output *output);
+status bench_block_make(struct run *run, struct scene *s, const struct bench_block *b,
+                        double approximate_particle_count, int64_t step_count, int frame_count, struct output *output);
 
 /* ---- the benches ------------------------------------------------------------------------------------------------- */
 

@@ -72,19 +72,19 @@ static void block_text(FILE *to, const struct bench_block *b, double particles, 
     block_parts(to, b, edge);
 }
 
-status bench_block_make(struct run *e, struct scene *s, const struct bench_block *b, double approximate_particle_count,
-                        int64_t step_count, int frame_count, struct output *output)
+status bench_block_make(struct run *run, struct scene *s, const struct bench_block *b,
+                        double approximate_particle_count, int64_t step_count, int frame_count, struct output *output)
 {
     char text[2048];
     FILE *to = fmemopen(text, sizeof text, "w");
     if (!to) return status_set(FAILED, "bench: out of memory");
     block_text(to, b, approximate_particle_count, step_count, frame_count);
     fclose(to);
-    *e = (struct run){0};
+    *run = (struct run){0};
     *s = (struct scene){0};
     TRY(scene_read_text(s, text, strlen(text), "block", NULL, 0));
-    status made = run_set_up_from_scene(e, s, output);
-    e->report->quiet = true;
-    if (made != OK) bench_engine_free(e, s);
+    status made = run_set_up_from_scene(run, s, output);
+    run->report->quiet = true;
+    if (made != OK) bench_engine_free(run, s);
     return made;
 }

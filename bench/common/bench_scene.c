@@ -43,52 +43,52 @@ status bench_check_scenes_exist(const char *bench_name, const char *const *path,
     return OK;
 }
 
-status bench_engine_make(struct run *e, struct scene *s, const char *path, const char *text,
+status bench_engine_make(struct run *run, struct scene *s, const char *path, const char *text,
                          const struct scene_override *override, int override_count)
 {
-    *e = (struct run){0};
+    *run = (struct run){0};
     *s = (struct scene){0};
     if (text)
         TRY(scene_read_text(s, text, strlen(text), path, override, override_count));
     else
         TRY(scene_read(s, path, override, override_count));
-    status made = run_set_up_from_scene(e, s, NULL);
-    e->report->quiet = true;
-    if (made != OK) bench_engine_free(e, s);
+    status made = run_set_up_from_scene(run, s, NULL);
+    run->report->quiet = true;
+    if (made != OK) bench_engine_free(run, s);
     return made;
 }
 
-void bench_engine_free(struct run *e, struct scene *s)
+void bench_engine_free(struct run *run, struct scene *s)
 {
-    run_free_memory(e);
+    run_free_memory(run);
     scene_free(s);
 }
 
-status bench_engine_run(struct run *e, int64_t last_step, struct timers *section_times)
+status bench_engine_run(struct run *run, int64_t last_step, struct timers *section_times)
 {
-    const int64_t steps = e->clock.steps, stride = mesh_levels_time_steps_per_cycle(&e->frame->levels);
+    const int64_t steps = run->clock.steps, stride = mesh_levels_time_steps_per_cycle(&run->frame->levels);
     last_step = (last_step + stride - 1) / stride * stride;
-    memory_free(e->report->record); /* each call of run_advance_to_end_time allocates its own */
-    e->report->record = NULL;
-    e->clock.steps = last_step < steps ? last_step : steps;
-    status ran = run_advance_to_end_time(e);
-    e->clock.steps = steps;
-    for (int k = 0; section_times && k < TIMERS; k++) section_times->spent[k] += e->timers.spent[k];
+    memory_free(run->report->record); /* each call of run_advance_to_end_time allocates its own */
+    run->report->record = NULL;
+    run->clock.steps = last_step < steps ? last_step : steps;
+    status ran = run_advance_to_end_time(run);
+    run->clock.steps = steps;
+    for (int k = 0; section_times && k < TIMERS; k++) section_times->spent[k] += run->timers.spent[k];
     return ran;
 }
 
-void bench_engine_set_velocities(struct run *e, bench_field *velocity_field, const void *context)
+void bench_engine_set_velocities(struct run *run, bench_field *velocity_field, const void *context)
 {
-    struct grid *g = &e->frame->mesh.grid;
+    struct grid *g = &run->frame->mesh.grid;
     real X[DIM_MAX], v[DIM_MAX];
-    for (int64_t i = 0; i < e->part.n; i++) {
-        for (int d = 0; d < e->part.dim; d++) X[d] = e->part.X[d][i];
+    for (int64_t i = 0; i < run->part.n; i++) {
+        for (int d = 0; d < run->part.dim; d++) X[d] = run->part.X[d][i];
         velocity_field(context, X, v);
-        for (int d = 0; d < e->part.dim; d++) e->part.v[d][i] = v[d];
+        for (int d = 0; d < run->part.dim; d++) run->part.v[d][i] = v[d];
     }
-    for (int64_t I = 0; e->frame->mesh.points > 0 && I < g->n; I++) {
-        if (!(e->frame->mesh.inverse_mass[I] > 0)) continue;
-        const int64_t at = mesh_original_node_of_doubled_node(&e->frame->mesh, I);
+    for (int64_t I = 0; run->frame->mesh.points > 0 && I < g->n; I++) {
+        if (!(run->frame->mesh.inverse_mass[I] > 0)) continue;
+        const int64_t at = mesh_original_node_of_doubled_node(&run->frame->mesh, I);
         for (int d = 0; d < g->dim; d++) X[d] = grid_node_position(g, d, at / g->stride[d] % g->count[d]);
         velocity_field(context, X, v);
         for (int d = 0; d < g->dim; d++) g->velocity[d][I] = v[d];
@@ -126,10 +126,10 @@ static void take_figure(void *context, const char *probe, const char *quantity, 
         if (!strcmp(w->figure[k].probe, probe) && !strcmp(w->figure[k].quantity, quantity)) w->figure[k].value = value;
 }
 
-void bench_figures_read_from_probes(const struct run *e, struct bench_figure *figure, int figure_count)
+void bench_figures_read_from_probes(const struct run *run, struct bench_figure *figure, int figure_count)
 {
-    const struct observed_run seen = observed_run_make_read_only_view(e);
-    probes_visit_results(&e->probing->probes, &seen, take_figure, &(struct wanted_figures){figure, figure_count});
+    const struct observed_run seen = observed_run_make_read_only_view(run);
+    probes_visit_results(&run->probing->probes, &seen, take_figure, &(struct wanted_figures){figure, figure_count});
 }
 
 status bench_run_scene_and_read_figures(const char *path, const char *text, struct bench_overrides *overrides,

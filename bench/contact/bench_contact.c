@@ -7,19 +7,19 @@
 #include "base/memory.h"
 #include "contact_bench.h"
 
-status contact_make_run_of_scene(struct run *e, struct scene *s, const char *text, ...)
+status contact_make_run_of_scene(struct run *run, struct scene *s, const char *text, ...)
 {
     char whole[4096];
     va_list more;
     va_start(more, text);
     vsnprintf(whole, sizeof whole, text, more);
     va_end(more);
-    return bench_engine_make(e, s, "contact", whole, NULL, 0);
+    return bench_engine_make(run, s, "contact", whole, NULL, 0);
 }
 
-struct contact_motion contact_motion_of_body(const struct run *e, int body_number)
+struct contact_motion contact_motion_of_body(const struct run *run, int body_number)
 {
-    const struct particles *p = &e->part;
+    const struct particles *p = &run->part;
     struct contact_motion m = {0};
     double inertia = 0;
     for (int64_t i = 0; i < p->n; i++) {

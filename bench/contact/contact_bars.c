@@ -11,10 +11,10 @@
 #define YOUNG 200e9
 #define DENSITY (YOUNG / (CONTACT_WAVE * CONTACT_WAVE))
 
-static status bars_make(struct run *e, struct scene *s, const struct contact_case *c, double until)
+static status bars_make(struct run *run, struct scene *s, const struct contact_case *c, double until)
 {
     const double D = CONTACT_SPACING, gap = 0.1 * D;
-    return contact_make_run_of_scene(e, s,
+    return contact_make_run_of_scene(run, s,
                                      "name: bars\nspace: line\nsection: 1 mm^2\nmethod: pd\nduration: %.9g\n"
                                      "material: {young: %.9g, density: %.9g}\nparticles: {spacing: %.9g}\nbodies:\n"
                                      "  - {name: a, shape: {box: {from: [%.9g], to: [0]}}, velocity: [%.9g]}\n"
@@ -30,22 +30,22 @@ struct contact_course {
     double from, until, force, error;
 };
 
-static status bars_run(struct run *e, struct contact_course *seen)
+static status bars_run(struct run *run, struct contact_course *seen)
 {
-    double before = contact_motion_of_body(e, 0).v[0];
+    double before = contact_motion_of_body(run, 0).v[0];
     *seen = (struct contact_course){INFINITY, -INFINITY, 0, 0};
-    TRY(report_open_history_and_write_first_frame(e));
-    while (e->clock.step < e->clock.steps) {
-        TRY(run_adapt_mesh_and_advance_one_step(e));
-        TRY(run_check_stability_after_step(e));
-        const struct contact_motion a = contact_motion_of_body(e, 0);
-        const double force = fabs(a.v[0] - before) * a.mass / e->clock.dt;
+    TRY(report_open_history_and_write_first_frame(run));
+    while (run->clock.step < run->clock.steps) {
+        TRY(run_adapt_mesh_and_advance_one_step(run));
+        TRY(run_check_stability_after_step(run));
+        const struct contact_motion a = contact_motion_of_body(run, 0);
+        const double force = fabs(a.v[0] - before) * a.mass / run->clock.dt;
         if (force > seen->force) seen->force = force;
-        if (e->contact->touching > 0) seen->from = fmin(seen->from, e->clock.t), seen->until = e->clock.t;
-        seen->error = fmax(seen->error, fabs(e->diagnostics->now.balance_error));
+        if (run->contact->touching > 0) seen->from = fmin(seen->from, run->clock.t), seen->until = run->clock.t;
+        seen->error = fmax(seen->error, fabs(run->diagnostics->now.balance_error));
         before = a.v[0];
     }
-    return report_write_last_checkpoint_and_finish(e);
+    return report_write_last_checkpoint_and_finish(run);
 }
 
 /* Runs two equal bars that approach each other with opposite velocities. c->given[]: lengths of the first and the

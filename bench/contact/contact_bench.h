@@ -35,9 +35,9 @@ extern const int contact_cases_count;
 /* Returns true if all quantities measured[CONTACT_FIGURES] of the case c are within their required ranges. */
 bool contact_case_holds(const struct contact_case *c, const double *measured);
 
-/* Creates the run e of a scene and stores the scene in *s. text: the scene, a format of printf followed by its
+/* Creates the run of a scene and stores the scene in *s. text: the scene, a format of printf followed by its
  * arguments. Returns REFUSED or FAILED if the scene is invalid. Release with bench_engine_free. */
-status contact_make_run_of_scene(struct run *e, struct scene *s, const char *text, ...)
+status contact_make_run_of_scene(struct run *run, struct scene *s, const char *text, ...)
     __attribute__((format(printf, 3, 4)));
 
 /* Motion of a body from its particles: mass [kg], centre of mass [m], mean velocity [m/s], angular velocity in the
@@ -47,8 +47,8 @@ struct contact_motion {
 };
 
 /* Returns the motion (velocities and so on) of the body with the index `body_number`, computed from its particles in
- * the run e. */
-struct contact_motion contact_motion_of_body(const struct run *e, int body_number);
+ * the run. */
+struct contact_motion contact_motion_of_body(const struct run *run, int body_number);
 
 /* Runs the collision of two bars of c->given[0] and given[1] particles with the velocities given[2] and given[3], in
  * units of the wave speed (contact_bars.c). Stores in measured[]: relative velocity after the collision divided by that

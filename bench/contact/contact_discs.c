@@ -10,18 +10,18 @@
 
 /* Runs the collision of two discs to the end. normal[2]: receives the unit vector between their centres at the time
  * when these are nearest to each other, since this direction rotates during contact. Returns FAILED if a step fails. */
-static status discs_run(struct run *e, double *normal)
+static status discs_run(struct run *run, double *normal)
 {
     double least = INFINITY;
-    TRY(report_open_history_and_write_first_frame(e));
-    while (e->clock.step < e->clock.steps) {
-        TRY(run_adapt_mesh_and_advance_one_step(e));
-        TRY(run_check_stability_after_step(e));
-        const struct contact_motion a = contact_motion_of_body(e, 0), b = contact_motion_of_body(e, 1);
+    TRY(report_open_history_and_write_first_frame(run));
+    while (run->clock.step < run->clock.steps) {
+        TRY(run_adapt_mesh_and_advance_one_step(run));
+        TRY(run_check_stability_after_step(run));
+        const struct contact_motion a = contact_motion_of_body(run, 0), b = contact_motion_of_body(run, 1);
         const double x = b.x[0] - a.x[0], y = b.x[1] - a.x[1], far = hypot(x, y);
         if (far < least) least = far, normal[0] = x / far, normal[1] = y / far;
     }
-    return report_write_last_checkpoint_and_finish(e);
+    return report_write_last_checkpoint_and_finish(run);
 }
 
 status contact_measure_disc_collision(const struct contact_case *c, double *measured)

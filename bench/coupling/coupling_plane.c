@@ -36,10 +36,10 @@ static struct strip strip_of(int interface, double width)
                           at - 2.75 * width,      0.4};
 }
 
-/* Creates the run e of the strip s and stores its scene in *scene. row: coupling, weights, transfer and width of the
+/* Creates the run of the strip s and stores its scene in *scene. row: coupling, weights, transfer and width of the
  * pulse; row->variant < 0 for material points only, without interface. Returns FAILED or REFUSED if the scene cannot be
  * read. Release with bench_engine_free. */
-static status strip_make(struct run *e, struct scene *scene, const struct strip *s, const struct plane_row *row)
+static status strip_make(struct run *run, struct scene *scene, const struct strip *s, const struct plane_row *row)
 {
     struct bench_overrides o = {0};
     if (row->variant >= 0)
@@ -57,7 +57,7 @@ static status strip_make(struct run *e, struct scene *scene, const struct strip 
     bench_overrides_append(&o, "duration", "%.9g ms", s->path / 100); /* wave speed 100 m/s */
     bench_overrides_append(&o, "time.step", "%g ms", s->step / 100);
     bench_overrides_append(&o, "output.samples", "1");
-    return bench_engine_make(e, scene, COUPLING_PLATE, NULL, bench_overrides_as_array(&o), o.n);
+    return bench_engine_make(run, scene, COUPLING_PLATE, NULL, bench_overrides_as_array(&o), o.n);
 }
 
 /* ---- the run without interface ----------------------------------------------------------------------------------- */
@@ -122,14 +122,14 @@ static double largest_block(const struct strip *s, const struct particles *p, co
     return largest;
 }
 
-/* Computes reflected and transmitted amplitude and energy change of the run e of the strip s, and stores them in *r.
+/* Computes reflected and transmitted amplitude and energy change of the run of the strip s, and stores them in *r.
  * The reflection is the difference from the run b without interface. Near the interface only particles behind the pulse
  * are used for it, because inside the pulse both runs differ by their dispersion. */
-static void coupling_plane_compare(struct plane_row *r, const struct strip *s, const struct run *e,
+static void coupling_plane_compare(struct plane_row *r, const struct strip *s, const struct run *run,
                                    const struct plain *b)
 {
-    const struct particles *p = &e->part;
-    const double incident = e->scene->initial[0].pulse.velocity;
+    const struct particles *p = &run->part;
+    const double incident = run->scene->initial[0].pulse.velocity;
     const double passed = s->start + s->path - 1.25 * r->width;
     double back = 0, on = 0;
     for (int64_t i = 0; i < p->n; i++) {
@@ -140,7 +140,7 @@ static void coupling_plane_compare(struct plane_row *r, const struct strip *s, c
             back = fmax(back, hypot(p->v[0][i] - b->v[0][i], p->v[1][i] - b->v[1][i]));
     }
     r->result = (struct pulse_result){back / incident, on / incident,
-                                      observed_run_make_read_only_view(e).energy_change - b->energy_change};
+                                      observed_run_make_read_only_view(run).energy_change - b->energy_change};
     r->wave = largest_block(s, p, b) / incident;
 }
 

@@ -23,7 +23,7 @@ struct pulse_picture {
     struct snapshot shot[COLUMNS][TIMES];
 };
 
-static status pulse_bar_make(struct run *e, struct scene *s, int variant)
+static status pulse_bar_make(struct run *run, struct scene *s, int variant)
 {
     struct bench_overrides o = {0};
     if (variant >= 0)
@@ -32,7 +32,7 @@ static status pulse_bar_make(struct run *e, struct scene *s, int variant)
         bench_overrides_append(&o, "method", "mpm");
     bench_overrides_append(&o, "initial[0].pulse.width", "%d mm", WIDTH);
     bench_overrides_append(&o, "output.samples", "1");
-    return bench_engine_make(e, s, COUPLING_BAR, NULL, bench_overrides_as_array(&o), o.n);
+    return bench_engine_make(run, s, COUPLING_BAR, NULL, bench_overrides_as_array(&o), o.n);
 }
 
 /* Stores positions [mm], velocities, and differences of velocity from the bar without interface [mm/s] in *shot, in

@@ -55,24 +55,24 @@ struct efficiency {
     struct result *result;
 };
 
-static status make(struct run *e, struct scene *s, const struct result *x, int variant)
+static status make(struct run *run, struct scene *s, const struct result *x, int variant)
 {
-    return efficiency_make_run_of_variant(e, s, x->scene, variant, x->dt);
+    return efficiency_make_run_of_variant(run, s, x->scene, variant, x->dt);
 }
 
 /* ---- one run ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the number of peridynamic particles in the run e over the number of all its particles [1]. */
-static double pd_share(const struct run *e) { return (double)e->part.n_of[KIND_PD] / (double)e->part.n; }
+/* Returns the number of peridynamic particles in the run over the number of all its particles [1]. */
+static double pd_share(const struct run *run) { return (double)run->part.n_of[KIND_PD] / (double)run->part.n; }
 
 /* Runs a scene in SAMPLES pieces of equal numbers of steps and stores time and share of peridynamic particles after
  * each of them in r->time and r->share. Returns FAILED if a step fails. */
-static status run_pieces(struct run_times *r, struct run *e)
+static status run_pieces(struct run_times *r, struct run *run)
 {
-    r->share[0] = pd_share(e);
+    r->share[0] = pd_share(run);
     for (int k = 1; k <= SAMPLES; k++) {
-        TRY(bench_engine_run(e, e->clock.steps * k / SAMPLES, NULL));
-        r->time[k] = e->clock.t, r->share[k] = pd_share(e);
+        TRY(bench_engine_run(run, run->clock.steps * k / SAMPLES, NULL));
+        r->time[k] = run->clock.t, r->share[k] = pd_share(run);
     }
     return OK;
 }

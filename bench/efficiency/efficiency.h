@@ -49,7 +49,7 @@ extern const struct variant efficiency_variant[VARIANTS];
  * time_step: time step [s]; 0: that of the scene. The correction of bonds near faces is used for bond-based models
  * only, since state-based models normalise with the existing neighbours. Returns REFUSED or FAILED if the scene is
  * invalid. Release with bench_engine_free. */
-status efficiency_make_run_of_variant(struct run *e, struct scene *s, const struct scene_case *c, int variant,
+status efficiency_make_run_of_variant(struct run *run, struct scene *s, const struct scene_case *c, int variant,
                                       double time_step);
 
 /* Returns true if the peridynamic model of the scene c is bond-based. */
@@ -78,8 +78,8 @@ struct crack_ends {
     double start;      /* time of the first broken bond [s] */
 };
 
-/* Stores the crack tips, the longest crack and the time of the first broken bond of the run e in *c. */
-void crack_ends_store_from_run(struct crack_ends *c, const struct run *e);
+/* Stores the crack tips, the longest crack and the time of the first broken bond of the run in *c. */
+void crack_ends_store_from_run(struct crack_ends *c, const struct run *run);
 
 /* Finds the crack tip of `other_run` that corresponds to `tip`: among the tips of cracks that grew, the one whose final
  * position is nearest to that of `tip`. Final positions are compared because the nearest initial position may belong to

@@ -49,7 +49,7 @@ const struct variant efficiency_variant[VARIANTS] = {
 
 bool efficiency_scene_is_bond_based(const struct scene_case *c) { return strcmp(c->model, "bond") == 0; }
 
-status efficiency_make_run_of_variant(struct run *e, struct scene *s, const struct scene_case *c, int variant,
+status efficiency_make_run_of_variant(struct run *run, struct scene *s, const struct scene_case *c, int variant,
                                       double time_step)
 {
     char step[32], samples[16];
@@ -71,7 +71,7 @@ status efficiency_make_run_of_variant(struct run *e, struct scene *s, const stru
     if (time_step > 0) override[n++] = (struct scene_override){"time.step", step};
     if (!(time_step > 0) && c->spacing)
         override[n++] = (struct scene_override){"time.step", "auto"}; /* finer than the scene */
-    return bench_engine_make(e, s, c->path, NULL, override, n);
+    return bench_engine_make(run, s, c->path, NULL, override, n);
 }
 
 bool efficiency_variant_is_run_for_scene(const struct scene_case *c, int variant)
@@ -108,14 +108,14 @@ void efficiency_write_tic_label(FILE *gnuplot, const struct scene_case *scene)
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
-/* Stores the crack tips of the run e, the index of the longest crack, and the time of its first broken bond in *c. */
-void crack_ends_store_from_run(struct crack_ends *c, const struct run *e)
+/* Stores the crack tips of the run, the index of the longest crack, and the time of its first broken bond in *c. */
+void crack_ends_store_from_run(struct crack_ends *c, const struct run *run)
 {
-    const struct crack_tip *longest = tips_find_tip_with_largest_growth(&e->fracture->tips);
-    memcpy(c->tip, e->fracture->tips.tip, sizeof c->tip);
-    c->tips = e->fracture->tips.n;
-    c->longest = longest ? (int)(longest - e->fracture->tips.tip) : -1;
-    c->start = e->diagnostics->break_time;
+    const struct crack_tip *longest = tips_find_tip_with_largest_growth(&run->fracture->tips);
+    memcpy(c->tip, run->fracture->tips.tip, sizeof c->tip);
+    c->tips = run->fracture->tips.n;
+    c->longest = longest ? (int)(longest - run->fracture->tips.tip) : -1;
+    c->start = run->diagnostics->break_time;
 }
 
 double position_distance(const real *position, const real *other_position)

@@ -64,11 +64,11 @@ static void surf_field(const struct surf *s, const struct particles *p, int64_t 
 /* Sets the displacement and velocity of all particles of e to those of the prescribed field at t = 0. The particles at
  * the edge of the plate, which later follow this field, are listed in s->particle[s->held]; their velocity is set to
  * 0. */
-static void surf_start(struct surf *s, struct run *e)
+static void surf_start(struct surf *s, struct run *run)
 {
-    struct particles *p = &e->part;
+    struct particles *p = &run->part;
     double u[2], v[2];
-    s->medium = crack_medium_of_material(&e->scene->material[0], e->scene->space);
+    s->medium = crack_medium_of_material(&run->scene->material[0], run->scene->space);
     s->particle = NEW("bench.surf", p->n, int32_t);
     for (int64_t i = 0; i < p->n; i++) {
         const bool held = p->flag[i] & FLAG_DRIVEN;
@@ -112,20 +112,20 @@ static double surf_line_slope(const struct surf_line *l)
     return (l->n * l->xy - l->x * l->y) / (l->n * l->xx - l->x * l->x);
 }
 
-static status surf_go(struct surf *s, struct run *e, double spacing, struct surf_figures *found)
+static status surf_go(struct surf *s, struct run *run, double spacing, struct surf_figures *found)
 {
     const double until = (SURF_WIDTH - SURF_NOTCH) / s->speed;
     struct surf_line taken = {0}, place = {0};
     double tip = 0;
-    TRY(report_open_history_and_write_first_frame(e));
-    for (int64_t step = 0; e->clock.t < until && tip < SURF_TO; step++) {
-        surf_edge_move(s, &e->part, e->clock.t);
-        TRY(run_adapt_mesh_and_advance_one_step(e));
+    TRY(report_open_history_and_write_first_frame(run));
+    for (int64_t step = 0; run->clock.t < until && tip < SURF_TO; step++) {
+        surf_edge_move(s, &run->part, run->clock.t);
+        TRY(run_adapt_mesh_and_advance_one_step(run));
         if (step % SURF_STEPS) continue;
-        tip = surf_tip(&e->part, spacing);
+        tip = surf_tip(&run->part, spacing);
         if (tip < SURF_FROM) continue;
-        surf_line_add(&taken, 1e-3 * (tip - SURF_FROM), bonds_fracture_energy(&e->bonds));
-        surf_line_add(&place, e->clock.t - SURF_FROM / s->speed, tip - SURF_FROM);
+        surf_line_add(&taken, 1e-3 * (tip - SURF_FROM), bonds_fracture_energy(&run->bonds));
+        surf_line_add(&place, run->clock.t - SURF_FROM / s->speed, tip - SURF_FROM);
     }
     if (tip < SURF_TO) return status_set(FAILED, "surfing: the crack has not followed its field");
     *found = (struct surf_figures){surf_line_slope(&taken), surf_line_slope(&place)};

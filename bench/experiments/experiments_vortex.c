@@ -34,46 +34,46 @@ static const struct vortex_case vortex_cases[VORTEX_METHODS] = {
 static const double vortex_spacings[] = {0.1, 0.05, 0.025, 0.0125}; /* [m] */
 enum { VORTEX_SPACINGS = COUNT_OF(vortex_spacings) };
 
-/* Replaces the uniform body force of the scene by the body force of the vortex v at the current time of the run e. Sets
+/* Replaces the uniform body force of the scene by the body force of the vortex v at the current time of the run. Sets
  * the forces `share` of its first load, one per particle [N], which the load multiplies by its time function. */
-static void vortex_load(struct run *e, const struct vortex *v)
+static void vortex_load(struct run *run, const struct vortex *v)
 {
-    struct load *load = &e->loads.load[0];
-    const struct particles *p = &e->part;
+    struct load *load = &run->loads.load[0];
+    const struct particles *p = &run->part;
     if (load->share[1] == load->share[0]) load->share[1] = NEW("bench.vortex", load->n, real);
 #pragma omp parallel for
     for (int64_t k = 0; k < load->n; k++) {
         const int32_t i = load->particle[k];
         const double X[2] = {p->X[0][i], p->X[1][i]};
         double b[2] = {0};
-        if (X[0] * X[0] + X[1] * X[1] < 1.02) vortex_compute_body_force(v, X, e->clock.t, b);
+        if (X[0] * X[0] + X[1] * X[1] < 1.02) vortex_compute_body_force(v, X, run->clock.t, b);
         for (int d = 0; d < 2; d++) load->share[d][k] = b[d] * p->volume0[i];
     }
 }
 
-/* Returns the root-mean-square error of the displacements in the run e over the root mean square of the displacements
+/* Returns the root-mean-square error of the displacements in the run over the root mean square of the displacements
  * of the vortex v [1]. */
-static double vortex_error(struct run *e, const struct vortex *v)
+static double vortex_error(struct run *run, const struct vortex *v)
 {
-    const struct particles *p = &e->part;
+    const struct particles *p = &run->part;
     double wrong = 0, size = 0;
-    run_update_particle_motion_and_stress(e);
+    run_update_particle_motion_and_stress(run);
     for (int64_t i = 0; i < p->n; i++) {
         const double X[2] = {p->X[0][i], p->X[1][i]};
         double x[2];
-        vortex_compute_present_position(v, X, e->clock.t, x);
+        vortex_compute_present_position(v, X, run->clock.t, x);
         for (int d = 0; d < 2; d++) wrong += square(p->x[d][i] - x[d]), size += square(x[d] - X[d]);
     }
     return sqrt(wrong / size);
 }
 
-static status vortex_go(struct run *e, const struct vortex *v)
+static status vortex_go(struct run *run, const struct vortex *v)
 {
-    TRY(report_open_history_and_write_first_frame(e));
-    while (e->clock.step < e->clock.steps) {
-        vortex_load(e, v);
-        TRY(run_adapt_mesh_and_advance_one_step(e));
-        TRY(run_check_stability_after_step(e));
+    TRY(report_open_history_and_write_first_frame(run));
+    while (run->clock.step < run->clock.steps) {
+        vortex_load(run, v);
+        TRY(run_adapt_mesh_and_advance_one_step(run));
+        TRY(run_check_stability_after_step(run));
     }
     return OK;
 }

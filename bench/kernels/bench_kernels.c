@@ -31,11 +31,11 @@ static const struct job all_jobs[] = {PD_VARIANTS(BOND_JOBS) STATE_VARIANTS(BOND
 
 /* ---- bodies ------------------------------------------------------------------------------------------------------ */
 
-/* Creates the run e of a body of about 80,000 particles with spacing 0.5 mm in which no bond breaks, with its scene in
+/* Creates the run of a body of about 80,000 particles with spacing 0.5 mm in which no bond breaks, with its scene in
  * *s, and makes one step. dim: its dimension; method, model, mpm: values of these scene keys; more: further keys of the
  * scene; yields: true if the material has a yield stress. Returns FAILED if the step fails. Release with
  * bench_engine_free. */
-static status kernels_body_make(struct run *e, struct scene *s, int dim, const char *method, const char *model,
+static status kernels_body_make(struct run *run, struct scene *s, int dim, const char *method, const char *model,
                                 const char *mpm, const char *more, bool yields)
 {
     static const char *const space[DIM_MAX + 1] = {NULL, "line\nsection: 1 mm^2", "plane stress\nthickness: 10 mm",
@@ -51,23 +51,23 @@ static status kernels_body_make(struct run *e, struct scene *s, int dim, const c
              "mpm: {%s}\noutput: {samples: 1, frames: 0}\ntime: {active_set: false}\n%s",
              space[dim], method, model, poisson[dim], yields ? ", yield_stress: 1 GPa" : "", corner[dim], size[dim],
              mpm, more);
-    TRY(bench_engine_make(e, s, "bench", text, NULL, 0));
+    TRY(bench_engine_make(run, s, "bench", text, NULL, 0));
     for (int d = 0; d < dim; d++)
-        for (int64_t i = 0; i < e->part.n; i++) {
-            e->part.v[d][i] = 1e-3 * sin((real)i);
-            e->part.x[d][i] += 1e-8 * sin((real)(i + d));
+        for (int64_t i = 0; i < run->part.n; i++) {
+            run->part.v[d][i] = 1e-3 * sin((real)i);
+            run->part.x[d][i] += 1e-8 * sin((real)(i + d));
         }
-    return bench_engine_run(e, 1, NULL); /* sorts the points and covers them with a grid */
+    return bench_engine_run(run, 1, NULL); /* sorts the points and covers them with a grid */
 }
 
-/* Displaces one half of the body of run e, which a crack cuts in two, by 0.02 spacings towards the other half, so that
+/* Displaces one half of the body of run, which a crack cuts in two, by 0.02 spacings towards the other half, so that
  * the crack faces are in contact. */
-static void faces_press(struct run *e)
+static void faces_press(struct run *run)
 {
     real low, high;
-    particles_coordinate_range(&e->part, e->part.n, 0, &low, &high);
-    for (int64_t i = 0; i < e->part.n; i++)
-        if (e->part.X[0][i] < 0.5 * (low + high)) e->part.x[0][i] += 0.02 * e->scene->spacing;
+    particles_coordinate_range(&run->part, run->part.n, 0, &low, &high);
+    for (int64_t i = 0; i < run->part.n; i++)
+        if (run->part.X[0][i] < 0.5 * (low + high)) run->part.x[0][i] += 0.02 * run->scene->spacing;
 }
 
 static status ground_make(struct ground *g, int dim)
@@ -112,33 +112,33 @@ static struct run *bonds_of(const struct job *j, struct ground *g)
     return &g->engine[j->model >= PD_OSPD ? STATES : j->model == PD_BOND_PLASTIC ? YIELDING : BONDS];
 }
 
-/* Calls the kernel of job j that gathers velocities from the grid and moves the material points of run e. yields: true
+/* Calls the kernel of job j that gathers velocities from the grid and moves the material points of run. yields: true
  * to call it with the yielding material of the run, false with an elastic one. */
-static void g2p_call(const struct job *j, struct run *e, bool yields)
+static void g2p_call(const struct job *j, struct run *run, bool yields)
 {
-    struct elastic material = e->tables.elastic[0];
-    struct transfer_data t = e->grid->transfer;
+    struct elastic material = run->tables.elastic[0];
+    struct transfer_data t = run->grid->transfer;
     if (!yields) material.law = NULL, t.laws = false;
     t.elastic = &material;
-    g2p_table[j->dim][j->shape][j->transfer](&e->grid->field[0].grid, &e->part, &t);
+    g2p_table[j->dim][j->shape][j->transfer](&run->grid->field[0].grid, &run->part, &t);
 }
 
-/* Sets the stresses of all material points of run e beyond their yield stress and their plastic strain to 0, so that
+/* Sets the stresses of all material points of run beyond their yield stress and their plastic strain to 0, so that
  * the next call of a kernel has to return the stresses to the yield surface. */
-static void points_stress(struct run *e)
+static void points_stress(struct run *run)
 {
-    const real yield = e->tables.elastic[0].law->yield;
-    for (int64_t i = 0; i < e->part.n; i++) e->part.plastic_strain[i] = 0;
-    for (int c = 0; c < symmetric_tensor_component_count(e->part.dim); c++)
-        for (int64_t i = 0; i < e->part.n; i++) e->part.stress[c][i] = c == 0 ? 2 * yield : 0.1 * yield;
+    const real yield = run->tables.elastic[0].law->yield;
+    for (int64_t i = 0; i < run->part.n; i++) run->part.plastic_strain[i] = 0;
+    for (int c = 0; c < symmetric_tensor_component_count(run->part.dim); c++)
+        for (int64_t i = 0; i < run->part.n; i++) run->part.stress[c][i] = c == 0 ? 2 * yield : 0.1 * yield;
 }
 
-/* Updates the list of pairs of particles in contact of the run e, as a step does. changed: 1 to enforce a new search
+/* Updates the list of pairs of particles in contact of the run, as a step does. changed: 1 to enforce a new search
  * for pairs, 0 to keep the list as long as it is valid. */
-static void faces_update(struct run *e, int changed)
+static void faces_update(struct run *run, int changed)
 {
-    contact_update_pair_list_if_outdated(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, 0,
-                                         e->contact->broken, e->contact->changed + changed);
+    contact_update_pair_list_if_outdated(run->contact, &run->part, &run->bonds, &run->loads, &run->source.family, 0,
+                                         run->contact->broken, run->contact->changed + changed);
 }
 
 static void job_call(const struct job *j, struct ground *g)
@@ -254,13 +254,13 @@ static double column_bytes(const struct bonds *b)
     return sum / (double)b->columns;
 }
 
-/* Returns the number of bytes that contact in the run e moves per particle near a face: its list of pairs twice,
+/* Returns the number of bytes that contact in the run moves per particle near a face: its list of pairs twice,
  * forces, energy and positions. */
-static double contact_bytes(const struct run *e)
+static double contact_bytes(const struct run *run)
 {
-    const struct contact *c = e->contact;
+    const struct contact *c = run->contact;
     return 8.0 * (double)c->pairs / (double)c->rows + 2 * sizeof *c->face + 2 * sizeof *c->balance +
-           3 * sizeof(real) * (double)e->part.dim;
+           3 * sizeof(real) * (double)run->part.dim;
 }
 
 /* Returns the least number of bytes that the kernel of job j moves per particle. Each array that the kernel reads or
@@ -268,9 +268,9 @@ static double contact_bytes(const struct run *e)
 static double job_bytes(const struct job *j, struct ground *g)
 {
     const double mesh_node = sizeof(real) / (double)(1 << j->dim);
-    const struct run *e = &g->engine[POINTS], *pd = bonds_of(j, g);
+    const struct run *run = &g->engine[POINTS], *pd = bonds_of(j, g);
     const double r = sizeof(real), dim = j->dim, symmetric = symmetric_tensor_component_count(j->dim);
-    const double node = r * (double)e->grid->field[0].grid.n / (double)e->part.n;
+    const double node = r * (double)run->grid->field[0].grid.n / (double)run->part.n;
     const double stretch = j->shape == SHAPE_CPGIMP ? dim : 0;
     /* State-based: two sweeps; yielding: two numbers read and written, and the pair of materials. */
     const double columns = (double)pd->bonds.columns / (double)pd->part.n;

@@ -125,31 +125,31 @@ static status peer_scene_text(char *text, const struct peer_case *c, int edge)
     return OK;
 }
 
-static status peer_engine(struct run *e, struct scene *s, const struct peer_case *c, int edge)
+static status peer_engine(struct run *run, struct scene *s, const struct peer_case *c, int edge)
 {
     char text[TEXT_ROOM];
     TRY(peer_scene_text(text, c, edge));
-    return bench_engine_make(e, s, "peer", text, NULL, 0);
+    return bench_engine_make(run, s, "peer", text, NULL, 0);
 }
 
 /* ---- the input of LAMMPS ----------------------------------------------------------------------------------------- */
 
-/* Finds the bonds that the cracks of run e cut, each pair of particles once, and returns their number. type[particles]:
+/* Finds the bonds that the cracks of run cut, each pair of particles once, and returns their number. type[particles]:
  * gives each particle of such a bond a LAMMPS atom type of its own; types: number of types, incremented for each;
  * exclude: receives the LAMMPS commands that exclude these pairs. */
-static int64_t cut_pairs(const struct run *e, int *type, int *types, FILE *exclude)
+static int64_t cut_pairs(const struct run *run, int *type, int *types, FILE *exclude)
 {
-    const struct particles *p = &e->part;
+    const struct particles *p = &run->part;
     int32_t found[512];
     int64_t cut = 0;
-    for (int64_t i = 0; i < p->n && e->source.cracks > 0; i++) {
+    for (int64_t i = 0; i < p->n && run->source.cracks > 0; i++) {
         real X[DIM_MAX];
         particle_reference_position(p, i, X);
-        const int n = cells_list_particles_near_point(&e->cells, p, X, e->source.family.cutoff, (int32_t)i, found,
+        const int n = cells_list_particles_near_point(&run->cells, p, X, run->source.family.cutoff, (int32_t)i, found,
                                                       COUNT_OF(found));
         for (int k = 0; k < n; k++) {
             const int32_t j = found[k];
-            if (j < i || !precracks_cut_bond_between(e->source.crack, e->source.cracks, p, i, j)) continue;
+            if (j < i || !precracks_cut_bond_between(run->source.crack, run->source.cracks, p, i, j)) continue;
             if (!type[i]) type[i] = ++*types;
             if (!type[j]) type[j] = ++*types;
             fprintf(exclude, "neigh_modify exclude type %d %d\n", type[i], type[j]);
@@ -159,9 +159,9 @@ static int64_t cut_pairs(const struct run *e, int *type, int *types, FILE *exclu
     return cut;
 }
 
-static void write_data(FILE *to, const struct run *e, const int *type, int types, double half)
+static void write_data(FILE *to, const struct run *run, const int *type, int types, double half)
 {
-    const struct particles *p = &e->part;
+    const struct particles *p = &run->part;
     const char *box = "xlo xhi\0ylo yhi\0zlo zhi";
     fprintf(to, "particles\n\n%lld atoms\n%d atom types\n\n", (long long)p->n, types);
     for (int d = 0; d < DIM_MAX; d++) {
@@ -177,26 +177,26 @@ static void write_data(FILE *to, const struct run *e, const int *type, int types
         fprintf(to, "%d %.17g %.17g %.17g\n", p->id[i] + 1, p->v[0][i], p->v[1][i], p->dim > 2 ? p->v[2][i] : 0);
 }
 
-static void write_law(FILE *to, const struct run *e, const struct peer_case *c)
+static void write_law(FILE *to, const struct run *run, const struct peer_case *c)
 {
-    const struct material *m = e->scene->material;
-    const double horizon = e->source.family.horizon, limit = m->critical_stretch;
+    const struct material *m = run->scene->material;
+    const double horizon = run->source.family.horizon, limit = m->critical_stretch;
     fprintf(to, "pair_style peri/%s\npair_coeff * * ", c->law);
     if (!is_lps(c))
-        fprintf(to, "%.17g %.17g %.17g 0.0\n", family_micro_modulus(&e->source.family, m), horizon, limit);
+        fprintf(to, "%.17g %.17g %.17g 0.0\n", family_micro_modulus(&run->source.family, m), horizon, limit);
     else if (c->dim == 3)
         fprintf(to, "%.17g %.17g %.17g %.17g 0.0\n", m->c12 + 2 * m->shear / 3, m->shear, horizon, limit);
     else
         fprintf(to, "%.17g %.17g %.17g %.17g 0.0\n", 4 * (m->c12 + m->shear) / 9, 8 * m->shear / 15, horizon, limit);
 }
 
-static void write_script(FILE *to, const struct run *e, const struct peer_case *c, const char *exclude)
+static void write_script(FILE *to, const struct run *run, const struct peer_case *c, const char *exclude)
 {
     fprintf(to, "units si\nboundary s s %c\natom_style peri\natom_modify map array sort 0 0.0\nneighbor %.17g bin\n",
             c->dim == 2 ? 'f' : 's', 0.3 * SPACING);
     fprintf(to, "lattice sc %.17g\nread_data " FOLDER "/particles.data\n", SPACING);
-    write_law(to, e, c);
-    fprintf(to, "%stimestep %.17g\nrun 0 post no\nrun 0 post no\n", exclude, e->clock.dt);
+    write_law(to, run, c);
+    fprintf(to, "%stimestep %.17g\nrun 0 post no\nrun 0 post no\n", exclude, run->clock.dt);
     if (exclude[0]) fputs("neigh_modify exclude none\n", to);
     fprintf(to,
             "fix 1 all nve\ncompute d all damage/atom\nthermo 1000000\nrun %d\n"
@@ -212,19 +212,19 @@ static FILE *create(const char *name, status *s)
     return to;
 }
 
-static status write_input(const struct run *e, const struct peer_case *c, int edge, struct peer_result *r)
+static status write_input(const struct run *run, const struct peer_case *c, int edge, struct peer_result *r)
 {
     status s = OK;
     char *exclude = NULL;
     size_t length = 0;
-    int types = 1, *type = NEW("peers.type", e->part.n, int);
+    int types = 1, *type = NEW("peers.type", run->part.n, int);
     FILE *lines = memory_stream_open(&exclude, &length), *data = create("particles.data", &s),
          *script = create("in.lammps", &s);
     if (s == OK && lines) {
-        r->cut = (double)cut_pairs(e, type, &types, lines);
+        r->cut = (double)cut_pairs(run, type, &types, lines);
         fflush(lines);
-        write_data(data, e, type, types, 0.5 * edge * SPACING);
-        write_script(script, e, c, exclude);
+        write_data(data, run, type, types, 0.5 * edge * SPACING);
+        write_script(script, run, c, exclude);
     }
     if (lines && fclose(lines) != 0 && s == OK) s = status_set(FAILED, "bench peers: out of memory");
     if (data && fclose(data) != 0 && s == OK) s = file_report_write_failure(FOLDER "/particles.data", errno);
@@ -256,10 +256,10 @@ static status peer_solution(struct solution *s, int64_t n)
                : status_set(FAILED, "bench peers: lmp has left %lld particles of %lld", (long long)read, (long long)n);
 }
 
-static void peers_compare(struct peer_result *r, const struct run *e, const struct solution *peer,
+static void peers_compare(struct peer_result *r, const struct run *run, const struct solution *peer,
                           const real *damage_start)
 {
-    const struct particles *p = &e->part;
+    const struct particles *p = &run->part;
     double largest = 0, worst = 0;
     r->damage = r->damage_peer = 0;
     for (int64_t i = 0; i < p->n; i++) {

@@ -16,12 +16,12 @@ struct bar_rest {
     double top, radius, strain, temperature, pressure, balance;
 };
 
-/* Gives each material point of the run e its own dilatation in place of the mean over its grid cell, as in codes
+/* Gives each material point of the run its own dilatation in place of the mean over its grid cell, as in codes
  * without a treatment of volumetric locking. */
-static void points_have_own_dilatations(struct run *e)
+static void points_have_own_dilatations(struct run *run)
 {
-    for (int m = 0; m < e->scene->materials; m++) e->tables.elastic[m].mean_dilatation = false;
-    e->grid->transfer.mean_dilatation = false;
+    for (int m = 0; m < run->scene->materials; m++) run->tables.elastic[m].mean_dilatation = false;
+    run->grid->transfer.mean_dilatation = false;
 }
 
 /* Computes the shape and state of a bar that has hit a wall from its particles p: length, largest radius, plastic
@@ -147,17 +147,17 @@ status laws_measure_cook_membrane(const struct laws_case *c, double *measured)
 /* Runs a body of ideally plastic steel in the reference frame in load steps to the full load, and updates the stresses
  * of its particles. text: scene keys besides method, material and output; e, s: receive the run and its scene. Returns
  * FAILED or REFUSED if the run does; release e and s with bench_engine_free after OK only. */
-static status body_run(struct run *e, struct scene *s, const char *text)
+static status body_run(struct run *run, struct scene *s, const char *text)
 {
     char whole[2048];
     snprintf(whole, sizeof whole,
              "name: body\nduration: 1 s\nmethod: mpm\nsolver: static\noutput: {frames: 0}\n"
              "material: {young: %g, poisson: %g, density: 7850, yield_stress: %g}\n%s",
              YOUNG, POISSON, YIELD, text);
-    TRY(bench_engine_make(e, s, "body", whole, NULL, 0));
-    const status ran = run_advance_to_end_time(e);
-    if (ran != OK) return bench_engine_free(e, s), ran;
-    run_update_particle_motion_and_stress(e);
+    TRY(bench_engine_make(run, s, "body", whole, NULL, 0));
+    const status ran = run_advance_to_end_time(run);
+    if (ran != OK) return bench_engine_free(run, s), ran;
+    run_update_particle_motion_and_stress(run);
     return OK;
 }
 

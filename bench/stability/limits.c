@@ -44,7 +44,7 @@ bool limits_quantities_are_below_thresholds(const struct limits_scene *s, const 
     return true;
 }
 
-status limits_make_run_of_scene(struct run *e, struct scene *s, const struct limits_row *r, const char *text, ...)
+status limits_make_run_of_scene(struct run *run, struct scene *s, const struct limits_row *r, const char *text, ...)
 {
     struct bench_overrides o = {0};
     char whole[4096];
@@ -56,5 +56,5 @@ status limits_make_run_of_scene(struct run *e, struct scene *s, const struct lim
         bench_overrides_append(&o, "mpm.frame", "current"); /* rows for the reference frame set the
                                                              * key */
     for (const char *const *k = r->set; *k; k += 2) bench_overrides_append(&o, k[0], "%s", k[1]);
-    return bench_engine_make(e, s, "failing", whole, bench_overrides_as_array(&o), o.n);
+    return bench_engine_make(run, s, "failing", whole, bench_overrides_as_array(&o), o.n);
 }

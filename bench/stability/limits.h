@@ -51,10 +51,10 @@ int limits_quantity_count(const struct limits_scene *s);
  * method are. */
 bool limits_quantities_are_below_thresholds(const struct limits_scene *s, const double *measured);
 
-/* Creates the run e of a scene with the scene keys of row r as overrides, and stores the scene in *s. text: the scene,
+/* Creates the run of a scene with the scene keys of row r as overrides, and stores the scene in *s. text: the scene,
  * a format of printf followed by its arguments. Returns REFUSED or FAILED if the scene is invalid. Release with
  * bench_engine_free. */
-status limits_make_run_of_scene(struct run *e, struct scene *s, const struct limits_row *r, const char *text, ...)
+status limits_make_run_of_scene(struct run *run, struct scene *s, const struct limits_row *r, const char *text, ...)
     __attribute__((format(printf, 4, 5)));
 
 #endif

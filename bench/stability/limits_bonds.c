@@ -119,10 +119,10 @@ const struct limits_scene limits_inversion = {"compression past inversion",
 
 /* ---- crack faces that close -------------------------------------------------------------------------------------- */
 
-/* Returns the largest overlap of the two columns of particles beside the crack at x = 12 in the run e [spacings]. */
-static double overlap(const struct run *e)
+/* Returns the largest overlap of the two columns of particles beside the crack at x = 12 in the run [spacings]. */
+static double overlap(const struct run *run)
 {
-    const struct particles *p = &e->part;
+    const struct particles *p = &run->part;
     double left = -INFINITY, right = INFINITY;
     for (int64_t i = 0; i < p->n; i++)
         if (fabs(p->X[0][i] - 12) < 1) {

@@ -112,17 +112,17 @@ static void put_plate(FILE *to, const struct twin *t, const struct limits_row *r
     fputs("}\nconversion: {criteria: none}\n", to);
 }
 
-static status plate_run(struct run *e, struct scene *s, const struct twin *t, const struct limits_row *r)
+static status plate_run(struct run *run, struct scene *s, const struct twin *t, const struct limits_row *r)
 {
     char text[4096], list[64] = "";
     if (t->listed) TRY(list_write(t, list));
     FILE *to = fmemopen(text, sizeof text, "w");
     put_plate(to, t, r, list);
     fclose(to);
-    const status made = limits_make_run_of_scene(e, s, r, "%s", text);
+    const status made = limits_make_run_of_scene(run, s, r, "%s", text);
     if (t->listed) remove(list);
     TRY(made);
-    return run_advance_to_end_time(e);
+    return run_advance_to_end_time(run);
 }
 
 /* Returns the index of that particle of q, the particles of the plate transformed by t, which corresponds to particle i

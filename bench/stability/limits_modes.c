@@ -10,14 +10,14 @@ struct matrix {
     real *at;
 };
 
-/* Returns the matrix M^(-1/2) K M^(-1/2) of the body of run e, which consists of bonds, with stiffness K and masses M.
+/* Returns the matrix M^(-1/2) K M^(-1/2) of the body of run, which consists of bonds, with stiffness K and masses M.
  * It is computed column by column from finite differences of the forces and made symmetric. The caller releases its
  * member `at` with memory_free. */
-static struct matrix matrix_of(struct run *e)
+static struct matrix matrix_of(struct run *run)
 {
     struct bond_stiffness_operator body =
-        bond_stiffness_operator_make(&e->bonds, &e->part, e->kernels.bond_force, NULL, e->scene->spacing);
-    struct matrix m = {.n = e->part.dim * e->part.n};
+        bond_stiffness_operator_make(&run->bonds, &run->part, run->kernels.bond_force, NULL, run->scene->spacing);
+    struct matrix m = {.n = run->part.dim * run->part.n};
     real *unit = NEW("modes.unit", m.n, real);
     m.at = NEW("modes.matrix", m.n * m.n, real);
     for (int64_t k = 0; k < m.n; k++) {
@@ -83,9 +83,9 @@ static real bound(const struct matrix *m)
 #define NOTHING 1e-6 /* relative to the stiffest mode: differences leave 1e-7, the softest elastic mode has 1e-2 */
 enum { RIGID = 3 };  /* rigid motions in the plane */
 
-static status square_make(struct run *e, struct scene *s, const struct limits_row *r, double poisson)
+static status square_make(struct run *run, struct scene *s, const struct limits_row *r, double poisson)
 {
-    return limits_make_run_of_scene(e, s, r,
+    return limits_make_run_of_scene(run, s, r,
                                     "space: plane stress\nthickness: 1e-3\nduration: 1e-6\nmethod: pd\n"
                                     "material: {young: 72e9, density: 2440, poisson: %.17g}\n"
                                     "body: {box: {from: [0, 0], to: [%de-3, %de-3]}}\nparticles: {spacing: 1e-3}\n"

@@ -29,14 +29,15 @@ static struct turning turning_of(const struct particles *p)
 /* Runs e, a rotating body, to the end of its scene. Stores in to[0] the largest shear stress [MPa], of material points
  * only if there are any; in to[1] and to[2] the relative changes of angular momentum and kinetic energy. Returns FAILED
  * if a step fails. */
-static status limits_motion_turn(struct run *e, double *to)
+static status limits_motion_turn(struct run *run, double *to)
 {
-    const struct particles *p = &e->part;
-    if (e->frame->mesh.points > 0) lagrangian_mesh_update_point_motion_and_stress(e->frame, &e->part, &e->loads);
+    const struct particles *p = &run->part;
+    if (run->frame->mesh.points > 0)
+        lagrangian_mesh_update_point_motion_and_stress(run->frame, &run->part, &run->loads);
     const struct turning start = turning_of(p);
-    TRY(run_advance_to_end_time(e));
+    TRY(run_advance_to_end_time(run));
     const struct turning end = turning_of(p);
-    if (p->n_of[KIND_MPM] == 0) bonds_compute_particle_stress(&e->bonds, &e->part, &e->source, &e->kernels);
+    if (p->n_of[KIND_MPM] == 0) bonds_compute_particle_stress(&run->bonds, &run->part, &run->source, &run->kernels);
     to[0] = 0, to[1] = fabs(end.momentum / start.momentum - 1), to[2] = fabs(end.kinetic / start.kinetic - 1);
     for (int64_t i = 0; i < p->n; i++)
         if (p->kind[i] == KIND_MPM || p->n_of[KIND_MPM] == 0) to[0] = fmax(to[0], fabs(p->stress[2][i]) * 1e-6);
@@ -139,17 +140,18 @@ static void lame(const void *context, const real *X, real *v)
     v[1] = -1e-3 * sin(k * X[0]) * cos(k * X[1]);
 }
 
-/* Returns the projection of the particle velocities of run e on Lame's mode of a square: the sum of v . v_mode, with
+/* Returns the projection of the particle velocities of run on Lame's mode of a square: the sum of v . v_mode, with
  * the velocities v_mode computed by `lame` [m^2/s^2]. */
-static double projection(struct run *e)
+static double projection(struct run *run)
 {
     double sum = 0;
-    if (e->frame->mesh.points > 0) lagrangian_mesh_update_point_motion_and_stress(e->frame, &e->part, &e->loads);
-    for (int64_t i = 0; i < e->part.n; i++) {
-        const real X[2] = {e->part.X[0][i], e->part.X[1][i]};
+    if (run->frame->mesh.points > 0)
+        lagrangian_mesh_update_point_motion_and_stress(run->frame, &run->part, &run->loads);
+    for (int64_t i = 0; i < run->part.n; i++) {
+        const real X[2] = {run->part.X[0][i], run->part.X[1][i]};
         real v[2];
         lame(NULL, X, v);
-        sum += e->part.v[0][i] * v[0] + e->part.v[1][i] * v[1];
+        sum += run->part.v[0][i] * v[0] + run->part.v[1][i] * v[1];
     }
     return sum;
 }
@@ -161,18 +163,18 @@ enum { STANDS = 9 };
 /* Runs e until the velocity of Lame's mode has changed its sign STANDS times. steps: receives the number of steps until
  * then, interpolated, or of the last sign change before the end; NAN if there is none. Returns FAILED if a step
  * fails. */
-static status periods(struct run *e, double *steps)
+static status periods(struct run *run, double *steps)
 {
-    double before = projection(e);
+    double before = projection(run);
     int times = 0;
     *steps = NAN;
-    TRY(bench_engine_run(e, 1, NULL)); /* creates the record of the first sample */
-    for (double now; times < STANDS && e->clock.step < e->clock.steps - 1; before = now) {
-        TRY(run_adapt_mesh_and_advance_one_step(e));
-        now = projection(e);
+    TRY(bench_engine_run(run, 1, NULL)); /* creates the record of the first sample */
+    for (double now; times < STANDS && run->clock.step < run->clock.steps - 1; before = now) {
+        TRY(run_adapt_mesh_and_advance_one_step(run));
+        now = projection(run);
         if ((now > 0) == (before > 0)) continue;
         times++;
-        *steps = (double)e->clock.step - 1.5 + before / (before - now);
+        *steps = (double)run->clock.step - 1.5 + before / (before - now);
     }
     return OK;
 }
@@ -242,25 +244,25 @@ const struct limits_scene limits_shear = {
 
 /* ---- long runs --------------------------------------------------------------------------------------------------- */
 
-/* Returns the kinetic plus strain energy of bonds, material points and grid cells of the run e [J]. */
-static double energy_of(struct run *e)
+/* Returns the kinetic plus strain energy of bonds, material points and grid cells of the run [J]. */
+static double energy_of(struct run *run)
 {
-    return particles_kinetic_energy(&e->part) + mesh_kinetic(&e->frame->mesh) +
-           e->kernels.bond_energy(&e->bonds, &e->part, NULL) +
-           mesh_strain(&e->frame->mesh, &e->part, e->frame->elastic, !e->scene->small_strain) +
-           points_strain_energy(&e->part, e->scene->material, &e->coupling->partial);
+    return particles_kinetic_energy(&run->part) + mesh_kinetic(&run->frame->mesh) +
+           run->kernels.bond_energy(&run->bonds, &run->part, NULL) +
+           mesh_strain(&run->frame->mesh, &run->part, run->frame->elastic, !run->scene->small_strain) +
+           points_strain_energy(&run->part, run->scene->material, &run->coupling->partial);
 }
 
 /* Runs e, a free vibrating plate, for a million steps. Stores in *to the relative change of its energy from the mean
  * over the first 2 % of the steps to the mean over the last 2 % [1]. Returns FAILED if a step fails. */
-static status million_steps(struct run *e, double *to)
+static status million_steps(struct run *run, double *to)
 {
     double mean[2] = {0};
-    TRY(bench_engine_run(e, 1, NULL));
+    TRY(bench_engine_run(run, 1, NULL));
     for (int k = 0; k < 1000000; k++) {
-        TRY(run_adapt_mesh_and_advance_one_step(e));
-        if (k < 20000) mean[0] += energy_of(e);
-        if (k >= 980000) mean[1] += energy_of(e);
+        TRY(run_adapt_mesh_and_advance_one_step(run));
+        if (k < 20000) mean[0] += energy_of(run);
+        if (k >= 980000) mean[1] += energy_of(run);
     }
     *to = fabs(mean[1] / mean[0] - 1);
     return OK;

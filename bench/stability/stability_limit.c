@@ -23,35 +23,35 @@
 
 /* ---- initial motion ---------------------------------------------------------------------------------------------- */
 
-/* Sets random velocities of particles and grid nodes of the run e, with components up to `speed` [m/s], those of
+/* Sets random velocities of particles and grid nodes of the run, with components up to `speed` [m/s], those of
  * particles with zero mean plus the velocity `drift` along each axis [m/s]. */
-static void stability_limit_shake(struct run *e, double speed, double drift)
+static void stability_limit_shake(struct run *run, double speed, double drift)
 {
-    struct particles *p = &e->part;
-    struct grid *g = &e->frame->mesh.grid;
+    struct particles *p = &run->part;
+    struct grid *g = &run->frame->mesh.grid;
     uint64_t seed = 1;
     for (int d = 0; d < p->dim; d++) {
         double mean = 0;
         for (int64_t i = 0; i < p->n; i++) p->v[d][i] = speed * bench_random(&seed);
-        for (int64_t i = 0; i < p->n; i++) mean += p->mass[i] * p->v[d][i] / e->mass;
+        for (int64_t i = 0; i < p->n; i++) mean += p->mass[i] * p->v[d][i] / run->mass;
         for (int64_t i = 0; i < p->n; i++) p->v[d][i] += drift - mean;
-        for (int64_t I = 0; e->frame->mesh.points > 0 && I < g->n; I++)
-            if (e->frame->mesh.inverse_mass[I] > 0) g->velocity[d][I] = speed * bench_random(&seed);
+        for (int64_t I = 0; run->frame->mesh.points > 0 && I < g->n; I++)
+            if (run->frame->mesh.inverse_mass[I] > 0) g->velocity[d][I] = speed * bench_random(&seed);
     }
 }
 
-/* Returns the kinetic energy of the run e minus that of a uniform translation with the velocity `drift` [m/s] along
+/* Returns the kinetic energy of the run minus that of a uniform translation with the velocity `drift` [m/s] along
  * each axis [J]. */
-static double motion(const struct run *e, double drift)
+static double motion(const struct run *run, double drift)
 {
-    return particles_kinetic_energy(&e->part) + mesh_kinetic(&e->frame->mesh) -
-           0.5 * e->mass * e->part.dim * drift * drift;
+    return particles_kinetic_energy(&run->part) + mesh_kinetic(&run->frame->mesh) -
+           0.5 * run->mass * run->part.dim * drift * drift;
 }
 
-/* Creates the run e of the case c with the time step dt [s], or with the automatic one if dt is 0, and its scene in *s.
+/* Creates the run of the case c with the time step dt [s], or with the automatic one if dt is 0, and its scene in *s.
  * With dt > 0 the run is so long that only its first step is a sample. Returns FAILED or REFUSED if the scene cannot be
  * read. Release with bench_engine_free. */
-static status limit_block_make(struct run *e, struct scene *s, const struct stability_case *c, double dt)
+static status limit_block_make(struct run *run, struct scene *s, const struct stability_case *c, double dt)
 {
     struct bench_overrides o = {0};
     char text[4096];
@@ -60,7 +60,7 @@ static status limit_block_make(struct run *e, struct scene *s, const struct stab
         bench_overrides_append(&o, "time.step", "%.17g", dt);
         bench_overrides_append(&o, "duration", "%.17g", dt * 1e9);
     }
-    return bench_engine_make(e, s, "block", text, bench_overrides_as_array(&o), o.n);
+    return bench_engine_make(run, s, "block", text, bench_overrides_as_array(&o), o.n);
 }
 
 status stability_run_and_test_boundedness(const struct stability_case *c, double time_step,
@@ -107,17 +107,17 @@ static status limit_of(const struct stability_case *c, double critical, int step
     return OK;
 }
 
-/* Returns the critical time step of the particle with the stiffest bonds in the run e [s], sqrt(2 rho/sum(c V/|xi|))
+/* Returns the critical time step of the particle with the stiffest bonds in the run [s], sqrt(2 rho/sum(c V/|xi|))
  * with the sum over its bonds (Silling & Askari 2005). */
-static double silling_step(const struct run *e)
+static double silling_step(const struct run *run)
 {
-    const struct bonds *b = &e->bonds;
+    const struct bonds *b = &run->bonds;
     double most = 0;
     for (int64_t r = 0; r < b->rows; r++) {
         double sum = 0;
         for (struct bond_iterator it = bond_iterator_of_row(b, r); bond_iterator_advance(&it);)
             sum += b->stiffness * it.bond.w * it.bond.inverse_length;
-        most = fmax(most, sum / e->part.mass[b->particle[r]]);
+        most = fmax(most, sum / run->part.mass[b->particle[r]]);
     }
     return sqrt(2 / most);
 }

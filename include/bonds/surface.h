@@ -49,7 +49,7 @@ status surface_correction_fit_bond_weight_factors(struct surface_correction *wei
                                                   const struct bond_source *source, bool with_rotations);
 
 /* Releases the arrays of w, the factors on the weights of bonds near faces. */
-void surface_correction_free(struct surface_correction *w);
+void surface_correction_free(struct surface_correction *correction);
 
 /* Returns the integer nearest to `spacings`, halves rounded away from 0. It is quicker than nearbyint. */
 static inline int nearest_integer(real spacings) { return (int)(spacings + (spacings < 0 ? -0.5 : 0.5)); }

@@ -24,19 +24,19 @@ struct coupling_state {
     struct region start_region;   /* peridynamic from the start; no solids: empty */
 };
 
-/* Sets how peridynamic particles and material points of run e are coupled. If material points can convert, this is the
+/* Sets how peridynamic particles and material points of run are coupled. If material points can convert, this is the
  * method that the input file names (partial stress: material points leave a part of their stress to bonds; hand-shake,
  * Zeng et al. 2022; ...), else hand-shake. Then computes for the present bonds the partial stresses of material points
  * (the parts of their stress that bonds carry) and the interface zone (material points beside peridynamic particles,
  * whose motion is damped). */
-void coupling_set_method_and_compute_partial_stress(struct run *e);
+void coupling_set_method_and_compute_partial_stress(struct run *run);
 
-/* Makes the mesh of run e for the bodies in the reference frame (shape functions are evaluated in the undeformed
+/* Makes the mesh of run for the bodies in the reference frame (shape functions are evaluated in the undeformed
  * state). The mesh includes the present partial stresses (parts of the stress that bonds carry), and pre-cracks as
  * slits (free surfaces). caller_sets_nodal_motion: true if the caller sets displacement and velocity of the nodes
  * afterwards, false to fit them to those of the particles. Returns REFUSED (unsuitable input) or FAILED (too many
  * nodes), with a message, if no mesh is possible (mesh_make). */
-status coupling_build_total_lagrangian_mesh(struct run *e, bool caller_sets_nodal_motion);
+status coupling_build_total_lagrangian_mesh(struct run *run, bool caller_sets_nodal_motion);
 
 /* Rebuilds the data of coupling state c that depend on the bonds, after the bonds b have changed. c->bonded[p->n]: 1
  * for material points with bonds to peridynamic particles, for the FLIP transfer only. c->zone: the interface zone,
@@ -55,11 +55,11 @@ void bonded_points_update_strain_from_mesh_or_stress(const struct partial_stress
                                                      const struct lagrangian_mesh *frame, struct particles *p,
                                                      const struct material *material);
 
-/* Decides whether each pre-crack of run e becomes a slit, i.e. a free surface of the mesh, or cuts bonds along its
+/* Decides whether each pre-crack of run becomes a slit, i.e. a free surface of the mesh, or cuts bonds along its
  * length, and makes particles peridynamic that are so from the start: particles near the ends of slits, with bonds cut
  * by a pre-crack, beside narrow voids, or in the region that the input file gives. Returns REFUSED, with a message, if
  * the input file requires slits where they are impossible. */
-status precracks_apply_as_slits_or_cut_bonds(struct run *e);
+status precracks_apply_as_slits_or_cut_bonds(struct run *run);
 
 /* Writes to text[capacity], in words, how pre-crack number `crack_number` (from 0) is represented: as a slit of the
  * mesh, with the size of the zones of bonds at its ends, or by cut bonds, with the reason. A longer text is truncated.
@@ -88,39 +88,40 @@ void convert_particles_beside_voids_to_peridynamic(struct particles *p, const st
  * then. */
 bool mesh_cannot_have_free_surfaces_at_voids(const struct grid *g, const struct scene *s);
 
-/* Adds warnings to `warning_list` for voids of bodies of run e that are too narrow, so that the run treats them as
+/* Adds warnings to `warning_list` for voids of bodies of run that are too narrow, so that the run treats them as
  * closed. These are voids whose two sides share nodes of the background grid, and such gaps between a body and a plane
  * of symmetry. In bodies made from particle lists or images, whose surfaces are not known, they are gaps of one or two
  * particles. total_lagrangian_possible: true if the body can be in the reference frame (shape functions in the
  * undeformed state), which is then named as a remedy. */
-void warn_of_voids_treated_as_closed(const struct run *e, bool total_lagrangian_possible,
+void warn_of_voids_treated_as_closed(const struct run *run, bool total_lagrangian_possible,
                                      struct warnings *warning_list);
 
-/* Adds warnings to `warning_list` for bodies of run e that will pass through each other or stick together, and for
+/* Adds warnings to `warning_list` for bodies of run that will pass through each other or stick together, and for
  * voids that are too narrow to stay open (warn_of_voids_treated_as_closed). */
-void warn_of_bodies_that_penetrate_or_stick_together(const struct run *e, struct warnings *warning_list);
+void warn_of_bodies_that_penetrate_or_stick_together(const struct run *run, struct warnings *warning_list);
 
-/* Marks the material points of run e that are to become peridynamic particles because contact is near (FLAG_NEAR):
+/* Marks the material points of run that are to become peridynamic particles because contact is near (FLAG_NEAR):
  * those near other bodies, and those beside crack faces that approach each other. Searches for such points in each load
  * step (static equilibrium), or once in APPROACH_STEPS time steps. In every step first updates the list of the blocks
  * of eight rows (the bonds of eight particles each) whose particles may move. Returns true if points beside crack faces
  * were searched for in this step, so that some may be marked. */
-bool conversion_flag_points_near_contact(struct run *e);
+bool conversion_flag_points_near_contact(struct run *run);
 
-/* Converts those material points of run e whose flags require it (FLAG_LOST_BOND, FLAG_NEAR, FLAG_STRESSED) to
+/* Converts those material points of run whose flags require it (FLAG_LOST_BOND, FLAG_NEAR, FLAG_STRESSED) to
  * peridynamic particles, and updates all that depends on it: bonds, contact, partial stresses (the parts of stresses
  * that bonds carry), interface zone (damped material points beside peridynamic particles) and mesh. broken_bond_count:
  * number of bonds broken in this step, each counted once for each of its particles; crack_faces_examined: value that
  * conversion_flag_points_near_contact returned in this step; bonds_weaken_gradually: true if bonds of growing cracks
  * lose strength gradually. Returns the number of particles converted. */
-int64_t run_convert_flagged_points_to_peridynamic(struct run *e, int64_t broken_bond_count, bool crack_faces_examined,
+int64_t run_convert_flagged_points_to_peridynamic(struct run *run, int64_t broken_bond_count, bool crack_faces_examined,
                                                   bool bonds_weaken_gradually);
 
-/* Updates the mesh of run e, and the strains of material points with state-based bonds to peridynamic particles, after
+/* Updates the mesh of run, and the strains of material points with state-based bonds to peridynamic particles, after
  * conversion. converted_count: number of particles that have become peridynamic; 0 if at most partial stresses (the
- * parts of stresses that bonds carry) have changed. Energy lost by removing points from the mesh is added to e->damped.
+ * parts of stresses that bonds carry) have changed. Energy lost by removing points from the mesh is added to
+ * run->damped.
  */
-void conversion_update_mesh_after_conversion(struct run *e, int64_t converted_count);
+void conversion_update_mesh_after_conversion(struct run *run, int64_t converted_count);
 
 /* Checks that the other settings of scene s (the input file) allow reversion (`conversion.reversion: true`), in which
  * peridynamic particles become material points again. Reversion requires conversion by stress, and partial stress or
@@ -128,9 +129,9 @@ void conversion_update_mesh_after_conversion(struct run *e, int64_t converted_co
  * Returns REFUSED, with a message, if one of these conditions is violated. Returns OK if the scene has no reversion. */
 status reversion_check_scene_allows_return_to_mpm(const struct scene *s);
 
-/* Turns peridynamic particles of run e back into material points if their stress has been low for long enough and no
+/* Turns peridynamic particles of run back into material points if their stress has been low for long enough and no
  * bond near them was ever cut (reversion_select_particles_to_become_mpm). Called before each step; examines the
  * particles only in step numbers that are multiples of a period. Does nothing if the input file has no reversion. */
-void reversion_convert_relaxed_particles_to_mpm(struct run *e);
+void reversion_convert_relaxed_particles_to_mpm(struct run *run);
 
 #endif

@@ -27,27 +27,27 @@ struct active_set {
 
 /* Allocates the active set r of `block_count` blocks (each of eight particles or nodes) and makes all blocks active, so
  * that computations include every block. Release with active_set_free. */
-void active_set_make_with_all_blocks_active(struct active_set *r, int64_t block_count);
+void active_set_make_with_all_blocks_active(struct active_set *set, int64_t block_count);
 
 /* Releases all arrays of the active set r. */
-void active_set_free(struct active_set *r);
+void active_set_free(struct active_set *set);
 
-/* Rebuilds r->list, the ascending list of the blocks (eight particles or nodes) that computations visit, i.e. blocks
- * with an activity level above 0, and sets r->active to the number of these blocks. To be called after r->level has
+/* Rebuilds set->list, the ascending list of the blocks (eight particles or nodes) that computations visit, i.e. blocks
+ * with an activity level above 0, and sets set->active to the number of these blocks. To be called after set->level has
  * changed. */
-void active_set_rebuild_active_block_list(struct active_set *r);
+void active_set_rebuild_active_block_list(struct active_set *set);
 
 /* Saves the activity levels of the blocks (groups of eight particles or nodes) of r to the archive `a` under the name
  * `name` if a->saving, else restores them. After restoring, computations include all blocks in the next step, because
  * the forces of inactive blocks are not stored. Returns FAILED if the archive cannot be read or written. */
-status active_set_save_or_load(struct active_set *r, const char *name, struct archive *a);
+status active_set_save_or_load(struct active_set *set, const char *name, struct archive *a);
 
 /* Returns the fraction (0 to 1) of the blocks of r that are still at rest and skipped by computations. A block is a
  * group of eight particles or nodes; blocks without particles are not counted. */
-static inline real active_set_inactive_fraction(const struct active_set *r)
+static inline real active_set_inactive_fraction(const struct active_set *set)
 {
-    const int64_t blocks = r->blocks - r->empty;
-    return blocks > 0 && r->active < blocks ? 1 - (real)r->active / (real)blocks : 0;
+    const int64_t blocks = set->blocks - set->empty;
+    return blocks > 0 && set->active < blocks ? 1 - (real)set->active / (real)blocks : 0;
 }
 
 #endif

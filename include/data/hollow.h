@@ -16,20 +16,21 @@ struct cells_without_particles {
 };
 
 /* Releases the arrays of h, the cells in which no particles are made. */
-void cells_without_particles_free(struct cells_without_particles *h);
+void cells_without_particles_free(struct cells_without_particles *hollow);
 
 /* Returns true if the particle at the reference position X [m] is not created, because its cell is part of a coarser
- * cell (mesh/levels.h), which needs no particles. h: the cells without particles; NULL: all particles are created. */
-static inline bool cells_without_particles_contain(const struct cells_without_particles *h, const real *X)
+ * cell (mesh/levels.h), which needs no particles. hollow: the cells without particles; NULL: all particles are created.
+ */
+static inline bool cells_without_particles_contain(const struct cells_without_particles *hollow, const real *X)
 {
     int64_t cell = 0;
-    if (!h || !h->absent) return false;
-    for (int d = 0; d < h->box.dim; d++) {
-        const int64_t k = grid_cell_index_at(&h->box, d, X[d]) - h->box.first[d];
-        if (k < 0 || k >= h->box.count[d]) return false;
-        cell += k * h->box.stride[d];
+    if (!hollow || !hollow->absent) return false;
+    for (int d = 0; d < hollow->box.dim; d++) {
+        const int64_t k = grid_cell_index_at(&hollow->box, d, X[d]) - hollow->box.first[d];
+        if (k < 0 || k >= hollow->box.count[d]) return false;
+        cell += k * hollow->box.stride[d];
     }
-    return h->absent[cell];
+    return hollow->absent[cell];
 }
 
 #endif

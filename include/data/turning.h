@@ -71,11 +71,11 @@ struct corotating_groups {
  * position of the plane of symmetry across each axis [m], NAN if there is none; first_joined_body[bodies]: for each
  * body the first body that is joined to it; body_is_supported[bodies]: for each body, true if supports act on it, so
  * that its points do not rotate in groups. Replaces previous groups; release with corotating_groups_free. */
-void corotating_groups_make(struct corotating_groups *t, const struct particles *p, real spacing,
+void corotating_groups_make(struct corotating_groups *groups, const struct particles *p, real spacing,
                             const real *symmetry_plane, const int *first_joined_body, const bool *body_is_supported,
                             int bodies);
 
 /* Releases all arrays of the rotation groups t. */
-void corotating_groups_free(struct corotating_groups *t);
+void corotating_groups_free(struct corotating_groups *groups);
 
 #endif

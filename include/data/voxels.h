@@ -38,18 +38,18 @@ struct voxel_solid {
     float *level;   /* signed distance of voxel centres from the surface, negative inside [m] */
 };
 
-/* Finds the voxels of the image p->of whose grey values are in the ranges p->range: sets p->voxels to their number and
- * p->level to the signed distance [m] of each voxel centre from the surface of the solid that these voxels form. p->of
- * and the ranges must be set before. Release with voxel_solid_free. */
-void voxel_solid_make_from_grey_value_ranges(struct voxel_solid *p);
+/* Finds the voxels of the image voxels->of whose grey values are in the ranges voxels->range: sets voxels->voxels to
+ * their number and voxels->level to the signed distance [m] of each voxel centre from the surface of the solid that
+ * these voxels form. voxels->of and the ranges must be set before. Release with voxel_solid_free. */
+void voxel_solid_make_from_grey_value_ranges(struct voxel_solid *voxels);
 
-/* Releases the array of distances p->level of the solid p. */
-void voxel_solid_free(struct voxel_solid *p);
+/* Releases the array of distances voxels->level of the solid p. */
+void voxel_solid_free(struct voxel_solid *voxels);
 
 /* Returns the signed distance [m] of the point X (dim components [m]) from the surface of the solid p, negative inside.
  * The sign is exact; the value is the distance of the centre of the voxel that contains X (outside the image: of the
  * nearest voxel, plus the distance of X from the image). normal: NULL, or receives the unit vector that points out of
  * the solid. */
-real voxel_solid_signed_distance(const struct voxel_solid *p, const real *X, real *normal);
+real voxel_solid_signed_distance(const struct voxel_solid *voxels, const real *X, real *normal);
 
 #endif

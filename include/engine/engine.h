@@ -11,11 +11,11 @@
  * step. output: files of the run, opened by output_open and kept by reference; NULL for a run without files. Returns
  * REFUSED if the scene is invalid or needs more memory than available; FAILED if a file cannot be read. Release *e with
  * run_free_memory whatever is returned. */
-status run_set_up_from_scene(struct run *e, const struct scene *s, struct output *output);
+status run_set_up_from_scene(struct run *run, const struct scene *s, struct output *output);
 
-/* Releases all memory of the run e. Waits first for the thread that may still be writing a frame (output file of one
+/* Releases all memory of the run. Waits first for the thread that may still be writing a frame (output file of one
  * time). */
-void run_free_memory(struct run *e);
+void run_free_memory(struct run *run);
 
 /* Writes a line on standard error if the set-up of scene s will take longer than some seconds, because its bodies have
  * very many lattice positions: the number of positions, which follows from volume and spacing, and the expected
@@ -34,11 +34,11 @@ real run_estimate_peak_memory_if_all_peridynamic(const struct scene *s, const st
 /* Runs the scene of e, which run_set_up_from_scene has prepared, from the present step to its end, with all reports.
  * Returns OK at the end; INTERRUPTED, after a checkpoint, if a signal or the wall-clock limit stops the run; FAILED if
  * the run becomes unstable, no equilibrium is found, or a file cannot be written. */
-status run_advance_to_end_time(struct run *e);
+status run_advance_to_end_time(struct run *run);
 
-/* Adapts the coarsening levels of the mesh cells of run e (0: finest; the edge of a cell doubles with each level) to
+/* Adapts the coarsening levels of the mesh cells of run (0: finest; the edge of a cell doubles with each level) to
  * the present state, then makes one time step. Returns FAILED, with a message, if one of the two fails. */
-status run_adapt_mesh_and_advance_one_step(struct run *e);
+status run_adapt_mesh_and_advance_one_step(struct run *run);
 
 /* Saves the complete state of a run between two steps to the archive a (checkpoint file or memory) if a->saving is
  * true, else restores it from the archive. run: pointer to the struct run. Returns FAILED if the file cannot be
@@ -50,18 +50,18 @@ status run_save_or_load_state(void *run, struct archive *a);
  * instruction set. Returns FAILED if the checkpoint belongs to another body or is inconsistent. */
 status run_load_checkpoint(void *run, struct archive *a);
 
-/* Runs the scene of run e once more with material points alone, if it has a PULSE probe (wave packet at an interface).
+/* Runs the scene of run once more with material points alone, if it has a PULSE probe (wave packet at an interface).
  * The final velocities and the energy change of that run are stored; the probe compares run e with them. Call this
- * function at the end of run e. Returns the status of the second run; OK if there is no PULSE probe. */
-status run_repeat_with_mpm_only_for_pulse_probe(struct run *e);
+ * function at the end of run. Returns the status of the second run; OK if there is no PULSE probe. */
+status run_repeat_with_mpm_only_for_pulse_probe(struct run *run);
 
-/* Checks the scene of run e for input that is allowed but probably unintended, and adds warnings to e->warnings. Call
+/* Checks the scene of run for input that is allowed but probably unintended, and adds warnings to run->warnings. Call
  * it once, before the first step. */
-void run_warn_of_suspicious_input(struct run *e);
+void run_warn_of_suspicious_input(struct run *run);
 
-/* Writes the files summary.json and, if bodies can break into fragments, fragments.csv of run e for the steps done so
+/* Writes the files summary.json and, if bodies can break into fragments, fragments.csv of run for the steps done so
  * far. Does nothing for a run without files. end_status: status with which the run ended; thread_count: number of
  * threads. Returns FAILED if a file cannot be written. */
-status run_write_summary_files(const struct run *e, status end_status, int thread_count);
+status run_write_summary_files(const struct run *run, status end_status, int thread_count);
 
 #endif

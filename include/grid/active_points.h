@@ -25,12 +25,12 @@ struct active_points {
 enum { ACTIVE_POINTS_STEPS = 4 }; /* steps between two searches for the cells that motion can reach */
 
 /* Finds the material points whose cells motion can reach in the next steps, so that transfers between points and grid
- * can skip all others. r: the result of the last call, updated; full_order: points sorted by cell; previous_order: the
- * sorted points that transfers have used so far; grid: background grid with the prescribed nodal velocities (walls) of
- * the previous step; b: bonds; p: particles; loads: boundary conditions; shape, transfer: shape functions and transfer
- * scheme (FLIP or APIC), which determine how far motion spreads in a step. Returns the active points sorted like
- * full_order, as an order that r owns, or `full_order` if all points are active. */
-const struct transfer_order *active_points_update_transfer_order(struct active_points *r,
+ * can skip all others. active: the result of the last call, updated; full_order: points sorted by cell; previous_order:
+ * the sorted points that transfers have used so far; grid: background grid with the prescribed nodal velocities (walls)
+ * of the previous step; b: bonds; p: particles; loads: boundary conditions; shape, transfer: shape functions and
+ * transfer scheme (FLIP or APIC), which determine how far motion spreads in a step. Returns the active points sorted
+ * like full_order, as an order that r owns, or `full_order` if all points are active. */
+const struct transfer_order *active_points_update_transfer_order(struct active_points *active,
                                                                  const struct transfer_order *full_order,
                                                                  const struct transfer_order *previous_order,
                                                                  const struct particles *p, const struct grid *grid,
@@ -38,6 +38,6 @@ const struct transfer_order *active_points_update_transfer_order(struct active_p
                                                                  enum shape shape, enum transfer transfer);
 
 /* Frees the arrays of r (cells and points that transfers include) and sets all members of r to 0. */
-void active_points_free(struct active_points *r);
+void active_points_free(struct active_points *active);
 
 #endif

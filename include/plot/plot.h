@@ -153,11 +153,11 @@ struct view;
 
 /* Composes the title of a picture in title[TITLE_LENGTH] (a longer one is cut): `NAME, METHOD: QUANTITY`, with name and
  * method of the run in r->folder, and QUANTITY = quantity, what the picture shows; unknown parts are left out. If
- * r->title is given, it is the title. c: particles of the picture, or NULL; if given, the position of a slice and a
- * factor on displacements are appended to the title. view: rectangle of the picture, which determines the unit of the
+ * r->title is given, it is the title. plotted: particles of the picture, or NULL; if given, the position of a slice and
+ * a factor on displacements are appended to the title. view: rectangle of the picture, which determines the unit of the
  * position; NULL if c is. */
 void picture_compose_title(char *title, const struct plot_request *r, const char *quantity,
-                           const struct plotted_particles *c, const struct view *view);
+                           const struct plotted_particles *plotted, const struct view *view);
 
 /* Unit for display, with its name. factor: SI value divided by displayed value. */
 struct unit {
@@ -278,17 +278,17 @@ struct plotted_particles {
     struct plotted_rigid_body *rigid; /* [rigids] */
 };
 
-/* Copies those particles of the frame f (state at one time) that a picture shows into *c: in 2D all, in 3D those
+/* Copies those particles of the frame f (state at one time) that a picture shows into *plotted: in 2D all, in 3D those
  * selected by `projection`, a slice or a view from outside; NULL for the slice with the largest damage. Release c with
  * plotted_particles_free. */
-void plotted_particles_select_from_frame(struct plotted_particles *c, const struct output_frame *f,
+void plotted_particles_select_from_frame(struct plotted_particles *plotted, const struct output_frame *f,
                                          const struct projection *projection);
 
 /* Reads a frame (state at one time) of the run in `folder` and copies those particles that a picture shows into *c,
  * with the values of projection->field if it is set. projection: slice of a body in three dimensions, or view of it
  * from outside. Returns FAILED, with no memory to release, if the frame cannot be read or lacks the field. Release c
  * with plotted_particles_free. */
-status plotted_particles_read(struct plotted_particles *c, const char *folder, const struct listed_frame *frame,
+status plotted_particles_read(struct plotted_particles *plotted, const char *folder, const struct listed_frame *frame,
                               const struct projection *projection);
 
 /* Returns true if n particles appear to be on a lattice along the axes: for 90 % of a sample the nearest neighbour is
@@ -312,7 +312,7 @@ bool matrix_invert_3x3(const double matrix[3][3], double inverse[3][3]);
 
 /* Frees the arrays of *c, the drawn particles of a frame, which plotted_particles_read or
  * plotted_particles_select_from_frame has allocated. */
-void plotted_particles_free(struct plotted_particles *c);
+void plotted_particles_free(struct plotted_particles *plotted);
 
 /* Completes the slice *projection through a body in three dimensions from the particles of the frame f (state at one
  * time): sets its normal and its position along the normal, each if it is not set; a given position is moved to the
@@ -349,15 +349,15 @@ void rigid_body_find_nearest_particle_displacement(const struct region *shape, c
 
 /* Adds the rigid bodies of the scene s to c, the particles of frame number `frame_number` that a picture shows. Their
  * positions and rotations are those that the run in `folder` has stored for this frame. In a picture with magnified
- * displacements (c->magnify), each body is moved along by the added displacement of the particle nearest to it. Adds
- * none, without a message, if s is NULL, in one dimension, or if the file with the positions is missing or cannot be
- * read. f: the frame; s: kept by reference, must outlive c. */
-void plotted_particles_add_rigid_bodies(struct plotted_particles *c, const struct output_frame *f,
+ * displacements (plotted->magnify), each body is moved along by the added displacement of the particle nearest to it.
+ * Adds none, without a message, if s is NULL, in one dimension, or if the file with the positions is missing or cannot
+ * be read. f: the frame; s: kept by reference, must outlive c. */
+void plotted_particles_add_rigid_bodies(struct plotted_particles *plotted, const struct output_frame *f,
                                         const struct scene *s, const char *folder, int frame_number);
 
 /* Adds the rigid bodies of the scene s, whose placements are placement[s->rigids], to the particles c. low, high: box
  * around the particles in the reference state, to which unbounded bodies are cut [s->dim, m]. s: kept by reference. */
-void plotted_particles_add_placed_rigid_bodies(struct plotted_particles *c, const struct scene *s,
+void plotted_particles_add_placed_rigid_bodies(struct plotted_particles *plotted, const struct scene *s,
                                                const struct rigid_placement *placement, const real *low,
                                                const real *high);
 
@@ -380,8 +380,9 @@ struct categories {
 /* Lists the named values (bodies, materials and so on) of a field that occur in cloud[frame_count], the particles of
  * several frames, and stores them in *k. folder: folder of the run, from whose scene the names of bodies and materials
  * are read. */
-void categories_list_values_present_in_frames(struct categories *k, const struct plot_field *field, const char *folder,
-                                              const struct plotted_particles *cloud, int frame_count);
+void categories_list_values_present_in_frames(struct categories *categories, const struct plot_field *field,
+                                              const char *folder, const struct plotted_particles *cloud,
+                                              int frame_count);
 
 /* Returns the colour of one value of a field whose values have names, such as bodies or materials. category_value: the
  * value, which is the index of the body or material. */
@@ -424,7 +425,8 @@ status view_make_for_request(struct view *v, const struct plot_request *r, const
 
 /* Returns the colour of particle number i of c in a map of the quantity `map`. v: view, with the values at the ends of
  * the colour scale. */
-struct colour plotted_particle_colour(const struct view *v, const struct plotted_particles *c, int64_t i, enum map map);
+struct colour plotted_particle_colour(const struct view *v, const struct plotted_particles *plotted, int64_t i,
+                                      enum map map);
 
 /* Returns the colour at `position` in 0 .. 1 on the colour scale of a map of the kind `map`. v: view, whose field and
  * table determine the scale if `map` is MAP_FIELD. */
@@ -435,20 +437,20 @@ struct colour view_colour_at_scale_position(const struct view *v, enum map map, 
  * deforms with the body. Each pixel shows the particle nearest to it. Pixels without a particle are white and
  * transparent. For plane bodies and slices; image_paint_particles_as_cubes paints views from outside. */
 void image_paint_particles_in_plane(struct colour *pixel, int width, int height, const struct view *view,
-                                    const struct plotted_particles *c, enum map map);
+                                    const struct plotted_particles *plotted, enum map map);
 
 /* Paints the particles of c, as seen from outside by a camera, into the image pixel[height * width], rows from bottom
  * to top. map: quantity that the colours show; view: visible rectangle and range of the colours. Each particle is drawn
  * as a cube that deforms with the body. Each pixel shows the cube nearest to the viewer. In MAP_CRACKS the body is
  * painted in a faded colour, and the cubes of particles with damage of at least CRACK_DAMAGE are painted over it. */
 void image_paint_particles_as_cubes(struct colour *pixel, int width, int height, const struct view *view,
-                                    const struct plotted_particles *c, enum map map);
+                                    const struct plotted_particles *plotted, enum map map);
 
 /* Paints the faces of the pre-cracks v->notch into the image pixel[height * width] (rows from bottom to top) of a map
  * of a plane body, as lines that move with the adjacent particles of c. v: rectangle of the image; map: quantity that
  * the colours show. Paints nothing unless `map` is MAP_DAMAGE or MAP_FIELD. */
 void image_paint_precrack_faces(struct colour *pixel, int width, int height, const struct view *v,
-                                const struct plotted_particles *c, enum map map);
+                                const struct plotted_particles *plotted, enum map map);
 
 /* Returns the colour in which rigid bodies are drawn in a map of the kind `map`; it is faded in MAP_CRACKS, where the
  * deformable bodies are faded, too. */
@@ -461,18 +463,18 @@ void view_extend_to_rigid_bodies(struct view *v, const struct plotted_particles 
 
 /* Returns true if at least one rigid body of c is visible in the rectangle of v. In views from outside every rigid body
  * counts as visible. In plane bodies and slices the rectangle is tested at 300 x 300 points. */
-bool view_shows_any_rigid_body(const struct view *v, const struct plotted_particles *c);
+bool view_shows_any_rigid_body(const struct view *v, const struct plotted_particles *plotted);
 
 /* Paints the rigid bodies of c, seen in the rectangle of v, into the image pixel[height * width] of a plane body or a
  * slice. In front of a slice they hide the particles, in a plane body they are behind the particles. */
 void image_paint_rigid_bodies_in_plane(struct colour *pixel, int width, int height, const struct view *v,
-                                       const struct plotted_particles *c);
+                                       const struct plotted_particles *plotted);
 
 /* Paints the rigid bodies of c, as seen from outside by a camera, into the image pixel[height * width], rows from
  * bottom to top. A pixel is painted where a body is nearer to the viewer than the depth stored in depth[height * width]
  * [m], which is then updated. v: visible rectangle; map: quantity that the colours show. */
 void image_paint_rigid_bodies_from_outside(struct colour *pixel, float *depth, int width, int height,
-                                           const struct view *v, const struct plotted_particles *c, enum map map);
+                                           const struct view *v, const struct plotted_particles *plotted, enum map map);
 
 /* Output file of a picture: its path and its format. */
 struct output_picture {

@@ -43,30 +43,31 @@ struct diagnostics {
 
 /* Initialises the diagnostics *w before the first time step: sums are 0; times and positions of breaks are NAN, since
  * no bond has broken yet. */
-void diagnostics_initialise(struct diagnostics *w);
+void diagnostics_initialise(struct diagnostics *diagnostics);
 
-/* Computes the total momentum of the particles p and of the mesh nodes, stores it in w->now.momentum, and updates
- * w->now.momentum_error, the largest error so far. nodes[grid_count]: grids whose nodes carry the mass of their points.
- * impulse: impulse of loads and supports from the start to the time of the velocities, dim components [N s]. */
-void diagnostics_update_momentum(struct diagnostics *w, const struct particles *p, const struct grid *const *nodes,
-                                 int grid_count, const real *impulse);
+/* Computes the total momentum of the particles p and of the mesh nodes, stores it in diagnostics->now.momentum, and
+ * updates diagnostics->now.momentum_error, the largest error so far. nodes[grid_count]: grids whose nodes carry the
+ * mass of their points. impulse: impulse of loads and supports from the start to the time of the velocities, dim
+ * components [N s]. */
+void diagnostics_update_momentum(struct diagnostics *diagnostics, const struct particles *p,
+                                 const struct grid *const *nodes, int grid_count, const real *impulse);
 
 /* Computes the angular momentum of the free bodies of particles p about their common centre of mass, stores it in
- * w->now.spin, and updates w->now.spin_error, the largest error so far. mesh: mesh by which material points move, NULL
- * if none of its nodes carries mass. body_count: number of bodies of the scene. Call this function only if no load,
- * support or mirror acts on the bodies, since angular momentum is conserved only then. */
-void diagnostics_update_angular_momentum(struct diagnostics *w, const struct particles *p, const struct mesh *mesh,
-                                         int body_count);
+ * diagnostics->now.spin, and updates diagnostics->now.spin_error, the largest error so far. mesh: mesh by which
+ * material points move, NULL if none of its nodes carries mass. body_count: number of bodies of the scene. Call this
+ * function only if no load, support or mirror acts on the bodies, since angular momentum is conserved only then. */
+void diagnostics_update_angular_momentum(struct diagnostics *diagnostics, const struct particles *p,
+                                         const struct mesh *mesh, int body_count);
 
 /* Stores the energies *energy of the run at time t [s] and the work of loads and supports since the start, `work` [J],
- * in w->now, and computes the error of the energy balance, w->now.balance_error. Call this function after
- * diagnostics_update_momentum; its first call defines the energy and momentum at the start. */
-void diagnostics_update_energy_balance(struct diagnostics *w, real t, const struct energy *energy, real work);
+ * in diagnostics->now, and computes the error of the energy balance, diagnostics->now.balance_error. Call this function
+ * after diagnostics_update_momentum; its first call defines the energy and momentum at the start. */
+void diagnostics_update_energy_balance(struct diagnostics *diagnostics, real t, const struct energy *energy, real work);
 
 /* Returns the relative energy change (E - E_0 - work)/E_0 [1] at the last sample of w. E is the sum of all energies
  * except the energy taken by damping, E_0 that sum at the start, and `work` the work of loads and supports. Returns NAN
  * if E_0 is not positive. */
-real diagnostics_relative_energy_balance_error(const struct diagnostics *w);
+real diagnostics_relative_energy_balance_error(const struct diagnostics *diagnostics);
 
 /* Finds the groups of bonds that broke in this time step: clusters of particles of p whose flag FLAG_CRACKED (bond lost
  * in this step) is set and that are at most `horizon` apart. searched_particles[particle_count]: numbers of the
@@ -81,8 +82,8 @@ int64_t diagnostics_count_clusters_of_new_bond_breaks(const struct particles *p,
  * middle of a cluster of particles of p that lost bonds and are at most `horizon`, the length of the longest bond [m],
  * apart. Returns true if driven particles (particles with prescribed motion) lost bonds in this step for the first time
  * in the run. */
-bool diagnostics_count_broken_bonds_and_record_first(struct diagnostics *w, const struct particles *p, real horizon,
-                                                     int64_t broken_bond_count, real t);
+bool diagnostics_count_broken_bonds_and_record_first(struct diagnostics *diagnostics, const struct particles *p,
+                                                     real horizon, int64_t broken_bond_count, real t);
 
 /* Searches for particles of p whose position or velocity is not finite or whose speed exceeds `max_speed`, the fastest
  * wave speed of the scene [m/s]. check_peridynamic: search the peridynamic particles too; check_mesh_points: search the
@@ -94,16 +95,16 @@ status diagnostics_check_particles_for_divergence(const struct particles *p, boo
 
 /* Saves the diagnostics w to the archive `a` (checkpoint file or memory) if a->saving is set, else restores them from
  * it. Returns FAILED if an entry is missing or has another size. */
-status diagnostics_save_or_load(struct diagnostics *w, struct archive *a);
+status diagnostics_save_or_load(struct diagnostics *diagnostics, struct archive *a);
 
 /* Returns true if the energies w of the run so far are mere round-off, so that relative energy errors mean nothing:
  * they are below 1e-24 of the kinetic energy of the whole body at the wave speed. mass: mass of the body [kg];
  * wave_speed: speed of the fastest wave [m/s]. */
-bool diagnostics_energy_is_round_off(const struct diagnostics *w, real mass, real wave_speed);
+bool diagnostics_energy_is_round_off(const struct diagnostics *diagnostics, real mass, real wave_speed);
 
 /* Returns the energy [J] that breaking bonds have released in excess of the energy that they had stored: minus the
  * fracture energy of the last sample of w if that is negative, else 0. Only bonds of state-based models can have such
  * an excess. */
-real diagnostics_excess_energy_released_by_bonds(const struct diagnostics *w);
+real diagnostics_excess_energy_released_by_bonds(const struct diagnostics *diagnostics);
 
 #endif

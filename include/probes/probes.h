@@ -93,56 +93,57 @@ struct velocity_time {
  * with nothing left to free, if a request does not suit the run. Cases: a point outside the bodies; a region without
  * particles; a named boundary that does not exist or has no reaction; a bar that differs from what its closed-form
  * solution describes; a SIF probe without crack tip or with unsuitable contours. */
-status probes_make(struct probes *s, const struct probe_request *requests, int request_count,
+status probes_make(struct probes *probes, const struct probe_request *requests, int request_count,
                    const struct observed_run *o);
 
 /* Frees all probes that probes_make has made, and sets *s to zero. Does nothing if *s is zero. */
-void probes_free(struct probes *s);
+void probes_free(struct probes *probes);
 
 /* Computes the values of a sample (a line of history.csv) at the current positions, time o->t, and stores them in
- * s->value. Values that depend on velocities at the time of the sample or on the forces of the time step are replaced
- * later by probes_sample_velocity_dependent_values. */
-void probes_sample_position_dependent_values(struct probes *s, const struct observed_run *o);
+ * probes->value. Values that depend on velocities at the time of the sample or on the forces of the time step are
+ * replaced later by probes_sample_velocity_dependent_values. */
+void probes_sample_position_dependent_values(struct probes *probes, const struct observed_run *o);
 
 /* Computes the kinetic, strain and fracture energy of the particles of the ENERGY probes of s and stores them in
- * s->value [J]. Must be called when the forces at the time of the sample are known and before anything moves, as the
- * energies of the whole run are computed. The kinetic energy is replaced later by
+ * probes->value [J]. Must be called when the forces at the time of the sample are known and before anything moves, as
+ * the energies of the whole run are computed. The kinetic energy is replaced later by
  * probes_sample_velocity_dependent_values. o: view of the run. */
-void probes_sample_energies(struct probes *s, const struct observed_run *o);
+void probes_sample_energies(struct probes *probes, const struct observed_run *o);
 
 /* Copies the positions (at time o->t) and velocities (at time o->t_velocity) of the observed particles into the probes
  * *s. Must be called before the time step; probes_sample_velocity_dependent_values interpolates between these
  * velocities and those after the step. */
-void probes_store_motion_before_step(struct probes *s, const struct observed_run *o);
+void probes_store_motion_before_step(struct probes *probes, const struct observed_run *o);
 
 /* Computes the values of a sample (line of history.csv) that depend on velocities or on the forces of the time step,
- * after that step, and stores them in s->value. The values are those at the time of the preceding call of
+ * after that step, and stores them in probes->value. The values are those at the time of the preceding call of
  * probes_store_motion_before_step: velocities are interpolated to that time, and reactions are those of the forces in
  * the step. now: time of the present velocities. If probes_store_motion_before_step was not called before, the body is
  * assumed to be in equilibrium. o: view of the run. */
-void probes_sample_velocity_dependent_values(struct probes *s, const struct observed_run *o,
+void probes_sample_velocity_dependent_values(struct probes *probes, const struct observed_run *o,
                                              const struct velocity_time *now);
 
 /* Appends to *warning_list and prints, once for each SIF probe (stress-intensity factors), a warning that K_I, K_II and
  * J have no value at the last sample (line of history.csv): the integration ring round a tip that has grown leaves the
  * body, or the results of its contours differ by more than 20 %. single_equilibrium: also for tips at rest, where no
  * wave can be the cause. t: time of the sample [s]. */
-void probes_warn_of_meaningless_sif(struct probes *s, bool single_equilibrium, real t, struct warnings *warning_list);
+void probes_warn_of_meaningless_sif(struct probes *probes, bool single_equilibrium, real t,
+                                    struct warnings *warning_list);
 
 /* Updates the probes of s that observe every time step of the run o. BREAK probes (first broken bond of a region) and
  * SPALL probes (separated end of a bar) search for bonds that broke in the step (particles whose flag FLAG_LOST_BOND is
  * set); REACTION probes (force of a support) update the largest force and the sum of squared forces. Must be called
  * before these flags are cleared. */
-void probes_update_break_spall_and_reaction_probes(struct probes *s, const struct observed_run *o);
+void probes_update_break_spall_and_reaction_probes(struct probes *probes, const struct observed_run *o);
 
 /* Updates those probes of s in run o that search for bonds that just broke, and no others: BREAK probes (first broken
  * bond of a region) and SPALL probes (separated end of a bar). Load steps (sequences of static equilibria) call this
  * function each time bonds have broken. */
-void probes_update_break_and_spall_probes(struct probes *s, const struct observed_run *o);
+void probes_update_break_and_spall_probes(struct probes *probes, const struct observed_run *o);
 
 /* Calls emit(context, probe name, quantity name, value) for every result of every probe of s that summary.json reports,
  * in SI units. o: view of the run at the end. Values that are NAN are skipped. */
-void probes_visit_results(const struct probes *s, const struct observed_run *o,
+void probes_visit_results(const struct probes *probes, const struct observed_run *o,
                           void (*emit)(void *context, const char *probe, const char *quantity, real value),
                           void *context);
 
@@ -154,34 +155,35 @@ typedef status probe_file_fn(void *context, const char *name, const char *text, 
  * write_file(context, `<probe>_<frame>.csv`, text, length) for each. frame_number: number of the frame (output state)
  * in these names; o: view of the present state of the run. Returns FAILED if memory is exhausted, or the status of
  * `write_file` if it is not OK. */
-status probes_write_profiles(const struct probes *s, const struct observed_run *o, probe_file_fn *write_file,
+status probes_write_profiles(const struct probes *probes, const struct observed_run *o, probe_file_fn *write_file,
                              void *context, int frame_number);
 
-/* Returns the number of profiles (tables of values along a line, one for each LINE and EXACT probe) that the probes s
+/* Returns the number of profiles (tables of values along a line, one for each LINE and EXACT probe) that the probes
  * write with each frame. */
-int64_t probes_count_profiles(const struct probes *s);
+int64_t probes_count_profiles(const struct probes *probes);
 
 /* Capacity of the name of a profile that a probe writes, with its terminator [byte]. */
 enum { PROFILE_NAME = NAME_MAX_LENGTH + 16 };
 
-/* Writes the file name of the profile of the probes s with number `profile` >= 0 of frame number `frame_number` to
+/* Writes the file name of the profile of the probes with number `profile` >= 0 of frame number `frame_number` to
  * file_name[PROFILE_NAME]. Returns false, without a name, if there are at most `profile` profiles. */
-bool probes_compose_profile_file_name(const struct probes *s, int profile, int frame_number, char *file_name);
+bool probes_compose_profile_file_name(const struct probes *probes, int profile, int frame_number, char *file_name);
 
 /* Copies the stress-intensity factors at the last sample of the probe of s (kind SIF) called `probe_name`, and the
  * direction of the crack tip, to *control, by which a growing crack is controlled. Returns false if the probe has no
  * values yet. */
-bool probes_copy_sif_to_growth_control(const struct probes *s, const char *probe_name, struct growth_control *control);
+bool probes_copy_sif_to_growth_control(const struct probes *probes, const char *probe_name,
+                                       struct growth_control *control);
 
 /* Computes where the SIF probe (stress-intensity factors) number `probe` of s integrates: stores the current position
  * of its crack tip in tip_position[2] [m], and the outer radius of its contours in *outer_radius [m]. o: view of the
  * run. Returns false, and stores nothing, if the probe is not a SIF probe. */
-bool probes_locate_sif_contour(const struct probes *s, int probe, const struct observed_run *o, real tip_position[2],
-                               real *outer_radius);
+bool probes_locate_sif_contour(const struct probes *probes, int probe, const struct observed_run *o,
+                               real tip_position[2], real *outer_radius);
 
-/* Saves the state of the probes s, such as times and positions of first breaks and largest forces so far, to the
+/* Saves the state of the probes, such as times and positions of first breaks and largest forces so far, to the
  * archive a (checkpoint file or memory) if a->saving is set, else restores it from a. Returns FAILED if an entry is
  * missing or its size does not fit the probes. */
-status probes_save_or_load(struct probes *s, struct archive *a);
+status probes_save_or_load(struct probes *probes, struct archive *a);
 
 #endif

@@ -63,15 +63,15 @@ struct rigid_energy {
  * motion and forces [J]. dt: time step [s]. */
 struct rigid_energy rigids_compute_energy(const struct rigid_set *rigid, real dt);
 
-/* Stores names and units of the columns of the rigid bodies of the run e in history.csv in the array `column`; if
+/* Stores names and units of the columns of the rigid bodies of the run in history.csv in the array `column`; if
  * `column` is NULL, only counts the columns. Returns the number of columns: force [N], moment [N m], position of the
  * centre [m] and velocity [m/s] of each body. */
-int rigids_list_history_columns(const struct run *e, struct column *column);
+int rigids_list_history_columns(const struct run *run, struct column *column);
 
-/* Writes the values of the history.csv columns of the rigid bodies of the run e to the array `record`, in the order of
+/* Writes the values of the history.csv columns of the rigid bodies of the run to the array `record`, in the order of
  * rigids_list_history_columns: for each body the forces and moments of the last step, then position and velocity at the
  * time of the sample, which rigids_store_motion_before_step has stored. */
-void rigids_write_history_values(struct run *e, real *record);
+void rigids_write_history_values(struct run *run, real *record);
 
 /* Stores the positions and velocities of all rigid bodies in rigid->motion, before a step, for the sample (line of
  * history.csv) at time t [s]. The stored velocity of a body with prescribed motion is the prescribed one at t. */

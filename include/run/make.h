@@ -39,7 +39,7 @@ bool joined_bodies_are_all_defined_by_solids(const struct scene *s, int first_bo
  * REFUSED, with a message, if particles of p that can have bonds, mirror images included, are not on one lattice.
  * loads: boundary conditions, so that the message can name the boundary of scene s whose mirror plane does not fit the
  * lattice. */
-status surface_correction_compute_bond_weight_factors(struct surface_correction *w, struct bond_source *source,
+status surface_correction_compute_bond_weight_factors(struct surface_correction *correction, struct bond_source *source,
                                                       const struct particles *p, const struct loads *loads,
                                                       const struct scene *s);
 

@@ -60,18 +60,18 @@ struct newton_solver {
 /* Initialises the Newton solver *q for `node_count` nodes (particles or nodes of a mesh) in `dim` space dimensions:
  * allocates all vectors and sets them to 0. Functions and tolerances are set by the caller. Release with
  * newton_solver_free. */
-void newton_solver_make(struct newton_solver *q, int dim, int64_t node_count);
+void newton_solver_make(struct newton_solver *newton, int dim, int64_t node_count);
 
 /* Frees the vectors of the Newton solver *q, which newton_solver_make has allocated. */
-void newton_solver_free(struct newton_solver *q);
+void newton_solver_free(struct newton_solver *newton);
 
-/* Finds the static equilibrium under the present loads by Newton's method. On entry q->u and q->f are displacement and
- * forces of the previous equilibrium, on return those of the new one. loads_changed: true if loads or supports have
- * changed since the previous equilibrium, false if only the body has, for example by broken bonds. increment: first
- * change of q->u, n vectors [m]: its prescribed components are the motion of supports, the others a guess; used only if
- * loads_changed is true. Returns FAILED, with a message, if after all corrections the norm of unbalanced forces exceeds
- * both q->tolerance times that of loads and reactions and q->noise, the norm of round-off [N]; q->u is then the
- * displacement after the last correction. */
-status newton_solver_find_equilibrium(struct newton_solver *q, const struct field *increment, bool loads_changed);
+/* Finds the static equilibrium under the present loads by Newton's method. On entry newton->u and newton->f are
+ * displacement and forces of the previous equilibrium, on return those of the new one. loads_changed: true if loads or
+ * supports have changed since the previous equilibrium, false if only the body has, for example by broken bonds.
+ * increment: first change of newton->u, n vectors [m]: its prescribed components are the motion of supports, the others
+ * a guess; used only if loads_changed is true. Returns FAILED, with a message, if after all corrections the norm of
+ * unbalanced forces exceeds both newton->tolerance times that of loads and reactions and newton->noise, the norm of
+ * round-off [N]; newton->u is then the displacement after the last correction. */
+status newton_solver_find_equilibrium(struct newton_solver *newton, const struct field *increment, bool loads_changed);
 
 #endif

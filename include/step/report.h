@@ -94,30 +94,30 @@ unsigned report_bitmask_of_frame_series_due(const struct output *out, const stru
  * before the first step only; its equilibria are sampled by history_sample_write_in_equilibrium. */
 bool report_history_sample_is_due(const struct scene *s, const struct run_clock *clock);
 
-/* Starts the reports of the run e before the first time step of this process: opens history.csv and, unless the run is
+/* Starts the reports of the run before the first time step of this process: opens history.csv and, unless the run is
  * resumed, writes frame 0 and the first checkpoint. Warns of missing frames of a resumed run. Returns FAILED if a file
  * cannot be written or an index of frames cannot be read. */
-status report_open_history_and_write_first_frame(struct run *e);
+status report_open_history_and_write_first_frame(struct run *run);
 
-/* Reports a finished time step or load step of the run e: takes the last sample after the last step, checks the
+/* Reports a finished time step or load step of the run run: takes the last sample after the last step, checks the
  * energies (run_check_last_sample_for_energy_divergence), and writes frames (states for output), checkpoint and
  * progress line if this step requires them. Returns FAILED if a file cannot be written, a particle has values that are
  * not finite, or run_check_last_sample_for_energy_divergence fails; INTERRUPTED, after a checkpoint, if a signal or the
  * wall-clock limit time.wall stops the run. */
-status report_write_outputs_due_after_step(struct run *e);
+status report_write_outputs_due_after_step(struct run *run);
 
-/* Ends the reports of the run e after its last step: prints the last progress line, waits for the thread that writes
+/* Ends the reports of the run after its last step: prints the last progress line, waits for the thread that writes
  * frames, and writes the last checkpoint. Returns FAILED if a file cannot be written. */
-status report_write_last_checkpoint_and_finish(struct run *e);
+status report_write_last_checkpoint_and_finish(struct run *run);
 
 /* Returns the share of all particles p that are still at rest, which time steps skip (data/active_set.h) [1]:
  * peridynamic particles by the bonds b, material points by the mesh. */
 real particles_at_rest_fraction(const struct bonds *b, const struct mesh *mesh, const struct particles *p);
 
-/* Warns at the end of the run e of three faults: energy or angular momentum is not conserved; interface damping, near
+/* Warns at the end of the run of three faults: energy or angular momentum is not conserved; interface damping, near
  * interfaces of material points and peridynamic particles, dissipated much energy; bonds broke in a collision that is
  * too fast for the particle spacing. */
-void run_warn_of_unconserved_energy_and_momentum(struct run *e);
+void run_warn_of_unconserved_energy_and_momentum(struct run *run);
 
 struct crack_tips;
 
@@ -132,12 +132,12 @@ void warn_of_tips_above_rayleigh_speed(const struct crack_tips *t, const struct 
 void warn_when_bonds_first_yield(struct run_report *r, const struct bonds *b, const struct scene *s,
                                  struct warnings *warning_list);
 
-/* Computes the fields that the particles of run e do not store (strain, density, plastic work, level of the coarse
+/* Computes the fields that the particles of run do not store (strain, density, plastic work, level of the coarse
  * cell) and stores pointers to them in *extra, from which the frame is written. requested_field_bits: set of these
  * fields, as bits ASK_... (output/output.h). Before the call, the positions and stresses of all particles must be up to
  * date (run_update_particle_motion_and_stress), and extra->more, the material points of coarse cells, must be set. Call
  * frame_fields_free once the frame has been copied by output_begin_writing_frame_in_thread. */
-void frame_fields_compute_requested(struct run *e, unsigned requested_field_bits, struct frame_extra *extra);
+void frame_fields_compute_requested(struct run *run, unsigned requested_field_bits, struct frame_extra *extra);
 
 /* Frees the fields in *extra that frame_fields_compute_requested has allocated for a frame. */
 void frame_fields_free(struct frame_extra *extra);

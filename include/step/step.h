@@ -6,39 +6,39 @@
 #include "probes/probes.h"
 #include "run/run.h"
 
-/* Advances the run e by one time step e->clock.dt: computes forces, breaks bonds, moves particles and nodes, and
+/* Advances the run by one time step run->clock.dt: computes forces, breaks bonds, moves particles and nodes, and
  * converts material points to peridynamic particles. Returns FAILED if material points have left the background grid
  * because their motion has diverged. */
-status step(struct run *e);
+status step(struct run *run);
 
-/* Marks with FLAG_NEAR the material points of run e, at their present positions, that are near other bodies; rigid
+/* Marks with FLAG_NEAR the material points of run, at their present positions, that are near other bodies; rigid
  * bodies are at their positions of pseudo-time t [s]. Marked points become peridynamic at the next call of
  * load_step_convert_points_near_breaks_to_pd. present_pseudo_time: present pseudo-time [s], to whose positions rigid
  * bodies are moved back. Returns true if positions were examined; does nothing and returns false if no rigid body can
  * touch a material point. */
-bool load_step_flag_points_near_rigid_bodies(struct run *e, real present_pseudo_time, real t);
+bool load_step_flag_points_near_rigid_bodies(struct run *run, real present_pseudo_time, real t);
 
 /* Converts material points near broken bonds to peridynamic particles between load steps (static equilibria), at fixed
- * positions. e: run; broken_bond_count: number of bonds broken since the last call, each counted once for each of its
+ * positions. run: run; broken_bond_count: number of bonds broken since the last call, each counted once for each of its
  * particles. Returns true if points have been converted. */
-bool load_step_convert_points_near_breaks_to_pd(struct run *e, int64_t broken_bond_count);
+bool load_step_convert_points_near_breaks_to_pd(struct run *run, int64_t broken_bond_count);
 
-/* Computes the internal forces of the run e at the current positions without moving anything: forces of bonds in
- * e->part.f, and forces of mesh cells, and of bonds to material points of the mesh, in the nodal forces of the mesh.
+/* Computes the internal forces of the run at the current positions without moving anything: forces of bonds in
+ * run->part.f, and forces of mesh cells, and of bonds to material points of the mesh, in the nodal forces of the mesh.
  * Material points of the mesh that have bonds, and mirror images of particles, are first brought to their current
  * positions. Bonds stretched beyond their limit break. */
-void run_compute_internal_forces(struct run *e);
+void run_compute_internal_forces(struct run *run);
 
-/* Brings positions, velocities and stresses of all particles of the run e up to date, as frames need them: points of a
+/* Brings positions, velocities and stresses of all particles of the run up to date, as frames need them: points of a
  * mesh from its nodes, stresses of peridynamic particles from their bonds. */
-void run_update_particle_motion_and_stress(struct run *e);
+void run_update_particle_motion_and_stress(struct run *run);
 
-/* Computes the critical time step of the run e, and sets the time step dt and the number of steps in e->clock. Returns
+/* Computes the critical time step of the run, and sets the time step dt and the number of steps in run->clock. Returns
  * REFUSED if time.step of the scene is too long for coarse cells, or if the run would have more than 1e12 steps. */
-status run_choose_time_step_and_step_count(struct run *e);
+status run_choose_time_step_and_step_count(struct run *run);
 
-/* Returns a read-only view of the run e, from which probes read. All pointers of the view refer to data of e; nothing
+/* Returns a read-only view of the run, from which probes read. All pointers of the view refer to data of e; nothing
  * has to be freed. */
-struct observed_run observed_run_make_read_only_view(const struct run *e);
+struct observed_run observed_run_make_read_only_view(const struct run *run);
 
 #endif

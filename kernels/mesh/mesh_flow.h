@@ -134,22 +134,22 @@ static ALWAYS_INLINE real cells_compute_point_stress(const struct mesh *mesh, co
 }
 
 /* Adds the stresses of the points number `point` (0 .. 2^dim - 1) of eight mesh cells to the sums over the points of
- * each cell: to s->P, the stress of the mean strain, and to s->force, the forces on the bending (hourglass) modes.
- * stress: symmetric components [Pa], already divided by the number of points of a cell. */
-static ALWAYS_INLINE void cells_add_point_stress_to_cell_sums(struct mesh_cell *s, const lanes *stress, const int point,
-                                                              const int dim)
+ * each cell: to cell->P, the stress of the mean strain, and to cell->force, the forces on the bending (hourglass)
+ * modes. stress: symmetric components [Pa], already divided by the number of points of a cell. */
+static ALWAYS_INLINE void cells_add_point_stress_to_cell_sums(struct mesh_cell *cell, const lanes *stress,
+                                                              const int point, const int dim)
 {
     for (int k = 0; k < symmetric_tensor_component_count(dim); k++) {
         int a, b;
         symmetric_tensor_component_axes(dim, k, &a, &b);
-        s->P[a][b] += stress[k];
-        if (a != b) s->P[b][a] += stress[k];
+        cell->P[a][b] += stress[k];
+        if (a != b) cell->P[b][a] += stress[k];
         for (int M = 3; M < 1 << dim; M++) {
             if (!(M & (M - 1))) continue;
             if (M >> b & 1)
-                s->force[M][a] += cell_point_coordinate_product_along_axes(M & ~(1 << b), point) * stress[k];
+                cell->force[M][a] += cell_point_coordinate_product_along_axes(M & ~(1 << b), point) * stress[k];
             if (a != b && M >> a & 1)
-                s->force[M][b] += cell_point_coordinate_product_along_axes(M & ~(1 << a), point) * stress[k];
+                cell->force[M][b] += cell_point_coordinate_product_along_axes(M & ~(1 << a), point) * stress[k];
         }
     }
 }

@@ -112,16 +112,16 @@ static ALWAYS_INLINE bool partial_inactive(const struct mesh *mesh, int64_t grou
 /* Marks in mesh->partial_stressed those of a group of eight partial cells in which the principal stress at a point may
  * exceed the conversion stress of the material, at which points become peridynamic particles. A partial cell has
  * missing points, partial stresses, several materials or doubled nodes. m: elastic constants of all materials; group:
- * number of the group, from 0; s: strain of the eight cells. */
+ * number of the group, from 0; cell: strain of the eight cells. */
 static ALWAYS_INLINE void partial_mark(struct mesh *mesh, const struct elastic *m, int64_t group,
-                                       const struct mesh_cell *s, const int dim)
+                                       const struct mesh_cell *cell, const int dim)
 {
     const uint8_t *material = mesh->partial_material + group * LANES;
     lanes tension = lanes_broadcast(0), P[3][3];
     for (int l = 0; l < LANES; l++) {
         if (l == 0 || material[l] != material[l - 1]) {
-            hooke_stress(&m[material[l]], s->e, P, dim);
-            tension = cell_largest_principal_stress_upper_bound(&m[material[l]], s, P, dim);
+            hooke_stress(&m[material[l]], cell->e, P, dim);
+            tension = cell_largest_principal_stress_upper_bound(&m[material[l]], cell, P, dim);
         }
         mesh->partial_stressed[group * LANES + l] = tension[l] > m[material[l]].trigger;
     }

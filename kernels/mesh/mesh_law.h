@@ -203,8 +203,9 @@ static ALWAYS_INLINE lanes cell_hourglass_mode_force(const struct elastic *m, la
 /* Computes rotation, mean strain and bending (hourglass) modes of eight mesh cells into s, from the displacements
  * u[c][i] of corner c along axis i [m]. h: edge of a cell [m]; rotates: true for finite strain (axes that rotate with
  * the cell), false for small strain. */
-static ALWAYS_INLINE void cell_compute_rotation_strain_and_modes(struct mesh_cell *s, real h, lanes u[CORNERS_MAX][3],
-                                                                 const int dim, const bool rotates)
+static ALWAYS_INLINE void cell_compute_rotation_strain_and_modes(struct mesh_cell *cell, real h,
+                                                                 lanes u[CORNERS_MAX][3], const int dim,
+                                                                 const bool rotates)
 {
     const int corners = 1 << dim;
     lanes g[3][3];
@@ -212,19 +213,20 @@ static ALWAYS_INLINE void cell_compute_rotation_strain_and_modes(struct mesh_cel
         lanes v[CORNERS_MAX];
         for (int c = 0; c < corners; c++) v[c] = u[c][i];
         cell_transform_corner_values_to_modes(v, dim);
-        SETS for (int M = 1; M < corners; M++) s->mode[M][i] =
+        SETS for (int M = 1; M < corners; M++) cell->mode[M][i] =
             v[M] * (1.0 / (h * (1 << (dim - __builtin_popcount(M)))));
-        for (int b = 0; b < dim; b++) g[i][b] = s->mode[1 << b][i];
+        for (int b = 0; b < dim; b++) g[i][b] = cell->mode[1 << b][i];
     }
     lanes R[3][3], e[3][3]; /* local, so that Newton's loop keeps them in registers */
     if (rotates && dim == 2) cell_compute_rotation_and_strain_2d(g, R, e);
     if (rotates && dim == 3) cell_compute_rotation_and_strain_3d(g, R, e);
     for (int a = 0; a < dim; a++)
         for (int b = 0; b < dim; b++) {
-            s->e[a][b] = rotates ? e[a][b] : 0.5 * (g[a][b] + g[b][a]);
-            if (rotates) s->R[a][b] = R[a][b];
+            cell->e[a][b] = rotates ? e[a][b] : 0.5 * (g[a][b] + g[b][a]);
+            if (rotates) cell->R[a][b] = R[a][b];
         }
-    SETS for (int M = 1; M < corners && rotates; M++) if (M & (M - 1)) rotate_vector(s->R, s->mode[M], false, dim);
+    SETS for (int M = 1; M < corners && rotates; M++) if (M & (M - 1))
+        rotate_vector(cell->R, cell->mode[M], false, dim);
 }
 
 /* Returns the product of the coordinates (1/4 or -1/4 edges from the middle) of material point number `point` of a cell
@@ -238,40 +240,40 @@ static ALWAYS_INLINE real cell_point_coordinate_product_along_axes(const int axi
 /* Computes the strain `strain` [1] of eight cells at their material points number `point` (0 .. 2^dim - 1): the mean
  * strain in s plus the bending (hourglass) modes in s times the coordinates of the point in the cell (+-1/4). `strain`
  * may be unsymmetric; its symmetric part is the strain. */
-static ALWAYS_INLINE void cells_strain_at_point(const struct mesh_cell *s, const int point, lanes strain[3][3],
+static ALWAYS_INLINE void cells_strain_at_point(const struct mesh_cell *cell, const int point, lanes strain[3][3],
                                                 const int dim)
 {
     for (int i = 0; i < dim; i++)
         for (int j = 0; j < dim; j++) {
-            strain[i][j] = s->e[i][j];
+            strain[i][j] = cell->e[i][j];
             SETS for (int M = 3; M < 1 << dim; M++) if (M & (M - 1) && M >> j & 1)
             {
-                strain[i][j] += cell_point_coordinate_product_along_axes(M & ~(1 << j), point) * s->mode[M][i];
+                strain[i][j] += cell_point_coordinate_product_along_axes(M & ~(1 << j), point) * cell->mode[M][i];
             }
         }
 }
 
 /* Replaces the trace of the strain `strain` (dim x dim) of eight whole cells at a material point by the trace of the
- * mean strain s->e of the cells, if the points of a cell have one dilatation (m->mean_dilatation); otherwise does
+ * mean strain cell->e of the cells, if the points of a cell have one dilatation (m->mean_dilatation); otherwise does
  * nothing. Whole: with all points, of one material. */
-static ALWAYS_INLINE void cells_replace_dilatation_by_cell_mean(const struct elastic *m, const struct mesh_cell *s,
+static ALWAYS_INLINE void cells_replace_dilatation_by_cell_mean(const struct elastic *m, const struct mesh_cell *cell,
                                                                 lanes strain[3][3], const int dim)
 {
     lanes change = lanes_broadcast(0);
     if (!m->mean_dilatation) return;
-    for (int d = 0; d < dim; d++) change += s->e[d][d] - strain[d][d];
+    for (int d = 0; d < dim; d++) change += cell->e[d][d] - strain[d][d];
     for (int d = 0; d < dim; d++) strain[d][d] += change / dim;
 }
 
-/* Computes the stress of the mean strain, s->P, and the forces on the bending (hourglass) modes, s->force, of eight
- * whole cells (with all points, of one material, without partial stresses) [Pa], from the strain in s. m: elastic
+/* Computes the stress of the mean strain, cell->P, and the forces on the bending (hourglass) modes, cell->force, of
+ * eight whole cells (with all points, of one material, without partial stresses) [Pa], from the strain in s. m: elastic
  * constants. */
-static ALWAYS_INLINE void cell_compute_stress_and_hourglass_forces(const struct elastic *m, struct mesh_cell *s,
+static ALWAYS_INLINE void cell_compute_stress_and_hourglass_forces(const struct elastic *m, struct mesh_cell *cell,
                                                                    const int dim)
 {
-    hooke_stress(m, s->e, s->P, dim);
-    SETS for (int M = 1; M < 1 << dim; M++) if (M & (M - 1)) for (int i = 0; i < dim; i++) s->force[M][i] =
-        cell_hourglass_mode_force(m, s->mode, M, i, dim);
+    hooke_stress(m, cell->e, cell->P, dim);
+    SETS for (int M = 1; M < 1 << dim; M++) if (M & (M - 1)) for (int i = 0; i < dim; i++) cell->force[M][i] =
+        cell_hourglass_mode_force(m, cell->mode, M, i, dim);
 }
 
 /* Returns for eight cells a bound [Pa] that exceeds m->trigger if a point may reach the strength surface at which it
@@ -295,12 +297,13 @@ static ALWAYS_INLINE lanes cell_drucker_prager_stress_upper_bound(const struct e
  * its shear stresses (Gershgorin), plus a bound on the stress of the bending modes in s. With a strength surface the
  * larger of this and of cell_drucker_prager_stress_upper_bound is returned. P: stress of the mean strain [Pa]; m:
  * elastic constants. */
-static ALWAYS_INLINE lanes cell_largest_principal_stress_upper_bound(const struct elastic *m, const struct mesh_cell *s,
-                                                                     const lanes P[3][3], const int dim)
+static ALWAYS_INLINE lanes cell_largest_principal_stress_upper_bound(const struct elastic *m,
+                                                                     const struct mesh_cell *cell, const lanes P[3][3],
+                                                                     const int dim)
 {
     lanes largest = lanes_broadcast(0), bound = P[0][0];
     SETS for (int M = 1; M < 1 << dim; M++) if (M & (M - 1)) for (int i = 0; i < dim; i++) largest +=
-        lanes_max(s->mode[M][i], -s->mode[M][i]);
+        lanes_max(cell->mode[M][i], -cell->mode[M][i]);
     for (int a = 1; a < dim; a++) bound = lanes_max(bound, P[a][a]);
     for (int a = 0; a < dim; a++)
         for (int b = 0; b < a; b++) bound += lanes_max(P[a][b], -P[a][b]);
@@ -311,64 +314,65 @@ static ALWAYS_INLINE lanes cell_largest_principal_stress_upper_bound(const struc
 
 /* Returns the elastic energy [J] of each of eight cells from the strains, stresses, bending (hourglass) modes and
  * forces on these modes in s. volume: volume of a cell [m^3]. */
-static ALWAYS_INLINE lanes cell_elastic_energy(const struct mesh_cell *s, real volume, const int dim)
+static ALWAYS_INLINE lanes cell_elastic_energy(const struct mesh_cell *cell, real volume, const int dim)
 {
     lanes energy = lanes_broadcast(0);
     for (int i = 0; i < dim; i++) {
-        for (int b = 0; b < dim; b++) energy += s->P[i][b] * s->e[i][b];
-        SETS for (int M = 1; M < 1 << dim; M++) if (M & (M - 1)) energy += s->force[M][i] * s->mode[M][i];
+        for (int b = 0; b < dim; b++) energy += cell->P[i][b] * cell->e[i][b];
+        SETS for (int M = 1; M < 1 << dim; M++) if (M & (M - 1)) energy += cell->force[M][i] * cell->mode[M][i];
     }
     return energy * (0.5 * volume);
 }
 
-/* Adds to the stress s->P of eight cells, at finite strain, the antisymmetric part that balances the moments of the
+/* Adds to the stress cell->P of eight cells, at finite strain, the antisymmetric part that balances the moments of the
  * stresses and of bonds. moment: on entry the moment of bonds at the points of the cell, per volume about each axis
  * [Pa]; on return the total moment, including that of the stresses: the antisymmetric part of P U^T, summed over all
  * modes (U = 1 + e, e: mean strain). */
-static ALWAYS_INLINE void cell_add_skew_stress_balancing_moment_finite_strain(struct mesh_cell *s, lanes *moment,
+static ALWAYS_INLINE void cell_add_skew_stress_balancing_moment_finite_strain(struct mesh_cell *cell, lanes *moment,
                                                                               const int dim)
 {
     for (int k = dim == 2 ? 2 : 0; k < 3; k++) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
-        for (int b = 0; b < dim; b++) moment[k] += s->P[j][b] * s->e[i][b] - s->P[i][b] * s->e[j][b];
+        for (int b = 0; b < dim; b++) moment[k] += cell->P[j][b] * cell->e[i][b] - cell->P[i][b] * cell->e[j][b];
         SETS for (int M = 1; M < 1 << dim; M++) if (M & (M - 1)) moment[k] +=
-            s->force[M][j] * s->mode[M][i] - s->force[M][i] * s->mode[M][j];
+            cell->force[M][j] * cell->mode[M][i] - cell->force[M][i] * cell->mode[M][j];
     }
-    stress_add_skew_part_balancing_moment(s->P, s->e, moment, dim);
+    stress_add_skew_part_balancing_moment(cell->P, cell->e, moment, dim);
 }
 
-/* Adds to the stress s->P of eight cells, at small strain, an antisymmetric part. It makes the corner forces balance
+/* Adds to the stress cell->P of eight cells, at small strain, an antisymmetric part. It makes the corner forces balance
  * the moments that state-based bonds exert on the material points of the cells. moment: these moments, per volume about
  * each axis [Pa]; in 2D moment[2] only. */
-static ALWAYS_INLINE void cell_add_skew_stress_balancing_moment_small_strain(struct mesh_cell *s, const lanes *moment,
-                                                                             const int dim)
+static ALWAYS_INLINE void cell_add_skew_stress_balancing_moment_small_strain(struct mesh_cell *cell,
+                                                                             const lanes *moment, const int dim)
 {
     lanes none[3][3];
     for (int a = 0; a < 3; a++)
         for (int b = 0; b < 3; b++) none[a][b] = lanes_broadcast(0);
-    stress_add_skew_part_balancing_moment(s->P, none, moment, dim);
+    stress_add_skew_part_balancing_moment(cell->P, none, moment, dim);
 }
 
 /* Computes the forces f[c][i] [N] on corner c along axis i of eight cells from the stresses and the forces on bending
- * (hourglass) modes in s. h, volume: edge [m] and volume [m^3] of a cell; rotates: true to rotate s->P and s->force
- * from the axes of the cell to fixed axes first, in place. */
-static ALWAYS_INLINE void cell_compute_corner_forces(struct mesh_cell *s, real h, real volume, lanes f[CORNERS_MAX][3],
-                                                     const int dim, const bool rotates)
+ * (hourglass) modes in s. h, volume: edge [m] and volume [m^3] of a cell; rotates: true to rotate cell->P and
+ * cell->force from the axes of the cell to fixed axes first, in place. */
+static ALWAYS_INLINE void cell_compute_corner_forces(struct mesh_cell *cell, real h, real volume,
+                                                     lanes f[CORNERS_MAX][3], const int dim, const bool rotates)
 {
     const int corners = 1 << dim;
     for (int b = 0; b < dim && rotates; b++) {
         lanes column[3];
-        for (int a = 0; a < dim; a++) column[a] = s->P[a][b];
-        rotate_vector(s->R, column, true, dim);
-        for (int a = 0; a < dim; a++) s->P[a][b] = column[a];
+        for (int a = 0; a < dim; a++) column[a] = cell->P[a][b];
+        rotate_vector(cell->R, column, true, dim);
+        for (int a = 0; a < dim; a++) cell->P[a][b] = column[a];
     }
-    SETS for (int M = 1; M < corners && rotates; M++) if (M & (M - 1)) rotate_vector(s->R, s->force[M], true, dim);
+    SETS for (int M = 1; M < corners && rotates; M++) if (M & (M - 1))
+        rotate_vector(cell->R, cell->force[M], true, dim);
     for (int i = 0; i < dim; i++) {
         lanes v[CORNERS_MAX];
         v[0] = lanes_broadcast(0);
         SETS for (int M = 1; M < corners; M++)
         {
-            const lanes by = M & (M - 1) ? s->force[M][i] : s->P[i][M == 1 ? 0 : M == 2 ? 1 : 2];
+            const lanes by = M & (M - 1) ? cell->force[M][i] : cell->P[i][M == 1 ? 0 : M == 2 ? 1 : 2];
             v[M] = by * (-volume / (h * (1 << (dim - __builtin_popcount(M)))));
         }
         cell_transform_modes_to_corner_values(v, dim);

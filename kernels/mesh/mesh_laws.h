@@ -29,25 +29,26 @@ static ALWAYS_INLINE lanes lanes_gather_or_zero(const real *from, const int32_t 
  * evaluated. */
 static ALWAYS_INLINE void law_points_load_trial_state(const struct particles *p, const struct elastic *m,
                                                       const int32_t *point, const lanes *stress, real dt,
-                                                      struct law_points *e, const int dim)
+                                                      struct law_points *points, const int dim)
 {
     const int n = symmetric_tensor_component_count(dim);
-    for (int c = 0; c < SYM_MAX; c++) e->s[c] = e->before[c] = e->back[c] = lanes_broadcast(0);
+    for (int c = 0; c < SYM_MAX; c++) points->s[c] = points->before[c] = points->back[c] = lanes_broadcast(0);
     for (int k = 0; k < n; k++) {
-        e->s[law_place[dim][k]] = stress[k];
-        if (dt > 0) e->before[law_place[dim][k]] = lanes_gather_or_zero(p->mesh_stress[k], point);
-        if (p->back_stress[0]) e->back[law_place[dim][k]] = lanes_gather_or_zero(p->back_stress[k], point);
+        points->s[law_place[dim][k]] = stress[k];
+        if (dt > 0) points->before[law_place[dim][k]] = lanes_gather_or_zero(p->mesh_stress[k], point);
+        if (p->back_stress[0]) points->back[law_place[dim][k]] = lanes_gather_or_zero(p->back_stress[k], point);
     }
-    if (dim == 2) e->back[2] = -e->back[0] - e->back[1];
+    if (dim == 2) points->back[2] = -points->back[0] - points->back[1];
     if (m->space == SPACE_PLANE_STRAIN) {
         const lanes across = lanes_gather_or_zero(p->out_of_plane, point);
-        e->s[2] = m->law->poisson * (e->s[0] + e->s[1]) + across;
-        e->before[2] = m->law->poisson * (e->before[0] + e->before[1]) + across;
+        points->s[2] = m->law->poisson * (points->s[0] + points->s[1]) + across;
+        points->before[2] = m->law->poisson * (points->before[0] + points->before[1]) + across;
     }
-    e->volume_before = e->volume = lanes_broadcast(1), e->thins = false;
-    e->duration = dt;
-    e->a = lanes_gather_or_zero(p->plastic_strain, point), e->work = lanes_gather_or_zero(p->plastic_work, point);
-    e->temperature =
+    points->volume_before = points->volume = lanes_broadcast(1), points->thins = false;
+    points->duration = dt;
+    points->a = lanes_gather_or_zero(p->plastic_strain, point),
+    points->work = lanes_gather_or_zero(p->plastic_work, point);
+    points->temperature =
         p->temperature ? lanes_gather_or_zero(p->temperature, point) : lanes_broadcast(m->law->johnson_cook.T_room);
 }
 
@@ -55,19 +56,19 @@ static ALWAYS_INLINE void law_points_load_trial_state(const struct particles *p,
  * less the returned stress to the plastic stress correction of the particle, replaces the trial stress in this lane of
  * stress[components] by the returned stress, and stores the plastic state in p. m: constants of the material. */
 static ALWAYS_INLINE void law_points_store_lane_result_in_particle(const struct particles *p, const struct elastic *m,
-                                                                   const struct law_points *e, int lane, int64_t i,
+                                                                   const struct law_points *points, int lane, int64_t i,
                                                                    lanes *stress, const int dim)
 {
     for (int k = 0; k < symmetric_tensor_component_count(dim); k++) {
         const int c = law_place[dim][k];
-        p->plastic_correction[k][i] += stress[k][lane] - e->s[c][lane];
-        stress[k][lane] = e->s[c][lane];
-        if (p->back_stress[0]) p->back_stress[k][i] = e->back[c][lane];
+        p->plastic_correction[k][i] += stress[k][lane] - points->s[c][lane];
+        stress[k][lane] = points->s[c][lane];
+        if (p->back_stress[0]) p->back_stress[k][i] = points->back[c][lane];
     }
     if (m->space == SPACE_PLANE_STRAIN)
-        p->out_of_plane[i] = e->s[2][lane] - m->law->poisson * (e->s[0][lane] + e->s[1][lane]);
-    p->plastic_strain[i] = e->a[lane], p->plastic_work[i] = e->work[lane];
-    if (p->temperature) p->temperature[i] = e->temperature[lane];
+        p->out_of_plane[i] = points->s[2][lane] - m->law->poisson * (points->s[0][lane] + points->s[1][lane]);
+    p->plastic_strain[i] = points->a[lane], p->plastic_work[i] = points->work[lane];
+    if (p->temperature) p->temperature[i] = points->temperature[lane];
 }
 
 /* Stores the stresses of eight material points in p->mesh_stress. point: particle numbers; selected_lane_bits: bit l is

@@ -46,15 +46,16 @@ static ALWAYS_INLINE void cell_mark(const struct mesh *mesh, struct particles *p
 
 /* Returns upper bounds of the principal stresses at the points of eight cells [Pa], closer than those of mesh_force:
  * the largest row sum of absolute stresses or, with a strength surface, cell_drucker_prager_stress_upper_bound. m:
- * elastic constants; s: strain of the cells; there[q]: mask of the cells that have point number q; NULL: all points. */
-static ALWAYS_INLINE lanes places_tension(const struct elastic *m, const struct mesh_cell *s, const lanes_mask *there,
-                                          const int dim)
+ * elastic constants; cell: strain of the cells; there[q]: mask of the cells that have point number q; NULL: all points.
+ */
+static ALWAYS_INLINE lanes places_tension(const struct elastic *m, const struct mesh_cell *cell,
+                                          const lanes_mask *there, const int dim)
 {
     lanes most = lanes_broadcast(-INFINITY), e[3][3], P[3][3];
     SETS for (int q = 0; q < 1 << dim; q++)
     {
-        cells_strain_at_point(s, q, e, dim);
-        if (!there) cells_replace_dilatation_by_cell_mean(m, s, e, dim);
+        cells_strain_at_point(cell, q, e, dim);
+        if (!there) cells_replace_dilatation_by_cell_mean(m, cell, e, dim);
         hooke_stress(m, e, P, dim);
         lanes bound = P[0][0];
         for (int a = 1; a < dim; a++) bound = lanes_max(bound, P[a][a]);
@@ -76,14 +77,14 @@ static ALWAYS_INLINE lanes places_tension(const struct elastic *m, const struct 
 DIMENSIONS(TENSION)
 
 /* Returns the upper bounds of places_tension for the principal stresses in eight cells [Pa]: calls its version for
- * `dim` dimensions, which is not inlined. m: elastic constants; s: strain of the cells; there[q]: mask of the cells
+ * `dim` dimensions, which is not inlined. m: elastic constants; cell: strain of the cells; there[q]: mask of the cells
  * that have point number q, NULL if all have it. */
-static ALWAYS_INLINE lanes cells_tension(const struct elastic *m, const struct mesh_cell *s, const lanes_mask *there,
+static ALWAYS_INLINE lanes cells_tension(const struct elastic *m, const struct mesh_cell *cell, const lanes_mask *there,
                                          const int dim)
 {
-    return dim == 1   ? cells_tension_1(m, s, there)
-           : dim == 2 ? cells_tension_2(m, s, there)
-                      : cells_tension_3(m, s, there);
+    return dim == 1   ? cells_tension_1(m, cell, there)
+           : dim == 2 ? cells_tension_2(m, cell, there)
+                      : cells_tension_3(m, cell, there);
 }
 
 /* Returns true if cell I has a point whose material is not number `material`; p: the particles. */

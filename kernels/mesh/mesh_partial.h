@@ -29,15 +29,15 @@ static ALWAYS_INLINE void mesh_partial_cells_load_corner_displacements(const str
 /* Writes the strains and bending (hourglass) modes of eight cells in s as vectors v of cell_deformation_mode_count(dim)
  * numbers [1], one cell per lane: first the components of the mean strain (engineering shear strains), then the bending
  * modes. */
-static ALWAYS_INLINE void cell_write_strains_and_modes_as_vector(const struct mesh_cell *s, lanes *v, const int dim)
+static ALWAYS_INLINE void cell_write_strains_and_modes_as_vector(const struct mesh_cell *cell, lanes *v, const int dim)
 {
     int n = symmetric_tensor_component_count(dim);
     for (int k = 0; k < n; k++) {
         int a, b;
         symmetric_tensor_component_axes(dim, k, &a, &b);
-        v[k] = a == b ? s->e[a][a] : s->e[a][b] + s->e[b][a];
+        v[k] = a == b ? cell->e[a][a] : cell->e[a][b] + cell->e[b][a];
     }
-    SETS for (int M = 3; M < 1 << dim; M++) if (M & (M - 1)) for (int i = 0; i < dim; i++) v[n++] = s->mode[M][i];
+    SETS for (int M = 3; M < 1 << dim; M++) if (M & (M - 1)) for (int i = 0; i < dim; i++) v[n++] = cell->mode[M][i];
 }
 
 /* Computes f = K v for eight cells at a time, with a symmetric n x n matrix K for each. K: upper triangle, row by row
@@ -86,25 +86,25 @@ static ALWAYS_INLINE void mesh_partial_cells_add_bond_moments(const struct mesh 
 }
 
 /* Computes the stress in group number `group` of eight partial cells of the mesh, from the mean strain and the
- * hourglass (bending) amplitudes of each cell in s. s->P: receives the stress that belongs to the mean strain [Pa];
- * s->force: that which belongs to the hourglass amplitudes, per volume of the cell [Pa]. A partial cell lacks points,
- * has several materials, is crossed by bonds that carry part of its stress, or has nodes that a crack doubles; each has
- * a stiffness matrix of its own. Forces of state-based bonds on points of p are added. */
+ * hourglass (bending) amplitudes of each cell in s. cell->P: receives the stress that belongs to the mean strain [Pa];
+ * cell->force: that which belongs to the hourglass amplitudes, per volume of the cell [Pa]. A partial cell lacks
+ * points, has several materials, is crossed by bonds that carry part of its stress, or has nodes that a crack doubles;
+ * each has a stiffness matrix of its own. Forces of state-based bonds on points of p are added. */
 static ALWAYS_INLINE void mesh_partial_cells_compute_stress(const struct mesh *mesh, const struct particles *p,
-                                                            int64_t group, struct mesh_cell *s, const int dim)
+                                                            int64_t group, struct mesh_cell *cell, const int dim)
 {
     const int n = cell_deformation_mode_count(dim), half = n * (n + 1) / 2;
     lanes v[MODES_MAX], f[MODES_MAX];
-    cell_write_strains_and_modes_as_vector(s, v, dim);
+    cell_write_strains_and_modes_as_vector(cell, v, dim);
     symmetric_matrix_times_vector((const lanes *)mesh->stiffness + mesh->alike[group] * half, v, f, n);
     if (mesh->ends) mesh_partial_cells_add_bond_forces(mesh, p, group, f, dim);
     int k = symmetric_tensor_component_count(dim);
     for (int t = 0; t < k; t++) {
         int a, b;
         symmetric_tensor_component_axes(dim, t, &a, &b);
-        s->P[a][b] = s->P[b][a] = f[t];
+        cell->P[a][b] = cell->P[b][a] = f[t];
     }
-    SETS for (int M = 3; M < 1 << dim; M++) if (M & (M - 1)) for (int i = 0; i < dim; i++) s->force[M][i] = f[k++];
+    SETS for (int M = 3; M < 1 << dim; M++) if (M & (M - 1)) for (int i = 0; i < dim; i++) cell->force[M][i] = f[k++];
 }
 
 #endif

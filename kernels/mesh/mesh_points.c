@@ -107,18 +107,19 @@ void mesh_listed_move(const struct mesh *mesh, struct particles *p, const int32_
 
 /* ---- bonded points ----------------------------------------------------------------------------------------------- */
 
-/* Computes the rotations of eight cells from their strain s: rotation[] receives cos - 1 and sin of the angle in 2D, a
- * quaternion in 3D. rotates: true for the finite rotation s->R, false for that of small displacement gradients. */
-static ALWAYS_INLINE void cells_rotate(const struct mesh_cell *s, lanes *rotation, const int dim, const bool rotates)
+/* Computes the rotations of eight cells from their strain cell: rotation[] receives cos - 1 and sin of the angle in 2D,
+ * a quaternion in 3D. rotates: true for the finite rotation cell->R, false for that of small displacement gradients. */
+static ALWAYS_INLINE void cells_rotate(const struct mesh_cell *cell, lanes *rotation, const int dim, const bool rotates)
 {
     lanes R[DIM_MAX * DIM_MAX], w[3], square = lanes_broadcast(0);
     for (int a = 0; a < dim && rotates; a++)
-        for (int b = 0; b < dim; b++) R[a * dim + b] = s->R[a][b];
+        for (int b = 0; b < dim; b++) R[a * dim + b] = cell->R[a][b];
     for (int k = dim == 2 ? 2 : 0; k < 3; k++) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
-        w[k] = 0.25 *
-               (s->mode[1 << i][j] -
-                s->mode[1 << j][i]); /* a quarter of the curl: half of the rotation angle, halved for the quaternion */
+        w[k] =
+            0.25 *
+            (cell->mode[1 << i][j] -
+             cell->mode[1 << j][i]); /* a quarter of the curl: half of the rotation angle, halved for the quaternion */
         square += w[k] * w[k];
     }
     if (dim == 2) {

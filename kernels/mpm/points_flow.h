@@ -80,21 +80,22 @@ static ALWAYS_INLINE row_of_points lanes_extract_row_of_points(const lanes *a, i
     return (row_of_points) * (const points_anywhere *)((const real *)a + l);
 }
 
-/* Loads the back stresses of eight points of p, rotated by the spin of the step, into e->back. point: numbers of the
- * points; motion: their motion in the step. */
+/* Loads the back stresses of eight points of p, rotated by the spin of the step, into points->back. point: numbers of
+ * the points; motion: their motion in the step. */
 static NEVER_INLINE void flow_load_back_stress(const struct particles *p, const int32_t *point,
-                                               const struct flow_motion *motion, struct law_points *e, const int dim)
+                                               const struct flow_motion *motion, struct law_points *points,
+                                               const int dim)
 {
     const int n = dim * (dim + 1) / 2;
-    for (int c = 0; c < n; c++) e->back[law_place[dim][c]] = lanes_gather(p->back_stress[c], point);
+    for (int c = 0; c < n; c++) points->back[law_place[dim][c]] = lanes_gather(p->back_stress[c], point);
     for (int l = 0; l < LANES && dim > 1; l += POINTS) {
         row_of_points back[SYM_MAX], spin[3];
-        for (int c = 0; c < n; c++) back[c] = lanes_extract_row_of_points(&e->back[law_place[dim][c]], l);
+        for (int c = 0; c < n; c++) back[c] = lanes_extract_row_of_points(&points->back[law_place[dim][c]], l);
         for (int c = 0; c < 3; c++) spin[c] = lanes_extract_row_of_points(&motion->spin[c], l);
         stress_rotate(back, spin, dim);
-        for (int c = 0; c < n; c++) *(points_anywhere *)((real *)&e->back[law_place[dim][c]] + l) = back[c];
+        for (int c = 0; c < n; c++) *(points_anywhere *)((real *)&points->back[law_place[dim][c]] + l) = back[c];
     }
-    if (dim == 2) e->back[2] = -e->back[0] - e->back[1];
+    if (dim == 2) points->back[2] = -points->back[0] - points->back[1];
 }
 
 /* Loads the plastic state and the stresses of eight points of p into *e, for law_update. point: numbers of the points;
@@ -103,7 +104,7 @@ static NEVER_INLINE void flow_load_back_stress(const struct particles *p, const 
 static ALWAYS_INLINE void flow_load_stress_and_plastic_state(const struct particles *p, const struct elastic *m,
                                                              const int32_t *point, const lanes *stress, lanes volume,
                                                              const struct flow_motion *motion, real dt,
-                                                             struct law_points *e, const int dim)
+                                                             struct law_points *points, const int dim)
 {
     const int n = dim * (dim + 1) / 2;
     const lanes none = lanes_broadcast(0);
@@ -114,32 +115,32 @@ static ALWAYS_INLINE void flow_load_stress_and_plastic_state(const struct partic
     const real twice = dim == 1 ? m->c11 : m->c11 - m->c12;
     for (int c = 0; c < SYM_MAX; c++) {
         const bool across = c == 2 && dim < 3 && m->space != SPACE_PLANE_STRAIN;
-        e->s[c] = s[c];
-        e->before[c] = s[c] - (c < 3 && !across ? pressure : none) - twice * motion->strain[c];
-        e->back[c] = none;
+        points->s[c] = s[c];
+        points->before[c] = s[c] - (c < 3 && !across ? pressure : none) - twice * motion->strain[c];
+        points->back[c] = none;
     }
-    if (p->back_stress[0]) flow_load_back_stress(p, point, motion, e, dim);
-    e->volume = volume / flow_gather_values_of_points(p->volume0, point);
-    e->volume_before = e->volume / (1.0 + motion->trace), e->thins = true;
-    e->duration = dt;
-    e->a = flow_gather_values_of_points(p->plastic_strain, point),
-    e->work = flow_gather_values_of_points(p->plastic_work, point);
-    e->temperature = p->temperature ? flow_gather_values_of_points(p->temperature, point)
-                                    : lanes_broadcast(m->law->johnson_cook.T_room);
+    if (p->back_stress[0]) flow_load_back_stress(p, point, motion, points, dim);
+    points->volume = volume / flow_gather_values_of_points(p->volume0, point);
+    points->volume_before = points->volume / (1.0 + motion->trace), points->thins = true;
+    points->duration = dt;
+    points->a = flow_gather_values_of_points(p->plastic_strain, point),
+    points->work = flow_gather_values_of_points(p->plastic_work, point);
+    points->temperature = p->temperature ? flow_gather_values_of_points(p->temperature, point)
+                                         : lanes_broadcast(m->law->johnson_cook.T_room);
 }
 
 /* Clears FLAG_STRESSED (the stress requires conversion to peridynamics), which the trial stress has set, on those of
  * eight points of p whose stress after the return mapping no longer exceeds their conversion stress. flowed: bit l is
- * set if point[l] has yielded; m: material of the points; e: their state after the return mapping. */
+ * set if point[l] has yielded; m: material of the points; points: their state after the return mapping. */
 static ALWAYS_INLINE void flow_clear_conversion_flags_below_threshold(struct particles *p, const struct elastic *m,
-                                                                      const struct law_points *e, unsigned flowed,
+                                                                      const struct law_points *points, unsigned flowed,
                                                                       const int32_t *point, const int dim)
 {
     for (int l = 0; l < LANES; l++) {
         if (!(flowed >> l & 1 && p->flag[point[l]] & FLAG_STRESSED)) continue;
         const real trigger = point_pd_conversion_stress_threshold(m, p, point[l]);
         real stress[SYM_MAX];
-        for (int c = 0; c < dim * (dim + 1) / 2; c++) stress[c] = e->s[law_place[dim][c]][l];
+        for (int c = 0; c < dim * (dim + 1) / 2; c++) stress[c] = points->s[law_place[dim][c]][l];
         if (!(stress_largest_principal_upper_bound(stress, dim) > trigger &&
               stress_largest_principal(stress, dim) > trigger))
             p->flag[point[l]] &= (uint8_t)~FLAG_STRESSED;
@@ -150,42 +151,43 @@ static ALWAYS_INLINE void flow_clear_conversion_flags_below_threshold(struct par
  * point[LANES] of p that have yielded. flowed: bit l is set if point[l] has yielded; m: material of the points; e:
  * their state after the return mapping. */
 static NEVER_INLINE void points_store_stress_normal_to_plane_or_volume(struct particles *p, const struct elastic *m,
-                                                                       const struct law_points *e, unsigned flowed,
+                                                                       const struct law_points *points, unsigned flowed,
                                                                        const int32_t *point)
 {
-    const lanes across = e->s[2] - m->poisson * (e->s[0] + e->s[1]);
+    const lanes across = points->s[2] - m->poisson * (points->s[0] + points->s[1]);
     for (int l = 0; l < LANES; l++)
         if (flowed >> l & 1 && m->space == SPACE_PLANE_STRAIN)
             p->out_of_plane[point[l]] = across[l];
         else if (flowed >> l & 1)
-            p->volume[point[l]] = e->volume[l] * p->volume0[point[l]];
+            p->volume[point[l]] = points->volume[l] * p->volume0[point[l]];
 }
 
 /* Stores in p the state e of eight points of material m after the return mapping. flowed: bit l is set if point[l] has
  * yielded; all other points keep their stress. stress[components] [Pa]: receives the stresses of the points that have
  * yielded. */
 static ALWAYS_INLINE void flow_store_stress_and_plastic_state(struct particles *p, const struct elastic *m,
-                                                              const struct law_points *e, unsigned flowed,
+                                                              const struct law_points *points, unsigned flowed,
                                                               const int32_t *point, lanes *stress, const int dim)
 {
     const lanes_mask own = lanes_mask_from_bits((uint8_t)flowed);
-    for (int c = 0; c < dim * (dim + 1) / 2; c++) stress[c] = lanes_choose(own, e->s[law_place[dim][c]], stress[c]);
-    if (m->space != SPACE_SOLID) points_store_stress_normal_to_plane_or_volume(p, m, e, flowed, point);
-    flow_scatter_values_to_points(p->plastic_strain, point, e->a),
-        flow_scatter_values_to_points(p->plastic_work, point, e->work);
-    if (p->temperature) flow_scatter_values_to_points(p->temperature, point, e->temperature);
-    flow_clear_conversion_flags_below_threshold(p, m, e, flowed, point, dim);
+    for (int c = 0; c < dim * (dim + 1) / 2; c++)
+        stress[c] = lanes_choose(own, points->s[law_place[dim][c]], stress[c]);
+    if (m->space != SPACE_SOLID) points_store_stress_normal_to_plane_or_volume(p, m, points, flowed, point);
+    flow_scatter_values_to_points(p->plastic_strain, point, points->a),
+        flow_scatter_values_to_points(p->plastic_work, point, points->work);
+    if (p->temperature) flow_scatter_values_to_points(p->temperature, point, points->temperature);
+    flow_clear_conversion_flags_below_threshold(p, m, points, flowed, point, dim);
 }
 
-/* Stores the back stresses e->back of those of the eight points point[0] .. point[7] in p whose bits are set in
+/* Stores the back stresses points->back of those of the eight points point[0] .. point[7] in p whose bits are set in
  * `lanes_set` (bit l: point[l]). They are stored whether the points have yielded or not, since their components rotate
- * with the points. e: state of the points after the return mapping; point: numbers of the points. */
-static NEVER_INLINE void flow_store_back_stress(struct particles *p, const struct law_points *e, unsigned lanes_set,
-                                                const int32_t *point, const int dim)
+ * with the points. points: state of the points after the return mapping; point: numbers of the points. */
+static NEVER_INLINE void flow_store_back_stress(struct particles *p, const struct law_points *points,
+                                                unsigned lanes_set, const int32_t *point, const int dim)
 {
     for (int l = 0; l < LANES; l++)
         for (int c = 0; c < dim * (dim + 1) / 2 && lanes_set >> l & 1; c++)
-            p->back_stress[c][point[l]] = e->back[law_place[dim][c]][l];
+            p->back_stress[c][point[l]] = points->back[law_place[dim][c]][l];
 }
 
 /* Removes the first n points (at most LANES) from the list `queue` of points that wait for their return mapping. Moves

@@ -44,20 +44,20 @@ static ALWAYS_INLINE void spin_add(const lanes *moment, const lanes *v, lanes *s
 }
 
 /* Stores in *g the sums over the points of p in group g: mass, first and second moments, momentum and angular
- * momentum. A group consists of neighbouring material points that rotate together; t: all groups. Moments are about
- * g->about, the position of one of the points of g. */
-static ALWAYS_INLINE void sum_moments(const struct corotating_groups *t, struct turning_group *g,
+ * momentum. A group consists of neighbouring material points that rotate together; groups: all groups. Moments are
+ * about g->about, the position of one of the points of g. */
+static ALWAYS_INLINE void sum_moments(const struct corotating_groups *groups, struct turning_group *g,
                                       const struct particles *p, const int dim)
 {
     const lanes none = lanes_broadcast(0);
-    const int64_t start = t->run[g->first].first;
+    const int64_t start = groups->run[g->first].first;
     const bool all = p->n_free == p->n;
     lanes mass = none, first[DIM_MAX] = {none, none, none}, spin[3] = {none, none, none};
     lanes second[DIM_MAX][DIM_MAX], momentum[DIM_MAX] = {none, none, none};
     for (int a = 0; a < dim; a++)
         for (int b = 0; b <= a; b++) second[a][b] = none;
     g->points = 0;
-    FOR_RUNS(t, g, run)
+    FOR_RUNS(groups, g, run)
     {
         const uint8_t bits = run_on_grid(p, run, all);
         const lanes m = lanes_zero_unless_selected(bits, lanes_load(p->mass + run->first));
@@ -81,17 +81,17 @@ static ALWAYS_INLINE void sum_moments(const struct corotating_groups *t, struct 
 }
 
 /* Stores in g->sum the angular momentum that the points of group g (neighbouring points that rotate together) have
- * lost in the transfer to nodes and back [kg m^2/s], the sum of t->turn. Stores in g->angular their angular momentum
- * about the centre of mass of the root of g. The root of a group is the group that it has joined, or the group itself.
- * p: all particles. */
-static ALWAYS_INLINE void sum_lack(const struct corotating_groups *t, struct turning_group *g,
+ * lost in the transfer to nodes and back [kg m^2/s], the sum of groups->turn. Stores in g->angular their angular
+ * momentum about the centre of mass of the root of g. The root of a group is the group that it has joined, or the group
+ * itself. p: all particles. */
+static ALWAYS_INLINE void sum_lack(const struct corotating_groups *groups, struct turning_group *g,
                                    const struct particles *p, const int dim)
 {
     const lanes none = lanes_broadcast(0);
-    const real *centre = t->group[g->root].moment;
+    const real *centre = groups->group[g->root].moment;
     const bool all = p->n_free == p->n;
     lanes lack[3] = {none, none, none}, spin[3] = {none, none, none};
-    FOR_RUNS(t, g, run)
+    FOR_RUNS(groups, g, run)
     {
         const uint8_t bits = run_on_grid(p, run, all);
         const lanes m = lanes_zero_unless_selected(bits, lanes_load(p->mass + run->first));
@@ -101,35 +101,36 @@ static ALWAYS_INLINE void sum_lack(const struct corotating_groups *t, struct tur
             v[d] = lanes_load(p->v[d] + run->first);
         }
         spin_add(moment, v, spin, dim);
-        FOR_SPINS(c, dim) lack[c] += lanes_zero_unless_selected(bits, lanes_load(t->turn[c] + run->first));
+        FOR_SPINS(c, dim) lack[c] += lanes_zero_unless_selected(bits, lanes_load(groups->turn[c] + run->first));
     }
     FOR_SPINS(c, dim) g->sum[c] = run_total(lack[c]), g->angular[c] = run_total(spin[c]);
 }
 
-/* Stores in t->turn, for all points of group g (neighbouring points that rotate together), the angular velocity with
- * which the points rotate [1/s]: that of the group that g has joined, or of g itself if it has joined none. p: all
+/* Stores in groups->turn, for all points of group g (neighbouring points that rotate together), the angular velocity
+ * with which the points rotate [1/s]: that of the group that g has joined, or of g itself if it has joined none. p: all
  * particles. */
-static ALWAYS_INLINE void spins_store(struct corotating_groups *t, const struct turning_group *g,
+static ALWAYS_INLINE void spins_store(struct corotating_groups *groups, const struct turning_group *g,
                                       const struct particles *p, const int dim)
 {
-    const real *spin = t->group[g->root].spin;
+    const real *spin = groups->group[g->root].spin;
     const bool all = p->n_free == p->n;
-    FOR_RUNS(t, g, run)
+    FOR_RUNS(groups, g, run)
     {
         const uint8_t bits = run_on_grid(p, run, all);
-        FOR_SPINS(c, dim) lanes_store_selected(bits, t->turn[c] + run->first, lanes_broadcast(spin[c]));
+        FOR_SPINS(c, dim) lanes_store_selected(bits, groups->turn[c] + run->first, lanes_broadcast(spin[c]));
     }
 }
 
 /* Adds a rotation to the velocities in p of the points of group g (neighbouring points that rotate together): that by
  * the gain of angular velocity of the root of g, which restores lost angular momentum. Stores the angular velocity of
- * the root in t->turn for these points [1/s]. The root is the group that g has joined, or g itself; t: all groups. */
-static ALWAYS_INLINE void spin_apply(const struct corotating_groups *t, struct turning_group *g, struct particles *p,
-                                     const int dim)
+ * the root in groups->turn for these points [1/s]. The root is the group that g has joined, or g itself; groups: all
+ * groups. */
+static ALWAYS_INLINE void spin_apply(const struct corotating_groups *groups, struct turning_group *g,
+                                     struct particles *p, const int dim)
 {
-    const struct turning_group *root = &t->group[g->root];
+    const struct turning_group *root = &groups->group[g->root];
     const bool all = p->n_free == p->n;
-    FOR_RUNS(t, g, run)
+    FOR_RUNS(groups, g, run)
     {
         const uint8_t bits = run_on_grid(p, run, all);
         lanes r[DIM_MAX] = {lanes_broadcast(0), lanes_broadcast(0), lanes_broadcast(0)};
@@ -139,17 +140,17 @@ static ALWAYS_INLINE void spin_apply(const struct corotating_groups *t, struct t
             real *v = p->v[d] + run->first;
             lanes_store_selected(bits, v, lanes_load(v) + (root->gain[a] * r[b] - root->gain[b] * r[a]));
         }
-        FOR_SPINS(c, dim) lanes_store_selected(bits, t->turn[c] + run->first, lanes_broadcast(root->spin[c]));
+        FOR_SPINS(c, dim) lanes_store_selected(bits, groups->turn[c] + run->first, lanes_broadcast(root->spin[c]));
     }
 }
 
 /* ---- groups ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the root of group g of t: the last group in the chain of groups that it has joined, or g itself if it has
- * joined none. A group consists of points that rotate together. */
-static int32_t group_root(const struct corotating_groups *t, int32_t g)
+/* Returns the root of group g of groups: the last group in the chain of groups that it has joined, or g itself if it
+ * has joined none. A group consists of points that rotate together. */
+static int32_t group_root(const struct corotating_groups *groups, int32_t g)
 {
-    while (t->group[g].root != g) g = t->group[g].root;
+    while (groups->group[g].root != g) g = groups->group[g].root;
     return g;
 }
 
@@ -161,23 +162,23 @@ static int axes_of_near(int k) { return k < 6 ? 1 : k < 18 ? 2 : 3; }
 /* Joins each group of t (points that rotate together) of fewer than TURNING_FEW points to the neighbouring group with
  * the most points, so that both rotate together. Among neighbours with equally many points, those across a face precede
  * those across an edge or a corner; among these, the one nearest to the middle of the body is chosen. */
-static void few_join(struct corotating_groups *t)
+static void few_join(struct corotating_groups *groups)
 {
-    for (int32_t g = 0; g < t->groups; g++) t->group[g].root = g;
-    for (int32_t g = 0; g < t->groups; g++) {
-        const struct turning_group *own = &t->group[g];
+    for (int32_t g = 0; g < groups->groups; g++) groups->group[g].root = g;
+    for (int32_t g = 0; g < groups->groups; g++) {
+        const struct turning_group *own = &groups->group[g];
         int32_t most = -1, best = 0, off = 0, axes = 0;
         if (own->points == 0 || own->points >= TURNING_FEW) continue;
         for (int k = 0; k < TURNING_NEAR; k++) {
-            const struct turning_group *near = own->near[k] < 0 ? NULL : &t->group[own->near[k]];
-            if (!near || near->points == 0 || group_root(t, own->near[k]) == g) continue;
+            const struct turning_group *near = own->near[k] < 0 ? NULL : &groups->group[own->near[k]];
+            if (!near || near->points == 0 || group_root(groups, own->near[k]) == g) continue;
             const bool nearer = near->points == best && axes_of_near(k) == axes && near->off < off;
             if (near->points > best || nearer)
                 most = own->near[k], best = near->points, off = near->off, axes = axes_of_near(k);
         }
-        if (most >= 0) t->group[group_root(t, g)].root = group_root(t, most);
+        if (most >= 0) groups->group[group_root(groups, g)].root = group_root(groups, most);
     }
-    for (int32_t g = 0; g < t->groups; g++) t->group[g].root = group_root(t, g);
+    for (int32_t g = 0; g < groups->groups; g++) groups->group[g].root = group_root(groups, g);
 }
 
 /* Returns the determinant of the symmetric tensor J. Only the lower half of J is read. */
@@ -204,31 +205,31 @@ static void spin_solve(const real J[3][3], const real *sum, int dim, real *w)
 
 /* Adds the angular momentum g->sum of each group of t to that of its root, the group that it has joined (points of a
  * group rotate together). */
-static void sums_join(struct corotating_groups *t)
+static void sums_join(struct corotating_groups *groups)
 {
-    for (int32_t g = 0; g < t->groups; g++) {
-        const struct turning_group *own = &t->group[g];
-        for (int c = 0; c < 3 && own->root != g; c++) t->group[own->root].sum[c] += own->sum[c];
+    for (int32_t g = 0; g < groups->groups; g++) {
+        const struct turning_group *own = &groups->group[g];
+        for (int c = 0; c < 3 && own->root != g; c++) groups->group[own->root].sum[c] += own->sum[c];
     }
 }
 
 /* Returns true if the points of group g of t rotate with an angular velocity of this group: g has mass, has not joined
  * another group, and no support constrains its body. */
-static bool group_turns(const struct corotating_groups *t, int32_t g)
+static bool group_turns(const struct corotating_groups *groups, int32_t g)
 {
-    return t->group[g].root == g && t->group[g].joined > 0 && !t->group[g].held;
+    return groups->group[g].root == g && groups->group[g].joined > 0 && !groups->group[g].held;
 }
 
 /* Computes the angular velocity of each root of t (a group of points that has joined no other group) from the angular
  * momentum g->sum of all groups that have joined it. It is 0 for a root without mass and in bodies that a support
  * constrains. */
-static void spins_find(struct corotating_groups *t, int dim)
+static void spins_find(struct corotating_groups *groups, int dim)
 {
-    sums_join(t);
-    for (int32_t g = 0; g < t->groups; g++) {
-        struct turning_group *own = &t->group[g];
+    sums_join(groups);
+    for (int32_t g = 0; g < groups->groups; g++) {
+        struct turning_group *own = &groups->group[g];
         memset(own->spin, 0, sizeof own->spin);
-        if (group_turns(t, g)) spin_solve(own->inertia, own->sum, dim, own->spin);
+        if (group_turns(groups, g)) spin_solve(own->inertia, own->sum, dim, own->spin);
     }
 }
 
@@ -236,18 +237,18 @@ static void spins_find(struct corotating_groups *t, int dim)
  * restores the lost angular momentum g->sum of its points: J gain = g->sum, with the inertia J = g->inertia. Then
  * computes the angular velocity with this gain, g->spin: J spin = g->angular + (J - g->added) gain. g->added is the
  * part of J that was added to a thin group to keep J regular. */
-static void gains_find(struct corotating_groups *t, int dim)
+static void gains_find(struct corotating_groups *groups, int dim)
 {
-    spins_find(t, dim);
-    for (int32_t g = 0; g < t->groups; g++) {
-        struct turning_group *own = &t->group[g];
+    spins_find(groups, dim);
+    for (int32_t g = 0; g < groups->groups; g++) {
+        struct turning_group *own = &groups->group[g];
         memcpy(own->gain, own->spin, sizeof own->gain);
         for (int c = 0; c < 3; c++) own->sum[c] = own->angular[c];
     }
-    sums_join(t);
-    for (int32_t g = 0; g < t->groups; g++) {
-        struct turning_group *own = &t->group[g];
-        if (!group_turns(t, g)) continue;
+    sums_join(groups);
+    for (int32_t g = 0; g < groups->groups; g++) {
+        struct turning_group *own = &groups->group[g];
+        if (!group_turns(groups, g)) continue;
         for (int c = 0; c < 3; c++) own->sum[c] -= own->added * own->gain[c];
         spin_solve(own->inertia, own->sum, dim, own->spin);
         for (int c = 0; c < 3; c++) own->spin[c] += own->gain[c];
@@ -256,33 +257,34 @@ static void gains_find(struct corotating_groups *t, int dim)
 
 /* Computes mass (`joined`) and centre of mass (`moment`) of each root of t, a group of points that has joined no other
  * group, from masses and first moments of all groups that have joined it. */
-static void centres_find(struct corotating_groups *t)
+static void centres_find(struct corotating_groups *groups)
 {
-    for (int32_t g = 0; g < t->groups; g++) {
-        struct turning_group *own = &t->group[g];
+    for (int32_t g = 0; g < groups->groups; g++) {
+        struct turning_group *own = &groups->group[g];
         own->joined = own->mass;
         for (int d = 0; d < DIM_MAX; d++) own->moment[d] = own->mass * own->about[d] + own->first_moment[d];
     }
-    for (int32_t g = 0; g < t->groups; g++) {
-        const struct turning_group *own = &t->group[g];
-        struct turning_group *root = &t->group[own->root];
+    for (int32_t g = 0; g < groups->groups; g++) {
+        const struct turning_group *own = &groups->group[g];
+        struct turning_group *root = &groups->group[own->root];
         if (own == root) continue;
         root->joined += own->mass;
         for (int d = 0; d < DIM_MAX; d++) root->moment[d] += own->mass * own->about[d] + own->first_moment[d];
     }
-    for (int32_t g = 0; g < t->groups; g++)
-        for (int d = 0; d < DIM_MAX && t->group[g].joined > 0; d++) t->group[g].moment[d] /= t->group[g].joined;
+    for (int32_t g = 0; g < groups->groups; g++)
+        for (int d = 0; d < DIM_MAX && groups->group[g].joined > 0; d++)
+            groups->group[g].moment[d] /= groups->group[g].joined;
 }
 
 /* Converts the angular momentum g->sum and the second moments of each group of t (points that rotate together) from the
  * position g->about to the centre of mass of its root, the group that it has joined. Also computes the inertia
  * g->inertia about this centre. */
-static void moments_shift(struct corotating_groups *t)
+static void moments_shift(struct corotating_groups *groups)
 {
-    for (int32_t k = 0; k < t->groups; k++) {
-        struct turning_group *g = &t->group[k];
+    for (int32_t k = 0; k < groups->groups; k++) {
+        struct turning_group *g = &groups->group[k];
         real arm[DIM_MAX], S[DIM_MAX][DIM_MAX];
-        for (int d = 0; d < DIM_MAX; d++) arm[d] = g->about[d] - t->group[g->root].moment[d];
+        for (int d = 0; d < DIM_MAX; d++) arm[d] = g->about[d] - groups->group[g->root].moment[d];
         for (int c = 0; c < 3; c++) {
             const int a = (c + 1) % 3, b = (c + 2) % 3;
             g->sum[c] += arm[a] * g->momentum[b] - arm[b] * g->momentum[a];
@@ -299,19 +301,20 @@ static void moments_shift(struct corotating_groups *t)
 /* Adds the inertia of each group of t (points that rotate together) to that of its root, the group that it has joined.
  * If the inertia of a root about some axis is less than about that of its mass at a radius of LEAST_ARM spacings, adds
  * this inertia about all axes (g->added). spacing: distance of the particles [m]. */
-static void inertias_find(struct corotating_groups *t, real spacing, int dim)
+static void inertias_find(struct corotating_groups *groups, real spacing, int dim)
 {
-    for (int32_t g = 0; g < t->groups; g++) {
-        const struct turning_group *own = &t->group[g];
+    for (int32_t g = 0; g < groups->groups; g++) {
+        const struct turning_group *own = &groups->group[g];
         for (int a = 0; a < 3 && own->root != g; a++)
-            for (int b = 0; b <= a; b++) t->group[own->root].inertia[a][b] += own->inertia[a][b];
+            for (int b = 0; b <= a; b++) groups->group[own->root].inertia[a][b] += own->inertia[a][b];
     }
-    for (int32_t g = 0; g < t->groups; g++) {
-        real(*J)[3] = t->group[g].inertia;
-        const real least = t->group[g].joined * square(LEAST_ARM * spacing), half = (J[0][0] + J[1][1] + J[2][2]) / 2;
+    for (int32_t g = 0; g < groups->groups; g++) {
+        real(*J)[3] = groups->group[g].inertia;
+        const real least = groups->group[g].joined * square(LEAST_ARM * spacing),
+                   half = (J[0][0] + J[1][1] + J[2][2]) / 2;
         const bool thin = dim == 2 ? J[2][2] < least : inertia_determinant(J) < least * square(half);
-        t->group[g].added = thin ? least : 0;
-        for (int a = 0; a < 3; a++) J[a][a] += t->group[g].added;
+        groups->group[g].added = thin ? least : 0;
+        for (int a = 0; a < 3; a++) J[a][a] += groups->group[g].added;
     }
 }
 
@@ -327,20 +330,20 @@ static void inertias_find(struct corotating_groups *t, real spacing, int dim)
             EACH_GROUP_OF(SUM, t, p, 3);                                                                               \
     } while (0)
 
-void corotating_groups_compute_spins(struct corotating_groups *t, struct particles *p, real spacing)
+void corotating_groups_compute_spins(struct corotating_groups *groups, struct particles *p, real spacing)
 {
-    EACH_GROUP(sum_moments, t, p);
-    few_join(t);
-    centres_find(t);
-    moments_shift(t);
-    inertias_find(t, spacing, p->dim);
-    spins_find(t, p->dim);
-    EACH_GROUP(spins_store, t, p);
+    EACH_GROUP(sum_moments, groups, p);
+    few_join(groups);
+    centres_find(groups);
+    moments_shift(groups);
+    inertias_find(groups, spacing, p->dim);
+    spins_find(groups, p->dim);
+    EACH_GROUP(spins_store, groups, p);
 }
 
-void corotating_groups_restore_angular_momentum(struct corotating_groups *t, struct particles *p)
+void corotating_groups_restore_angular_momentum(struct corotating_groups *groups, struct particles *p)
 {
-    EACH_GROUP(sum_lack, t, p);
-    gains_find(t, p->dim);
-    EACH_GROUP(spin_apply, t, p);
+    EACH_GROUP(sum_lack, groups, p);
+    gains_find(groups, p->dim);
+    EACH_GROUP(spin_apply, groups, p);
 }

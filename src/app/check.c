@@ -18,28 +18,28 @@
 #include "scene/scene_read.h"
 #include "study/pilot.h"
 
-static void say_particles(const struct run *e)
+static void say_particles(const struct run *run)
 {
     int64_t driven = 0;
-    for (int64_t i = 0; i < e->part.n; i++) driven += (e->part.flag[i] & FLAG_DRIVEN) != 0;
-    printf("particles      %lld", (long long)e->part.n_body);
-    if (e->part.n < e->part.n_body) printf(", of which %lld are made", (long long)e->part.n);
-    printf(": %lld peridynamic, %lld material points", (long long)e->part.n_of[KIND_PD],
-           (long long)e->part.n_of[KIND_MPM]);
+    for (int64_t i = 0; i < run->part.n; i++) driven += (run->part.flag[i] & FLAG_DRIVEN) != 0;
+    printf("particles      %lld", (long long)run->part.n_body);
+    if (run->part.n < run->part.n_body) printf(", of which %lld are made", (long long)run->part.n);
+    printf(": %lld peridynamic, %lld material points", (long long)run->part.n_of[KIND_PD],
+           (long long)run->part.n_of[KIND_MPM]);
     if (driven) printf("; %lld driven", (long long)driven);
-    if (e->loads.images) printf("; %lld mirror images", (long long)e->loads.images);
-    printf("\nbonds          %lld directed in %lld rows\n", (long long)e->bonds.n, (long long)e->bonds.rows);
+    if (run->loads.images) printf("; %lld mirror images", (long long)run->loads.images);
+    printf("\nbonds          %lld directed in %lld rows\n", (long long)run->bonds.n, (long long)run->bonds.rows);
 }
 
-static void say_frames(const struct run *e)
+static void say_frames(const struct run *run)
 {
-    for (int b = 0; b < e->scene->bodies; b++)
-        if (e->frame->choice[b].reason)
-            printf("frame          body %s: %s frame (%s)\n", e->scene->body[b].name,
-                   e->frame->choice[b].reference ? "reference" : "current", e->frame->choice[b].reason);
-    if (e->frame->mesh.points > 0)
+    for (int b = 0; b < run->scene->bodies; b++)
+        if (run->frame->choice[b].reason)
+            printf("frame          body %s: %s frame (%s)\n", run->scene->body[b].name,
+                   run->frame->choice[b].reference ? "reference" : "current", run->frame->choice[b].reason);
+    if (run->frame->mesh.points > 0)
         printf("mesh           %lld material points in the reference frame, with linear grid cells of two spacings\n",
-               (long long)e->frame->mesh.points);
+               (long long)run->frame->mesh.points);
 }
 
 /* Prints the names of the bodies of scene s (the input file) with the indices `from` to end - 1: the first six, and the
@@ -82,64 +82,65 @@ static void say_contact_of_bonds(const struct scene *s)
 }
 
 /* Prints the share of contact in the time of the first steps, and by how much contact shortens the time step. Prints
- * nothing for load steps, or if no particle is near a face. c: cost of the run e, estimated from trial steps. */
-static void say_contact_cost(const struct run *e, const struct cost *c)
+ * nothing for load steps, or if no particle is near a face. c: cost of the run, estimated from trial steps. */
+static void say_contact_cost(const struct run *run, const struct cost *c)
 {
-    const struct run_clock *clock = &e->clock;
-    const double shorter = clock->dt / (e->scene->safety * clock->dt_critical);
-    if (scene_has_load_steps(e->scene) || !(c->contact > 0) || e->contact->rows == 0) return;
+    const struct run_clock *clock = &run->clock;
+    const double shorter = clock->dt / (run->scene->safety * clock->dt_critical);
+    if (scene_has_load_steps(run->scene) || !(c->contact > 0) || run->contact->rows == 0) return;
     printf("contact        %lld of %lld particles are near a face and checked for contact, which takes about %.1f %% "
            "of the time of the first steps",
-           (long long)e->contact->rows, (long long)e->part.n, 1e2 * fmin(1, c->contact));
-    if (e->scene->time_step == 0 && shorter < 0.999)
+           (long long)run->contact->rows, (long long)run->part.n, 1e2 * fmin(1, c->contact));
+    if (run->scene->time_step == 0 && shorter < 0.999)
         printf("; the time step is %.2f times that without contact", shorter);
     putchar('\n');
 }
 
-static void say_contact(const struct run *e)
+static void say_contact(const struct run *run)
 {
     int on_grid = 0;
-    if (e->scene->method != METHOD_MPM) say_contact_of_bonds(e->scene);
-    for (int b = 0; b < e->scene->bodies; b++)
-        on_grid += e->scene->method != METHOD_PD && !e->frame->choice[b].reference;
+    if (run->scene->method != METHOD_MPM) say_contact_of_bonds(run->scene);
+    for (int b = 0; b < run->scene->bodies; b++)
+        on_grid += run->scene->method != METHOD_PD && !run->frame->choice[b].reference;
     if (on_grid < 2) return;
-    if (e->grid->fields < 2)
+    if (run->grid->fields < 2)
         printf("contact        material points of touching bodies share grid nodes, so the bodies stick together until "
                "a gap of two cells opens\n");
     else {
         printf("contact        of the material points of ");
-        say_names(e->scene, 0, e->scene->bodies);
+        say_names(run->scene, 0, run->scene->bodies);
         printf(" with each other, on a grid for each");
-        if (e->scene->contact_friction > 0) printf(", friction %.3g", e->scene->contact_friction);
+        if (run->scene->contact_friction > 0) printf(", friction %.3g", run->scene->contact_friction);
         putchar('\n');
     }
 }
 
-/* Prints how the first six pre-cracks of run e are represented, as slits of the mesh (doubled nodes) or as cut bonds,
+/* Prints how the first six pre-cracks of run are represented, as slits of the mesh (doubled nodes) or as cut bonds,
  * and the number of further pre-cracks, if any. */
-static void say_notches(const struct run *e)
+static void say_notches(const struct run *run)
 {
     enum { SAID = 6 };
-    const int n = e->coupling->notches.n;
+    const int n = run->coupling->notches.n;
     char text[256];
     for (int k = 0; k < n && k < SAID; k++) {
-        notch_describe_as_slit_or_cut_bonds(&e->coupling->notches, k, e->scene->spacing, text, sizeof text);
+        notch_describe_as_slit_or_cut_bonds(&run->coupling->notches, k, run->scene->spacing, text, sizeof text);
         printf("notch          crack %d: %s\n", k + 1, text);
     }
     if (n > SAID) printf("notch          and %d more\n", n - SAID);
 }
 
-static void say_time_step(const struct run *e)
+static void say_time_step(const struct run *run)
 {
-    if (scene_has_load_steps(e->scene))
-        print_load_step_settings(e);
-    else if (scene_is_single_equilibrium(e->scene))
+    if (scene_has_load_steps(run->scene))
+        print_load_step_settings(run);
+    else if (scene_is_single_equilibrium(run->scene))
         printf("solver         static equilibrium to a residual of %.3g of the load, in at most %lld iterations\n",
-               e->scene->solver_tolerance, (long long)e->clock.steps);
+               run->scene->solver_tolerance, (long long)run->clock.steps);
     else
         printf("time step      %.4g s%s, %.2f times the critical time step of %.4g s; %lld steps to t = %.4g s\n",
-               e->clock.dt, e->scene->time_step > 0 ? " (time.step, regardless of time.safety)" : "",
-               e->clock.dt / e->clock.dt_critical, e->clock.dt_critical, (long long)e->clock.steps, e->scene->duration);
+               run->clock.dt, run->scene->time_step > 0 ? " (time.step, regardless of time.safety)" : "",
+               run->clock.dt / run->clock.dt_critical, run->clock.dt_critical, (long long)run->clock.steps,
+               run->scene->duration);
 }
 
 /* Prints the end of the line with the estimated run time of `scene`: which steps were measured (all steps of a run with
@@ -162,36 +163,36 @@ static void say_basis(const struct scene *scene, const struct cost *c)
 #define REST_BELOW 1.5
 #define REST_ABOVE 4.5
 
-/* Prints the run time of the static equilibrium of run e on `threads` threads. The solver runs until it converges, so
+/* Prints the run time of the static equilibrium of run on `threads` threads. The solver runs until it converges, so
  * that the number of its steps is not known in advance. Therefore prints the time of 1000 steps with a lower and an
  * upper bound, and an upper bound for the largest number of steps that the input file allows. c->step: measured time of
  * one step [s]. */
-static void say_cost_at_rest(const struct run *e, const struct cost *c, int threads)
+static void say_cost_at_rest(const struct run *run, const struct cost *c, int threads)
 {
     const double thousand = 1e3 * c->step;
     printf("run time       about %.2g s for 1000 steps (%.2g to %.2g s), up to %.2g s for the largest number of steps, "
            "%lld, on %d thread%s",
-           thousand, thousand / REST_BELOW, thousand * REST_ABOVE, c->step * REST_ABOVE * (double)e->clock.steps,
-           (long long)e->clock.steps, threads, threads > 1 ? "s" : "");
+           thousand, thousand / REST_BELOW, thousand * REST_ABOVE, c->step * REST_ABOVE * (double)run->clock.steps,
+           (long long)run->clock.steps, threads, threads > 1 ? "s" : "");
 }
 
-static void say_cost(const struct run *e, const struct cost *c, int threads)
+static void say_cost(const struct run *run, const struct cost *c, int threads)
 {
     const char *many = threads > 1 ? "s" : "";
-    if (scene_has_load_steps(e->scene))
-        print_load_steps_cost(e, c, threads);
-    else if (scene_is_single_equilibrium(e->scene))
-        say_cost_at_rest(e, c, threads);
+    if (scene_has_load_steps(run->scene))
+        print_load_steps_cost(run, c, threads);
+    else if (scene_is_single_equilibrium(run->scene))
+        say_cost_at_rest(run, c, threads);
     else {
-        const bool grows = c->basis == COST_FIRST && e->scene->method == METHOD_ADAPTIVE;
+        const bool grows = c->basis == COST_FIRST && run->scene->method == METHOD_ADAPTIVE;
         printf("run time       %s %.2g s (%.2g to ", grows ? "at least" : "about", c->run, c->least);
         if (isfinite(c->most))
             printf("%.2g s)", c->most);
         else
             printf("any time)");
         printf(" on %d idle core%s, of which %.1g s for writing files; the first steps take %.3g ns per particle",
-               threads, many, c->output, 1e9 * c->step / (double)e->part.n);
-        say_basis(e->scene, c);
+               threads, many, c->output, 1e9 * c->step / (double)run->part.n);
+        say_basis(run->scene, c);
     }
     printf("\nmemory         about %.0f MB\n", 1e-6 * c->bytes);
 }
@@ -232,11 +233,11 @@ static void say_interfaces(const struct scene *s)
     }
 }
 
-static void say_materials(const struct run *e)
+static void say_materials(const struct run *run)
 {
-    for (int m = 0; m < e->scene->materials; m++) {
-        const struct material *a = &e->scene->material[m];
-        const bool in_steps = scene_has_load_steps(e->scene);
+    for (int m = 0; m < run->scene->materials; m++) {
+        const struct material *a = &run->scene->material[m];
+        const bool in_steps = scene_has_load_steps(run->scene);
         if (in_steps)
             printf("material       %s: Young's modulus %.4g Pa", a->name, a->young);
         else
@@ -246,17 +247,17 @@ static void say_materials(const struct run *e)
             printf(", bonds soften");
         else if (isfinite(a->critical_stretch))
             printf(", bonds break at a stretch of %.4g", a->critical_stretch),
-                print_tensile_strength_of_brittle_bonds(e->scene, a);
+                print_tensile_strength_of_brittle_bonds(run->scene, a);
         else
             printf("; its bonds %s: neither energy_release_rate nor critical_stretch is given",
-                   breaks_at_interface(e->scene, m) ? "break only at the interface" : "never break");
-        const real most = e->tables.elastic[m].trigger_mean;
+                   breaks_at_interface(run->scene, m) ? "break only at the interface" : "never break");
+        const real most = run->tables.elastic[m].trigger_mean;
         if (isfinite(most)) printf(", conversion above %.4g Pa", most);
         if (isfinite(most) && material_has_strength_surface(a))
-            printf(" or at %.3g of the strength surface", e->scene->conversion.alpha);
-        if (e->part.strength && a->scatter.given) say_scatter(&e->part, m);
+            printf(" or at %.3g of the strength surface", run->scene->conversion.alpha);
+        if (run->part.strength && a->scatter.given) say_scatter(&run->part, m);
         printf("\n");
-        print_softening_and_horizon_limits(e->scene, a);
+        print_softening_and_horizon_limits(run->scene, a);
     }
 }
 
@@ -292,22 +293,23 @@ static void say_busy(double load, int threads)
         printf("load           %s\n", text);
 }
 
-/* Estimates run time and memory of the run e by trial steps and prints both. a: arguments from which e was made, so
+/* Estimates run time and memory of the run by trial steps and prints both. a: arguments from which e was made, so
  * that other input files can be made for comparison; threads: number of threads, which is printed; made: processor time
  * of the set-up of e [s]. Appends the warnings of the trial steps to *found. The run e cannot be used afterwards.
  * Returns FAILED if one of the first steps fails. */
-static status check_cost(struct run *e, const struct run_arguments *a, int threads, double made, struct warnings *found)
+static status check_cost(struct run *run, const struct run_arguments *a, int threads, double made,
+                         struct warnings *found)
 {
     struct cost cost = {.make = made};
     const double load = machine_load_average();
-    const status result = run_cost_measure_by_trial_steps(&cost, e, a);
+    const status result = run_cost_measure_by_trial_steps(&cost, run, a);
     warnings_of_trial(found, &cost.found);
     warnings_free(&cost.found);
     TRY(result);
-    say_contact_cost(e, &cost);
-    say_cost(e, &cost, threads);
+    say_contact_cost(run, &cost);
+    say_cost(run, &cost, threads);
     say_busy(load, threads);
-    print_coarse_cells_saving(e, &cost);
+    print_coarse_cells_saving(run, &cost);
     return OK;
 }
 
@@ -318,9 +320,9 @@ static void say_list(const struct warnings *lines, const char *heading)
     for (int k = 0; k < lines->n; k++) printf("%-15s%s\n", k == 0 ? heading : "", lines->text[k]);
 }
 
-/* Prints the remarks on the accuracy of the input file of run e. *remarks: receives their number. Returns FAILED, with
+/* Prints the remarks on the accuracy of the input file of run. *remarks: receives their number. Returns FAILED, with
  * a message, if there is no memory for them. */
-static status say_accuracy(const struct run *e, int *remarks)
+static status say_accuracy(const struct run *run, int *remarks)
 {
     char *text = NULL;
     size_t length;
@@ -328,7 +330,7 @@ static status say_accuracy(const struct run *e, int *remarks)
     if (!out)
         return status_set(FAILED,
                           "out of memory: the remarks on accuracy are not printed; use a larger particles.spacing");
-    print_accuracy_advice(e, out);
+    print_accuracy_advice(run, out);
     const status written =
         fclose(out) == 0
             ? OK
@@ -357,23 +359,23 @@ static void say_verdict(const char *scene, int warnings, int remarks)
                warnings, remarks > 0 ? " and the remarks on accuracy" : "");
 }
 
-/* Prints the resolved settings of the input file of run e: particles, shapes, materials, positions at which shape
+/* Prints the resolved settings of the input file of run run: particles, shapes, materials, positions at which shape
  * functions are evaluated, pre-cracks, loads, steps, contact. */
-static void say_settings(const struct run *e)
+static void say_settings(const struct run *run)
 {
-    say_particles(e);
-    print_volume_filled_by_particles(e);
-    print_shape_file_volumes(e);
-    print_bodies_in_several_unbonded_pieces(e);
-    say_materials(e);
-    say_interfaces(e->scene);
-    print_smallest_precrack_length(e);
-    say_frames(e);
-    print_coarse_cell_sizes_and_counts(e);
-    say_notches(e);
-    print_loads_and_supports(e);
-    say_time_step(e);
-    say_contact(e);
+    say_particles(run);
+    print_volume_filled_by_particles(run);
+    print_shape_file_volumes(run);
+    print_bodies_in_several_unbonded_pieces(run);
+    say_materials(run);
+    say_interfaces(run->scene);
+    print_smallest_precrack_length(run);
+    say_frames(run);
+    print_coarse_cell_sizes_and_counts(run);
+    say_notches(run);
+    print_loads_and_supports(run);
+    say_time_step(run);
+    say_contact(run);
 }
 
 /* Sets up a run of scene s (the input file) and prints its resolved settings, remarks on its accuracy, the cost (only

@@ -42,12 +42,12 @@ static real mirrored_edge(const struct scene *scene, const struct bond_source *s
     return from && to ? INFINITY : (from || to ? 2 : 1) * (a->to[d] - a->from[d]);
 }
 
-real solid_smallest_edge(const struct run *e, const struct solid *solid)
+real solid_smallest_edge(const struct run *run, const struct solid *solid)
 {
     real least = INFINITY;
-    for (int d = 0; d < e->scene->dim && solid_is_untransformed_and_of_kind(solid, SOLID_BOX); d++)
-        least = real_min(least, mirrored_edge(e->scene, &e->source, solid, d));
-    return real_min(least, solid_least_thickness(solid, e->scene->dim));
+    for (int d = 0; d < run->scene->dim && solid_is_untransformed_and_of_kind(solid, SOLID_BOX); d++)
+        least = real_min(least, mirrored_edge(run->scene, &run->source, solid, d));
+    return real_min(least, solid_least_thickness(solid, run->scene->dim));
 }
 
 /* Largest relative error of the stiffness of a thin peridynamic part [%] by its number of particle layers: in 2D and in
@@ -117,14 +117,14 @@ static real two_digits_down(real value)
     return floor(value / digit + 1e-6) * digit;
 }
 
-/* Writes a remark to `out` for each body of run e with a part that is thinner than FEATURE horizons. Most particles of
+/* Writes a remark to `out` for each body of run with a part that is thinner than FEATURE horizons. Most particles of
  * such a part are near a surface and lack neighbours within the horizon. Writes nothing for input files with the method
  * mpm (no bonds), and in 1D. */
-static void advise_features(const struct run *e, FILE *out)
+static void advise_features(const struct run *run, FILE *out)
 {
-    const struct scene *s = e->scene;
+    const struct scene *s = run->scene;
     for (int b = 0; b < s->bodies && s->dim > 1 && s->method != METHOD_MPM; b++) {
-        const double layers = count_particle_layers_across_thin_parts(e, b, ENOUGH * FEATURE * s->horizon),
+        const double layers = count_particle_layers_across_thin_parts(run, b, ENOUGH * FEATURE * s->horizon),
                      size = layers * s->spacing;
         if (!isfinite(layers)) continue;
         fprintf(out,
@@ -137,16 +137,16 @@ static void advise_features(const struct run *e, FILE *out)
     }
 }
 
-/* Writes a remark to `out` for each solid that is subtracted from a body of run e and is thinner than one spacing. Such
+/* Writes a remark to `out` for each solid that is subtracted from a body of run and is thinner than one spacing. Such
  * a hole cuts bonds but removes no row of particles. Solids from voxel images and bodies from particle lists are
  * skipped, as their thickness is not known; also 1D input files. */
-static void advise_narrow_holes(const struct run *e, FILE *out)
+static void advise_narrow_holes(const struct run *run, FILE *out)
 {
-    const struct scene *s = e->scene;
+    const struct scene *s = run->scene;
     for (int b = 0; b < s->bodies && s->dim > 1; b++) {
         const struct region *shape = &s->body[b].shape;
         for (int k = 1; k < shape->n && !s->body[b].file; k++) {
-            const real size = shape->solid[k].subtract ? solid_smallest_edge(e, &shape->solid[k]) : INFINITY;
+            const real size = shape->solid[k].subtract ? solid_smallest_edge(run, &shape->solid[k]) : INFINITY;
             if (size >= s->spacing) continue;
             fprintf(out,
                     "accuracy       body %s: solid %d of its shape, which is subtracted, is only %.3g m thin (spacing "
@@ -256,23 +256,25 @@ static void advise_shocks(const struct scene *s, FILE *out)
                 shock.remedy);
 }
 
-/* Writes a remark to `out` if the coarsest cells of run e are larger than the largest cells with which the loads and
+/* Writes a remark to `out` if the coarsest cells of run are larger than the largest cells with which the loads and
  * the thin parts of the body are resolved. Only for input files that prescribe the number of levels of coarse cells
  * (the edge doubles with each level). */
-static void advise_levels(const struct run *e, FILE *out)
+static void advise_levels(const struct run *run, FILE *out)
 {
-    const struct levels_choice c = mesh_levels_choose_level_count(e->frame, &e->part, e->scene, e->clock.dt_critical);
+    const struct levels_choice c =
+        mesh_levels_choose_level_count(run->frame, &run->part, run->scene, run->clock.dt_critical);
     char text[1024];
-    if (mesh_levels_given_by_scene_are_too_many(&c, e->frame, e->scene, text, sizeof text))
+    if (mesh_levels_given_by_scene_are_too_many(&c, run->frame, run->scene, text, sizeof text))
         fprintf(out, "accuracy       %s\n", text);
 }
 
-/* Writes a remark to `out` if a formula of a load or support of run e has no finite value at one of PULL_MOMENTS + 1
+/* Writes a remark to `out` if a formula of a load or support of run has no finite value at one of PULL_MOMENTS + 1
  * times of the run. */
-static void advise_formulas(const struct run *e, FILE *out)
+static void advise_formulas(const struct run *run, FILE *out)
 {
     for (int m = 0; m <= PULL_MOMENTS; m++) {
-        if (loads_check_formulas_are_finite(&e->loads, &e->part, e->scene->duration * m / PULL_MOMENTS) == OK) continue;
+        if (loads_check_formulas_are_finite(&run->loads, &run->part, run->scene->duration * m / PULL_MOMENTS) == OK)
+            continue;
         fprintf(out, "accuracy       %s; the run will stop at that time\n", status_message());
         return;
     }
@@ -351,22 +353,22 @@ static void advise_separation(const struct scene *s, const struct loads *l, cons
                 stretch, s->cell, ceil(1.2 * stretch));
 }
 
-void print_accuracy_advice(const struct run *e, FILE *out)
+void print_accuracy_advice(const struct run *run, FILE *out)
 {
-    advise_features(e, out);
-    advise_narrow_holes(e, out);
-    print_advice_on_widths_of_narrow_parts(e, out);
-    print_advice_on_close_crack_tips(e->scene, e->fracture, out);
-    print_advice_on_incompressible_bodies(e, out);
-    print_advice_on_stiffening_by_prescribed_layers(e, out);
-    advise_faces(e->scene, out);
-    print_advice_on_stiffness_of_particle_lists(e, out);
-    advise_waves(e->scene, &e->tables, out);
-    advise_shocks(e->scene, out);
-    print_advice_on_unbalanced_loads(e, out);
-    print_load_step_accuracy_advice(e, out);
-    advise_formulas(e, out);
-    advise_levels(e, out);
-    advise_separation(e->scene, &e->loads, &e->part, out);
-    print_advice_on_gaps_to_mirror_planes(e, out);
+    advise_features(run, out);
+    advise_narrow_holes(run, out);
+    print_advice_on_widths_of_narrow_parts(run, out);
+    print_advice_on_close_crack_tips(run->scene, run->fracture, out);
+    print_advice_on_incompressible_bodies(run, out);
+    print_advice_on_stiffening_by_prescribed_layers(run, out);
+    advise_faces(run->scene, out);
+    print_advice_on_stiffness_of_particle_lists(run, out);
+    advise_waves(run->scene, &run->tables, out);
+    advise_shocks(run->scene, out);
+    print_advice_on_unbalanced_loads(run, out);
+    print_load_step_accuracy_advice(run, out);
+    advise_formulas(run, out);
+    advise_levels(run, out);
+    advise_separation(run->scene, &run->loads, &run->part, out);
+    print_advice_on_gaps_to_mirror_planes(run, out);
 }

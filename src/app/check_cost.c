@@ -41,29 +41,29 @@ static struct quartiles quartiles_of(double *spent, int n)
     return (struct quartiles){spent[n / 4], median, spent[n - 1 - n / 4]};
 }
 
-/* Makes time steps of run e and measures the processor time of one step. Each measurement covers the steps from one
+/* Makes time steps of run and measures the processor time of one step. Each measurement covers the steps from one
  * sample of the history to the next. *step: receives the quartiles of the measurements [s]. The first step, which has
  * cold caches, does not count. *bytes: receives the peak memory of this process after the first WINDOWS_LEAST
  * measurements [byte]: the number of measurements depends on the speed of the processor, and with conversion the memory
  * depends on their number; not written if NULL. Returns FAILED, with a message, if a step fails. */
-static status time_steps(struct run *e, struct quartiles *step, double *bytes)
+static status time_steps(struct run *run, struct quartiles *step, double *bytes)
 {
-    const int64_t samples = e->scene->samples > 0 ? e->scene->samples : 1;
-    const int64_t period = e->clock.steps / samples > 0 ? e->clock.steps / samples : 1;
+    const int64_t samples = run->scene->samples > 0 ? run->scene->samples : 1;
+    const int64_t period = run->clock.steps / samples > 0 ? run->clock.steps / samples : 1;
     double spent[PERIODS_MOST], all = 0;
     int n = 0;
-    e->report->quiet = e->warnings.silent = true;
-    TRY(report_open_history_and_write_first_frame(e));
+    run->report->quiet = run->warnings.silent = true;
+    TRY(report_open_history_and_write_first_frame(run));
     const double begun = thread_cpu_clock_seconds();
-    TRY(run_adapt_mesh_and_advance_one_step(e));
+    TRY(run_adapt_mesh_and_advance_one_step(run));
     const double first = thread_cpu_clock_seconds() - begun;
     while (n < PERIODS_MOST && all < SECONDS_MOST && (n < WINDOWS_LEAST || all < SECONDS_ENOUGH)) {
         const double start = thread_cpu_clock_seconds();
         int64_t taken = 0;
-        for (;
-             taken < period && e->clock.step < e->clock.steps - 1 && thread_cpu_clock_seconds() - start < SECONDS_MOST;
+        for (; taken < period && run->clock.step < run->clock.steps - 1 &&
+               thread_cpu_clock_seconds() - start < SECONDS_MOST;
              taken++)
-            TRY(run_adapt_mesh_and_advance_one_step(e));
+            TRY(run_adapt_mesh_and_advance_one_step(run));
         if (taken == 0) break;
         all += thread_cpu_clock_seconds() - start;
         spent[n++] = (thread_cpu_clock_seconds() - start) / (double)taken;
@@ -74,30 +74,30 @@ static status time_steps(struct run *e, struct quartiles *step, double *bytes)
     return OK;
 }
 
-/* Returns the processor time of one evaluation of the forces of run e [s], the median of several. */
-static double time_force(struct run *e)
+/* Returns the processor time of one evaluation of the forces of run [s], the median of several. */
+static double time_force(struct run *run)
 {
     double spent[PERIODS_MOST], all = 0;
     int n = 0;
     while (n < PERIODS_MOST && (all < SECONDS_ENOUGH || n < 3)) {
         const double start = thread_cpu_clock_seconds();
-        run_compute_internal_forces(e);
+        run_compute_internal_forces(run);
         all += spent[n++] = thread_cpu_clock_seconds() - start;
     }
     return median_by_sorting(spent, n);
 }
 
-/* Returns the processor time of contact in one step of run e at its present state [s]: search and forces, the median of
+/* Returns the processor time of contact in one step of run at its present state [s]: search and forces, the median of
  * several. */
-static double time_contact(struct run *e)
+static double time_contact(struct run *run)
 {
     double spent[PERIODS_MOST], all = 0;
     int n = 0;
     while (n < PERIODS_MOST && (all < 0.1 * SECONDS_ENOUGH || n < 3)) {
         const double start = thread_cpu_clock_seconds();
-        contact_update_pair_list_if_outdated(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family,
-                                             e->clock.step, e->contact->broken, e->contact->changed);
-        contact_compute_forces(e->contact, &e->part, 0);
+        contact_update_pair_list_if_outdated(run->contact, &run->part, &run->bonds, &run->loads, &run->source.family,
+                                             run->clock.step, run->contact->broken, run->contact->changed);
+        contact_compute_forces(run->contact, &run->part, 0);
         all += spent[n++] = thread_cpu_clock_seconds() - start;
     }
     return median_by_sorting(spent, n);
@@ -109,7 +109,7 @@ static double time_contact(struct run *e)
  * creates its run e. rest: true if inactive parts of the body may be skipped, as the scene requests. Returns FAILED or
  * REFUSED, with a message, if the scene cannot be read or its run cannot be created. The caller releases s and e, also
  * on failure. */
-static status make_other(struct scene *s, struct run *e, const struct run_arguments *a, const char *key,
+static status make_other(struct scene *s, struct run *run, const struct run_arguments *a, const char *key,
                          const char *value, bool rest)
 {
     struct scene_override *override = NEW("check.override", a->overrides + 1, struct scene_override);
@@ -120,25 +120,25 @@ static status make_other(struct scene *s, struct run *e, const struct run_argume
     TRY(read);
     s->active_set = s->active_set && rest;
     s->accept |= 1u << ACCEPT_SHOCK; /* as in check_sound */
-    return run_set_up_from_scene(e, s, NULL);
+    return run_set_up_from_scene(run, s, NULL);
 }
 
 /* Runs all steps of e and returns their processor time [s]. Returns NAN if a step fails, if the processor time exceeds
  * PATIENCE * SECONDS_WHOLE (a few seconds), or if the wall-clock time exceeds WALL_MOST (a minute). */
-static double all_steps(struct run *e)
+static double all_steps(struct run *run)
 {
     const double start = thread_cpu_clock_seconds(), began = wall_clock_seconds();
-    e->report->quiet = e->warnings.silent = true;
-    if (report_open_history_and_write_first_frame(e) != OK) return NAN;
-    timers_start(&e->timers);
-    while (e->clock.step < e->clock.steps) {
-        if (run_adapt_mesh_and_advance_one_step(e) != OK || run_check_stability_after_step(e) != OK ||
-            report_write_outputs_due_after_step(e) != OK)
+    run->report->quiet = run->warnings.silent = true;
+    if (report_open_history_and_write_first_frame(run) != OK) return NAN;
+    timers_start(&run->timers);
+    while (run->clock.step < run->clock.steps) {
+        if (run_adapt_mesh_and_advance_one_step(run) != OK || run_check_stability_after_step(run) != OK ||
+            report_write_outputs_due_after_step(run) != OK)
             return NAN;
         if (thread_cpu_clock_seconds() - start > PATIENCE * SECONDS_WHOLE || wall_clock_seconds() - began > WALL_MOST)
             return NAN;
     }
-    return run_repeat_with_mpm_only_for_pulse_probe(e) == OK ? thread_cpu_clock_seconds() - start : NAN;
+    return run_repeat_with_mpm_only_for_pulse_probe(run) == OK ? thread_cpu_clock_seconds() - start : NAN;
 }
 
 /* Runs the input file of the arguments a with the additional override key=value (none if key is NULL). whole: true to
@@ -189,15 +189,15 @@ static double growth_of(struct cost *c, const struct scene *s, const struct run_
  * neighbours within the horizon) divided by that of a lattice cell [1]. */
 static double family_size(const struct family *f) { return f->full / f->cell_volume; }
 
-/* Returns an estimate of the time for writing the output of run e [s]: all frames (outputs of all particles at one
+/* Returns an estimate of the time for writing the output of run [s]: all frames (outputs of all particles at one
  * time) including the one at the start, two checkpoints, profiles and particle series. */
-static double output_seconds(const struct run *e)
+static double output_seconds(const struct run *run)
 {
-    double files = (double)(e->scene->frames < e->clock.steps ? e->scene->frames : e->clock.steps) + 3;
-    for (int k = 0; k < e->scene->n_series; k++) /* all particles are updated for each frame of a region */
-        files += fmin(e->scene->duration / e->scene->series[k].every, (double)e->clock.steps) + 1;
-    return START_SECONDS + files * (FILE_SECONDS + FILE_SECONDS_PARTICLE * (double)e->part.n +
-                                    FILE_SECONDS * (double)probes_count_profiles(&e->probing->probes));
+    double files = (double)(run->scene->frames < run->clock.steps ? run->scene->frames : run->clock.steps) + 3;
+    for (int k = 0; k < run->scene->n_series; k++) /* all particles are updated for each frame of a region */
+        files += fmin(run->scene->duration / run->scene->series[k].every, (double)run->clock.steps) + 1;
+    return START_SECONDS + files * (FILE_SECONDS + FILE_SECONDS_PARTICLE * (double)run->part.n +
+                                    FILE_SECONDS * (double)probes_count_profiles(&run->probing->probes));
 }
 
 /* Factors between the estimated run time and its bounds, for each basis of the estimate: lower bound estimate / below,
@@ -257,19 +257,19 @@ static double step_peridynamic(const struct run_arguments *a, double spacing)
     return seconds;
 }
 
-/* Estimates the time of run e, if it is adaptive, with all its particles peridynamic: c->all_peridynamic [s]. Measures
+/* Estimates the time of run, if it is adaptive, with all its particles peridynamic: c->all_peridynamic [s]. Measures
  * first steps of such a run, or of one with larger particles if there are more than BONDS_MOST bonds. If c->run is only
  * an extrapolation, the upper bound c->most is raised to this time, or to INFINITY if it is unknown. */
-static void cost_peridynamic(struct cost *c, const struct run *e, const struct run_arguments *a)
+static void cost_peridynamic(struct cost *c, const struct run *run, const struct run_arguments *a)
 {
-    const struct scene *s = e->scene;
-    const double n = (double)e->part.n_body, bonds = n * family_size(&e->source.family);
+    const struct scene *s = run->scene;
+    const double n = (double)run->part.n_body, bonds = n * family_size(&run->source.family);
     double loop = NAN;
     if (s->method != METHOD_ADAPTIVE) return;
     if (bonds < BONDS_MOST)
         loop = try_other(a, "method", "pd", false, NULL);
-    else if (e->part.n < e->part.n_body)
-        loop = n * (double)e->clock.steps * step_peridynamic(a, s->spacing * pow(bonds / BONDS_TRIED, 1.0 / s->dim));
+    else if (run->part.n < run->part.n_body)
+        loop = n * (double)run->clock.steps * step_peridynamic(a, s->spacing * pow(bonds / BONDS_TRIED, 1.0 / s->dim));
     c->all_peridynamic = c->make + loop + c->output;
     if (c->basis == COST_FIRST) c->most = c->all_peridynamic > 0 ? fmax(c->most, c->all_peridynamic) : INFINITY;
 }
@@ -283,36 +283,37 @@ static double output_bytes(int64_t n, const struct scene *scene)
     return OUTPUT_BYTES + (double)n * (frame[scene->dim] + (scene->method == METHOD_MPM ? 0 : PARTS_BYTES));
 }
 
-status run_cost_measure_by_trial_steps(struct cost *c, struct run *e, const struct run_arguments *a)
+status run_cost_measure_by_trial_steps(struct cost *c, struct run *run, const struct run_arguments *a)
 {
-    const int known = e->warnings.n;
-    c->particles_at_start = e->part.n;
+    const int known = run->warnings.n;
+    c->particles_at_start = run->part.n;
     c->all_peridynamic = NAN;
-    e->warnings.silent = true;
-    if (scene_has_load_steps(e->scene)) {
-        c->output = output_seconds(e) + FILE_SECONDS * e->scene->steps.number; /* one checkpoint after each load step */
-        const status result = load_steps_estimate_run_cost(c, e);
-        warnings_append_missing_from_list(&c->found, &e->warnings, known);
+    run->warnings.silent = true;
+    if (scene_has_load_steps(run->scene)) {
+        c->output =
+            output_seconds(run) + FILE_SECONDS * run->scene->steps.number; /* one checkpoint after each load step */
+        const status result = load_steps_estimate_run_cost(c, run);
+        warnings_append_missing_from_list(&c->found, &run->warnings, known);
         TRY(result);
-        c->bytes = (double)memory_peak_resident_size() + output_bytes(c->particles_at_start, e->scene);
+        c->bytes = (double)memory_peak_resident_size() + output_bytes(c->particles_at_start, run->scene);
         return OK;
     }
-    if (scene_is_single_equilibrium(e->scene)) {
+    if (scene_is_single_equilibrium(run->scene)) {
         /* conjugate gradients use central differences of forces: two evaluations per iteration
          * (static_body_compute_tangent_stiffness_product) */
-        c->step = (e->scene->solver == SOLVER_CG ? 2 : 1) * time_force(e);
-        c->bytes = (double)memory_peak_resident_size() + output_bytes(c->particles_at_start, e->scene);
+        c->step = (run->scene->solver == SOLVER_CG ? 2 : 1) * time_force(run);
+        c->bytes = (double)memory_peak_resident_size() + output_bytes(c->particles_at_start, run->scene);
         return OK;
     }
     struct quartiles step;
-    const status result = time_steps(e, &step, &c->bytes);
-    warnings_append_missing_from_list(&c->found, &e->warnings, known);
+    const status result = time_steps(run, &step, &c->bytes);
+    warnings_append_missing_from_list(&c->found, &run->warnings, known);
     TRY(result);
     c->step = step.median, c->spread = real_max(step.upper / step.median, step.median / step.lower);
-    c->contact = time_contact(e) / c->step;
-    c->bytes += output_bytes(c->particles_at_start, e->scene);
-    c->output = output_seconds(e);
-    cost_run(c, &e->clock, e->scene, a);
-    cost_peridynamic(c, e, a);
+    c->contact = time_contact(run) / c->step;
+    c->bytes += output_bytes(c->particles_at_start, run->scene);
+    c->output = output_seconds(run);
+    cost_run(c, &run->clock, run->scene, a);
+    cost_peridynamic(c, run, a);
     return OK;
 }

@@ -198,22 +198,23 @@ static void print_places_of_face(const struct particles *p, real spacing, const 
     memory_free(one);
 }
 
-void print_oblique_fraction_of_loaded_face(const struct run *e, const struct boundary *b)
+void print_oblique_fraction_of_loaded_face(const struct run *run, const struct boundary *b)
 {
-    const struct scene *s = e->scene;
+    const struct scene *s = run->scene;
     struct elsewhere w = {0};
     struct ends c = {0};
     real cut = INFINITY;
     struct exposed_face f;
     if (s->dim == 1 || !(s->spacing > 0)) return;
-    uint8_t *selected = NEW("check.selected", e->part.n, uint8_t);
-    boundary_select_particles_in_region(b, &e->part, s->spacing, selected);
-    exposed_face_compute_particle_areas(&f, b, &e->part, selected, s->spacing, false);
-    if (has_normals(s, b) || ends_make(&c, &e->part, e->scene, b, &f))
-        w = elsewhere_from(&e->part, e->scene, b, &f, &c, -INFINITY), cut = elsewhere_cut(&e->part, s, b, &f, &c, &w);
+    uint8_t *selected = NEW("check.selected", run->part.n, uint8_t);
+    boundary_select_particles_in_region(b, &run->part, s->spacing, selected);
+    exposed_face_compute_particle_areas(&f, b, &run->part, selected, s->spacing, false);
+    if (has_normals(s, b) || ends_make(&c, &run->part, run->scene, b, &f))
+        w = elsewhere_from(&run->part, run->scene, b, &f, &c, -INFINITY),
+        cut = elsewhere_cut(&run->part, s, b, &f, &c, &w);
     memory_free(c.height);
     const bool inclined = w.other > SHARE_LEAST * w.area;
-    if (!inclined && b->region.n == 0) print_places_of_face(&e->part, s->spacing, b, &f);
+    if (!inclined && b->region.n == 0) print_places_of_face(&run->part, s->spacing, b, &f);
     exposed_face_free(&f);
     memory_free(selected);
     if (!inclined) return;

@@ -26,9 +26,9 @@ static int64_t particles_of(const struct scene *scene, const struct particles *p
     return n;
 }
 
-void print_volume_filled_by_particles(const struct run *e)
+void print_volume_filled_by_particles(const struct run *run)
 {
-    const struct scene *s = e->scene;
+    const struct scene *s = run->scene;
     for (int b = 0; b < s->bodies; b++) {
         const struct region *shape = &s->body[b].shape;
         bool joined = s->body[b].joined != b;
@@ -39,7 +39,7 @@ void print_volume_filled_by_particles(const struct run *e)
             continue;
         const real exact = region_volume_within_box(shape, s->dim, from, to),
                    section = scene_cross_section_or_thickness(s);
-        const real filled = (real)particles_of(e->scene, &e->part, b) * pow(s->spacing, s->dim);
+        const real filled = (real)particles_of(run->scene, &run->part, b) * pow(s->spacing, s->dim);
         if (fabs(filled / exact - 1) < OFF_LEAST) continue;
         printf("filled         body %s: its particles fill %.4g m^3, %.2f %% %s than its shape; a smaller "
                "particles.spacing reduces the difference\n",

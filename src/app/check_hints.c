@@ -35,18 +35,19 @@ static void hint_model(const struct scene *s, struct warnings *to)
                         s->model == MODEL_OSPD ? "ospd" : "mospd");
 }
 
-/* Returns an upper estimate of the stress in run e [Pa]: REACHED (rho c v + traction) plus the stress of initial
+/* Returns an upper estimate of the stress in run [Pa]: REACHED (rho c v + traction) plus the stress of initial
  * strains, with density rho, wave speed c and the range v of initial and prescribed velocities. Returns INFINITY if no
  * estimate is possible: for body forces, tables in time, formulas, rotating supports, and runs in which waves cross the
  * body more than PASSAGES times. */
-static real stress_reached(const struct run *e)
+static real stress_reached(const struct run *run)
 {
-    const struct scene *s = e->scene;
+    const struct scene *s = run->scene;
     real low[DIM_MAX] = {0}, high[DIM_MAX] = {0}, speed2 = 0, density = 0, traction = 0;
-    if (e->tables.wave_speed * s->duration > PASSAGES * particles_bounding_box_longest_edge(&e->part)) return INFINITY;
-    for (int64_t i = 0; i < e->part.n; i++)
+    if (run->tables.wave_speed * s->duration > PASSAGES * particles_bounding_box_longest_edge(&run->part))
+        return INFINITY;
+    for (int64_t i = 0; i < run->part.n; i++)
         for (int d = 0; d < s->dim; d++)
-            low[d] = real_min(low[d], e->part.v[d][i]), high[d] = real_max(high[d], e->part.v[d][i]);
+            low[d] = real_min(low[d], run->part.v[d][i]), high[d] = real_max(high[d], run->part.v[d][i]);
     for (int b = 0; b < s->boundaries; b++) {
         const struct boundary *a = &s->boundary[b];
         const bool formula = a->formula[0].n + a->formula[1].n + a->formula[2].n > 0;
@@ -62,29 +63,29 @@ static real stress_reached(const struct run *e)
     }
     for (int d = 0; d < s->dim; d++) speed2 += square(high[d] - low[d]);
     for (int m = 0; m < s->materials; m++) density = real_max(density, s->material[m].density);
-    return REACHED * (density * e->tables.wave_speed * sqrt(speed2) + traction) + e->probing->strain_stress;
+    return REACHED * (density * run->tables.wave_speed * sqrt(speed2) + traction) + run->probing->strain_stress;
 }
 
-/* Adds a hint to *to for each body of run e whose shape functions are evaluated at the present positions of its
+/* Adds a hint to *to for each body of run whose shape functions are evaluated at the present positions of its
  * material points although the faster evaluation at reference positions is possible, and would not be refused by
  * mpm.frame: auto. */
-static void hint_frame(const struct run *e, struct warnings *to)
+static void hint_frame(const struct run *run, struct warnings *to)
 {
-    const real reached = stress_reached(e);
-    for (int b = 0; b < e->scene->bodies; b++) {
+    const real reached = stress_reached(run);
+    for (int b = 0; b < run->scene->bodies; b++) {
         char text[80] = "";
         real strain = 0;
-        for (int m = 0; m < e->scene->materials; m++)
-            if (scene_body_can_have_material(&e->scene->body[b], m))
-                strain = real_max(strain, reached / e->scene->material[m].young);
-        if (e->frame->choice[b].reference || scene_reason_auto_rejects_total_lagrangian_mpm(e->scene, b)) continue;
-        if (!lagrangian_mesh_can_be_made_for_scene(e->frame, &e->part, e->scene, e->grid)) continue;
+        for (int m = 0; m < run->scene->materials; m++)
+            if (scene_body_can_have_material(&run->scene->body[b], m))
+                strain = real_max(strain, reached / run->scene->material[m].young);
+        if (run->frame->choice[b].reference || scene_reason_auto_rejects_total_lagrangian_mpm(run->scene, b)) continue;
+        if (!lagrangian_mesh_can_be_made_for_scene(run->frame, &run->part, run->scene, run->grid)) continue;
         if (strain < LITTLE) snprintf(text, sizeof text, ", and waves strain it by at most %.2g", strain);
         warnings_add_if_new(to,
                             "body %s touches no other body%s%s: set mpm.frame: %s in place of current, which reduces "
                             "the computing time of its material points to a tenth to a thirtieth",
-                            e->scene->body[b].name, e->scene->rigids > 0 ? " except rigid ones" : "", text,
-                            e->scene->current_frame_key ? "reference" : "auto");
+                            run->scene->body[b].name, run->scene->rigids > 0 ? " except rigid ones" : "", text,
+                            run->scene->current_frame_key ? "reference" : "auto");
     }
 }
 
@@ -96,19 +97,19 @@ static bool has_notch(const struct scene *s)
     return notch;
 }
 
-/* Adds a hint to *to if the input file of run e uses a peridynamic method although no bond can break, so that the
+/* Adds a hint to *to if the input file of run uses a peridynamic method although no bond can break, so that the
  * method mpm suffices. Input files with rigid bodies are excepted, since material points do not support contact with
  * them. */
-static void hint_method(const struct run *e, struct warnings *to)
+static void hint_method(const struct run *run, struct warnings *to)
 {
-    const struct scene *s = e->scene;
+    const struct scene *s = run->scene;
     const char *method = s->method == METHOD_PD ? "pd" : "adaptive";
     real weakest = INFINITY;
     if (s->method == METHOD_MPM || !scene_is_dynamic(s) || has_notch(s)) return;
     if (s->bodies > 1 || s->rigids > 0) return;
     for (int m = 0; m < s->materials; m++)
         weakest = real_min(weakest, s->material[m].young * s->material[m].onset_stretch);
-    const real reached = stress_reached(e);
+    const real reached = stress_reached(run);
     if (isinf(weakest))
         warnings_add_if_new(to,
                             "no bond can break: there is no crack and no energy_release_rate, toughness or "
@@ -121,17 +122,17 @@ static void hint_method(const struct run *e, struct warnings *to)
                             reached, weakest, method);
 }
 
-/* Adds a hint to *to that names the planes about which the input file of run e is symmetric, so that a part of the body
+/* Adds a hint to *to that names the planes about which the input file of run is symmetric, so that a part of the body
  * can be computed instead. Adds none without such planes. */
-static void hint_symmetry(const struct run *e, struct warnings *to)
+static void hint_symmetry(const struct run *run, struct warnings *to)
 {
     static const char *const share[] = {"", "half", "a quarter", "an eighth"};
     char planes[160] = "";
     int n = 0;
-    for (int axis = 0; axis < e->part.dim && e->part.dim > 1; axis++) {
+    for (int axis = 0; axis < run->part.dim && run->part.dim > 1; axis++) {
         const size_t used = strlen(planes);
         real at;
-        if (!run_is_symmetric_about_mid_plane(e, axis, &at)) continue;
+        if (!run_is_symmetric_about_mid_plane(run, axis, &at)) continue;
         snprintf(planes + used, sizeof planes - used, "%s%c = %.6g m", n++ ? " and " : "", 'x' + axis, at);
     }
     if (n > 0)
@@ -139,16 +140,16 @@ static void hint_symmetry(const struct run *e, struct warnings *to)
             to,
             "the scene is symmetric about %s (all %lld particles, cracks and loads): %s of the body with a "
             "boundary `mirror` %s would take %s of the time",
-            planes, (long long)e->part.n, share[n], n > 1 ? "at each plane" : "there", share[n]);
+            planes, (long long)run->part.n, share[n], n > 1 ? "at each plane" : "there", share[n]);
 }
 
-void hint_needless_cost_and_unused_settings(const struct run *e, struct warnings *warning_list)
+void hint_needless_cost_and_unused_settings(const struct run *run, struct warnings *warning_list)
 {
-    hint_precrack_ends_exactly_on_bonds(e, warning_list);
-    hint_model(e->scene, warning_list);
-    hint_frame(e, warning_list);
-    hint_method(e, warning_list);
-    hint_symmetry(e, warning_list);
-    hint_implausible_load_signs_and_magnitudes(e, warning_list);
-    hint_keys_without_effect(e->scene, warning_list);
+    hint_precrack_ends_exactly_on_bonds(run, warning_list);
+    hint_model(run->scene, warning_list);
+    hint_frame(run, warning_list);
+    hint_method(run, warning_list);
+    hint_symmetry(run, warning_list);
+    hint_implausible_load_signs_and_magnitudes(run, warning_list);
+    hint_keys_without_effect(run->scene, warning_list);
 }

@@ -27,14 +27,14 @@ static int64_t layer_site(const struct layer_map *m, const struct particles *p, 
     return site;
 }
 
-/* Finds which lattice sites in the bounding box of body number `body` of run e are filled by particles of this body.
+/* Finds which lattice sites in the bounding box of body number `body` of run are filled by particles of this body.
  * Stores the result in m, with m->filled[sites] 1 or 0. Returns false, with nothing to release, for more than
  * CELLS_MOST sites. Otherwise the caller frees m->filled with memory_free. */
-static bool layer_map_make(struct layer_map *m, const struct run *e, int body)
+static bool layer_map_make(struct layer_map *m, const struct run *run, int body)
 {
-    const struct particles *p = &e->part;
+    const struct particles *p = &run->part;
     real high[DIM_MAX], sites = 1;
-    *m = (struct layer_map){.dim = p->dim, .spacing = e->scene->spacing};
+    *m = (struct layer_map){.dim = p->dim, .spacing = run->scene->spacing};
     for (int d = 0; d < p->dim; d++) {
         m->low[d] = INFINITY, high[d] = -INFINITY;
         for (int64_t i = 0; i < p->n; i++)
@@ -46,8 +46,8 @@ static bool layer_map_make(struct layer_map *m, const struct run *e, int body)
     int64_t all = 1;
     for (int d = 0; d < p->dim; d++) {
         m->n[d] = llround((high[d] - m->low[d]) / m->spacing) + 1, m->stride[d] = all, all *= m->n[d];
-        for (int k = 0; k < e->source.mirrors; k++) {
-            const struct mirror_plane *plane = &e->source.mirror[k];
+        for (int k = 0; k < run->source.mirrors; k++) {
+            const struct mirror_plane *plane = &run->source.mirror[k];
             if (plane->axis != d) continue;
             m->mirror[d][0] |= fabs(plane->at - m->low[d]) < 0.6 * m->spacing;
             m->mirror[d][1] |= fabs(plane->at - high[d]) < 0.6 * m->spacing;
@@ -93,16 +93,16 @@ static double site_layers(const struct layer_map *m, const int64_t *at)
     return least;
 }
 
-/* Returns the median number of particle layers across the thin parts of body number `body` of run e. A particle is in a
+/* Returns the median number of particle layers across the thin parts of body number `body` of run. A particle is in a
  * thin part if the body has fewer than `most` layers there, counted along the axis with the smallest count. Returns
  * INFINITY if less than the share SHARE_LEAST of the particles are in thin parts, or if the bounding box of the body
  * has more than CELLS_MOST lattice sites. */
-static double body_layers(const struct run *e, int body, double most)
+static double body_layers(const struct run *run, int body, double most)
 {
-    const struct particles *p = &e->part;
+    const struct particles *p = &run->part;
     int64_t count[RUNS_MOST + 1] = {0}, all = 0, thin = 0, seen = 0;
     struct layer_map m;
-    if (!layer_map_make(&m, e, body)) return INFINITY;
+    if (!layer_map_make(&m, run, body)) return INFINITY;
     for (int64_t i = 0; i < p->n; i++) {
         int64_t at[DIM_MAX] = {0};
         if (p->body[i] != body) continue;
@@ -118,18 +118,18 @@ static double body_layers(const struct run *e, int body, double most)
     return (double)thin < SHARE_LEAST * (double)all ? INFINITY : half;
 }
 
-double count_particle_layers_across_thin_parts(const struct run *e, int body_index, double max_layers)
+double count_particle_layers_across_thin_parts(const struct run *run, int body_index, double max_layers)
 {
-    const struct scene *s = e->scene;
+    const struct scene *s = run->scene;
     real least = INFINITY;
     bool known =
         s->body[body_index].joined == body_index && s->body[body_index].shape.n == 1 && !s->body[body_index].file;
     for (int b = 0; b < s->bodies; b++) known = known && (b == body_index || s->body[b].joined != body_index);
     if (s->body[body_index].joined != body_index) return INFINITY;
-    if (known) least = solid_smallest_edge(e, &s->body[body_index].shape.solid[0]) / s->spacing;
+    if (known) least = solid_smallest_edge(run, &s->body[body_index].shape.solid[0]) / s->spacing;
     if (isfinite(least)) return least < max_layers ? least : INFINITY;
     /* steps of curved faces take some of the counted layers: only half of max_layers counts as thin */
-    return body_layers(e, body_index, real_min(0.5 * max_layers, RUNS_MOST - 1));
+    return body_layers(run, body_index, real_min(0.5 * max_layers, RUNS_MOST - 1));
 }
 
 /* ---- nearly incompressible bodies -------------------------------------------------------------------------------- */
@@ -167,15 +167,15 @@ static real largest_poisson_ratio(const struct scene *s, int body_index, bool fa
     return poisson > (families ? SOFT_FAMILIES : 0) ? poisson : 0;
 }
 
-void print_advice_on_incompressible_bodies(const struct run *e, FILE *out)
+void print_advice_on_incompressible_bodies(const struct run *run, FILE *out)
 {
-    const struct scene *s = e->scene;
+    const struct scene *s = run->scene;
     const bool families = s->method == METHOD_PD;
     if ((families && s->model == MODEL_BOND) || (s->space != SPACE_PLANE_STRAIN && s->dim < 3)) return;
     for (int b = 0; b < s->bodies; b++) {
         const real poisson = largest_poisson_ratio(s, b, families);
         if (!(poisson > 0) || s->body[b].joined != b) continue;
-        const double layers = fmin(count_particle_layers_across_thin_parts(e, b, 2 * RUNS_MOST), RUNS_MOST);
+        const double layers = fmin(count_particle_layers_across_thin_parts(run, b, 2 * RUNS_MOST), RUNS_MOST);
         const double off = families ? soft_families(poisson, layers) : soft_cells(poisson, layers);
         if (!(off >= SOFT_MOST)) continue;
         fprintf(out,
@@ -207,12 +207,12 @@ static bool holds_layer_of_bonds(const struct scene *s, const struct load *l, co
     return bonds;
 }
 
-void print_advice_on_stiffening_by_prescribed_layers(const struct run *e, FILE *out)
+void print_advice_on_stiffening_by_prescribed_layers(const struct run *run, FILE *out)
 {
-    const struct scene *s = e->scene;
-    const struct particles *p = &e->part;
-    for (int k = 0; k < e->loads.n && !scene_is_dynamic(s); k++) {
-        const struct load *l = &e->loads.load[k];
+    const struct scene *s = run->scene;
+    const struct particles *p = &run->part;
+    for (int k = 0; k < run->loads.n && !scene_is_dynamic(s); k++) {
+        const struct load *l = &run->loads.load[k];
         if (!holds_layer_of_bonds(s, l, p)) continue;
         const int axis = l->boundary->face, body = p->body[l->particle[0]];
         real low = INFINITY, high = -INFINITY;

@@ -7,13 +7,14 @@
 #include "mesh/mesh_part.h"
 #include "mesh/levels.h"
 
-void print_coarse_cell_sizes_and_counts(const struct run *e)
+void print_coarse_cell_sizes_and_counts(const struct run *run)
 {
-    const struct mesh_levels *l = &e->frame->levels;
+    const struct mesh_levels *l = &run->frame->levels;
     char text[1024];
-    if (e->frame->mesh.points == 0 || scene_is_single_equilibrium(e->scene)) return;
-    const struct levels_choice c = mesh_levels_choose_level_count(e->frame, &e->part, e->scene, e->clock.dt_critical);
-    mesh_levels_describe_level_count(&c, e->scene, text, sizeof text);
+    if (run->frame->mesh.points == 0 || scene_is_single_equilibrium(run->scene)) return;
+    const struct levels_choice c =
+        mesh_levels_choose_level_count(run->frame, &run->part, run->scene, run->clock.dt_critical);
+    mesh_levels_describe_level_count(&c, run->scene, text, sizeof text);
     printf("levels         %s\n", text);
     for (int level = 0; level <= l->n && l->n > 0; level++)
         printf("%s%lld cells with edges of %d spacings%s", level == 0 ? "levels         " : ", ",
@@ -62,27 +63,27 @@ static double points_in_coarse_cells(const struct mesh_levels *l, int dim)
     return n;
 }
 
-void print_coarse_cells_saving(const struct run *e, const struct cost *c)
+void print_coarse_cells_saving(const struct run *run, const struct cost *c)
 {
-    const struct mesh_levels *l = &e->frame->levels;
+    const struct mesh_levels *l = &run->frame->levels;
     char all[32], made[32], few[32], memory[32], whole[32], now[32], then[32];
-    const bool millions = e->part.n_body >= 1000000;
+    const bool millions = run->part.n_body >= 1000000;
     double cells = 0;
     for (int level = 1; level <= l->n; level++) cells += (double)mesh_levels_count_cells_of_level(l, level);
     if (l->n == 0 || cells == 0) return;
-    if (c->particles_at_start < e->part.n_body)
+    if (c->particles_at_start < run->part.n_body)
         printf("levels         %s particles would fill the body; coarse cells reduce them to %s at the start",
-               many((double)e->part.n_body, millions, all), many((double)c->particles_at_start, millions, made));
+               many((double)run->part.n_body, millions, all), many((double)c->particles_at_start, millions, made));
     else
         printf("levels         %s of %s particles are in %s coarse cells",
-               many(points_in_coarse_cells(l, e->part.dim), millions, few), many((double)e->part.n_body, millions, all),
-               many(cells, false, made));
+               many(points_in_coarse_cells(l, run->part.dim), millions, few),
+               many((double)run->part.n_body, millions, all), many(cells, false, made));
     printf("; memory %s", much_memory(c->bytes, memory));
-    const double peridynamic = run_estimate_peak_memory_if_all_peridynamic(e->scene, &e->part, &e->source);
-    if (e->scene->method == METHOD_ADAPTIVE && peridynamic > c->bytes)
+    const double peridynamic = run_estimate_peak_memory_if_all_peridynamic(run->scene, &run->part, &run->source);
+    if (run->scene->method == METHOD_ADAPTIVE && peridynamic > c->bytes)
         printf(" instead of %s", much_memory(peridynamic, whole));
-    printf("; %s %s", c->basis == COST_FIRST && e->scene->method == METHOD_ADAPTIVE ? "at least" : "about",
+    printf("; %s %s", c->basis == COST_FIRST && run->scene->method == METHOD_ADAPTIVE ? "at least" : "about",
            long_time(c->run, now));
     if (c->all_peridynamic > 0) printf(" instead of %s", long_time(c->all_peridynamic, then));
-    printf(e->scene->method == METHOD_ADAPTIVE ? " if all of it were peridynamic\n" : "\n");
+    printf(run->scene->method == METHOD_ADAPTIVE ? " if all of it were peridynamic\n" : "\n");
 }

@@ -11,25 +11,26 @@
  * counted. */
 enum { LOOKED_AT = 1024, LAYERS_MOST = 16 };
 
-/* Returns true if a particle of body number `body` of run e is within PROBE spacings of the point X[dim] [m], so that X
+/* Returns true if a particle of body number `body` of run is within PROBE spacings of the point X[dim] [m], so that X
  * counts as inside the body. Also returns true if more than ROOM particles are that near to X. */
-static bool body_at(const struct run *e, int body, const real *X)
+static bool body_at(const struct run *run, int body, const real *X)
 {
     enum { ROOM = 64 };
     int32_t found[ROOM];
-    const int n = cells_list_particles_near_point(&e->cells, &e->part, X, PROBE * e->scene->spacing, -1, found, ROOM);
+    const int n =
+        cells_list_particles_near_point(&run->cells, &run->part, X, PROBE * run->scene->spacing, -1, found, ROOM);
     for (int k = 0; k < n && k < ROOM; k++)
-        if (found[k] < e->part.n && e->part.body[found[k]] == body) return true;
+        if (found[k] < run->part.n && run->part.body[found[k]] == body) return true;
     return n > ROOM;
 }
 
-/* Returns the thickness of the body at particle i of run e [particles]: the particles are counted along each axis
+/* Returns the thickness of the body at particle i of run [particles]: the particles are counted along each axis
  * through particle i, up to LAYERS_MOST, and the smallest count is returned. An axis along which the body ends at a
  * plane of symmetry counts as LAYERS_MOST. */
-static int layers_at(const struct run *e, int64_t i)
+static int layers_at(const struct run *run, int64_t i)
 {
-    const struct particles *p = &e->part;
-    const real spacing = e->scene->spacing;
+    const struct particles *p = &run->part;
+    const real spacing = run->scene->spacing;
     int least = LAYERS_MOST;
     for (int d = 0; d < p->dim; d++) {
         int layers = 1;
@@ -38,10 +39,10 @@ static int layers_at(const struct run *e, int64_t i)
             particle_reference_position(p, i, X);
             for (int k = 1; k < LAYERS_MOST && layers < LAYERS_MOST; k++, layers++) {
                 X[d] += side * spacing;
-                if (!body_at(e, p->body[i], X)) break;
+                if (!body_at(run, p->body[i], X)) break;
             }
-            for (int m = 0; m < e->source.mirrors; m++)
-                if (e->source.mirror[m].axis == d && fabs(X[d] - e->source.mirror[m].at) < spacing)
+            for (int m = 0; m < run->source.mirrors; m++)
+                if (run->source.mirror[m].axis == d && fabs(X[d] - run->source.mirror[m].at) < spacing)
                     layers = LAYERS_MOST;
         }
         least = layers < least ? layers : least;
@@ -49,18 +50,18 @@ static int layers_at(const struct run *e, int64_t i)
     return least;
 }
 
-/* Returns a measure of how thin body number `body` of run e is: the smallest number L such that at least the share
+/* Returns a measure of how thin body number `body` of run is: the smallest number L such that at least the share
  * THIN_SHARE of its particles have L or fewer layers of particles across the body; at most LAYERS_MOST. Tests a sample
  * of about LOOKED_AT particles. */
-static int thinnest(const struct run *e, int body)
+static int thinnest(const struct run *run, int body)
 {
-    const struct particles *p = &e->part;
+    const struct particles *p = &run->part;
     int64_t count[LAYERS_MOST + 1] = {0}, all = 0, own = 0;
     for (int64_t i = 0; i < p->n; i++) own += p->body[i] == body;
     const int64_t stride = own / LOOKED_AT + 1;
     for (int64_t i = 0, k = 0; i < p->n; i++) {
         if (p->body[i] != body || k++ % stride != 0) continue;
-        count[layers_at(e, i)]++, all++;
+        count[layers_at(run, i)]++, all++;
     }
     int64_t sum = 0;
     for (int layers = 0; layers < LAYERS_MOST; layers++) {
@@ -85,15 +86,15 @@ static void print_weight_advice(const struct scene *s, FILE *out)
     }
 }
 
-void print_advice_on_stiffness_of_particle_lists(const struct run *e, FILE *out)
+void print_advice_on_stiffness_of_particle_lists(const struct run *run, FILE *out)
 {
-    const struct scene *s = e->scene;
+    const struct scene *s = run->scene;
     if (s->method != METHOD_PD || s->dim == 1 || !(s->spacing > 0)) return;
     print_weight_advice(s, out);
     if (s->surface == SURFACE_MOMENTS) return;
     for (int b = 0; b < s->bodies; b++) {
         if (!s->body[b].file || s->body[b].joined != b) continue;
-        const int layers = thinnest(e, b);
+        const int layers = thinnest(run, b);
         if (layers >= LAYERS_MOST) continue;
         fprintf(out,
                 "accuracy       body %s: parts of it (from a particle list) are only %d layers of particles thick, so "

@@ -168,20 +168,20 @@ static void face_beside_shape(void *context, int32_t i, int axis, int side, real
     f->off += area * side * normal[axis] * off;
 }
 
-/* Prints the area on which the pressure load number `which` of run e acts, and how far this area is from the surface of
+/* Prints the area on which the pressure load number `which` of run acts, and how far this area is from the surface of
  * the body's shape. The pressure acts on faces of particles. Along a slanted or curved surface these form steps, whose
  * total area exceeds that of the surface, so each face is projected on the surface. Prints the sum of the projected
  * areas, and the mean distance of the faces from the surface: negative distances are below it. The radius of a bore
  * differs from that of its particles by this distance. Prints the area of the faces if the normals of the shape are not
  * known. */
-static void say_pressed(const struct run *e, int which)
+static void say_pressed(const struct run *run, int which)
 {
-    const struct load *l = &e->loads.load[which];
-    const real spacing = e->scene->spacing;
-    struct faced f = {.e = e};
-    uint8_t *selected = NEW("check.selected", e->part.n, uint8_t);
-    boundary_select_particles_in_region(l->boundary, &e->part, spacing, selected);
-    pressure_boundary_visit_free_faces(e->loads.load[0].boundary, e->loads.n, which, &e->part, spacing, selected,
+    const struct load *l = &run->loads.load[which];
+    const real spacing = run->scene->spacing;
+    struct faced f = {.e = run};
+    uint8_t *selected = NEW("check.selected", run->part.n, uint8_t);
+    boundary_select_particles_in_region(l->boundary, &run->part, spacing, selected);
+    pressure_boundary_visit_free_faces(run->loads.load[0].boundary, run->loads.n, which, &run->part, spacing, selected,
                                        face_beside_shape, &f);
     memory_free(selected);
     if (f.unknown || !(f.along > 0)) {
@@ -298,28 +298,28 @@ static void say_displacement(const struct scene *scene, const struct particles *
     if (isfinite(speed)) printf(", at most %.3g m/s", speed);
 }
 
-static void say_load(const struct run *e, int which)
+static void say_load(const struct run *run, int which)
 {
     static const char *const words[] = {[BOUNDARY_TRACTION] = "traction",
                                         [BOUNDARY_BODY_FORCE] = "body force",
                                         [BOUNDARY_ABSORBING] = "absorbing",
                                         [BOUNDARY_PRESSURE] = "pressure"};
-    const struct load *l = &e->loads.load[which];
+    const struct load *l = &run->loads.load[which];
     const struct boundary *b = l->boundary;
     const bool force = boundary_applies_force(b), faces = b->side != 0;
     printf("%-15s%s: ", force ? "load" : "support", b->name);
     if (b->kind == BOUNDARY_VELOCITY || b->kind == BOUNDARY_MIRROR)
-        say_support(&e->part, l);
+        say_support(&run->part, l);
     else
         printf("%s", b->by_mass ? "weight" : words[b->kind]);
     if (faces) printf(" on %c%c", "xyz"[b->face], b -> side > 0 ? '+' : '-');
     if (b->kind != BOUNDARY_MIRROR) printf(", %lld particle%s", (long long)l->n, l->n == 1 ? "" : "s");
     if (faces && b->kind != BOUNDARY_VELOCITY && (b->formula[b->face].n == 0 || l->moving)) /* shares are areas */
-        say_traction_area(e->scene, l);
-    if (b->kind == BOUNDARY_PRESSURE) say_pressed(e, which);
-    if (force) say_force(&e->part, e->scene, l);
-    if (b->displaces) say_displacement(e->scene, &e->part, l);
-    if (faces) print_oblique_fraction_of_loaded_face(e, b);
+        say_traction_area(run->scene, l);
+    if (b->kind == BOUNDARY_PRESSURE) say_pressed(run, which);
+    if (force) say_force(&run->part, run->scene, l);
+    if (b->displaces) say_displacement(run->scene, &run->part, l);
+    if (faces) print_oblique_fraction_of_loaded_face(run, b);
     putchar('\n');
 }
 
@@ -378,68 +378,68 @@ static real net_force(const struct loads *loads, const struct particles *p, cons
     return all;
 }
 
-/* Computes in *a the motion of the body of run e by the net force of its loads, along the axes along which no support
+/* Computes in *a the motion of the body of run by the net force of its loads, along the axes along which no support
  * holds it, by integration with the midpoint rule. Returns false if the loads balance along these axes, or if the input
  * file is static or has several bodies (is_single_body). */
-static bool drift_by_loads(const struct run *e, struct drift *a)
+static bool drift_by_loads(const struct run *run, struct drift *a)
 {
     real force[DIM_MAX], v[DIM_MAX] = {0}, u[DIM_MAX] = {0}, mass = 0, all = 0, low, high;
-    const real dt = e->scene->duration / INSTANTS;
+    const real dt = run->scene->duration / INSTANTS;
     bool is_free[DIM_MAX] = {false};
     *a = (struct drift){.axis = 0};
-    if (!is_single_body(e->scene, &e->part)) return false;
-    for (int d = 0; d < e->part.dim; d++) is_free[d] = !is_held_along(&e->loads, d);
-    for (int64_t i = 0; i < e->part.n; i++) mass += e->part.mass[i];
+    if (!is_single_body(run->scene, &run->part)) return false;
+    for (int d = 0; d < run->part.dim; d++) is_free[d] = !is_held_along(&run->loads, d);
+    for (int64_t i = 0; i < run->part.n; i++) mass += run->part.mass[i];
     for (int k = 0; k < INSTANTS; k++) {
-        all = real_max(all, net_force(&e->loads, &e->part, is_free, (k + 0.5) * dt, force));
+        all = real_max(all, net_force(&run->loads, &run->part, is_free, (k + 0.5) * dt, force));
         if (dot(force, force, DIM_MAX) > dot(a->force, a->force, DIM_MAX)) memcpy(a->force, force, sizeof force);
         for (int d = 0; d < DIM_MAX; d++)
             u[d] += dt * (v[d] + 0.5 * dt * force[d] / mass), v[d] += dt * force[d] / mass;
     }
     a->net = sqrt(dot(a->force, a->force, DIM_MAX)), a->acceleration = a->net / mass;
     a->speed = sqrt(dot(v, v, DIM_MAX)), a->displacement = sqrt(dot(u, u, DIM_MAX));
-    for (int d = 1; d < e->part.dim; d++)
+    for (int d = 1; d < run->part.dim; d++)
         if (fabs(a->force[d]) > fabs(a->force[a->axis])) a->axis = d;
-    particles_coordinate_range(&e->part, e->part.n, a->axis, &low, &high);
+    particles_coordinate_range(&run->part, run->part.n, a->axis, &low, &high);
     a->lasts = sqrt(dot(force, force, DIM_MAX)) > LASTING * a->net &&
-               e->tables.wave_speed * e->scene->duration > CROSSED * (high - low + e->scene->spacing);
+               run->tables.wave_speed * run->scene->duration > CROSSED * (high - low + run->scene->spacing);
     return a->net > UNBALANCED * all && isfinite(a->net);
 }
 
-/* Writes to `out` the largest net force on the body of run e along axis a->axis, along which no support holds the body,
+/* Writes to `out` the largest net force on the body of run along axis a->axis, along which no support holds the body,
  * and the motion of the body by this force. a: force and motion. */
-static void write_drift(const struct run *e, const struct drift *a, FILE *out)
+static void write_drift(const struct run *run, const struct drift *a, FILE *out)
 {
     fprintf(out,
             "the loads do not balance, and nothing holds the body along %c: net force up to %s%s%s N, acceleration "
             "%.3g m/s^2; at the end its mean velocity has changed by %.3g m/s and it has drifted %.3g m",
-            "xyz"[a->axis], e -> part.dim > 1 ? "(" : "", position_text(a->force, e->part.dim, 4).text,
-            e->part.dim > 1 ? ")" : "", a->acceleration, a->speed, a->displacement);
+            "xyz"[a->axis], run -> part.dim > 1 ? "(" : "", position_text(a->force, run->part.dim, 4).text,
+            run->part.dim > 1 ? ")" : "", a->acceleration, a->speed, a->displacement);
 }
 
-void print_advice_on_unbalanced_loads(const struct run *e, FILE *out)
+void print_advice_on_unbalanced_loads(const struct run *run, FILE *out)
 {
     struct drift a;
-    if (!drift_by_loads(e, &a) || !a.lasts) return;
+    if (!drift_by_loads(run, &a) || !a.lasts) return;
     fprintf(out, "accuracy       ");
-    write_drift(e, &a, out);
+    write_drift(run, &a, out);
     fprintf(out, ": hold a face along %c, or balance the loads\n", "xyz"[a.axis]);
 }
 
-/* Prints the net force of the loads of run e if they do not balance along an axis along which no support holds the
+/* Prints the net force of the loads of run if they do not balance along an axis along which no support holds the
  * body, unless print_advice_on_unbalanced_loads writes about it. */
-static void say_balance_of_loads(const struct run *e)
+static void say_balance_of_loads(const struct run *run)
 {
     struct drift a;
-    if (!drift_by_loads(e, &a) || a.lasts) return;
+    if (!drift_by_loads(run, &a) || a.lasts) return;
     printf("balance        ");
-    write_drift(e, &a, stdout);
+    write_drift(run, &a, stdout);
     putchar('\n');
 }
 
-void print_loads_and_supports(const struct run *e)
+void print_loads_and_supports(const struct run *run)
 {
-    for (int b = 0; b < e->loads.n && b < SAID; b++) say_load(e, b);
-    if (e->loads.n > SAID) printf("load           and %d more loads and supports\n", e->loads.n - SAID);
-    say_balance_of_loads(e);
+    for (int b = 0; b < run->loads.n && b < SAID; b++) say_load(run, b);
+    if (run->loads.n > SAID) printf("load           and %d more loads and supports\n", run->loads.n - SAID);
+    say_balance_of_loads(run);
 }

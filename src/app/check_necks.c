@@ -117,14 +117,14 @@ static int64_t run_beside(const struct necks *k, int64_t cell, int across, int w
  * number `cell` in the direction `way` (-1 or 1). */
 static bool at_mirror(const struct necks *k, int64_t cell, int across, int way)
 {
-    const struct run *e = k->engine;
+    const struct run *run = k->engine;
     int64_t at[DIM_MAX];
     bool found = false;
     piece_cell_coverage_compute_cell_indices(k->cover, cell, at);
     const real X = k->cover->first[across] + (real)at[across] * k->cover->spacing;
-    for (int m = 0; m < e->source.mirrors; m++)
-        found |= e->source.mirror[m].axis == across && e->source.mirror[m].outside == way &&
-                 fabs(e->source.mirror[m].at - X) < 0.6 * k->cover->spacing;
+    for (int m = 0; m < run->source.mirrors; m++)
+        found |= run->source.mirror[m].axis == across && run->source.mirror[m].outside == way &&
+                 fabs(run->source.mirror[m].at - X) < 0.6 * k->cover->spacing;
     return found;
 }
 
@@ -399,10 +399,10 @@ static void neck_follow(struct width_misfit_list *list, struct necks *k, int64_t
     memory_free(p);
 }
 
-void width_misfit_list_add_necks_of_piece(struct width_misfit_list *list, const struct run *e, const struct cover *c,
+void width_misfit_list_add_necks_of_piece(struct width_misfit_list *list, const struct run *run, const struct cover *c,
                                           uint8_t *listed_axes)
 {
-    struct necks k = {.cover = c, .engine = e, .piece = &list->piece};
+    struct necks k = {.cover = c, .engine = run, .piece = &list->piece};
     k.stride[0] = 1, k.stride[1] = c->n[0], k.stride[2] = c->n[0] * c->n[1];
     k.rows = NEW("check.rows", c->cells, uint8_t);
     k.seen = NEW("check.seen", c->cells, uint8_t);

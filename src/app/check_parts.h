@@ -70,86 +70,86 @@ void print_tensile_strength_of_brittle_bonds(const struct scene *s, const struct
 
 /* ---- check_precracks.c ------------------------------------------------------------------------------------------- */
 
-/* Prints the length of the smallest pre-crack of run e and its ratio to the horizon. Prints nothing unless the body is
+/* Prints the length of the smallest pre-crack of run and its ratio to the horizon. Prints nothing unless the body is
  * plane and its bonds soften. */
-void print_smallest_precrack_length(const struct run *e);
+void print_smallest_precrack_length(const struct run *run);
 
 /* Writes a remark to `out` for each 2D crack of scene s (the input file) whose two tips are less than FEATURE (4)
  * horizons apart, so that they affect each other. A crack that begins at a face or a plane of symmetry has one tip. It
  * counts as half of a crack of twice its length. fracture: holds the crack tips. */
 void print_advice_on_close_crack_tips(const struct scene *s, const struct fracture_state *fracture, FILE *out);
 
-/* Adds a hint to *warning_list for each 2D pre-crack of run e that ends exactly on bonds, so that rounding decides
+/* Adds a hint to *warning_list for each 2D pre-crack of run that ends exactly on bonds, so that rounding decides
  * whether it cuts them. */
-void hint_precrack_ends_exactly_on_bonds(const struct run *e, struct warnings *warning_list);
+void hint_precrack_ends_exactly_on_bonds(const struct run *run, struct warnings *warning_list);
 
 /* ---- check_steps.c ----------------------------------------------------------------------------------------------- */
 
 /* Prints to standard output the number, control and tolerance of the load steps (successive static equilibria) of run
  * e, and the rule by which cracks grow if bonds can break. */
-void print_load_step_settings(const struct run *e);
+void print_load_step_settings(const struct run *run);
 
-/* Writes a line to `out` for each setting of loads, supports or lengths of cracks of run e that reduces the accuracy of
+/* Writes a line to `out` for each setting of loads, supports or lengths of cracks of run that reduces the accuracy of
  * load steps (successive static equilibria). */
-void print_load_step_accuracy_advice(const struct run *e, FILE *out);
+void print_load_step_accuracy_advice(const struct run *run, FILE *out);
 
 /* Estimates the cost of a run with load steps (successive static equilibria) from the time of its first equilibrium,
  * into *c. The run cannot be continued afterwards. Returns FAILED if no equilibrium is found. */
 status load_steps_estimate_run_cost(struct cost *c, struct run *run);
 
 /* Prints the estimated run time of load steps (successive static equilibria) with `threads` threads, and a line if no
- * bond will break. cost: the estimate for run e. */
-void print_load_steps_cost(const struct run *e, const struct cost *cost, int threads);
+ * bond will break. cost: the estimate for run. */
+void print_load_steps_cost(const struct run *run, const struct cost *cost, int threads);
 
 /* ---- check_shapes.c ---------------------------------------------------------------------------------------------- */
 
-/* Prints for each file from which the input file of run e reads a solid whether its surface is closed, and the volume
+/* Prints for each file from which the input file of run reads a solid whether its surface is closed, and the volume
  * that the surface encloses. */
-void print_shape_file_volumes(const struct run *e);
+void print_shape_file_volumes(const struct run *run);
 
-/* Prints a line for each body of run e that consists of several pieces without bonds between them (check_pieces.c). */
-void print_bodies_in_several_unbonded_pieces(const struct run *e);
+/* Prints a line for each body of run that consists of several pieces without bonds between them (check_pieces.c). */
+void print_bodies_in_several_unbonded_pieces(const struct run *run);
 
 /* ---- check_layers.c ---------------------------------------------------------------------------------------------- */
 
 /* Returns the smallest edge, diameter or wall thickness [m] of the solid `solid`. An edge that ends at a plane of
- * symmetry of run e counts with its mirror image. Returns INFINITY if the solid has none of these. */
-real solid_smallest_edge(const struct run *e, const struct solid *solid);
+ * symmetry of run counts with its mirror image. Returns INFINITY if the solid has none of these. */
+real solid_smallest_edge(const struct run *run, const struct solid *solid);
 
-/* Returns the number of particle layers across the thin parts of body number `body_index` of run e, together with the
+/* Returns the number of particle layers across the thin parts of body number `body_index` of run, together with the
  * bodies that interfaces join to it; INFINITY if it is not thin. A body of a single solid is thin if its smallest edge
  * is less than `max_layers` spacings; this number of spacings is returned. Any other body is thin if across at least
  * half of its particles it has fewer layers than max_layers / 2; the median number of layers there is returned. Returns
  * INFINITY for a body that is joined to a body of lower index. */
-double count_particle_layers_across_thin_parts(const struct run *e, int body_index, double max_layers);
+double count_particle_layers_across_thin_parts(const struct run *run, int body_index, double max_layers);
 
-/* Writes a line to `out` for each body of run e of nearly incompressible material whose particles near faces are too
+/* Writes a line to `out` for each body of run of nearly incompressible material whose particles near faces are too
  * stiff, or whose mesh cells are too soft, in bending. */
-void print_advice_on_incompressible_bodies(const struct run *e, FILE *out);
+void print_advice_on_incompressible_bodies(const struct run *run, FILE *out);
 
-/* Writes a line to `out` for each support of run e that prescribes the motion of a layer of particles behind a face, a
+/* Writes a line to `out` for each support of run that prescribes the motion of a layer of particles behind a face, a
  * horizon deep by default, if this layer stiffens a body of bonds in equilibrium by more than a few percent. */
-void print_advice_on_stiffening_by_prescribed_layers(const struct run *e, FILE *out);
+void print_advice_on_stiffening_by_prescribed_layers(const struct run *run, FILE *out);
 
 /* ---- check_levels.c ---------------------------------------------------------------------------------------------- */
 
-/* Prints size and number of the coarse mesh cells of the run e (larger cells, in which no particles are made), and why
+/* Prints size and number of the coarse mesh cells of the run (larger cells, in which no particles are made), and why
  * they are used or not. */
-void print_coarse_cell_sizes_and_counts(const struct run *e);
+void print_coarse_cell_sizes_and_counts(const struct run *run);
 
 /* Prints the memory and time that coarse cells of the mesh (larger cells, in which no particles are made) save in run
  * e. cost: measured cost of the run. */
-void print_coarse_cells_saving(const struct run *e, const struct cost *cost);
+void print_coarse_cells_saving(const struct run *run, const struct cost *cost);
 
 /* ---- check_sections.c -------------------------------------------------------------------------------------------- */
 
-/* Writes a line to `out` for each narrow part of a body of run e whose width is no whole number of spacings, so that
+/* Writes a line to `out` for each narrow part of a body of run whose width is no whole number of spacings, so that
  * the particles make it too wide or too narrow. The line states the nearest spacings that divide the width. */
-void print_advice_on_widths_of_narrow_parts(const struct run *e, FILE *out);
+void print_advice_on_widths_of_narrow_parts(const struct run *run, FILE *out);
 
-/* Writes a line to `out` for each body of run e of material points on the background grid that starts apart from a
+/* Writes a line to `out` for each body of run of material points on the background grid that starts apart from a
  * plane of symmetry, with the distance [m] from the plane at which the grid stops the body (check_walls.c). */
-void print_advice_on_gaps_to_mirror_planes(const struct run *e, FILE *out);
+void print_advice_on_gaps_to_mirror_planes(const struct run *run, FILE *out);
 
 /* Text of a length with its unit, for messages; a struct, so that functions can return it by value. */
 struct length_text {
@@ -162,22 +162,22 @@ struct length_text length_text_with_unit(real length, int digits, real spacing);
 
 /* ---- check_loads.c ----------------------------------------------------------------------------------------------- */
 
-/* Prints a line for each load and support of run e: its number of particles, area, force and moment. */
-void print_loads_and_supports(const struct run *e);
+/* Prints a line for each load and support of run run: its number of particles, area, force and moment. */
+void print_loads_and_supports(const struct run *run);
 
-/* Writes a line to `out` if the loads on a single body of run e do not balance along an axis along which no support
+/* Writes a line to `out` if the loads on a single body of run do not balance along an axis along which no support
  * holds it, and act until the end of the run. The line states the velocity and the displacement that the body gains by
  * them, and a remedy. */
-void print_advice_on_unbalanced_loads(const struct run *e, FILE *out);
+void print_advice_on_unbalanced_loads(const struct run *run, FILE *out);
 
-/* Prints for the loaded or supported face of boundary b of run e: the fraction of its area that is not perpendicular to
- * the axis of the boundary, the mean angle between normal and axis there, and a region that excludes this part of the
- * face. If the face lies in several planes and the boundary has no region, prints instead where it lies. */
-void print_oblique_fraction_of_loaded_face(const struct run *e, const struct boundary *b);
+/* Prints for the loaded or supported face of boundary b of run run: the fraction of its area that is not perpendicular
+ * to the axis of the boundary, the mean angle between normal and axis there, and a region that excludes this part of
+ * the face. If the face lies in several planes and the boundary has no region, prints instead where it lies. */
+void print_oblique_fraction_of_loaded_face(const struct run *run, const struct boundary *b);
 
-/* Prints the volume of the particles and the volume of the shape for those bodies of run e that are not boxes
+/* Prints the volume of the particles and the volume of the shape for those bodies of run that are not boxes
  * (check_filled.c). */
-void print_volume_filled_by_particles(const struct run *e);
+void print_volume_filled_by_particles(const struct run *run);
 
 /* ---- check_idle.c ------------------------------------------------------------------------------------------------ */
 
@@ -188,15 +188,15 @@ void hint_keys_without_effect(const struct scene *s, struct warnings *warning_li
 
 /* ---- check_signs.c ----------------------------------------------------------------------------------------------- */
 
-/* Adds a line to *warning_list for each load of run e whose sign is probably not intended, and for each setting whose
+/* Adds a line to *warning_list for each load of run whose sign is probably not intended, and for each setting whose
  * size is probably not intended. */
-void hint_implausible_load_signs_and_magnitudes(const struct run *e, struct warnings *warning_list);
+void hint_implausible_load_signs_and_magnitudes(const struct run *run, struct warnings *warning_list);
 
 /* ---- check_advice.c ---------------------------------------------------------------------------------------------- */
 
-/* Writes to `out` a line for each property of the input file that limits the accuracy of the run e, with the size of
+/* Writes to `out` a line for each property of the input file that limits the accuracy of the run, with the size of
  * the error and a remedy. The run must not have taken a step. */
-void print_accuracy_advice(const struct run *e, FILE *out);
+void print_accuracy_advice(const struct run *run, FILE *out);
 
 /* Writes to `out` by how much the stiffness of a part of scene s (the input file) with a thickness of `layer_count`
  * particle layers differs at most from that of the material, for example "about 2 % in bending and tension"; in 3D also
@@ -204,21 +204,21 @@ void print_accuracy_advice(const struct run *e, FILE *out);
 void print_stiffness_error_of_thin_part(const struct scene *s, enum surface_rule surface, double layer_count,
                                         FILE *out);
 
-/* Writes lines about inexact stiffness to `out` for those bodies of the peridynamic run e whose particles are read from
+/* Writes lines about inexact stiffness to `out` for those bodies of the peridynamic run whose particles are read from
  * a list: bodies whose list is no lattice along the axes although `pd.weights: isotropic` assumes one, and, without
  * `pd.surface: moments`, bodies with parts of less than 16 layers of particles. Writes nothing for other methods and in
  * 1D. */
-void print_advice_on_stiffness_of_particle_lists(const struct run *e, FILE *out);
+void print_advice_on_stiffness_of_particle_lists(const struct run *run, FILE *out);
 
-/* Returns true if the set-up of run e (bodies, loads, cracks) equals its mirror image in the plane normal to axis
+/* Returns true if the set-up of run (bodies, loads, cracks) equals its mirror image in the plane normal to axis
  * `normal_axis` through the middle of its particles. *plane_position receives the position of this plane along the axis
  * [m] (check_symmetry.c). */
-bool run_is_symmetric_about_mid_plane(const struct run *e, int normal_axis, real *plane_position);
+bool run_is_symmetric_about_mid_plane(const struct run *run, int normal_axis, real *plane_position);
 
 /* ---- check_hints.c ----------------------------------------------------------------------------------------------- */
 
-/* Adds a line to *warning_list for each setting of the input file of run e that costs more than necessary or has no
+/* Adds a line to *warning_list for each setting of the input file of run that costs more than necessary or has no
  * effect, and for each end of a crack that is exactly on bonds. The run must not have taken a step. */
-void hint_needless_cost_and_unused_settings(const struct run *e, struct warnings *warning_list);
+void hint_needless_cost_and_unused_settings(const struct run *run, struct warnings *warning_list);
 
 #endif

@@ -41,14 +41,14 @@ static void say_body(const struct scene *s, const struct fragments *f, const boo
            pass ? "; parts that touch pass through each other; set contact.between: all to prevent this" : "");
 }
 
-void print_bodies_in_several_unbonded_pieces(const struct run *e)
+void print_bodies_in_several_unbonded_pieces(const struct run *run)
 {
     struct fragments f;
-    if (e->scene->method != METHOD_PD) return;
-    fragments_find_by_intact_bonds(&f, &e->bonds, &e->part);
+    if (run->scene->method != METHOD_PD) return;
+    fragments_find_by_intact_bonds(&f, &run->bonds, &run->part);
     bool *driven = NEW("check.driven", f.n, bool);
-    mark_driven(&e->source, &e->part, &f, driven);
-    for (int b = 0; b < e->scene->bodies; b++) say_body(e->scene, &f, driven, b);
+    mark_driven(&run->source, &run->part, &f, driven);
+    for (int b = 0; b < run->scene->bodies; b++) say_body(run->scene, &f, driven, b);
     memory_free(driven);
     fragments_free(&f);
 }

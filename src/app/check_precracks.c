@@ -62,13 +62,13 @@ static int body_of(const struct scene *scene, const struct particles *part, int3
     return scene->body[part->body[i]].joined;
 }
 
-/* Returns the number of bonds of run e whose cut depends on the exact length of crack c at its corner `end` (0 or 1).
+/* Returns the number of bonds of run whose cut depends on the exact length of crack c at its corner `end` (0 or 1).
  * Crack c cuts these bonds if it is longer by 1e-7 of its length, but not if it is shorter by as much. Bonds are pairs
  * of particles of one body within the horizon. found[capacity]: work array for the indices of particles near the
  * end. */
-static int64_t tied_bonds(const struct run *e, const struct crack *c, int end, int32_t *found, int capacity)
+static int64_t tied_bonds(const struct run *run, const struct crack *c, int end, int32_t *found, int capacity)
 {
-    const struct particles *p = &e->part;
+    const struct particles *p = &run->part;
     real corner[2][2][DIM_MAX], hair[DIM_MAX];
     struct crack longer = {.n = 2, .corner = corner[0]}, shorter = {.n = 2, .corner = corner[1]};
     memcpy(corner[0], c->corner, sizeof corner[0]);
@@ -77,28 +77,28 @@ static int64_t tied_bonds(const struct run *e, const struct crack *c, int end, i
     for (int d = 0; d < p->dim; d++) corner[0][end][d] += hair[d], corner[1][end][d] -= hair[d];
     int64_t tied = 0;
     const int n =
-        cells_list_particles_near_point(&e->cells, p, c->corner[end], e->source.family.cutoff, -1, found, capacity);
+        cells_list_particles_near_point(&run->cells, p, c->corner[end], run->source.family.cutoff, -1, found, capacity);
     for (int k = 0; k < n; k++)
         for (int m = 0; m < k; m++) {
             real a[DIM_MAX], b[DIM_MAX], r2 = 0;
             particle_reference_position(p, found[k], a);
             particle_reference_position(p, found[m], b);
             for (int d = 0; d < p->dim; d++) r2 += square(a[d] - b[d]);
-            if (body_of(e->scene, &e->part, found[k]) != body_of(e->scene, &e->part, found[m])) continue;
-            if (r2 > square(e->source.family.cutoff)) continue;
+            if (body_of(run->scene, &run->part, found[k]) != body_of(run->scene, &run->part, found[m])) continue;
+            if (r2 > square(run->source.family.cutoff)) continue;
             tied += crack_cuts_bond(&longer, a, b, p->dim) != crack_cuts_bond(&shorter, a, b, p->dim);
         }
     return tied;
 }
 
-void hint_precrack_ends_exactly_on_bonds(const struct run *e, struct warnings *warning_list)
+void hint_precrack_ends_exactly_on_bonds(const struct run *run, struct warnings *warning_list)
 {
     enum { ROOM = 1024 };
     int32_t found[ROOM];
-    for (int k = 0; k < e->scene->cracks && e->part.dim == 2 && e->scene->method != METHOD_MPM; k++) {
+    for (int k = 0; k < run->scene->cracks && run->part.dim == 2 && run->scene->method != METHOD_MPM; k++) {
         int64_t tied[2];
-        if (cells_neighbour_count_upper_bound(&e->cells, e->source.family.cutoff) > ROOM) return;
-        for (int end = 0; end < 2; end++) tied[end] = tied_bonds(e, &e->scene->crack[k], end, found, ROOM);
+        if (cells_neighbour_count_upper_bound(&run->cells, run->source.family.cutoff) > ROOM) return;
+        for (int end = 0; end < 2; end++) tied[end] = tied_bonds(run, &run->scene->crack[k], end, found, ROOM);
         const bool both = tied[0] > 0 && tied[1] > 0;
         if (tied[0] > 0 || tied[1] > 0)
             warnings_add_if_new(warning_list,
@@ -110,11 +110,11 @@ void hint_precrack_ends_exactly_on_bonds(const struct run *e, struct warnings *w
     }
 }
 
-void print_smallest_precrack_length(const struct run *e)
+void print_smallest_precrack_length(const struct run *run)
 {
-    const struct scene *s = e->scene;
+    const struct scene *s = run->scene;
     real least = INFINITY;
-    for (int k = 0; k < s->cracks && e->bonds.soft.curve && s->dim == 2; k++) {
+    for (int k = 0; k < s->cracks && run->bonds.soft.curve && s->dim == 2; k++) {
         real length = 0;
         for (int c = 0; c + 1 < s->crack[k].n; c++) {
             const real *from = s->crack[k].corner[c], *to = s->crack[k].corner[c + 1];
@@ -124,8 +124,8 @@ void print_smallest_precrack_length(const struct run *e)
     }
     if (!isfinite(least)) return;
     printf("pre-cracks     the shortest is %.3g m long, which is %.2g horizons%s\n", least,
-           least / e->source.family.horizon,
-           least < HORIZONS_LEAST * e->source.family.horizon
+           least / run->source.family.horizon,
+           least < HORIZONS_LEAST * run->source.family.horizon
                ? "; below 3 horizons its critical load depends on the horizon"
                : "");
 }

@@ -254,28 +254,28 @@ static void piece_sections(struct width_misfit_list *list, const struct cover *c
 /* Appends to `list` the narrow parts of list->piece that have a wrong number of particle rows. The piece is a body of
  * run e, or all its parts of one material. Appends nothing if the bounding box of the body has too many cells
  * (piece_cell_coverage_make). */
-static void piece_judge(struct width_misfit_list *list, const struct run *e)
+static void piece_judge(struct width_misfit_list *list, const struct run *run)
 {
     struct cover c;
-    if (e->scene->dim == 1) width_misfit_list_add_parts_of_1d_body(list);
-    if (e->scene->dim == 1 || !piece_cell_coverage_make(&c, &list->piece)) return;
+    if (run->scene->dim == 1) width_misfit_list_add_parts_of_1d_body(list);
+    if (run->scene->dim == 1 || !piece_cell_coverage_make(&c, &list->piece)) return;
     uint8_t *named = NEW("check.named", c.cells, uint8_t);
     piece_sections(list, &c, named);
-    width_misfit_list_add_necks_of_piece(list, e, &c, named);
+    width_misfit_list_add_necks_of_piece(list, run, &c, named);
     memory_free(named);
     piece_cell_coverage_free(&c);
 }
 
-void print_advice_on_widths_of_narrow_parts(const struct run *e, FILE *out)
+void print_advice_on_widths_of_narrow_parts(const struct run *run, FILE *out)
 {
-    const struct scene *s = e->scene;
+    const struct scene *s = run->scene;
     for (int b = 0; b < s->bodies; b++) {
         struct width_misfit_list list = {.piece = {.scene = s, .body = b, .material = ANY_MATERIAL}};
         if (s->body[b].file) continue;
-        piece_judge(&list, e);
+        piece_judge(&list, run);
         for (int m = 0; m < s->materials && s->body[b].parts > 0; m++) {
             list.piece.material = m;
-            if (scene_body_can_have_material(&s->body[b], m)) piece_judge(&list, e);
+            if (scene_body_can_have_material(&s->body[b], m)) piece_judge(&list, run);
         }
         print_parts_whose_width_misfits_spacing(&list, out);
     }

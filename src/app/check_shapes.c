@@ -65,11 +65,11 @@ static void say_image(const struct scene *scene, const struct shape_file *f)
     putchar('\n');
 }
 
-void print_shape_file_volumes(const struct run *e)
+void print_shape_file_volumes(const struct run *run)
 {
-    for (const struct shape_file *f = e->scene->shapes; f; f = f->next) {
+    for (const struct shape_file *f = run->scene->shapes; f; f = f->next) {
         if (f->kind == SHAPE_IMAGE)
-            say_image(e->scene, f);
+            say_image(run->scene, f);
         else
             say_hull(f);
     }

@@ -39,12 +39,12 @@ static void hint_pushed(const struct scene *s, struct warnings *to)
 }
 
 /* Adds a hint to *to for each value of friction, gravity, damping (in dynamic problems) and width of a crack in the
- * input file of run e that exceeds a limit such as FRICTION_MOST, above which no real solid is known. */
-static void hint_sizes(const struct run *e, struct warnings *to)
+ * input file of run that exceeds a limit such as FRICTION_MOST, above which no real solid is known. */
+static void hint_sizes(const struct run *run, struct warnings *to)
 {
-    const struct scene *s = e->scene;
+    const struct scene *s = run->scene;
     const real gravity = sqrt(dot(s->gravity, s->gravity, s->dim)) / EARTH;
-    const real longest = particles_bounding_box_longest_edge(&e->part) + s->spacing;
+    const real longest = particles_bounding_box_longest_edge(&run->part) + s->spacing;
     if (s->contact_friction > FRICTION_MOST)
         warnings_add_if_new(
             to, "contact.friction: %.3g is above %.2g; dry solids have 0.1 to 1.5; check its value (0.3 is 30 %%)",
@@ -52,11 +52,11 @@ static void hint_sizes(const struct run *e, struct warnings *to)
     if (gravity > GRAVITY_MOST)
         warnings_add_if_new(to, "gravity: %.3g m/s^2 is %.3g times that of the Earth; check its unit (m/s^2)",
                             gravity * EARTH, gravity);
-    if (s->damping * e->clock.dt > DAMPING_MOST && scene_is_dynamic(s))
+    if (s->damping * run->clock.dt > DAMPING_MOST && scene_is_dynamic(s))
         warnings_add_if_new(to,
                             "damping: at %.3g 1/s motion dies out within %.3g time steps, so nothing moves; give a "
                             "smaller value, about 1/T for vibrations of period T",
-                            s->damping, 1 / (s->damping * e->clock.dt));
+                            s->damping, 1 / (s->damping * run->clock.dt));
     for (int k = 0; k < s->cracks_given; k++)
         if (s->crack[k].width > longest)
             warnings_add_if_new(to,
@@ -65,22 +65,22 @@ static void hint_sizes(const struct run *e, struct warnings *to)
                                 k + 1, s->crack[k].width, longest);
 }
 
-/* Adds a hint to *to if the frames of run e (outputs of all particles at one time) together take more than FRAMES_MANY
+/* Adds a hint to *to if the frames of run (outputs of all particles at one time) together take more than FRAMES_MANY
  * (10 GB) on the disk. */
-static void hint_frames(const struct run *e, struct warnings *to)
+static void hint_frames(const struct run *run, struct warnings *to)
 {
-    const double steps = (double)e->clock.steps, frames = e->scene->frames < steps ? e->scene->frames : steps;
-    const double bytes = FRAME_BYTES * frames * (double)e->part.n;
+    const double steps = (double)run->clock.steps, frames = run->scene->frames < steps ? run->scene->frames : steps;
+    const double bytes = FRAME_BYTES * frames * (double)run->part.n;
     if (bytes > FRAMES_MANY)
         warnings_add_if_new(to,
                             "output.frames: %.0f frames of %lld particles take about %.2g GB of disk; write fewer, or "
                             "frames of a region (output.regions)",
-                            frames, (long long)e->part.n, 1e-9 * bytes);
+                            frames, (long long)run->part.n, 1e-9 * bytes);
 }
 
-void hint_implausible_load_signs_and_magnitudes(const struct run *e, struct warnings *warning_list)
+void hint_implausible_load_signs_and_magnitudes(const struct run *run, struct warnings *warning_list)
 {
-    hint_pushed(e->scene, warning_list);
-    hint_sizes(e, warning_list);
-    hint_frames(e, warning_list);
+    hint_pushed(run->scene, warning_list);
+    hint_sizes(run, warning_list);
+    hint_frames(run, warning_list);
 }

@@ -34,9 +34,9 @@ static int tips_of_cracks(const struct fracture_state *fracture)
     return n;
 }
 
-static bool is_sif_driven(const struct run *e)
+static bool is_sif_driven(const struct run *run)
 {
-    return tips_of_cracks(e->fracture) > 0 && sif_growth_reason_direction_undetermined(e, NULL) == NULL;
+    return tips_of_cracks(run->fracture) > 0 && sif_growth_reason_direction_undetermined(run, NULL) == NULL;
 }
 
 /* Returns the distance from a crack tip to the end of the body in a straight line [m]. side: 1 for the distance ahead
@@ -71,19 +71,19 @@ static real crack_behind(const struct scene *s, const struct particles *part, co
     return INFINITY;
 }
 
-void print_load_step_settings(const struct run *e)
+void print_load_step_settings(const struct run *run)
 {
     static const char *const by[] = {[CONTROL_LOAD] = "of equal length",
                                      [CONTROL_ENERGY] = "at most, by energy",
                                      [CONTROL_OPENING] = "by an opening"};
-    const struct scene *s = e->scene;
-    const int tips = tips_of_cracks(e->fracture);
+    const struct scene *s = run->scene;
+    const int tips = tips_of_cracks(run->fracture);
     printf(
         "solver         static: %d load steps %s, pseudo-time from 0 to %.4g s, each in equilibrium to a residual of "
         "%.3g of the load\n",
         s->steps.number, by[s->steps.control], s->duration, s->solver_tolerance);
     if (!scene_bonds_can_break(s) || s->method == METHOD_MPM) return;
-    if (e->bonds.soft.curve) {
+    if (run->bonds.soft.curve) {
         printf("cracks         grow where bonds soften; %s\n",
                s->steps.control != CONTROL_ENERGY
                    ? "the run ends at the first load step whose loads the body cannot carry"
@@ -93,7 +93,7 @@ void print_load_step_settings(const struct run *e)
                                        "of crack");
         return;
     }
-    if (is_sif_driven(e))
+    if (is_sif_driven(run))
         printf("cracks         %d crack %s%s extended in the direction of the largest hoop stress around %s, 2 "
                "spacings in each increment%s\n",
                tips, s->dim == 3 ? "front" : "tip", tips > 1 ? "s are" : " is", tips > 1 ? "them" : "it",
@@ -103,7 +103,7 @@ void print_load_step_settings(const struct run *e)
             "cracks         grow where bonds exceed their critical stretch, about 2 spacings in each increment%s%s\n",
             tips == 0 ? "; the scene has no pre-crack that could be extended by the hoop stress"
                       : "; they are not extended by the hoop stress, because ",
-            tips == 0 ? "" : sif_growth_reason_direction_undetermined(e, NULL));
+            tips == 0 ? "" : sif_growth_reason_direction_undetermined(run, NULL));
 }
 
 /* ---- advice ------------------------------------------------------------------------------------------------------ */
@@ -123,19 +123,19 @@ static void print_missed_peak(const struct scene *s, real t, FILE *out)
             t, s->steps.number, number);
 }
 
-/* Writes a remark to `out` if loads of run e act before the first load step. Writes another one if loads decrease
+/* Writes a remark to `out` if loads of run act before the first load step. Writes another one if loads decrease
  * although the control of the load steps requires growing loads. In load control, also writes one on a peak of the
  * loads between two load steps, the one that is farthest above the loads of the nearest steps. */
-static void advise_growth(const struct run *e, FILE *out)
+static void advise_growth(const struct run *run, FILE *out)
 {
-    const struct scene *s = e->scene;
+    const struct scene *s = run->scene;
     real most = 0, before = 0, falls = NAN, peak = NAN, missed = 0;
     for (int k = 0; k <= LOADS_LOOKS; k++) {
-        const real t = s->duration * k / LOADS_LOOKS, now = statics_norm_of_prescribed_loads(e, t);
+        const real t = s->duration * k / LOADS_LOOKS, now = statics_norm_of_prescribed_loads(run, t);
         if (isnan(falls) && now < before - FALLS * most) falls = t;
         most = real_max(most, now), before = now;
     }
-    const real first = statics_norm_of_prescribed_loads(e, 0);
+    const real first = statics_norm_of_prescribed_loads(run, 0);
     if (most > 0 && first > AT_ONCE * most)
         fprintf(out,
                 "accuracy       %.3g %% of the largest loads act before the first load step; let loads grow from 0, by "
@@ -151,24 +151,24 @@ static void advise_growth(const struct run *e, FILE *out)
     for (int k = 1; k < PEAK_LOOKS && s->steps.control == CONTROL_LOAD; k++) {
         const real t = s->duration * k / PEAK_LOOKS, step = s->duration / s->steps.number,
                    from = floor(t / step) * step;
-        const real above = statics_norm_of_prescribed_loads(e, t) -
-                           real_max(statics_norm_of_prescribed_loads(e, from),
-                                    statics_norm_of_prescribed_loads(e, real_min(from + step, s->duration)));
+        const real above = statics_norm_of_prescribed_loads(run, t) -
+                           real_max(statics_norm_of_prescribed_loads(run, from),
+                                    statics_norm_of_prescribed_loads(run, real_min(from + step, s->duration)));
         if (above > missed * (1 + 1e-9)) missed = above, peak = t;
         most = real_max(most, above);
     }
     if (missed > PEAK_MISSED * most) print_missed_peak(s, peak, out);
 }
 
-/* Writes a remark to `out` for each crack tip of run e with less than FEW spacings of crack behind it, or less than FEW
+/* Writes a remark to `out` for each crack tip of run with less than FEW spacings of crack behind it, or less than FEW
  * spacings of body ahead of it. */
-static void advise_lengths(const struct run *e, FILE *out)
+static void advise_lengths(const struct run *run, FILE *out)
 {
-    const real h = e->scene->spacing;
-    for (int k = 0; k < e->fracture->tips.n; k++) {
-        const struct crack_tip *tip = &e->fracture->tips.tip[k];
-        const real ahead = way_within(e->scene, &e->part, tip, 1) / h,
-                   behind = crack_behind(e->scene, &e->part, tip) / h;
+    const real h = run->scene->spacing;
+    for (int k = 0; k < run->fracture->tips.n; k++) {
+        const struct crack_tip *tip = &run->fracture->tips.tip[k];
+        const real ahead = way_within(run->scene, &run->part, tip, 1) / h,
+                   behind = crack_behind(run->scene, &run->part, tip) / h;
         const bool short_crack = behind<FEW, short_way = ahead> 0 && ahead < FEW;
         if (!tip->from_crack || (!short_crack && !short_way)) continue;
         fprintf(out,
@@ -194,17 +194,17 @@ static int support_width(const struct scene *scene, const struct particles *part
     return high - low > to - from - 0.5 * h ? 0 : (int)lround((high - low) / h) + 1;
 }
 
-/* Writes a remark to `out` for each support of run e that holds more than PIN_MOST particles side by side along an
+/* Writes a remark to `out` for each support of run that holds more than PIN_MOST particles side by side along an
  * axis, so that the body cannot turn as on a pin or roller, but at most GRIP_LEAST, too few for a grip. Supports on
  * whole faces and rotating ones are skipped. */
-static void advise_supports(const struct run *e, FILE *out)
+static void advise_supports(const struct run *run, FILE *out)
 {
-    for (int b = 0; b < e->loads.n; b++) {
-        const struct load *l = &e->loads.load[b];
+    for (int b = 0; b < run->loads.n; b++) {
+        const struct load *l = &run->loads.load[b];
         const struct boundary *by = l->boundary;
         if (by->kind != BOUNDARY_VELOCITY || by->side != 0 || by->rotates || l->n == 0) continue;
-        for (int across = 0; across < e->part.dim; across++) {
-            const int columns = support_width(e->scene, &e->part, l, across);
+        for (int across = 0; across < run->part.dim; across++) {
+            const int columns = support_width(run->scene, &run->part, l, across);
             const bool turns_it = by->components & ~(1 << across); /* another component is held */
             if (!turns_it || columns <= PIN_MOST || columns > GRIP_LEAST) continue;
             fprintf(out,
@@ -215,69 +215,70 @@ static void advise_supports(const struct run *e, FILE *out)
     }
 }
 
-void print_load_step_accuracy_advice(const struct run *e, FILE *out)
+void print_load_step_accuracy_advice(const struct run *run, FILE *out)
 {
-    if (!scene_has_load_steps(e->scene)) return;
-    advise_growth(e, out);
-    advise_supports(e, out);
-    if (scene_bonds_can_break(e->scene) && !e->bonds.soft.curve) advise_lengths(e, out);
+    if (!scene_has_load_steps(run->scene)) return;
+    advise_growth(run, out);
+    advise_supports(run, out);
+    if (scene_bonds_can_break(run->scene) && !run->bonds.soft.curve) advise_lengths(run, out);
 }
 
 /* ---- cost -------------------------------------------------------------------------------------------------------- */
 
-/* Returns an estimate of the number of equilibria that one crack increment of run e requires. It is LED_EQUILIBRIA if
+/* Returns an estimate of the number of equilibria that one crack increment of run requires. It is LED_EQUILIBRIA if
  * the direction of cracks follows from stress-intensity factors. Otherwise it follows from the number of bonds in an
  * increment and the number of pairs of bonds that break per equilibrium: PAIRS_AT_ONCE in 2D, the number that the scene
  * allows in 3D. */
-static double equilibria_of_advance(const struct run *e)
+static double equilibria_of_advance(const struct run *run)
 {
-    const struct scene *s = e->scene;
-    const struct family *f = &e->source.family;
+    const struct scene *s = run->scene;
+    const struct family *f = &run->source.family;
     const double neighbours = f->full / f->cell_volume, reach = 0.4 * f->horizon / s->spacing;
     double wide = 1, at_once = PAIRS_AT_ONCE;
-    if (is_sif_driven(e)) return LED_EQUILIBRIA;
+    if (is_sif_driven(run)) return LED_EQUILIBRIA;
     for (int d = 0; d < s->dim && s->dim == 3; d++) {
         real low, high;
-        particles_coordinate_range(&e->part, e->part.n, d, &low, &high);
+        particles_coordinate_range(&run->part, run->part.n, d, &low, &high);
         wide = d == 0 ? (high - low) / s->spacing + 1 : fmin(wide, (high - low) / s->spacing + 1);
         at_once = s->steps.breaks;
     }
     return 1 + SPACINGS * 0.5 * neighbours * reach * wide / at_once;
 }
 
-/* Returns an estimate of the number of crack increments in run e: the number of load steps if the steps are controlled
- * by the released energy, else the distance that all crack tips can grow, divided by the length of an increment.
- * Returns 0 if no bond can break. */
-static double advances_of(const struct run *e)
+/* Returns an estimate of the number of crack increments in run run: the number of load steps if the steps are
+ * controlled by the released energy, else the distance that all crack tips can grow, divided by the length of an
+ * increment. Returns 0 if no bond can break. */
+static double advances_of(const struct run *run)
 {
-    const struct scene *s = e->scene;
+    const struct scene *s = run->scene;
     double way = 0;
     if (!scene_bonds_can_break(s)) return 0;
     if (s->steps.control == CONTROL_ENERGY) return s->steps.number;
-    for (int k = 0; k < e->fracture->tips.n; k++) way += way_within(e->scene, &e->part, &e->fracture->tips.tip[k], 1);
-    if (way == 0) way = particles_bounding_box_longest_edge(&e->part);
+    for (int k = 0; k < run->fracture->tips.n; k++)
+        way += way_within(run->scene, &run->part, &run->fracture->tips.tip[k], 1);
+    if (way == 0) way = particles_bounding_box_longest_edge(&run->part);
     return way / (SPACINGS * s->spacing);
 }
 
-status load_steps_estimate_run_cost(struct cost *c, struct run *e)
+status load_steps_estimate_run_cost(struct cost *c, struct run *run)
 {
     const double began = thread_cpu_clock_seconds();
-    const real first = e->scene->duration / e->scene->steps.number;
-    TRY(run_find_equilibrium_for_cost_estimate(e, first));
+    const real first = run->scene->duration / run->scene->steps.number;
+    TRY(run_find_equilibrium_for_cost_estimate(run, first));
     c->step = thread_cpu_clock_seconds() - began;
-    c->equilibria = e->scene->steps.number + advances_of(e) * equilibria_of_advance(e);
-    if (run_predict_largest_stretch_to_critical_ratio(e, first, &c->overload_at, &c->overload) != OK) c->overload = 0;
+    c->equilibria = run->scene->steps.number + advances_of(run) * equilibria_of_advance(run);
+    if (run_predict_largest_stretch_to_critical_ratio(run, first, &c->overload_at, &c->overload) != OK) c->overload = 0;
     c->most = c->make + SLOWER * c->step * c->equilibria + c->output;
     c->run = c->make + LEAST_SHARE * (c->most - c->make), c->least = c->run, c->basis = COST_FIRST;
     return OK;
 }
 
-void print_load_steps_cost(const struct run *e, const struct cost *c, int threads)
+void print_load_steps_cost(const struct run *run, const struct cost *c, int threads)
 {
     printf("run time       %.2g to %.2g s on %d idle core%s: up to %.2g equilibria of %.2g s", c->least, c->most,
            threads, threads > 1 ? "s" : "", c->equilibria, c->step);
-    const bool known = c->overload > 0 && e->scene->rigids == 0; /* the forces of rigid bodies are not predicted */
-    if (known && c->overload < NOTHING_BREAKS && e->scene->steps.control == CONTROL_LOAD)
+    const bool known = c->overload > 0 && run->scene->rigids == 0; /* the forces of rigid bodies are not predicted */
+    if (known && c->overload < NOTHING_BREAKS && run->scene->steps.control == CONTROL_LOAD)
         printf("\naccuracy       the most stretched bond reaches only %.2g of its limit, at a pseudo-time of %.4g s, "
                "and nothing breaks below %.1f; use larger loads",
                c->overload, c->overload_at, NOTHING_BREAKS);

@@ -13,13 +13,13 @@
 
 #define NEAR_ENOUGH 1e-6 /* tolerance of positions [spacings], of vectors as a share of the largest component [1] */
 
-/* Returns the index of the particle of run e at the position X[dim] [m]; -1 if there is none or more than one. */
-static int64_t particle_at(const struct run *e, const real *X)
+/* Returns the index of the particle of run at the position X[dim] [m]; -1 if there is none or more than one. */
+static int64_t particle_at(const struct run *run, const real *X)
 {
     int32_t found[4];
-    const int n = cells_list_particles_near_point(&e->cells, &e->part, X, NEAR_ENOUGH * e->scene->spacing, -1, found,
-                                                  COUNT_OF(found));
-    return n == 1 && found[0] < e->part.n ? found[0] : -1;
+    const int n = cells_list_particles_near_point(&run->cells, &run->part, X, NEAR_ENOUGH * run->scene->spacing, -1,
+                                                  found, COUNT_OF(found));
+    return n == 1 && found[0] < run->part.n ? found[0] : -1;
 }
 
 static real largest(const real *a, int64_t n)
@@ -117,18 +117,18 @@ static bool loads_agree(const struct particles *p, const struct loads *loads, in
     return same;
 }
 
-/* Finds the mirror image of each particle of run e in the plane normal to `axis` at the coordinate `at` [m].
+/* Finds the mirror image of each particle of run in the plane normal to `axis` at the coordinate `at` [m].
  * twin[particles]: receives the index of the mirror image of each particle. Returns false if a particle has no image.
  * Also returns false if a particle is on the plane and thus its own image, because an input file of one half would have
  * to cut it. */
-static bool mirror_twins_find(const struct run *e, int axis, real at, int32_t *twin)
+static bool mirror_twins_find(const struct run *run, int axis, real at, int32_t *twin)
 {
-    const struct particles *p = &e->part;
+    const struct particles *p = &run->part;
     for (int64_t i = 0; i < p->n; i++) {
         real X[DIM_MAX];
         particle_reference_position(p, i, X);
         X[axis] = 2 * at - X[axis];
-        const int64_t j = particle_at(e, X);
+        const int64_t j = particle_at(run, X);
         if (j < 0 || j == i) return false;
         twin[i] = (int32_t)j;
     }
@@ -201,34 +201,35 @@ static bool growths_agree(const struct scene *s, const struct particles *part, i
 }
 
 /* Returns true if the plane normal to `axis` at the coordinate `at` [m] crosses no ring (circle around a crack tip)
- * over which a probe of run e integrates stress-intensity factors. */
-static bool rings_clear(const struct run *e, int axis, real at)
+ * over which a probe of run integrates stress-intensity factors. */
+static bool rings_clear(const struct run *run, int axis, real at)
 {
-    const struct observed_run seen = observed_run_make_read_only_view(e);
-    for (int k = 0; k < e->probing->probes.n; k++) {
+    const struct observed_run seen = observed_run_make_read_only_view(run);
+    for (int k = 0; k < run->probing->probes.n; k++) {
         real place[2], radius;
-        if (!probes_locate_sif_contour(&e->probing->probes, k, &seen, place, &radius)) continue;
+        if (!probes_locate_sif_contour(&run->probing->probes, k, &seen, place, &radius)) continue;
         if (fabs(place[axis] - at) < radius) return false;
     }
     return true;
 }
 
-bool run_is_symmetric_about_mid_plane(const struct run *e, int normal_axis, real *plane_position)
+bool run_is_symmetric_about_mid_plane(const struct run *run, int normal_axis, real *plane_position)
 {
-    const struct particles *p = &e->part;
+    const struct particles *p = &run->part;
     real low, high;
-    for (int b = 0; b < e->loads.n; b++)
-        if (e->loads.load[b].boundary->kind == BOUNDARY_MIRROR && e->loads.load[b].boundary->axis == normal_axis)
+    for (int b = 0; b < run->loads.n; b++)
+        if (run->loads.load[b].boundary->kind == BOUNDARY_MIRROR && run->loads.load[b].boundary->axis == normal_axis)
             return false;
     particles_coordinate_range(p, p->n, normal_axis, &low, &high);
     *plane_position = 0.5 * (low + high);
-    if (high - low < e->scene->spacing || !rings_clear(e, normal_axis, *plane_position)) return false;
-    if (!rigid_bodies_agree(e->scene, &e->part, normal_axis, *plane_position) ||
-        !growths_agree(e->scene, &e->part, normal_axis, *plane_position))
+    if (high - low < run->scene->spacing || !rings_clear(run, normal_axis, *plane_position)) return false;
+    if (!rigid_bodies_agree(run->scene, &run->part, normal_axis, *plane_position) ||
+        !growths_agree(run->scene, &run->part, normal_axis, *plane_position))
         return false;
     int32_t *twin = NEW("check.twin", p->n, int32_t);
-    const bool same = mirror_twins_find(e, normal_axis, *plane_position, twin) && matter_agrees(&e->part, twin) &&
-                      voids_agree(e->source.voids, twin, p->n) && loads_agree(&e->part, &e->loads, normal_axis, twin);
+    const bool same = mirror_twins_find(run, normal_axis, *plane_position, twin) && matter_agrees(&run->part, twin) &&
+                      voids_agree(run->source.voids, twin, p->n) &&
+                      loads_agree(&run->part, &run->loads, normal_axis, twin);
     memory_free(twin);
     return same;
 }

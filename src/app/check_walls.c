@@ -25,14 +25,14 @@ static real gap_at_plane(const struct particles *p, int body, const struct bound
     return nearest - 0.5 * spacing;
 }
 
-void print_advice_on_gaps_to_mirror_planes(const struct run *e, FILE *out)
+void print_advice_on_gaps_to_mirror_planes(const struct run *run, FILE *out)
 {
-    const struct scene *s = e->scene;
+    const struct scene *s = run->scene;
     const real early = s->cell * stopping_distance(s->shape) * s->spacing;
     for (int b = 0; b < s->boundaries && s->method != METHOD_PD && scene_is_dynamic(s); b++)
         for (int body = 0; body < s->bodies && s->boundary[b].kind == BOUNDARY_MIRROR; body++) {
-            const real gap = gap_at_plane(&e->part, body, &s->boundary[b], s->spacing);
-            if (e->frame->choice[body].reference || !(gap > TOUCHING * s->spacing) || isinf(gap)) continue;
+            const real gap = gap_at_plane(&run->part, body, &s->boundary[b], s->spacing);
+            if (run->frame->choice[body].reference || !(gap > TOUCHING * s->spacing) || isinf(gap)) continue;
             fprintf(out,
                     "accuracy       boundary %s: body %s starts %.3g m from this plane of symmetry, which stops its "
                     "material points about %.2g m (%.2g spacings) too early; move the plane back by this distance, or "

@@ -27,15 +27,15 @@ struct converge_arguments {
 
 /* ---- the command line -------------------------------------------------------------------------------------------- */
 
-/* Reads the time that the study may take from `text`, the value of --budget, such as "10 min", into w->budget [s]. Also
- * sets w->finer, so that finer spacings use this time. Returns REFUSED unless it is a positive time. */
-static status budget_read(struct convergence_request *w, const char *text)
+/* Reads the time that the study may take from `text`, the value of --budget, such as "10 min", into request->budget
+ * [s]. Also sets request->finer, so that finer spacings use this time. Returns REFUSED unless it is a positive time. */
+static status budget_read(struct convergence_request *request, const char *text)
 {
     char what[256];
     real value;
     if (number_parse_with_unit(&value, text, UNIT_TIME, false, what, sizeof what) && value > 0) {
-        w->budget = value;
-        w->finer = true;
+        request->budget = value;
+        request->finer = true;
         return OK;
     }
     return status_set(REFUSED, "--budget %s: give a time, such as 10 min", text);
@@ -52,21 +52,21 @@ static status converge_override(struct converge_arguments *a, const char *text)
 
 static status converge_option(struct converge_arguments *a, const char *word, const char *value)
 {
-    struct convergence_request *w = &a->wish;
+    struct convergence_request *request = &a->wish;
     if (!strcmp(word, "-o"))
-        w->folder = value;
+        request->folder = value;
     else if (!strcmp(word, "-s"))
         return converge_override(a, value);
     else if (!strcmp(word, "-j"))
-        return option_read_count(&w->options.jobs, word, value, 1, THREADS_MOST);
+        return option_read_count(&request->options.jobs, word, value, 1, THREADS_MOST);
     else if (!strcmp(word, "-t"))
-        return option_read_count(&w->options.threads, word, value, 1, THREADS_MOST);
+        return option_read_count(&request->options.threads, word, value, 1, THREADS_MOST);
     else if (!strcmp(word, "--runs"))
-        return option_read_count(&w->runs, word, value, 1, RUNS_MOST);
+        return option_read_count(&request->runs, word, value, 1, RUNS_MOST);
     else if (!strcmp(word, "--levels"))
-        return option_read_count(&w->levels, word, value, LEVELS_LEAST, LEVELS_MOST);
+        return option_read_count(&request->levels, word, value, LEVELS_LEAST, LEVELS_MOST);
     else if (!strcmp(word, "--budget"))
-        return budget_read(w, value);
+        return budget_read(request, value);
     else if (option_is_size_dpi_or_format(word))
         return option_read_size_dpi_or_format(&a->size, word, value, usage);
     else
@@ -107,14 +107,15 @@ static status converge_words(struct converge_arguments *a, int argc, char **argv
  * another scene. */
 static status converge_place(struct converge_arguments *a)
 {
-    struct convergence_request *w = &a->wish;
+    struct convergence_request *request = &a->wish;
     struct scene scene;
-    TRY(scene_read(&scene, w->scene, w->override, w->overrides));
+    TRY(scene_read(&scene, request->scene, request->override, request->overrides));
     study_compose_default_folder(a->folder, sizeof a->folder, &scene, "converge");
-    if (!w->folder) w->folder = a->folder;
-    const status fits = w->options.overwrite ? OK : study_folder_check_is_usable_for_scene(w->folder, scene.text);
+    if (!request->folder) request->folder = a->folder;
+    const status fits =
+        request->options.overwrite ? OK : study_folder_check_is_usable_for_scene(request->folder, scene.text);
     scene_free(&scene);
-    return fits == OK ? scalar_results_check_replaceable(w->folder) : fits;
+    return fits == OK ? scalar_results_check_replaceable(request->folder) : fits;
 }
 
 static status converge_all(struct converge_arguments *a)

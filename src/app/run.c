@@ -45,29 +45,29 @@ static void print_longest(const struct crack_tip *tip, int dim)
         printf(", %.0f %% of it by joining others, which has no speed", 100 * tip->joined / tip->growth);
 }
 
-/* Prints how bonds broke in run e: when and at how many positions they broke first, the growth, angle and ends of the
+/* Prints how bonds broke in run run: when and at how many positions they broke first, the growth, angle and ends of the
  * longest crack, and when a bond first broke at a particle that a boundary drives. Prints nothing if no bond broke. */
-static void print_breaks(const struct run *e)
+static void print_breaks(const struct run *run)
 {
-    const struct diagnostics *w = e->diagnostics;
-    const struct crack_tip *tip = tips_find_tip_with_largest_growth(&e->fracture->tips);
-    const bool in_steps = scene_has_load_steps(e->scene), broke = !isnan(w->break_time);
-    const int64_t tied = tips_count_crack_ends_with_largest_growth(&e->fracture->tips);
+    const struct diagnostics *diagnostics = run->diagnostics;
+    const struct crack_tip *tip = tips_find_tip_with_largest_growth(&run->fracture->tips);
+    const bool in_steps = scene_has_load_steps(run->scene), broke = !isnan(diagnostics->break_time);
+    const int64_t tied = tips_count_crack_ends_with_largest_growth(&run->fracture->tips);
     if (broke && in_steps)
-        printf("  first bond broken in load step %.0f", w->break_time / e->clock.dt);
+        printf("  first bond broken in load step %.0f", diagnostics->break_time / run->clock.dt);
     else if (broke)
-        printf("  first bond broken at %.4g s", w->break_time);
-    if (broke && w->break_ends > 1) printf(" at %lld positions", (long long)w->break_ends);
+        printf("  first bond broken at %.4g s", diagnostics->break_time);
+    if (broke && diagnostics->break_ends > 1) printf(" at %lld positions", (long long)diagnostics->break_ends);
     if (tip) printf(broke ? ", " : "  ");
-    if (tip) print_longest(tip, e->part.dim);
+    if (tip) print_longest(tip, run->part.dim);
     if (tied > 1) printf(", one of %lld tips whose growth is equal to within a spacing", (long long)tied);
     if (broke || tip) printf("\n");
-    if (isnan(w->driven_time)) return;
+    if (isnan(diagnostics->driven_time)) return;
     if (in_steps)
         printf("  first broken bond of particles that a boundary moves: in load step %.0f\n",
-               w->driven_time / e->clock.dt);
+               diagnostics->driven_time / run->clock.dt);
     else
-        printf("  first broken bond of particles that a boundary moves: at %.4g s\n", w->driven_time);
+        printf("  first broken bond of particles that a boundary moves: at %.4g s\n", diagnostics->driven_time);
 }
 
 /* Prints the energy that the load steps have released so far, and the area of the crack, from r, the record of the load
@@ -80,23 +80,23 @@ static void print_release(const struct steps_record *r)
            beside_mirror ? " on both sides" : "");
 }
 
-static void print_summary(const struct run *e, const char *folder, double wall)
+static void print_summary(const struct run *run, const char *folder, double wall)
 {
     const struct printable_name shown = printable_name(folder);
-    const bool in_steps = scene_has_load_steps(e->scene);
-    printf("%s: %lld particles, ", e->scene->name, (long long)e->part.n_body);
+    const bool in_steps = scene_has_load_steps(run->scene);
+    printf("%s: %lld particles, ", run->scene->name, (long long)run->part.n_body);
     if (in_steps)
-        printf("%lld load steps, %lld equilibria, %.1f s\n", (long long)e->clock.step, (long long)e->statics->solutions,
-               wall);
+        printf("%lld load steps, %lld equilibria, %.1f s\n", (long long)run->clock.step,
+               (long long)run->statics->solutions, wall);
     else
-        printf("%lld steps of %.4g s, %.1f s\n", (long long)e->clock.step, e->clock.dt, wall);
-    print_breaks(e);
-    if (in_steps && e->statics->record.area > 0) print_release(&e->statics->record);
+        printf("%lld steps of %.4g s, %.1f s\n", (long long)run->clock.step, run->clock.dt, wall);
+    print_breaks(run);
+    if (in_steps && run->statics->record.area > 0) print_release(&run->statics->record);
     printf("  peridynamic particles: %.2f %% at the start, %.2f %% at the end\n",
-           100.0 * (double)e->coupling->conversion.start / (double)e->part.n_body,
-           100.0 * (double)e->part.n_of[KIND_PD] / (double)e->part.n_body);
-    printf("  energy balance %.2g, momentum %.2g\n", e->diagnostics->now.balance_error,
-           e->diagnostics->now.momentum_error);
+           100.0 * (double)run->coupling->conversion.start / (double)run->part.n_body,
+           100.0 * (double)run->part.n_of[KIND_PD] / (double)run->part.n_body);
+    printf("  energy balance %.2g, momentum %.2g\n", run->diagnostics->now.balance_error,
+           run->diagnostics->now.momentum_error);
     printf("  results in %s; open %s/frames.hdf.series in ParaView, or draw them with: cleave plot %s\n", shown.text,
            shown.text, shown.text);
 }

@@ -278,34 +278,35 @@ int machine_physical_core_count(void)
 
 struct cpu_core_partition *cpu_core_partition_make(int share_count)
 {
-    struct cpu_core_partition *s = NEW("team.shares", 1, struct cpu_core_partition);
-    if (place_make(&s->place)) {
-        s->n = share_count;
-        s->cores = core_count(&s->place);
-        if (share_count > 1 && share_count <= s->cores && core_at(&s->place, s->cores - 1)) return s;
-        place_free(&s->place);
+    struct cpu_core_partition *partition = NEW("team.shares", 1, struct cpu_core_partition);
+    if (place_make(&partition->place)) {
+        partition->n = share_count;
+        partition->cores = core_count(&partition->place);
+        if (share_count > 1 && share_count <= partition->cores && core_at(&partition->place, partition->cores - 1))
+            return partition;
+        place_free(&partition->place);
     }
-    memory_free(s);
+    memory_free(partition);
     return NULL;
 }
 
-void cpu_core_partition_bind_calling_thread(const struct cpu_core_partition *s, int share_number)
+void cpu_core_partition_bind_calling_thread(const struct cpu_core_partition *partition, int share_number)
 {
-    if (!s || share_number >= s->n) return;
+    if (!partition || share_number >= partition->n) return;
     hwloc_bitmap_t mine = hwloc_bitmap_alloc();
-    const int first = share_number < 0 ? 0 : share_number * s->cores / s->n;
-    const int end = share_number < 0 ? s->cores : (share_number + 1) * s->cores / s->n;
-    for (int k = first; k < end; k++) hwloc_bitmap_or(mine, mine, core_at(&s->place, k)->cpuset);
-    hwloc_bitmap_and(mine, mine, s->place.mask);
-    hwloc_set_cpubind(s->place.topology, share_number < 0 ? s->place.mask : mine, HWLOC_CPUBIND_THREAD);
+    const int first = share_number < 0 ? 0 : share_number * partition->cores / partition->n;
+    const int end = share_number < 0 ? partition->cores : (share_number + 1) * partition->cores / partition->n;
+    for (int k = first; k < end; k++) hwloc_bitmap_or(mine, mine, core_at(&partition->place, k)->cpuset);
+    hwloc_bitmap_and(mine, mine, partition->place.mask);
+    hwloc_set_cpubind(partition->place.topology, share_number < 0 ? partition->place.mask : mine, HWLOC_CPUBIND_THREAD);
     hwloc_bitmap_free(mine);
 }
 
-void cpu_core_partition_free(struct cpu_core_partition *s)
+void cpu_core_partition_free(struct cpu_core_partition *partition)
 {
-    if (!s) return;
-    place_free(&s->place);
-    memory_free(s);
+    if (!partition) return;
+    place_free(&partition->place);
+    memory_free(partition);
 }
 
 /* ---- sums -------------------------------------------------------------------------------------------------------- */

@@ -83,9 +83,10 @@ static void remember(struct stencil_cache *t, const struct lattice_bonds *b, int
 static bool same_weights(const struct bond_source *s, const struct lattice_bonds *b, int64_t i, int64_t j)
 {
     if (s->neighbour_volume && !same_around(s->neighbour_volume, b, i, j)) return false;
-    const struct surface_correction *w = s->surface;
-    return !w || (memcmp(w->class_of + i, w->class_of + j, LANES * sizeof *w->class_of) == 0 &&
-                  eight_bytes_as_word(w->mirrors + i) == eight_bytes_as_word(w->mirrors + j));
+    const struct surface_correction *correction = s->surface;
+    return !correction ||
+           (memcmp(correction->class_of + i, correction->class_of + j, LANES * sizeof *correction->class_of) == 0 &&
+            eight_bytes_as_word(correction->mirrors + i) == eight_bytes_as_word(correction->mirrors + j));
 }
 
 int64_t stencil_cache_particle_with_equal_bonds_or_add(const struct lattice_bonds *bonds,

@@ -234,14 +234,15 @@ static struct material_pair_table pairs_of_bound(const struct bond_source *s)
 }
 
 /* Returns an array [n] with 1 for the first particle of each class of particles with equal surroundings, else 0. The
- * other particles of a class have rows of equal stiffness and need not be examined. w: classes, or NULL; map: states
- * whether distances on the lattice are exactly equal. Returns NULL if there are no classes, or if particles of a class
- * may have unequal bonds. The caller frees the array with memory_free. */
-static uint8_t *first_of_classes(const struct surface_correction *w, const struct lattice_site_map *map, int64_t n)
+ * other particles of a class have rows of equal stiffness and need not be examined. correction: classes, or NULL; map:
+ * states whether distances on the lattice are exactly equal. Returns NULL if there are no classes, or if particles of a
+ * class may have unequal bonds. The caller frees the array with memory_free. */
+static uint8_t *first_of_classes(const struct surface_correction *correction, const struct lattice_site_map *map,
+                                 int64_t n)
 {
-    if (!w || !map->uniform) return NULL;
-    uint8_t *first = NEW("bonds.first", n, uint8_t), *seen = NEW("bonds.seen", w->classes, uint8_t);
-    for (int64_t i = 0; i < n; i++) first[i] = !seen[w->class_of[i]], seen[w->class_of[i]] = 1;
+    if (!correction || !map->uniform) return NULL;
+    uint8_t *first = NEW("bonds.first", n, uint8_t), *seen = NEW("bonds.seen", correction->classes, uint8_t);
+    for (int64_t i = 0; i < n; i++) first[i] = !seen[correction->class_of[i]], seen[correction->class_of[i]] = 1;
     memory_free(seen);
     return first;
 }

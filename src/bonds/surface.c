@@ -9,23 +9,23 @@
 
 /* Computes two tables of `to` for particles near faces, by classes: the particles of a class have equal surroundings.
  * to->factor[classes, offsets]: surface correction of the bond to the neighbour at each lattice offset, a factor on its
- * weight. to->weighted[classes]: weighted volume sum w r^2 with these factors [m^2]. b: particles near faces; a: their
- * classes; f: neighbourhood; factor[sets]: fitted factor of each set of bonds that share one; bonds in no set have the
- * factor 1. */
-static void tables_make(struct surface_correction *to, const struct particles_near_faces *b,
+ * weight. to->weighted[classes]: weighted volume sum w r^2 with these factors [m^2]. near_faces: particles near faces;
+ * a: their classes; f: neighbourhood; factor[sets]: fitted factor of each set of bonds that share one; bonds in no set
+ * have the factor 1. */
+static void tables_make(struct surface_correction *to, const struct particles_near_faces *near_faces,
                         const struct bond_classes *a, const struct family *f, const real *factor)
 {
-    const int n = b->offset.n;
+    const int n = near_faces->offset.n;
     to->factor = NEW("surface.factor", (int64_t)a->classes * n, real);
     to->weighted = NEW("surface.weighted", a->classes, real);
     to->weighted[0] = f->weighted;
     for (int32_t class = 1; class < a->classes; class ++)
         for (int k = 0; k < n; k++) {
             const int64_t entry = (int64_t) class * n + k, group = a->group_of[entry];
-            const real r = b->offset.length[k] * f->spacing;
+            const real r = near_faces->offset.length[k] * f->spacing;
             to->factor[entry] = group >= 0 ? factor[group] : 1;
-            if (bond_class_first_particle_neighbour_at_offset(a, b, class, k) >= 0)
-                to->weighted[class] += to->factor[entry] * b->offset.share[k] * square(r);
+            if (bond_class_first_particle_neighbour_at_offset(a, near_faces, class, k) >= 0)
+                to->weighted[class] += to->factor[entry] * near_faces->offset.share[k] * square(r);
         }
 }
 
@@ -59,12 +59,12 @@ status surface_correction_fit_bond_weight_factors(struct surface_correction *wei
     return OK;
 }
 
-void surface_correction_free(struct surface_correction *w)
+void surface_correction_free(struct surface_correction *correction)
 {
-    memory_free(w->offset_at);
-    memory_free(w->class_of);
-    memory_free(w->mirrors);
-    memory_free(w->factor);
-    memory_free(w->weighted);
-    *w = (struct surface_correction){0};
+    memory_free(correction->offset_at);
+    memory_free(correction->class_of);
+    memory_free(correction->mirrors);
+    memory_free(correction->factor);
+    memory_free(correction->weighted);
+    *correction = (struct surface_correction){0};
 }

@@ -40,29 +40,29 @@ static void kinds_free(struct kinds *s)
     memory_free(s->colour);
 }
 
-/* Initialises the kinds s of the particles near faces b: all particles are of one kind at first. (Particles of one kind
- * have equal surroundings.) Release s with kinds_free. */
-static void kinds_start(struct kinds *s, const struct particles_near_faces *b)
+/* Initialises the kinds s of the particles near faces near_faces: all particles are of one kind at first. (Particles of
+ * one kind have equal surroundings.) Release s with kinds_free. */
+static void kinds_start(struct kinds *s, const struct particles_near_faces *near_faces)
 {
-    *s = (struct kinds){.n = 1, .of = NEW("surface.kind", b->n, int32_t)};
+    *s = (struct kinds){.n = 1, .of = NEW("surface.kind", near_faces->n, int32_t)};
     s->first = NEW("surface.kind", 1, int64_t);
-    s->colour = NEW("surface.kind", 1 << b->offset.dim, uint64_t);
-    for (int m = 0; m < 1 << b->offset.dim; m++) s->colour[m] = HASH_START;
+    s->colour = NEW("surface.kind", 1 << near_faces->offset.dim, uint64_t);
+    for (int m = 0; m < 1 << near_faces->offset.dim; m++) s->colour[m] = HASH_START;
 }
 
 /* Returns a hash of the kind of a particle and of the kinds of its neighbours (particles of one kind have equal
  * surroundings). It is a sum with one term for each neighbour: its kind and mirrors times factor[k], a random word for
  * its lattice offset k. t: index of the particle among b, those near faces; s: kinds of these. */
-static uint64_t kinds_around(const struct particles_near_faces *b, const struct kinds *s, const uint64_t *factor,
-                             int64_t t)
+static uint64_t kinds_around(const struct particles_near_faces *near_faces, const struct kinds *s,
+                             const uint64_t *factor, int64_t t)
 {
     uint64_t sum = (uint64_t)s->of[t] + 1;
-    for (int k = 0; k < b->offset.n; k++) {
-        const int32_t j = particles_near_faces_neighbour_at_offset(b, t, k);
+    for (int k = 0; k < near_faces->offset.n; k++) {
+        const int32_t j = particles_near_faces_neighbour_at_offset(near_faces, t, k);
         uint64_t word = 0;
         if (j >= 0) {
-            const struct mirrored_particle seen = particle_or_image_source_and_reversed_axes(b, j);
-            const int32_t near = b->place[seen.particle];
+            const struct mirrored_particle seen = particle_or_image_source_and_reversed_axes(near_faces, j);
+            const int32_t near = near_faces->place[seen.particle];
             word = near < 0 ? 1 : 2 + ((uint64_t)s->of[near] << 3) + (uint64_t)seen.mirrors;
         }
         sum += word * factor[k];
@@ -73,25 +73,28 @@ static uint64_t kinds_around(const struct particles_near_faces *b, const struct 
 /* Returns the hash of the surroundings (colour, from the kinds s) of particle or image j, reflected by the axes in
  * `mirrors` (bit d: axis d). Returns 1 if there is no particle (j < 0), 2 if it is not in b, the particles near
  * faces. */
-static uint64_t colour_seen(const struct particles_near_faces *b, const struct kinds *s, int32_t j, int mirrors)
+static uint64_t colour_seen(const struct particles_near_faces *near_faces, const struct kinds *s, int32_t j,
+                            int mirrors)
 {
     if (j < 0) return 1;
-    const struct mirrored_particle seen = particle_or_image_source_and_reversed_axes(b, j);
-    const int64_t t = b->place[seen.particle];
-    return t < 0 ? 2 : s->colour[((int64_t)s->of[t] << b->offset.dim) + (mirrors ^ seen.mirrors)];
+    const struct mirrored_particle seen = particle_or_image_source_and_reversed_axes(near_faces, j);
+    const int64_t t = near_faces->place[seen.particle];
+    return t < 0 ? 2 : s->colour[((int64_t)s->of[t] << near_faces->offset.dim) + (mirrors ^ seen.mirrors)];
 }
 
 /* Returns a hash (colour) of the surroundings of a particle, reflected by the axes in `mirrors` (bit d: axis d). It
  * combines the present colours s->colour of the particle and its neighbours, and so describes surroundings that are
  * larger by one neighbourhood. t: index of the particle among b, those near faces. */
-static uint64_t colour_around(const struct particles_near_faces *b, const struct kinds *s, int64_t t, int mirrors)
+static uint64_t colour_around(const struct particles_near_faces *near_faces, const struct kinds *s, int64_t t,
+                              int mirrors)
 {
-    const struct offsets *o = &b->offset;
+    const struct offsets *o = &near_faces->offset;
     uint64_t hash = mixed(HASH_START, s->colour[((int64_t)s->of[t] << o->dim) + mirrors]);
     for (int k = 0; k < o->n; k++)
-        hash = mixed(hash,
-                     colour_seen(b, s, particles_near_faces_neighbour_at_offset(b, t, o->mirrored[mirrors * o->n + k]),
-                                 mirrors));
+        hash = mixed(
+            hash, colour_seen(near_faces, s,
+                              particles_near_faces_neighbour_at_offset(near_faces, t, o->mirrored[mirrors * o->n + k]),
+                              mirrors));
     return hash;
 }
 
@@ -115,21 +118,22 @@ static void kinds_number(struct kinds *s, int64_t n, const uint64_t *hash)
 }
 
 /* Divides the kinds s of particles (particles of one kind have equal surroundings) by the kinds of their neighbours:
- * surroundings are then equal one neighbourhood further out. b: particles near faces; colours: true to compute also the
- * colours of the new kinds, the hashes of their surroundings in all mirrors. */
-static void kinds_refine(struct kinds *s, const struct particles_near_faces *b, bool colours)
+ * surroundings are then equal one neighbourhood further out. near_faces: particles near faces; colours: true to compute
+ * also the colours of the new kinds, the hashes of their surroundings in all mirrors. */
+static void kinds_refine(struct kinds *s, const struct particles_near_faces *near_faces, bool colours)
 {
-    const int dim = b->offset.dim;
-    uint64_t *hash = NEW("surface.hash", b->n, uint64_t), *factor = NEW("surface.hash", b->offset.n, uint64_t);
-    for (int k = 0; k < b->offset.n; k++) factor[k] = hash_add_word(0, (uint64_t)k);
+    const int dim = near_faces->offset.dim;
+    uint64_t *hash = NEW("surface.hash", near_faces->n, uint64_t),
+             *factor = NEW("surface.hash", near_faces->offset.n, uint64_t);
+    for (int k = 0; k < near_faces->offset.n; k++) factor[k] = hash_add_word(0, (uint64_t)k);
 #pragma omp parallel for schedule(static)
-    for (int64_t t = 0; t < b->n; t++) hash[t] = kinds_around(b, s, factor, t);
-    struct kinds fine = {.of = NEW("surface.kind", b->n, int32_t)};
-    kinds_number(&fine, b->n, hash);
+    for (int64_t t = 0; t < near_faces->n; t++) hash[t] = kinds_around(near_faces, s, factor, t);
+    struct kinds fine = {.of = NEW("surface.kind", near_faces->n, int32_t)};
+    kinds_number(&fine, near_faces->n, hash);
     if (colours) fine.colour = NEW("surface.colour", (int64_t)fine.n << dim, uint64_t);
 #pragma omp parallel for schedule(static)
     for (int64_t at = 0; at < (colours ? (int64_t)fine.n << dim : 0); at++)
-        fine.colour[at] = colour_around(b, s, fine.first[at >> dim], (int)(at & ((1 << dim) - 1)));
+        fine.colour[at] = colour_around(near_faces, s, fine.first[at >> dim], (int)(at & ((1 << dim) - 1)));
     memory_free(hash);
     memory_free(factor);
     kinds_free(s);
@@ -140,15 +144,15 @@ static void kinds_refine(struct kinds *s, const struct particles_near_faces *b, 
 
 /* Returns the smallest reflection >= `from` under which the surroundings of the particles of kind number `kind` have
  * the smallest hash (colour) of all reflections; -1 if there is none. A reflection is a set of axes, as a number with
- * bit d for axis d. (The particles of a kind have equal surroundings.) s: kinds, with the hashes; b: particles near
- * faces. */
-static int mirrors_of(const struct particles_near_faces *b, const struct kinds *s, int32_t kind, int from)
+ * bit d for axis d. (The particles of a kind have equal surroundings.) s: kinds, with the hashes; near_faces: particles
+ * near faces. */
+static int mirrors_of(const struct particles_near_faces *near_faces, const struct kinds *s, int32_t kind, int from)
 {
-    const uint64_t *own = s->colour + ((int64_t)kind << b->offset.dim);
+    const uint64_t *own = s->colour + ((int64_t)kind << near_faces->offset.dim);
     int least = 0;
-    for (int k = 1; k < 1 << b->offset.dim; k++)
+    for (int k = 1; k < 1 << near_faces->offset.dim; k++)
         if (own[k] < own[least]) least = k;
-    for (int k = from; k < 1 << b->offset.dim; k++)
+    for (int k = from; k < 1 << near_faces->offset.dim; k++)
         if (own[k] == own[least]) return k;
     return -1;
 }
@@ -156,14 +160,14 @@ static int mirrors_of(const struct particles_near_faces *b, const struct kinds *
 /* Assigns kinds of particles to classes. A kind has equal surroundings; two kinds belong to one class if they are
  * mirror images of each other, i.e. if the smallest hashes of their mirrored surroundings are equal. of[kinds]:
  * receives the number of the class of each kind, from 0. Sets a->classes, their number plus 1, and a->member, a
- * particle of each class. s: kinds, with the hashes; b: particles near faces. */
-static void classes_of_kinds(struct bond_classes *a, const struct particles_near_faces *b, const struct kinds *s,
-                             int32_t *of)
+ * particle of each class. s: kinds, with the hashes; near_faces: particles near faces. */
+static void classes_of_kinds(struct bond_classes *a, const struct particles_near_faces *near_faces,
+                             const struct kinds *s, int32_t *of)
 {
     struct kinds least = {.of = of};
     uint64_t *hash = NEW("surface.hash", s->n, uint64_t);
     for (int32_t kind = 0; kind < s->n; kind++)
-        hash[kind] = s->colour[((int64_t)kind << b->offset.dim) + mirrors_of(b, s, kind, 0)];
+        hash[kind] = s->colour[((int64_t)kind << near_faces->offset.dim) + mirrors_of(near_faces, s, kind, 0)];
     kinds_number(&least, s->n, hash);
     a->classes = least.n + 1;
     a->member = NEW("surface.member", a->classes, int64_t);
@@ -176,22 +180,22 @@ static void classes_of_kinds(struct bond_classes *a, const struct particles_near
  * each other. Numbers the classes from 1 in the order of their first particle. Stores in a the class of each particle,
  * the mirrors that map the particle to its class, and for each class the mirrors under which its surroundings do not
  * change. s: kinds of the particles (equal, not mirrored surroundings), with colours. */
-static void classes_make(struct bond_classes *a, const struct particles_near_faces *b, const struct kinds *s)
+static void classes_make(struct bond_classes *a, const struct particles_near_faces *near_faces, const struct kinds *s)
 {
     int32_t *of = NEW("surface.class", s->n, int32_t);
-    classes_of_kinds(a, b, s, of);
-    a->class_of = NEW("surface.class_of", b->n, int32_t);
-    a->mirrors = NEW("surface.mirrors", b->n, uint8_t);
+    classes_of_kinds(a, near_faces, s, of);
+    a->class_of = NEW("surface.class_of", near_faces->n, int32_t);
+    a->mirrors = NEW("surface.mirrors", near_faces->n, uint8_t);
     a->members = NEW("surface.members", a->classes, real);
     a->symmetry = NEW("surface.symmetry", a->classes, uint8_t);
-    for (int64_t t = 0; t < b->n; t++) {
+    for (int64_t t = 0; t < near_faces->n; t++) {
         a->class_of[t] = of[s->of[t]] + 1;
-        a->mirrors[t] = (uint8_t)mirrors_of(b, s, s->of[t], 0);
+        a->mirrors[t] = (uint8_t)mirrors_of(near_faces, s, s->of[t], 0);
         a->members[a->class_of[t]]++;
     }
     for (int32_t class = 1; class < a->classes; class ++) {
         const int64_t t = a->member[class];
-        for (int m = a->mirrors[t]; m >= 0; m = mirrors_of(b, s, s->of[t], m + 1))
+        for (int m = a->mirrors[t]; m >= 0; m = mirrors_of(near_faces, s, s->of[t], m + 1))
             a->symmetry[class] |= (uint8_t)(1 << (m ^ a->mirrors[t]));
     }
     memory_free(of);
@@ -223,37 +227,39 @@ static void groups_join(int64_t *parent, int64_t one, int64_t other)
 /* Returns the index in tables [classes, offsets] of the bond from particle t to its neighbour at lattice offset number
  * k. A class contains particles with equal surroundings up to reflections; the offset is reflected like the particle to
  * the axes of its class. t: index of the particle among b, those near faces; a: classes. */
-static int64_t entry_of(const struct bond_classes *a, const struct particles_near_faces *b, int64_t t, int k)
+static int64_t entry_of(const struct bond_classes *a, const struct particles_near_faces *near_faces, int64_t t, int k)
 {
-    return (int64_t)a->class_of[t] * b->offset.n + b->offset.mirrored[a->mirrors[t] * b->offset.n + k];
+    return (int64_t)a->class_of[t] * near_faces->offset.n +
+           near_faces->offset.mirrored[a->mirrors[t] * near_faces->offset.n + k];
 }
 
 /* Joins the entries i-j and j-i of every bond near faces in tables [classes, offsets], so that both get one factor. (A
- * class contains particles with equal surroundings up to reflections.) b: particles near faces; first[n]: first
- * particle of each of n kinds, which represents all particles with equal, not reflected surroundings; parent:
+ * class contains particles with equal surroundings up to reflections.) near_faces: particles near faces; first[n]:
+ * first particle of each of n kinds, which represents all particles with equal, not reflected surroundings; parent:
  * union-find forest of the table entries. Bonds between particles with complete neighbourhoods are left out; their
  * factor is 1. */
-static void bonds_join(const struct bond_classes *a, const struct particles_near_faces *b, const int64_t *first,
-                       int32_t n, int64_t *parent)
+static void bonds_join(const struct bond_classes *a, const struct particles_near_faces *near_faces,
+                       const int64_t *first, int32_t n, int64_t *parent)
 {
     for (int32_t kind = 0; kind < n; kind++)
-        for (int k = 0; k < b->offset.n; k++) {
+        for (int k = 0; k < near_faces->offset.n; k++) {
             const int64_t t = first[kind];
-            const int32_t j = particles_near_faces_neighbour_at_offset(b, t, k);
-            if (j < 0 || (b->whole[b->particle[t]] && particle_family_is_complete(b, j))) continue;
-            const struct mirrored_particle seen = particle_or_image_source_and_reversed_axes(b, j);
-            const int64_t other =
-                entry_of(a, b, b->place[seen.particle], bond_offset_seen_from_other_particle(b, &seen, k));
-            groups_join(parent, entry_of(a, b, t, k), other);
+            const int32_t j = particles_near_faces_neighbour_at_offset(near_faces, t, k);
+            if (j < 0 || (near_faces->whole[near_faces->particle[t]] && particle_family_is_complete(near_faces, j)))
+                continue;
+            const struct mirrored_particle seen = particle_or_image_source_and_reversed_axes(near_faces, j);
+            const int64_t other = entry_of(a, near_faces, near_faces->place[seen.particle],
+                                           bond_offset_seen_from_other_particle(near_faces, &seen, k));
+            groups_join(parent, entry_of(a, near_faces, t, k), other);
         }
 }
 
 /* Joins the table entries of bonds of one class that are mirror images of each other, so that they get one factor. A
- * class consists of particles with equal surroundings up to mirrors. a: classes; b: particles near faces, with the
- * lattice offsets; parent: union-find forest of the entries. */
-static void twins_join(const struct bond_classes *a, const struct particles_near_faces *b, int64_t *parent)
+ * class consists of particles with equal surroundings up to mirrors. a: classes; near_faces: particles near faces, with
+ * the lattice offsets; parent: union-find forest of the entries. */
+static void twins_join(const struct bond_classes *a, const struct particles_near_faces *near_faces, int64_t *parent)
 {
-    const struct offsets *o = &b->offset;
+    const struct offsets *o = &near_faces->offset;
     for (int32_t class = 1; class < a->classes; class ++)
         for (int m = 1; m < 1 << o->dim; m++)
             for (int k = 0; k < o->n && a->symmetry[class] >> m & 1; k++) {
@@ -262,19 +268,19 @@ static void twins_join(const struct bond_classes *a, const struct particles_near
             }
 }
 
-void bond_classes_group_bonds_near_faces(struct bond_classes *classes, const struct particles_near_faces *b)
+void bond_classes_group_bonds_near_faces(struct bond_classes *classes, const struct particles_near_faces *near_faces)
 {
     struct kinds kinds;
     *classes = (struct bond_classes){0};
-    kinds_start(&kinds, b);
-    for (int round = 0; round < RADIUS; round++) kinds_refine(&kinds, b, true);
-    classes_make(classes, b, &kinds);
-    kinds_refine(&kinds, b, false);
-    const int64_t entries = (int64_t)classes->classes * b->offset.n;
+    kinds_start(&kinds, near_faces);
+    for (int round = 0; round < RADIUS; round++) kinds_refine(&kinds, near_faces, true);
+    classes_make(classes, near_faces, &kinds);
+    kinds_refine(&kinds, near_faces, false);
+    const int64_t entries = (int64_t)classes->classes * near_faces->offset.n;
     classes->group_of = NEW("surface.group_of", entries, int64_t);
     for (int64_t k = 0; k < entries; k++) classes->group_of[k] = -1;
-    bonds_join(classes, b, kinds.first, kinds.n, classes->group_of);
-    twins_join(classes, b, classes->group_of);
+    bonds_join(classes, near_faces, kinds.first, kinds.n, classes->group_of);
+    twins_join(classes, near_faces, classes->group_of);
     kinds_free(&kinds);
     for (int64_t k = 0; k < entries; k++) { /* a root precedes its members */
         if (classes->group_of[k] < 0) continue;

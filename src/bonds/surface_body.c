@@ -89,18 +89,19 @@ static int offset_between(const struct offsets *o, const struct particles *p, re
 
 /* Returns the source of the mirror image j (an index of the particle arrays of b): a particle of the body, possibly
  * through several mirrors, with the axes that these mirrors reverse (bit d: axis d). */
-struct mirrored_particle mirror_image_source_and_reversed_axes(const struct particles_near_faces *b, int64_t j)
+struct mirrored_particle mirror_image_source_and_reversed_axes(const struct particles_near_faces *near_faces, int64_t j)
 {
-    struct mirrored_particle to = {mirror_image_source_particle(b->p, b->source->image, j), 0};
-    for (int d = 0; d < b->p->dim; d++)
-        if (fabs(b->p->X[d][j] - b->p->X[d][to.particle]) > 0.25 * b->source->family.spacing) to.mirrors |= 1 << d;
+    struct mirrored_particle to = {mirror_image_source_particle(near_faces->p, near_faces->source->image, j), 0};
+    for (int d = 0; d < near_faces->p->dim; d++)
+        if (fabs(near_faces->p->X[d][j] - near_faces->p->X[d][to.particle]) > 0.25 * near_faces->source->family.spacing)
+            to.mirrors |= 1 << d;
     return to;
 }
 
-int bond_offset_seen_from_other_particle(const struct particles_near_faces *b,
+int bond_offset_seen_from_other_particle(const struct particles_near_faces *near_faces,
                                          const struct mirrored_particle *other_particle, int k)
 {
-    return b->offset.n - 1 - b->offset.mirrored[other_particle->mirrors * b->offset.n + k];
+    return near_faces->offset.n - 1 - near_faces->offset.mirrored[other_particle->mirrors * near_faces->offset.n + k];
 }
 
 /* Parameters and working memory of the neighbour search of one thread, for eight consecutive particles at a time. */
@@ -113,11 +114,12 @@ struct search {
     struct lattice_bonds regular; /* neighbours of the eight particles on a lattice, regardless of pre-cracks */
 };
 
-/* Allocates the working memory of a neighbour search in `search`. b: particles near faces, with the data of bonds; map:
- * map from lattice sites to particles, kept by reference. Release it with search_free. */
-static void search_make(struct search *search, const struct particles_near_faces *b, const struct lattice_site_map *map)
+/* Allocates the working memory of a neighbour search in `search`. near_faces: particles near faces, with the data of
+ * bonds; map: map from lattice sites to particles, kept by reference. Release it with search_free. */
+static void search_make(struct search *search, const struct particles_near_faces *near_faces,
+                        const struct lattice_site_map *map)
 {
-    const int room = bonds_neighbour_count_upper_bound(b->source);
+    const int room = bonds_neighbour_count_upper_bound(near_faces->source);
     *search = (struct search){.map = map, .found = NEW("surface.found", room, int32_t), .room = room};
     lattice_bonds_allocate_for_eight_particles(&search->regular, map);
 }
@@ -129,23 +131,23 @@ static void search_free(struct search *search)
     memory_free(search->found);
 }
 
-/* Prepares `search` for the particles first .. first + 7. b: particles near faces. Finds the neighbours from the map of
- * lattice sites if the particles are on a regular part of the lattice (search->eight is then true). */
-static void search_turn(struct search *search, const struct particles_near_faces *b, int64_t first)
+/* Prepares `search` for the particles first .. first + 7. near_faces: particles near faces. Finds the neighbours from
+ * the map of lattice sites if the particles are on a regular part of the lattice (search->eight is then true). */
+static void search_turn(struct search *search, const struct particles_near_faces *near_faces, int64_t first)
 {
     search->first = first;
-    search->eight =
-        lattice_bonds_list_neighbours_ignoring_cracks(search->map, b->source, b->p, first, &search->regular);
+    search->eight = lattice_bonds_list_neighbours_ignoring_cracks(search->map, near_faces->source, near_faces->p, first,
+                                                                  &search->regular);
 }
 
 /* Finds the neighbours of particle i among those that a map of lattice sites gave for eight particles that contain i
- * (search->regular, set by search_turn). b: particles near faces, with the pre-cracks; near: true if a pre-crack may
- * separate some of them from i, which are then left out. to[offsets]: receives the neighbours by lattice offset; other
- * entries are unchanged; NULL: neighbours are only counted. Returns the number of neighbours. */
-static int regular_neighbours(const struct particles_near_faces *b, const struct search *search, int64_t i, bool near,
-                              int32_t *to)
+ * (search->regular, set by search_turn). near_faces: particles near faces, with the pre-cracks; near: true if a
+ * pre-crack may separate some of them from i, which are then left out. to[offsets]: receives the neighbours by lattice
+ * offset; other entries are unchanged; NULL: neighbours are only counted. Returns the number of neighbours. */
+static int regular_neighbours(const struct particles_near_faces *near_faces, const struct search *search, int64_t i,
+                              bool near, int32_t *to)
 {
-    const struct bond_source *s = b->source;
+    const struct bond_source *s = near_faces->source;
     const struct lattice_bonds *regular = &search->regular;
     const int lane = (int)(i - search->first);
     int kept = 0;
@@ -153,7 +155,7 @@ static int regular_neighbours(const struct particles_near_faces *b, const struct
     for (int k = 0; k < regular->n; k++) {
         const int32_t j = (int32_t)i + regular->offset[k];
         if (lane < regular->from[k] || lane > regular->to[k]) continue;
-        if (near && precracks_cut_bond_between(s->crack, s->cracks, b->p, i, j)) continue;
+        if (near && precracks_cut_bond_between(s->crack, s->cracks, near_faces->p, i, j)) continue;
         if (to) to[regular->number[k]] = j;
         kept++;
     }
@@ -161,21 +163,24 @@ static int regular_neighbours(const struct particles_near_faces *b, const struct
 }
 
 /* Finds the neighbours of particle i that no pre-crack separates from it. i must be one of the eight particles for
- * which `search` was prepared last (search_turn). b: particles near faces, with the pre-cracks; to[offsets]: receives
- * the neighbours by lattice offset, -1 for offsets without a neighbour; NULL: neighbours are only counted. Returns
- * their number, or -1 if a neighbour is not on the lattice of the particle. */
-static int neighbours_find(const struct particles_near_faces *b, const struct search *search, int64_t i, int32_t *to)
+ * which `search` was prepared last (search_turn). near_faces: particles near faces, with the pre-cracks; to[offsets]:
+ * receives the neighbours by lattice offset, -1 for offsets without a neighbour; NULL: neighbours are only counted.
+ * Returns their number, or -1 if a neighbour is not on the lattice of the particle. */
+static int neighbours_find(const struct particles_near_faces *near_faces, const struct search *search, int64_t i,
+                           int32_t *to)
 {
-    const struct bond_source *s = b->source;
-    const bool near = particle_is_near_precrack(s, b->p, i);
+    const struct bond_source *s = near_faces->source;
+    const bool near = particle_is_near_precrack(s, near_faces->p, i);
     int kept = 0;
-    for (int k = 0; to && k < b->offset.n; k++) to[k] = -1;
-    if (search->eight) return regular_neighbours(b, search, i, near, to);
-    const int n = particle_find_neighbours_within_cutoff(search->map, s, b->p, (int32_t)i, search->found, search->room);
+    for (int k = 0; to && k < near_faces->offset.n; k++) to[k] = -1;
+    if (search->eight) return regular_neighbours(near_faces, search, i, near, to);
+    const int n =
+        particle_find_neighbours_within_cutoff(search->map, s, near_faces->p, (int32_t)i, search->found, search->room);
     for (int k = 0; k < n; k++) {
         const int32_t j = search->found[k];
-        if (near && precracks_cut_bond_between(s->crack, s->cracks, b->p, i, j)) continue;
-        const int at = to || kept == 0 ? offset_between(&b->offset, b->p, s->family.spacing, i, j) : 0;
+        if (near && precracks_cut_bond_between(s->crack, s->cracks, near_faces->p, i, j)) continue;
+        const int at =
+            to || kept == 0 ? offset_between(&near_faces->offset, near_faces->p, s->family.spacing, i, j) : 0;
         if (at < 0) return -1;
         if (to) to[at] = j;
         kept++;
@@ -183,21 +188,21 @@ static int neighbours_find(const struct particles_near_faces *b, const struct se
     return kept;
 }
 
-/* Sets b->whole[i] to 1 for particles i that have neighbours at all lattice offsets within the cutoff, else to 0. map:
- * map from lattice sites to particles. Returns false if a particle is not on the lattice. */
-static bool whole_mark(struct particles_near_faces *b, const struct lattice_site_map *map)
+/* Sets near_faces->whole[i] to 1 for particles i that have neighbours at all lattice offsets within the cutoff, else to
+ * 0. map: map from lattice sites to particles. Returns false if a particle is not on the lattice. */
+static bool whole_mark(struct particles_near_faces *near_faces, const struct lattice_site_map *map)
 {
     bool lattice = true;
 #pragma omp parallel reduction(&& : lattice)
     {
         struct search search;
-        search_make(&search, b, map);
+        search_make(&search, near_faces, map);
 #pragma omp for schedule(static)
-        for (int64_t first = 0; first < b->p->n; first += LANES) {
-            search_turn(&search, b, first);
-            for (int64_t i = first; i < first + LANES && i < b->p->n; i++) {
-                const int n = neighbours_find(b, &search, i, NULL);
-                b->whole[i] = n == b->offset.n, lattice = lattice && n >= 0;
+        for (int64_t first = 0; first < near_faces->p->n; first += LANES) {
+            search_turn(&search, near_faces, first);
+            for (int64_t i = first; i < first + LANES && i < near_faces->p->n; i++) {
+                const int n = neighbours_find(near_faces, &search, i, NULL);
+                near_faces->whole[i] = n == near_faces->offset.n, lattice = lattice && n >= 0;
             }
         }
         search_free(&search);
@@ -205,70 +210,71 @@ static bool whole_mark(struct particles_near_faces *b, const struct lattice_site
     return lattice;
 }
 
-/* Sets near[i] to 1, which marks a particle near a face, if i is a particle of b->p and not a mirror image.
+/* Sets near[i] to 1, which marks a particle near a face, if i is a particle of near_faces->p and not a mirror image.
  * near[particles]: marks. Several threads may set the same entry. */
-static void near_put(const struct particles_near_faces *b, uint8_t *near, int64_t i)
+static void near_put(const struct particles_near_faces *near_faces, uint8_t *near, int64_t i)
 {
-    if (i >= b->p->n) return;
+    if (i >= near_faces->p->n) return;
 #pragma omp atomic write
     near[i] = 1;
 }
 
 /* Sets near[i] to 1 for the particles i near faces: those without a neighbour at some lattice offset within the cutoff,
  * and their neighbours. Mirror images are examined too, because particles of the body may be their neighbours.
- * near[particles]: 0 before; b: particles, after whole_mark; map: map from lattice sites to particles. */
-static void near_mark(uint8_t *near, const struct particles_near_faces *b, const struct lattice_site_map *map)
+ * near[particles]: 0 before; near_faces: particles, after whole_mark; map: map from lattice sites to particles. */
+static void near_mark(uint8_t *near, const struct particles_near_faces *near_faces, const struct lattice_site_map *map)
 {
-    const struct particles *p = b->p;
+    const struct particles *p = near_faces->p;
 #pragma omp parallel
     {
         struct search search;
-        search_make(&search, b, map);
+        search_make(&search, near_faces, map);
         const struct lattice_bonds *regular = &search.regular;
 #pragma omp for schedule(static)
         for (int64_t first = 0; first < p->n_all; first += LANES) {
             const int64_t end = first + LANES < p->n_all ? first + LANES : p->n_all;
             bool whole = true;
-            for (int64_t i = first; i < end; i++) whole = whole && particle_family_is_complete(b, i);
+            for (int64_t i = first; i < end; i++) whole = whole && particle_family_is_complete(near_faces, i);
             if (whole) continue;
-            search_turn(&search, b, first);
+            search_turn(&search, near_faces, first);
             for (int64_t i = first; i < end; i++) {
-                if (particle_family_is_complete(b, i)) continue;
+                if (particle_family_is_complete(near_faces, i)) continue;
                 const int l = (int)(i - first);
-                near_put(b, near, i);
+                near_put(near_faces, near, i);
                 for (int k = 0; search.eight && k < regular->n; k++)
-                    if (l >= regular->from[k] && l <= regular->to[k]) near_put(b, near, i + regular->offset[k]);
+                    if (l >= regular->from[k] && l <= regular->to[k])
+                        near_put(near_faces, near, i + regular->offset[k]);
                 const int n = search.eight ? 0
-                                           : particle_find_neighbours_within_cutoff(map, b->source, p, (int32_t)i,
-                                                                                    search.found, search.room);
-                for (int k = 0; k < n; k++) near_put(b, near, search.found[k]);
+                                           : particle_find_neighbours_within_cutoff(
+                                                 map, near_faces->source, p, (int32_t)i, search.found, search.room);
+                for (int k = 0; k < n; k++) near_put(near_faces, near, search.found[k]);
             }
         }
         search_free(&search);
     }
 }
 
-/* Lists the neighbours of all particles near faces in b->neighbour[b->n, offsets]. map: map from lattice sites to
- * particles. Returns false if a particle is not on the lattice. */
-static bool neighbours_list(struct particles_near_faces *b, const struct lattice_site_map *map)
+/* Lists the neighbours of all particles near faces in near_faces->neighbour[near_faces->n, offsets]. map: map from
+ * lattice sites to particles. Returns false if a particle is not on the lattice. */
+static bool neighbours_list(struct particles_near_faces *near_faces, const struct lattice_site_map *map)
 {
-    const struct particles *p = b->p;
+    const struct particles *p = near_faces->p;
     bool lattice = true;
-    b->neighbour = BARE("surface.neighbour", b->n * b->offset.n, int32_t);
+    near_faces->neighbour = BARE("surface.neighbour", near_faces->n * near_faces->offset.n, int32_t);
 #pragma omp parallel reduction(&& : lattice)
     {
         struct search search;
-        search_make(&search, b, map);
+        search_make(&search, near_faces, map);
 #pragma omp for schedule(static)
         for (int64_t first = 0; first < p->n; first += LANES) {
             bool any = false;
-            for (int64_t i = first; i < first + LANES && i < p->n; i++) any = any || b->place[i] >= 0;
+            for (int64_t i = first; i < first + LANES && i < p->n; i++) any = any || near_faces->place[i] >= 0;
             if (!any) continue;
-            search_turn(&search, b, first);
+            search_turn(&search, near_faces, first);
             for (int64_t i = first; i < first + LANES && i < p->n; i++) {
-                if (b->place[i] < 0) continue;
-                int32_t *to = b->neighbour + (int64_t)b->place[i] * b->offset.n;
-                lattice = neighbours_find(b, &search, i, to) >= 0 && lattice;
+                if (near_faces->place[i] < 0) continue;
+                int32_t *to = near_faces->neighbour + (int64_t)near_faces->place[i] * near_faces->offset.n;
+                lattice = neighbours_find(near_faces, &search, i, to) >= 0 && lattice;
             }
         }
         search_free(&search);
@@ -276,67 +282,69 @@ static bool neighbours_list(struct particles_near_faces *b, const struct lattice
     return lattice;
 }
 
-/* Lists the particles near faces in b->particle, and their neighbours by lattice offset in b->neighbour. map: map from
- * lattice sites to particles. Returns false if a particle is not on the lattice. */
-static bool near_list(struct particles_near_faces *b, const struct lattice_site_map *map)
+/* Lists the particles near faces in near_faces->particle, and their neighbours by lattice offset in
+ * near_faces->neighbour. map: map from lattice sites to particles. Returns false if a particle is not on the lattice.
+ */
+static bool near_list(struct particles_near_faces *near_faces, const struct lattice_site_map *map)
 {
-    const struct particles *p = b->p;
+    const struct particles *p = near_faces->p;
     uint8_t *near = NEW("surface.near", p->n, uint8_t);
-    near_mark(near, b, map);
-    for (int64_t i = 0; i < p->n; i++) b->n += near[i];
-    b->particle = NEW("surface.particle", b->n, int32_t);
-    b->place = NEW("surface.place", p->n, int32_t);
+    near_mark(near, near_faces, map);
+    for (int64_t i = 0; i < p->n; i++) near_faces->n += near[i];
+    near_faces->particle = NEW("surface.particle", near_faces->n, int32_t);
+    near_faces->place = NEW("surface.place", p->n, int32_t);
     for (int64_t i = 0, t = 0; i < p->n; i++) {
-        b->place[i] = near[i] ? (int32_t)t : -1;
-        if (near[i]) b->particle[t++] = (int32_t)i;
+        near_faces->place[i] = near[i] ? (int32_t)t : -1;
+        if (near[i]) near_faces->particle[t++] = (int32_t)i;
     }
     memory_free(near);
-    return neighbours_list(b, map);
+    return neighbours_list(near_faces, map);
 }
 
 /* Finds the first pair of neighbours whose distance along some axis is not a whole number of spacings, and which no
- * pre-crack separates. b: particles near faces; map: map from lattice sites to particles; apart[2]: receives both
- * particles, -1 if there is no such pair. */
-static void apart_find(const struct particles_near_faces *b, const struct lattice_site_map *map, int64_t apart[2])
+ * pre-crack separates. near_faces: particles near faces; map: map from lattice sites to particles; apart[2]: receives
+ * both particles, -1 if there is no such pair. */
+static void apart_find(const struct particles_near_faces *near_faces, const struct lattice_site_map *map,
+                       int64_t apart[2])
 {
-    const struct bond_source *s = b->source;
+    const struct bond_source *s = near_faces->source;
     const int room = bonds_neighbour_count_upper_bound(s);
     int32_t *found = NEW("surface.found", room, int32_t);
     apart[0] = apart[1] = -1;
-    for (int64_t i = 0; i < b->p->n && apart[0] < 0; i++) {
-        const int n = particle_find_neighbours_within_cutoff(map, s, b->p, (int32_t)i, found, room);
+    for (int64_t i = 0; i < near_faces->p->n && apart[0] < 0; i++) {
+        const int n = particle_find_neighbours_within_cutoff(map, s, near_faces->p, (int32_t)i, found, room);
         for (int k = 0; k < n && apart[0] < 0; k++)
-            if (offset_between(&b->offset, b->p, s->family.spacing, i, found[k]) < 0 &&
-                !(particle_is_near_precrack(s, b->p, i) &&
-                  precracks_cut_bond_between(s->crack, s->cracks, b->p, i, found[k])))
+            if (offset_between(&near_faces->offset, near_faces->p, s->family.spacing, i, found[k]) < 0 &&
+                !(particle_is_near_precrack(s, near_faces->p, i) &&
+                  precracks_cut_bond_between(s->crack, s->cracks, near_faces->p, i, found[k])))
                 apart[0] = i, apart[1] = found[k];
     }
     memory_free(found);
 }
 
-status particles_near_faces_list_with_neighbours(struct particles_near_faces *b, const struct particles *p,
+status particles_near_faces_list_with_neighbours(struct particles_near_faces *near_faces, const struct particles *p,
                                                  const struct bond_source *s, int64_t unfitting_pair[2])
 {
     struct lattice_site_map map = {0};
-    *b = (struct particles_near_faces){.p = p, .source = s};
-    offsets_make(&b->offset, &s->family, s->modulus != NULL);
-    b->whole = NEW("surface.whole", p->n, uint8_t);
+    *near_faces = (struct particles_near_faces){.p = p, .source = s};
+    offsets_make(&near_faces->offset, &s->family, s->modulus != NULL);
+    near_faces->whole = NEW("surface.whole", p->n, uint8_t);
     lattice_site_map_make_if_particles_fit_lattice(&map, s, p);
-    const bool lattice = whole_mark(b, &map) && near_list(b, &map);
-    if (!lattice) apart_find(b, &map, unfitting_pair);
+    const bool lattice = whole_mark(near_faces, &map) && near_list(near_faces, &map);
+    if (!lattice) apart_find(near_faces, &map, unfitting_pair);
     lattice_site_map_free(&map);
     if (lattice) return OK;
-    particles_near_faces_free(b);
+    particles_near_faces_free(near_faces);
     return status_set(REFUSED,
                       "pd.surface: moments needs particles on a regular lattice; set pd.surface: volume or none");
 }
 
-void particles_near_faces_free(struct particles_near_faces *b)
+void particles_near_faces_free(struct particles_near_faces *near_faces)
 {
-    offsets_free(&b->offset);
-    memory_free(b->particle);
-    memory_free(b->place);
-    memory_free(b->neighbour);
-    memory_free(b->whole);
-    *b = (struct particles_near_faces){0};
+    offsets_free(&near_faces->offset);
+    memory_free(near_faces->particle);
+    memory_free(near_faces->place);
+    memory_free(near_faces->neighbour);
+    memory_free(near_faces->whole);
+    *near_faces = (struct particles_near_faces){0};
 }

@@ -38,23 +38,23 @@ struct raw_faces {
 /* Returns true if a particle has a face at one end of an axis, because it has no neighbour there. t: index of the
  * particle among b, those near faces; axis: 0 to dim - 1; up: 1 for the end in positive direction, 0 for that in
  * negative direction. */
-static bool lacks(const struct particles_near_faces *b, int64_t t, int axis, int up)
+static bool lacks(const struct particles_near_faces *near_faces, int64_t t, int axis, int up)
 {
-    return particles_near_faces_neighbour_at_offset(b, t, b->offset.axis[axis][up]) < 0;
+    return particles_near_faces_neighbour_at_offset(near_faces, t, near_faces->offset.axis[axis][up]) < 0;
 }
 
 /* Returns the face in `raw` of particle or mirror image j: its position and its area vector. For an image it is the
  * face of the particle that is mirrored, reflected. The size of the face is 0 if the particle is near no face. */
 static struct exposed_face face_seen(const struct raw_faces *raw, int64_t j)
 {
-    const struct particles_near_faces *b = raw->body;
+    const struct particles_near_faces *near_faces = raw->body;
     struct exposed_face f = {{0}, {0}, 0};
-    const struct mirrored_particle seen = particle_or_image_source_and_reversed_axes(b, j);
-    const int64_t t = b->place[seen.particle];
+    const struct mirrored_particle seen = particle_or_image_source_and_reversed_axes(near_faces, j);
+    const int64_t t = near_faces->place[seen.particle];
     if (t < 0) return f;
-    for (int d = 0; d < b->p->dim; d++) {
+    for (int d = 0; d < near_faces->p->dim; d++) {
         f.area[d] = mirror_sign_of_vector_component(seen.mirrors, d) * raw->area[t][d];
-        f.centre[d] = b->p->X[d][j] / b->source->family.spacing + 0.5 * f.area[d];
+        f.centre[d] = near_faces->p->X[d][j] / near_faces->source->family.spacing + 0.5 * f.area[d];
         f.size += square(f.area[d]);
     }
     f.size = sqrt(f.size);
@@ -89,17 +89,17 @@ static void mean_add(const struct exposed_face *f, const real *from, real weight
  * the lattice; t: index of the particle among those near faces. */
 static struct mean_face mean_face_of(const struct raw_faces *raw, int64_t t)
 {
-    const struct particles_near_faces *b = raw->body;
-    const int dim = b->p->dim;
-    const struct exposed_face own = face_seen(raw, b->particle[t]);
+    const struct particles_near_faces *near_faces = raw->body;
+    const int dim = near_faces->p->dim;
+    const struct exposed_face own = face_seen(raw, near_faces->particle[t]);
     real area[DIM_MAX] = {0}, sums[4 + 9] = {0}, size = 0;
     struct mean_face mean = {{0}, 0};
     mean_add(&own, own.centre, 1, dim, area, sums);
-    for (int k = 0; k < b->offset.n; k++) {
-        if (particles_near_faces_neighbour_at_offset(b, t, k) < 0) continue;
-        const struct exposed_face other = face_seen(raw, particles_near_faces_neighbour_at_offset(b, t, k));
+    for (int k = 0; k < near_faces->offset.n; k++) {
+        if (particles_near_faces_neighbour_at_offset(near_faces, t, k) < 0) continue;
+        const struct exposed_face other = face_seen(raw, particles_near_faces_neighbour_at_offset(near_faces, t, k));
         if (other.size > 0 && dot(own.area, other.area, dim) > -1e-9)
-            mean_add(&other, own.centre, nearness(&b->offset, k), dim, area, sums);
+            mean_add(&other, own.centre, nearness(&near_faces->offset, k), dim, area, sums);
     }
     for (int d = 0; d < dim; d++) size += square(area[d]);
     for (int d = 0; d < dim; d++) mean.normal[d] = area[d] / fmax(sqrt(size), 1e-12);
@@ -163,16 +163,17 @@ struct smooth_faces {
  * smoothed face of each particle, -1 if the particle has none. raw: faces on the lattice, not smoothed. */
 static void smooth_faces_make(struct smooth_faces *s, const struct raw_faces *raw)
 {
-    const struct particles_near_faces *b = raw->body;
-    *s = (struct smooth_faces){.at = BARE("surface.smooth", b->n, int32_t)};
-    for (int64_t t = 0; t < b->n; t++) {
+    const struct particles_near_faces *near_faces = raw->body;
+    *s = (struct smooth_faces){.at = BARE("surface.smooth", near_faces->n, int32_t)};
+    for (int64_t t = 0; t < near_faces->n; t++) {
         bool any = false;
-        for (int d = 0; d < b->p->dim; d++) any = any || lacks(b, t, d, 0) || lacks(b, t, d, 1);
+        for (int d = 0; d < near_faces->p->dim; d++)
+            any = any || lacks(near_faces, t, d, 0) || lacks(near_faces, t, d, 1);
         s->at[t] = any ? (int32_t)s->n++ : -1;
     }
     s->smooth = BARE("surface.smooth", s->n, struct smooth);
 #pragma omp parallel for schedule(static)
-    for (int64_t t = 0; t < b->n; t++)
+    for (int64_t t = 0; t < near_faces->n; t++)
         if (s->at[t] >= 0) smooth_make(&s->smooth[s->at[t]], raw, t);
 }
 
@@ -180,20 +181,20 @@ static void smooth_faces_make(struct smooth_faces *s, const struct raw_faces *ra
  * If the faces nearby have less weight than those at a plane face, the mean is multiplied by the ratio of both to the
  * power NEAR, except in models with rotations (`rotates`). It is 0 without faces. s: smoothed faces; plane: sum of the
  * weights at a plane face; t: index of the particle among b, those near faces. */
-static void normals_gather(struct surface_fit_targets *f, const struct particles_near_faces *b,
+static void normals_gather(struct surface_fit_targets *f, const struct particles_near_faces *near_faces,
                            const struct smooth_faces *s, real plane, bool rotates, int64_t t)
 {
-    const int dim = b->p->dim;
+    const int dim = near_faces->p->dim;
     real sum[DIM_MAX][DIM_MAX] = {{0}}, trace = 0;
     if (s->at[t] >= 0) array_copy(sum, s->smooth[s->at[t]].square, 1, sizeof sum);
-    for (int k = 0; k < b->offset.n; k++) {
-        const int32_t j = particles_near_faces_neighbour_at_offset(b, t, k);
+    for (int k = 0; k < near_faces->offset.n; k++) {
+        const int32_t j = particles_near_faces_neighbour_at_offset(near_faces, t, k);
         if (j < 0) continue;
-        const struct mirrored_particle seen = particle_or_image_source_and_reversed_axes(b, j);
-        const int64_t near = b->place[seen.particle], other = near < 0 ? -1 : s->at[near];
+        const struct mirrored_particle seen = particle_or_image_source_and_reversed_axes(near_faces, j);
+        const int64_t near = near_faces->place[seen.particle], other = near < 0 ? -1 : s->at[near];
         for (int a = 0; a < dim && other >= 0; a++)
             for (int c = 0; c < dim; c++)
-                sum[a][c] += nearness(&b->offset, k) * mirror_sign_of_vector_component(seen.mirrors, a) *
+                sum[a][c] += nearness(&near_faces->offset, k) * mirror_sign_of_vector_component(seen.mirrors, a) *
                              mirror_sign_of_vector_component(seen.mirrors, c) * s->smooth[other].square[a][c];
     }
     for (int d = 0; d < dim; d++) trace += sum[d][d];
@@ -208,70 +209,72 @@ static void normals_gather(struct surface_fit_targets *f, const struct particles
  * and three layers 2, -3, 1, a one-sided first derivative of second order at the face; none with a single layer.
  * smooth: smoothing of the face; t: index of the particle among b, those near faces; up: 1 for the end in positive
  * direction, else 0. */
-static void face_spread(struct surface_fit_targets *f, const struct particles_near_faces *b,
+static void face_spread(struct surface_fit_targets *f, const struct particles_near_faces *near_faces,
                         const struct smooth *smooth, int64_t t, int axis, int up, bool rotates)
 {
     static const real area[2][2] = {{1}, {1.5, -0.5}}, first[2] = {1, -1}, second[CHAIN] = {2, -3, 1};
-    struct mirrored_particle chain[CHAIN] = {{b->particle[t], 0}};
+    struct mirrored_particle chain[CHAIN] = {{near_faces->particle[t], 0}};
     int length = 1;
     while (length < CHAIN) { /* through mirrors too */
         const struct mirrored_particle next =
-            mirrored_particle_neighbour_at_offset(b, &chain[length - 1], b->offset.axis[axis][!up]);
-        if (next.particle < 0 || b->place[next.particle] < 0) break;
+            mirrored_particle_neighbour_at_offset(near_faces, &chain[length - 1], near_faces->offset.axis[axis][!up]);
+        if (next.particle < 0 || near_faces->place[next.particle] < 0) break;
         chain[length++] = next;
     }
     const int two = length > 1;
     for (int k = 0; k <= two; k++)
-        for (int d = 0; d < b->p->dim; d++)
-            f->area[b->place[chain[k].particle]][d] += mirror_sign_of_vector_component(chain[k].mirrors, d) *
-                                                       area[two][k] * (up ? 1 : -1) * smooth->project[d][axis];
+        for (int d = 0; d < near_faces->p->dim; d++)
+            f->area[near_faces->place[chain[k].particle]][d] += mirror_sign_of_vector_component(chain[k].mirrors, d) *
+                                                                area[two][k] * (up ? 1 : -1) * smooth->project[d][axis];
     if (rotates && length == CHAIN)
-        for (int k = 0; k < CHAIN; k++) f->dipole[b->place[chain[k].particle]] += second[k];
+        for (int k = 0; k < CHAIN; k++) f->dipole[near_faces->place[chain[k].particle]] += second[k];
     else if (two)
-        for (int k = 0; k < 2; k++) f->dipole[b->place[chain[k].particle]] += first[k];
+        for (int k = 0; k < 2; k++) f->dipole[near_faces->place[chain[k].particle]] += first[k];
 }
 
 /* Returns the number of layers of particles along an axis through a particle, from face to face of the body, at most
  * `most`; `most` also if the line contains particles that are near no face. t: index of the particle among b, those
  * near faces. */
-static int layers(const struct particles_near_faces *b, int64_t t, int axis, int most)
+static int layers(const struct particles_near_faces *near_faces, int64_t t, int axis, int most)
 {
     int n = 1;
     for (int up = 0; up < 2; up++) {
-        struct mirrored_particle at = {b->particle[t], 0};
+        struct mirrored_particle at = {near_faces->particle[t], 0};
         while (n < most) {
-            at = mirrored_particle_neighbour_at_offset(b, &at, b->offset.axis[axis][up]);
+            at = mirrored_particle_neighbour_at_offset(near_faces, &at, near_faces->offset.axis[axis][up]);
             if (at.particle < 0) break;
             n++;
-            if (b->place[at.particle] < 0) return most; /* not near any face */
+            if (near_faces->place[at.particle] < 0) return most; /* not near any face */
         }
     }
     return n;
 }
 
-void surface_fit_targets_compute_areas_and_moments(struct surface_fit_targets *f, const struct particles_near_faces *b,
-                                                   bool with_rotations)
+void surface_fit_targets_compute_areas_and_moments(struct surface_fit_targets *f,
+                                                   const struct particles_near_faces *near_faces, bool with_rotations)
 {
-    const int dim = b->p->dim, most = with_rotations ? THIN_ROTATING : THIN;
-    struct raw_faces raw = {b, (real(*)[DIM_MAX])memory_new("surface.area", b->n, sizeof *raw.area)};
+    const int dim = near_faces->p->dim, most = with_rotations ? THIN_ROTATING : THIN;
+    struct raw_faces raw = {near_faces, (real(*)[DIM_MAX])memory_new("surface.area", near_faces->n, sizeof *raw.area)};
     struct smooth_faces smooth;
-    f->area = (real(*)[DIM_MAX])memory_new("surface.area", b->n, sizeof *f->area);
-    f->dipole = NEW("surface.dipole", b->n, real);
-    f->normal2 = (real(*)[DIM_MAX][DIM_MAX])memory_new("surface.normal", b->n, sizeof *f->normal2);
-    f->thin = NEW("surface.thin", b->n, uint8_t);
-    for (int64_t t = 0; t < b->n; t++)
-        for (int d = 0; d < dim; d++) raw.area[t][d] = (real)lacks(b, t, d, 1) - (real)lacks(b, t, d, 0);
+    f->area = (real(*)[DIM_MAX])memory_new("surface.area", near_faces->n, sizeof *f->area);
+    f->dipole = NEW("surface.dipole", near_faces->n, real);
+    f->normal2 = (real(*)[DIM_MAX][DIM_MAX])memory_new("surface.normal", near_faces->n, sizeof *f->normal2);
+    f->thin = NEW("surface.thin", near_faces->n, uint8_t);
+    for (int64_t t = 0; t < near_faces->n; t++)
+        for (int d = 0; d < dim; d++)
+            raw.area[t][d] = (real)lacks(near_faces, t, d, 1) - (real)lacks(near_faces, t, d, 0);
     smooth_faces_make(&smooth, &raw);
 #pragma omp parallel for schedule(static)
-    for (int64_t t = 0; t < b->n; t++)
-        for (int d = 0; d < dim; d++) f->thin[t] = f->thin[t] || layers(b, t, d, most) < most;
-    const real plane = plane_of_faces(&b->offset);
+    for (int64_t t = 0; t < near_faces->n; t++)
+        for (int d = 0; d < dim; d++) f->thin[t] = f->thin[t] || layers(near_faces, t, d, most) < most;
+    const real plane = plane_of_faces(&near_faces->offset);
 #pragma omp parallel for schedule(static)
-    for (int64_t t = 0; t < b->n; t++) normals_gather(f, b, &smooth, plane, with_rotations, t);
-    for (int64_t t = 0; t < b->n; t++)
+    for (int64_t t = 0; t < near_faces->n; t++) normals_gather(f, near_faces, &smooth, plane, with_rotations, t);
+    for (int64_t t = 0; t < near_faces->n; t++)
         for (int d = 0; d < dim; d++)
             for (int up = 0; up < 2; up++)
-                if (lacks(b, t, d, up)) face_spread(f, b, &smooth.smooth[smooth.at[t]], t, d, up, with_rotations);
+                if (lacks(near_faces, t, d, up))
+                    face_spread(f, near_faces, &smooth.smooth[smooth.at[t]], t, d, up, with_rotations);
     memory_free(raw.area);
     memory_free(smooth.at);
     memory_free(smooth.smooth);

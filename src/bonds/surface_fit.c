@@ -243,12 +243,12 @@ static void class_goal_add(struct class_goal *to, int dim, const struct surface_
 
 /* Computes goal[classes], the means of three properties over the particles of each class (particles with equal
  * surroundings): face area, dipole (difference between the first layers behind a face) and product of face normals N
- * (x) N. goal must be 0 before. dim: number of dimensions; b: particles near faces; f: values of each particle; a:
- * classes. */
-static void class_goals(struct class_goal *goal, int dim, const struct particles_near_faces *b,
+ * (x) N. goal must be 0 before. dim: number of dimensions; near_faces: particles near faces; f: values of each
+ * particle; a: classes. */
+static void class_goals(struct class_goal *goal, int dim, const struct particles_near_faces *near_faces,
                         const struct surface_fit_targets *f, const struct bond_classes *a)
 {
-    for (int64_t t = 0; t < b->n; t++) {
+    for (int64_t t = 0; t < near_faces->n; t++) {
         const int32_t class = a->class_of[t];
         const int symmetry = a->symmetry[class];
         const real share = 1 / (a->members[class] * __builtin_popcount((unsigned)symmetry));
@@ -259,10 +259,10 @@ static void class_goals(struct class_goal *goal, int dim, const struct particles
 
 /* Sets up c, the least-squares fit of the bonds of one class (particles with equal surroundings): the quadratic form
  * that weighs deviations of their third and fourth moments, and the targets of these moments, from which the moments of
- * bonds with fixed factors are subtracted. m: moments of the bonds; b: particles near faces; a: classes; goal: means of
- * the face properties over the class; class: its number, from 1; alpha: relative increase of the target of the fourth
- * moments for a dipole of 1 [1]. */
-static void class_make(struct class_fit *c, const struct moments *m, const struct particles_near_faces *b,
+ * bonds with fixed factors are subtracted. m: moments of the bonds; near_faces: particles near faces; a: classes; goal:
+ * means of the face properties over the class; class: its number, from 1; alpha: relative increase of the target of the
+ * fourth moments for a dipole of 1 [1]. */
+static void class_make(struct class_fit *c, const struct moments *m, const struct particles_near_faces *near_faces,
                        struct class_goal *goal, const struct bond_classes *a, int32_t class, real alpha)
 {
     real P[STRAINS][STRAINS];
@@ -280,9 +280,9 @@ static void class_make(struct class_fit *c, const struct moments *m, const struc
             c->goal[x] -= 0.5 * full_of(m, axis[0], axis[1], axis[2], d) * goal->area[d];
         }
     for (int x = 0; x < m->fourth.n; x++) c->goal[m->thirds + x] = (1 + alpha * goal->dipole) * m->full[x];
-    for (int k = 0; k < b->offset.n; k++) { /* less the bonds that do not change */
-        if (bond_class_first_particle_neighbour_at_offset(a, b, class, k) < 0 ||
-            a->group_of[(int64_t) class * b->offset.n + k] >= 0)
+    for (int k = 0; k < near_faces->offset.n; k++) { /* less the bonds that do not change */
+        if (bond_class_first_particle_neighbour_at_offset(a, near_faces, class, k) < 0 ||
+            a->group_of[(int64_t) class * near_faces->offset.n + k] >= 0)
             continue;
         for (int x = 0; x < m->width; x++) c->goal[x] -= m->of[(int64_t)k * m->width + x];
     }
@@ -355,26 +355,28 @@ static void prior_make(struct surface_fit_problem *q, const struct moments *m)
 /* Returns true if a particle is at the end of a crack or of a narrow void: a neighbour of one of its neighbours is
  * within its own cutoff, but separated from it by the crack or void. t: index of the particle among b, those near
  * faces. */
-static bool at_crack_end(const struct particles_near_faces *b, int64_t t)
+static bool at_crack_end(const struct particles_near_faces *near_faces, int64_t t)
 {
-    const struct offsets *o = &b->offset;
-    const struct particles *p = b->p;
-    const int32_t i = b->particle[t];
-    const bool across = particle_is_beside_void(b->source->voids, i) && b->source->voids->near[i] & VOID_ACROSS;
-    if (!across && !particle_is_near_precrack(b->source, p, i)) return false;
+    const struct offsets *o = &near_faces->offset;
+    const struct particles *p = near_faces->p;
+    const int32_t i = near_faces->particle[t];
+    const bool across =
+        particle_is_beside_void(near_faces->source->voids, i) && near_faces->source->voids->near[i] & VOID_ACROSS;
+    if (!across && !particle_is_near_precrack(near_faces->source, p, i)) return false;
     for (int k = 0; k < o->n; k++) {
-        const int32_t j = particles_near_faces_neighbour_at_offset(b, t, k);
+        const int32_t j = particles_near_faces_neighbour_at_offset(near_faces, t, k);
         if (j < 0) continue;
-        const struct mirrored_particle seen = particle_or_image_source_and_reversed_axes(b, j);
-        for (int l = 0; l < o->n && b->place[seen.particle] >= 0; l++) {
+        const struct mirrored_particle seen = particle_or_image_source_and_reversed_axes(near_faces, j);
+        for (int l = 0; l < o->n && near_faces->place[seen.particle] >= 0; l++) {
             int place = 0;
-            bool within = mirrored_particle_neighbour_at_offset(b, &seen, l).particle >= 0;
+            bool within = mirrored_particle_neighbour_at_offset(near_faces, &seen, l).particle >= 0;
             for (int d = o->dim - 1; d >= 0; d--) {
                 const int at = o->at[k][d] + o->at[l][d];
                 within = within && abs(at) <= o->reach;
                 place = place * (2 * o->reach + 1) + o->reach + at;
             }
-            if (within && o->number[place] >= 0 && particles_near_faces_neighbour_at_offset(b, t, o->number[place]) < 0)
+            if (within && o->number[place] >= 0 &&
+                particles_near_faces_neighbour_at_offset(near_faces, t, o->number[place]) < 0)
                 return true;
         }
     }
@@ -383,10 +385,10 @@ static bool at_crack_end(const struct particles_near_faces *b, int64_t t)
 
 /* Returns the number of neighbours of a particle within the cutoff. t: index of the particle among b, those near
  * faces. */
-static int neighbours(const struct particles_near_faces *b, int64_t t)
+static int neighbours(const struct particles_near_faces *near_faces, int64_t t)
 {
     int n = 0;
-    for (int k = 0; k < b->offset.n; k++) n += particles_near_faces_neighbour_at_offset(b, t, k) >= 0;
+    for (int k = 0; k < near_faces->offset.n; k++) n += particles_near_faces_neighbour_at_offset(near_faces, t, k) >= 0;
     return n;
 }
 
@@ -401,18 +403,20 @@ static bool may_break(const struct bond_limit *limit)
 
 /* Fixes the factors on the weights of the bonds of class number `class` (particles with equal surroundings) in q, by
  * equal lower and upper bounds: at 1 if `one`, else at the factor of the volume method (Le & Bobaru 2018), between
- * LEAST and MOST. b: particles near faces. */
-static void class_fix(struct surface_fit_problem *q, const struct particles_near_faces *b, int32_t class, bool one)
+ * LEAST and MOST. near_faces: particles near faces. */
+static void class_fix(struct surface_fit_problem *q, const struct particles_near_faces *near_faces, int32_t class,
+                      bool one)
 {
     const struct bond_classes *a = q->alike;
-    const int n = b->offset.n, own = neighbours(b, a->member[class]);
+    const int n = near_faces->offset.n, own = neighbours(near_faces, a->member[class]);
     for (int k = 0; k < n; k++) {
         const int64_t g = a->group_of[(int64_t) class * n + k];
         if (g < 0) continue;
-        const int64_t other = b->place[particle_or_image_source_and_reversed_axes(
-                                           b, bond_class_first_particle_neighbour_at_offset(a, b, class, k))
-                                           .particle];
-        const real both = own + neighbours(b, other);
+        const int64_t other =
+            near_faces->place[particle_or_image_source_and_reversed_axes(
+                                  near_faces, bond_class_first_particle_neighbour_at_offset(a, near_faces, class, k))
+                                  .particle];
+        const real both = own + neighbours(near_faces, other);
         q->low[g] = q->high[g] = one ? 1 : fmin(fmax(2.0 * n / both, LEAST), MOST);
     }
 }
@@ -423,47 +427,48 @@ static void class_fix(struct surface_fit_problem *q, const struct particles_near
  * the critical stretch is calibrated for factor 1 (otherwise Kalthoff's crack turns to 61 degrees at 1 mm). Thin parts
  * are treated last, so that the factor of a bond between both does not depend on the order of its particles. b:
  * particles near faces. */
-static void plain_parts(struct surface_fit_problem *q, const struct particles_near_faces *b,
+static void plain_parts(struct surface_fit_problem *q, const struct particles_near_faces *near_faces,
                         const struct surface_fit_targets *f, bool rotates)
 {
     const struct bond_classes *a = q->alike;
-    const bool breaks = may_break(&b->source->limit);
+    const bool breaks = may_break(&near_faces->source->limit);
     for (int32_t class = 1; class < a->classes; class ++)
-        if (at_crack_end(b, a->member[class])) class_fix(q, b, class, rotates || breaks);
+        if (at_crack_end(near_faces, a->member[class])) class_fix(q, near_faces, class, rotates || breaks);
     for (int32_t class = 1; class < a->classes; class ++)
-        if (f->thin[a->member[class]]) class_fix(q, b, class, rotates);
+        if (f->thin[a->member[class]]) class_fix(q, near_faces, class, rotates);
 }
 
 /* Allocates and sets the bounds q->low[sets] and q->high[sets] of the factors of all sets of bonds that share one
- * factor: LEAST and MOST, or equal bounds at ends of cracks and in thin parts, where the factor is fixed. b: particles
- * near faces; f: states which particles are in thin parts; rotates: true for a model with particle rotations. */
-static void bounds_make(struct surface_fit_problem *q, const struct particles_near_faces *b,
+ * factor: LEAST and MOST, or equal bounds at ends of cracks and in thin parts, where the factor is fixed. near_faces:
+ * particles near faces; f: states which particles are in thin parts; rotates: true for a model with particle rotations.
+ */
+static void bounds_make(struct surface_fit_problem *q, const struct particles_near_faces *near_faces,
                         const struct surface_fit_targets *f, bool rotates)
 {
     const int64_t groups = q->alike->groups;
     q->low = NEW("surface.low", groups, real), q->high = NEW("surface.high", groups, real);
     for (int64_t g = 0; g < groups; g++) q->low[g] = LEAST, q->high[g] = MOST;
-    plain_parts(q, b, f, rotates);
+    plain_parts(q, near_faces, f, rotates);
 }
 
-real surface_fit_compute_bond_weight_factors(real *factor, const struct particles_near_faces *b,
+real surface_fit_compute_bond_weight_factors(real *factor, const struct particles_near_faces *near_faces,
                                              const struct surface_fit_targets *f, const struct bond_classes *a,
                                              bool with_rotations, int max_matrix_products)
 {
     struct moments m;
-    moments_make(&m, &b->offset);
+    moments_make(&m, &near_faces->offset);
     struct surface_fit_problem q = {
-        .alike = a, .offsets = b->offset.n, .thirds = m.thirds, .fourths = m.width - m.thirds, .of = m.of};
-    const real alpha = with_rotations ? ROTATIONS : face_moment(&m, &b->offset);
+        .alike = a, .offsets = near_faces->offset.n, .thirds = m.thirds, .fourths = m.width - m.thirds, .of = m.of};
+    const real alpha = with_rotations ? ROTATIONS : face_moment(&m, &near_faces->offset);
     q.class = BARE("surface.class", a->classes, struct class_fit);
     struct class_goal *goal = NEW("surface.goal", a->classes, struct class_goal);
-    class_goals(goal, b->offset.dim, b, f, a);
+    class_goals(goal, near_faces->offset.dim, near_faces, f, a);
 #pragma omp parallel for schedule(static)
     for (int32_t class = 1; class < a->classes; class ++)
-        class_make(&q.class[class], &m, b, &goal[class], a, class, alpha);
+        class_make(&q.class[class], &m, near_faces, &goal[class], a, class, alpha);
     memory_free(goal);
     prior_make(&q, &m);
-    bounds_make(&q, b, f, with_rotations);
+    bounds_make(&q, near_faces, f, with_rotations);
     const real left = surface_fit_solve_least_squares(&q, factor, max_matrix_products);
     memory_free(m.of);
     memory_free(q.class);

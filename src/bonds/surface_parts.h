@@ -44,67 +44,70 @@ struct mirrored_particle {
 /* Returns the source of the mirror image `entry` (a copy beyond a plane of symmetry; index of the particle arrays): a
  * particle of the body, possibly through several mirrors, with the axes that these mirrors reverse (bit d: axis d). b:
  * particles near faces. */
-struct mirrored_particle mirror_image_source_and_reversed_axes(const struct particles_near_faces *b, int64_t entry);
+struct mirrored_particle mirror_image_source_and_reversed_axes(const struct particles_near_faces *near_faces,
+                                                               int64_t entry);
 
 /* Returns the particle of the body that belongs to entry `entry` of the particle arrays: `entry` itself or, for a
  * mirror image (copy beyond a plane of symmetry), the particle that it mirrors, with the axes that the mirrors in
- * between reverse (bit d: axis d). b: particles near faces. */
-static inline struct mirrored_particle particle_or_image_source_and_reversed_axes(const struct particles_near_faces *b,
-                                                                                  int64_t entry)
+ * between reverse (bit d: axis d). near_faces: particles near faces. */
+static inline struct mirrored_particle
+particle_or_image_source_and_reversed_axes(const struct particles_near_faces *near_faces, int64_t entry)
 {
-    return entry < b->p->n ? (struct mirrored_particle){entry, 0} : mirror_image_source_and_reversed_axes(b, entry);
+    return entry < near_faces->p->n ? (struct mirrored_particle){entry, 0}
+                                    : mirror_image_source_and_reversed_axes(near_faces, entry);
 }
 
 /* Returns the sign that the mirrors `mirrors` (bit d: they reverse axis d) give a vector component along axis `axis`:
  * -1 if they reverse that axis, else 1. */
 static inline real mirror_sign_of_vector_component(int mirrors, int axis) { return mirrors >> axis & 1 ? -1 : 1; }
 
-/* Returns the particle or mirror image that is offset number `offset_number` (an index into the arrays of b->offset,
- * the relative positions of neighbours on the lattice) away from b->particle[particle_number]; -1 if there is none or
- * the bond is cut. */
-static inline int32_t particles_near_faces_neighbour_at_offset(const struct particles_near_faces *b,
+/* Returns the particle or mirror image that is offset number `offset_number` (an index into the arrays of
+ * near_faces->offset, the relative positions of neighbours on the lattice) away from
+ * near_faces->particle[particle_number]; -1 if there is none or the bond is cut. */
+static inline int32_t particles_near_faces_neighbour_at_offset(const struct particles_near_faces *near_faces,
                                                                int64_t particle_number, int offset_number)
 {
-    return b->neighbour[particle_number * b->offset.n + offset_number];
+    return near_faces->neighbour[particle_number * near_faces->offset.n + offset_number];
 }
 
 /* Returns the neighbour at offset number `offset` (a lattice vector) of `from`, a particle near faces b or its mirror
  * image: the particle of the body, and the axes that mirrors reverse between it and this neighbour. The member
  * `particle` of the result is -1 if there is no neighbour or the bond is cut. */
-static inline struct mirrored_particle mirrored_particle_neighbour_at_offset(const struct particles_near_faces *b,
-                                                                             const struct mirrored_particle *from,
-                                                                             int offset)
+static inline struct mirrored_particle
+mirrored_particle_neighbour_at_offset(const struct particles_near_faces *near_faces,
+                                      const struct mirrored_particle *from, int offset)
 {
-    const int32_t own = b->offset.mirrored[from->mirrors * b->offset.n + offset];
-    const int32_t j = particles_near_faces_neighbour_at_offset(b, b->place[from->particle], own);
+    const int32_t own = near_faces->offset.mirrored[from->mirrors * near_faces->offset.n + offset];
+    const int32_t j = particles_near_faces_neighbour_at_offset(near_faces, near_faces->place[from->particle], own);
     if (j < 0) return (struct mirrored_particle){-1, 0};
-    struct mirrored_particle to = particle_or_image_source_and_reversed_axes(b, j);
+    struct mirrored_particle to = particle_or_image_source_and_reversed_axes(near_faces, j);
     to.mirrors ^= from->mirrors;
     return to;
 }
 
 /* Returns true if no neighbour of entry j of the particle arrays is missing, so that no face is near. If j is a mirror
- * image (copy beyond a plane of symmetry), its source particle is examined. b: particles near faces. */
-static inline bool particle_family_is_complete(const struct particles_near_faces *b, int64_t j)
+ * image (copy beyond a plane of symmetry), its source particle is examined. near_faces: particles near faces. */
+static inline bool particle_family_is_complete(const struct particles_near_faces *near_faces, int64_t j)
 {
-    return b->whole[j < b->p->n ? j : mirror_image_source_particle(b->p, b->source->image, j)];
+    return near_faces
+        ->whole[j < near_faces->p->n ? j : mirror_image_source_particle(near_faces->p, near_faces->source->image, j)];
 }
 
-/* Returns the offset number (index of a lattice vector in b->offset) of a bond as seen from its second particle: the
- * opposite of offset number `offset`, by which the first particle sees the bond. other_particle: the second particle;
- * where it is a mirror image, the vector is also reflected at the mirror. */
-int bond_offset_seen_from_other_particle(const struct particles_near_faces *b,
+/* Returns the offset number (index of a lattice vector in near_faces->offset) of a bond as seen from its second
+ * particle: the opposite of offset number `offset`, by which the first particle sees the bond. other_particle: the
+ * second particle; where it is a mirror image, the vector is also reflected at the mirror. */
+int bond_offset_seen_from_other_particle(const struct particles_near_faces *near_faces,
                                          const struct mirrored_particle *other_particle, int offset);
 
 /* Lists in b the particles of p near faces (with a missing neighbour, or beside such a particle) and all their
  * neighbours. source: inputs of the bonds (horizon, materials, cracks, mirrors). Returns REFUSED, with a message, if
  * the particles are not on a lattice; unfitting_pair[0] is then the first particle with a neighbour that is not a whole
  * number of spacings away, unfitting_pair[1] this neighbour. Release with particles_near_faces_free. */
-status particles_near_faces_list_with_neighbours(struct particles_near_faces *b, const struct particles *p,
+status particles_near_faces_list_with_neighbours(struct particles_near_faces *near_faces, const struct particles *p,
                                                  const struct bond_source *source, int64_t unfitting_pair[2]);
 
 /* Releases all arrays of b, the particles near faces. */
-void particles_near_faces_free(struct particles_near_faces *b);
+void particles_near_faces_free(struct particles_near_faces *near_faces);
 
 /* Properties of the faces near each particle [n], from which the targets for the weights (factors on the stiffness) of
  * its bonds follow (surface_fit.c). */

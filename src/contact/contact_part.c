@@ -11,7 +11,7 @@
 #include "grid/grid_part.h"
 #include "run/say.h"
 
-static void contact_free_all(struct run *e) { contact_free(e->contact); }
+static void contact_free_all(struct run *run) { contact_free(run->contact); }
 
 /* Writes the JSON object "contact" to j if peridynamic particles (c) or bodies of material points on the grid (mpm) can
  * be in contact: times of first and last contact [s], largest numbers of contacts, work of friction [J] and largest
@@ -34,13 +34,13 @@ static void put_contact(const struct contact *c, const struct grid_method *mpm, 
     json_end_object_or_list(j, '}');
 }
 
-static status contact_state(struct run *e, struct archive *a)
+static status contact_state(struct run *run, struct archive *a)
 {
-    struct contact *c = e->contact;
-    c->marked = scene_has_load_steps(e->scene);
-    TRY(contact_save_or_load(c, &e->part, a));
+    struct contact *c = run->contact;
+    c->marked = scene_has_load_steps(run->scene);
+    TRY(contact_save_or_load(c, &run->part, a));
     if (!a->saving && c->made && !c->touch)
-        contact_restore_active_particles_after_restart(c, &e->part, &e->bonds, &e->loads);
+        contact_restore_active_particles_after_restart(c, &run->part, &run->bonds, &run->loads);
     return OK;
 }
 
@@ -68,38 +68,39 @@ static void put_rigid(const struct rigid_set *rigid, const struct contact *c, co
     json_end_object_or_list(j, ']');
 }
 
-static void put_contact_and_rigid(const struct run *e, struct json *j)
+static void put_contact_and_rigid(const struct run *run, struct json *j)
 {
-    put_contact(e->contact, e->grid, j);
-    put_rigid(e->rigid, e->contact, &e->part, &e->clock, j);
+    put_contact(run->contact, run->grid, j);
+    put_rigid(run->rigid, run->contact, &run->part, &run->clock, j);
 }
 
 #define OVERLAP_DOUBTFUL 0.3 /* overlap from which a warning is given [spacings] */
 #define OVERLAP_MOST 0.9     /* overlap beyond which particles pass each other [spacings] */
 
-status contact_check_largest_overlap(struct run *e)
+status contact_check_largest_overlap(struct run *run)
 {
-    const struct contact *c = e->contact;
-    const real overlap = c->overlap / e->scene->spacing;
+    const struct contact *c = run->contact;
+    const real overlap = c->overlap / run->scene->spacing;
     char text[320];
     if (!(overlap > OVERLAP_DOUBTFUL)) return OK;
     if (overlap > OVERLAP_MOST) {
-        const struct particles *p = &e->part;
+        const struct particles *p = &run->part;
         const int32_t i = c->deepest;
         return status_set(FAILED,
                           "contact at step %lld, t = %.3g s: particle %d at (%.6g, %.6g, %.6g) m overlaps another one "
                           "by %.2f spacings and is about to pass through it. Check the speeds (wave speed: %.4g m/s), "
                           "or use a larger contact.stiffness (now %.3g) with a smaller time.safety",
-                          (long long)e->clock.step, e->clock.t, (int)p->id[i], p->x[0][i], p->dim > 1 ? p->x[1][i] : 0,
-                          p->dim > 2 ? p->x[2][i] : 0, overlap, e->tables.wave_speed, e->scene->contact_stiffness);
+                          (long long)run->clock.step, run->clock.t, (int)p->id[i], p->x[0][i],
+                          p->dim > 1 ? p->x[1][i] : 0, p->dim > 2 ? p->x[2][i] : 0, overlap, run->tables.wave_speed,
+                          run->scene->contact_stiffness);
     }
-    if (e->contact->overlap_said) return OK;
-    e->contact->overlap_said = true;
+    if (run->contact->overlap_said) return OK;
+    run->contact->overlap_said = true;
     snprintf(text, sizeof text,
              "particles in contact overlap by more than %.1f spacings (contact.overlap_max in the summary), so contact "
              "pressures are wrong; use a larger contact.stiffness",
              OVERLAP_DOUBTFUL);
-    warnings_add_and_print(&e->warnings, text);
+    warnings_add_and_print(&run->warnings, text);
     return OK;
 }
 

@@ -9,12 +9,12 @@
 #include "rigid/rigid_part.h"
 
 void bonded_points_update_strain_from_mesh_or_stress(const struct partial_stress *partial,
-                                                     const struct lagrangian_mesh *r, struct particles *p,
+                                                     const struct lagrangian_mesh *reference, struct particles *p,
                                                      const struct material *material)
 {
     if (!p->end_strain) return;
     bonded_points_compute_strain_from_stress(partial, p, material);
-    if (r->mesh.points > 0) mesh_ends_update(&r->mesh, p, r->finite);
+    if (reference->mesh.points > 0) mesh_ends_update(&reference->mesh, p, reference->finite);
 }
 
 /* Returns true if the conversion flags of all material points of p must be tested in this step. This is so if there are
@@ -22,10 +22,10 @@ void bonded_points_update_strain_from_mesh_or_stress(const struct partial_stress
  * or broken bonds: growth laws of cracks or load steps of scene s, reversion, or coarse mesh cells, which postpone
  * conversions. Returns false if all points belong to the mesh of the reference frame r (a mesh of the undeformed body)
  * and no cell of it has recorded a stress above that of conversion. */
-static bool may_convert(const struct scene *s, const struct particles *p, const struct lagrangian_mesh *r)
+static bool may_convert(const struct scene *s, const struct particles *p, const struct lagrangian_mesh *reference)
 {
     return p->n_free > 0 || p->n_grid_coupled > 0 || s->growths > 0 || scene_has_load_steps(s) || p->low_since ||
-           r->levels.returned || mesh_stress_may_exceed_conversion_limit(&r->mesh);
+           reference->levels.returned || mesh_stress_may_exceed_conversion_limit(&reference->mesh);
 }
 
 /* Updates positions and velocities of n listed particles, as far as they are points of the mesh of the reference frame
@@ -33,63 +33,66 @@ static bool may_convert(const struct scene *s, const struct particles *p, const 
  * conversion_sync. */
 static void sync_listed(void *context, const int32_t *list, int64_t n)
 {
-    struct run *e = context;
-    lagrangian_mesh_update_motion_of_listed_points(e->frame, &e->part, &e->loads, list, n);
+    struct run *run = context;
+    lagrangian_mesh_update_motion_of_listed_points(run->frame, &run->part, &run->loads, list, n);
 }
 
 /* Requests a contact search if one of n particles that have become peridynamic is at a surface of its body. context:
  * the run (struct run); list[n]: indices of the particles. Callback of struct conversion_sync. */
 static void meet_others(void *context, const int32_t *list, int64_t n)
 {
-    struct run *e = context;
-    contact_request_search_if_particles_at_surface(e->contact, &e->bonds, &e->source.family, list, n);
+    struct run *run = context;
+    contact_request_search_if_particles_at_surface(run->contact, &run->bonds, &run->source.family, list, n);
 }
 
-bool conversion_flag_points_near_contact(struct run *e)
+bool conversion_flag_points_near_contact(struct run *run)
 {
-    if (e->scene->active_set) active_bond_rows_update_after_step(&e->bonds, &e->part, &e->loads);
-    if (e->clock.step % APPROACH_STEPS != 0 && !scene_has_load_steps(e->scene)) return false;
-    if (e->coupling->approaches) {
-        lagrangian_mesh_update_point_motion(e->frame, &e->part, &e->loads);
-        flag_points_near_other_bodies_for_conversion(&e->part, e->scene->bodies, e->rigid->body, e->rigid->n,
-                                                     APPROACH_REACH * e->scene->spacing);
+    if (run->scene->active_set) active_bond_rows_update_after_step(&run->bonds, &run->part, &run->loads);
+    if (run->clock.step % APPROACH_STEPS != 0 && !scene_has_load_steps(run->scene)) return false;
+    if (run->coupling->approaches) {
+        lagrangian_mesh_update_point_motion(run->frame, &run->part, &run->loads);
+        flag_points_near_other_bodies_for_conversion(&run->part, run->scene->bodies, run->rigid->body, run->rigid->n,
+                                                     APPROACH_REACH * run->scene->spacing);
     }
-    return e->scene->contact_between == CONTACT_ALL &&
-           mark_points_at_closing_slits_to_become_peridynamic(&e->coupling->notches, e->frame, &e->part, &e->loads,
-                                                              e->scene->spacing, APPROACH_STEPS * e->clock.dt);
+    return run->scene->contact_between == CONTACT_ALL &&
+           mark_points_at_closing_slits_to_become_peridynamic(&run->coupling->notches, run->frame, &run->part,
+                                                              &run->loads, run->scene->spacing,
+                                                              APPROACH_STEPS * run->clock.dt);
 }
 
-void conversion_update_mesh_after_conversion(struct run *e, int64_t converted_count)
+void conversion_update_mesh_after_conversion(struct run *run, int64_t converted_count)
 {
-    struct partial_stress *partial = &e->coupling->partial;
+    struct partial_stress *partial = &run->coupling->partial;
     const bool due = converted_count > 0 || partial->touches > 0;
-    const bool anew =
-        due && lagrangian_mesh_update_after_point_conversion(e->frame, &e->part, converted_count, partial, &e->damped);
-    if (anew) lagrangian_mesh_list_bonded_or_loaded_points(e->frame, &e->part, &e->bonds, &e->loads);
+    const bool anew = due && lagrangian_mesh_update_after_point_conversion(run->frame, &run->part, converted_count,
+                                                                           partial, &run->damped);
+    if (anew) lagrangian_mesh_list_bonded_or_loaded_points(run->frame, &run->part, &run->bonds, &run->loads);
     if (converted_count > 0 || (due && !anew))
-        bonded_points_update_strain_from_mesh_or_stress(partial, e->frame, &e->part, e->scene->material);
+        bonded_points_update_strain_from_mesh_or_stress(partial, run->frame, &run->part, run->scene->material);
     partial->touches = 0;
 }
 
-int64_t run_convert_flagged_points_to_peridynamic(struct run *e, int64_t broken_bond_count, bool crack_faces_examined,
+int64_t run_convert_flagged_points_to_peridynamic(struct run *run, int64_t broken_bond_count, bool crack_faces_examined,
                                                   bool bonds_weaken_gradually)
 {
-    const struct conversion_sync sync = {sync_listed, e, meet_others};
-    struct coupling_state *c = e->coupling;
-    if (!crack_faces_examined && broken_bond_count == 0 && !c->approaches && !e->bonds.soft.at_points &&
-        !may_convert(e->scene, &e->part, e->frame))
+    const struct conversion_sync sync = {sync_listed, run, meet_others};
+    struct coupling_state *c = run->coupling;
+    if (!crack_faces_examined && broken_bond_count == 0 && !c->approaches && !run->bonds.soft.at_points &&
+        !may_convert(run->scene, &run->part, run->frame))
         return 0;
-    e->bonds.soft.at_points = false;
-    coarse_cells_delay_conversion_of_nearby_points(&e->frame->levels, &e->part);
+    run->bonds.soft.at_points = false;
+    coarse_cells_delay_conversion_of_nearby_points(&run->frame->levels, &run->part);
     const int64_t converted =
-        convert_flagged_points_to_peridynamic(&c->conversion, &e->scene->conversion, &e->part, &e->bonds, &e->source,
-                                              c->uses_partial ? &c->partial : NULL, &sync, e->clock.t);
+        convert_flagged_points_to_peridynamic(&c->conversion, &run->scene->conversion, &run->part, &run->bonds,
+                                              &run->source, c->uses_partial ? &c->partial : NULL, &sync, run->clock.t);
     if (converted > 0)
-        interface_zone_rebuild_after_bond_change(c, &e->part, &e->bonds, &e->source), e->grid->sort_needed = SORT_ALL;
+        interface_zone_rebuild_after_bond_change(c, &run->part, &run->bonds, &run->source),
+            run->grid->sort_needed = SORT_ALL;
     /* where bonds fade; for broken bonds convert_flagged_points_to_peridynamic() has updated the partial stresses */
-    if (c->uses_partial && e->scene->growths > 0 && (broken_bond_count > 0 || converted > 0 || bonds_weaken_gradually))
-        partial_stress_compute_from_bonds(&c->partial, &e->part, &e->bonds, &e->source, NULL, 0);
-    conversion_update_mesh_after_conversion(e, converted);
+    if (c->uses_partial && run->scene->growths > 0 &&
+        (broken_bond_count > 0 || converted > 0 || bonds_weaken_gradually))
+        partial_stress_compute_from_bonds(&c->partial, &run->part, &run->bonds, &run->source, NULL, 0);
+    conversion_update_mesh_after_conversion(run, converted);
     return converted;
 }
 
@@ -118,23 +121,23 @@ void interface_zone_rebuild_after_bond_change(struct coupling_state *c, const st
         interface_zone_find_points_and_neighbours(&c->zone, p, source);
 }
 
-void coupling_set_method_and_compute_partial_stress(struct run *e)
+void coupling_set_method_and_compute_partial_stress(struct run *run)
 {
-    struct coupling_state *c = e->coupling;
-    e->coupling_kind = e->scene->method == METHOD_ADAPTIVE ? e->scene->coupling : COUPLING_HANDSHAKE;
-    c->flip = e->scene->transfer == TRANSFER_FLIP;
-    c->partial.gives_all = e->coupling_kind != COUPLING_PARTIAL_STRESS;
-    c->uses_partial = !c->partial.gives_all || e->part.end_strain;
-    if (c->uses_partial) partial_stress_compute_from_bonds(&c->partial, &e->part, &e->bonds, &e->source, NULL, 0);
-    interface_zone_rebuild_after_bond_change(c, &e->part, &e->bonds, &e->source);
+    struct coupling_state *c = run->coupling;
+    run->coupling_kind = run->scene->method == METHOD_ADAPTIVE ? run->scene->coupling : COUPLING_HANDSHAKE;
+    c->flip = run->scene->transfer == TRANSFER_FLIP;
+    c->partial.gives_all = run->coupling_kind != COUPLING_PARTIAL_STRESS;
+    c->uses_partial = !c->partial.gives_all || run->part.end_strain;
+    if (c->uses_partial) partial_stress_compute_from_bonds(&c->partial, &run->part, &run->bonds, &run->source, NULL, 0);
+    interface_zone_rebuild_after_bond_change(c, &run->part, &run->bonds, &run->source);
 }
 
-status coupling_build_total_lagrangian_mesh(struct run *e, bool caller_sets_nodal_motion)
+status coupling_build_total_lagrangian_mesh(struct run *run, bool caller_sets_nodal_motion)
 {
-    struct coupling_state *c = e->coupling;
+    struct coupling_state *c = run->coupling;
     const struct mesh_source cuts = {
         .partial = c->uses_partial ? &c->partial : NULL, .slit = c->notches.slit, .slits = c->notches.slits};
-    TRY(lagrangian_mesh_make_for_run(e, &cuts, caller_sets_nodal_motion));
+    TRY(lagrangian_mesh_make_for_run(run, &cuts, caller_sets_nodal_motion));
     c->partial.touches = 0; /* the mesh includes the present partial stresses */
     return OK;
 }

@@ -3,9 +3,9 @@
 #include "base/memory.h"
 #include "run/part.h"
 
-static void coupling_free_all(struct run *e)
+static void coupling_free_all(struct run *run)
 {
-    struct coupling_state *c = e->coupling;
+    struct coupling_state *c = run->coupling;
     partial_stress_free(&c->partial), interface_zone_free(&c->zone), notches_free(&c->notches);
     memory_free(c->bonded), memory_free(c->start_region.solid);
 }
@@ -34,36 +34,37 @@ static void put_notches(struct json *j, const struct notches *n, real spacing)
     json_end_object_or_list(j, ']');
 }
 
-static void put_conversion(const struct run *e, struct json *j)
+static void put_conversion(const struct run *run, struct json *j)
 {
-    const struct conversion *c = &e->coupling->conversion;
-    real n = (real)e->part.n_body, start = (real)c->start / n, end = (real)e->part.n_of[KIND_PD] / n;
+    const struct conversion *c = &run->coupling->conversion;
+    real n = (real)run->part.n_body, start = (real)c->start / n, end = (real)run->part.n_of[KIND_PD] / n;
     json_begin_object_or_list(j, "conversion", '{');
     if (isfinite(c->first_time) && c->events > 0) {
         json_write_real(j, "first_time", c->first_time);
-        json_write_point(j, "", c->first_place, e->part.dim);
+        json_write_point(j, "", c->first_place, run->part.dim);
     }
     json_write_real(j, "pd_share_start", start);
     json_write_real(j, "pd_share_end", end);
     json_write_real(j, "pd_share_max", real_max((real)c->peak / n, real_max(start, end)));
-    put_notches(j, &e->coupling->notches, e->scene->spacing);
-    if (e->part.low_since) {
+    put_notches(j, &run->coupling->notches, run->scene->spacing);
+    if (run->part.low_since) {
         json_write_integer(j, "converted", c->converted);
         json_write_integer(j, "reverted", c->reverted);
-        json_write_integer(j, "reversions_most", reversions_most(&e->part));
+        json_write_integer(j, "reversions_most", reversions_most(&run->part));
         json_write_real(j, "reversion_energy", c->reversion_energy);
     }
     json_end_object_or_list(j, '}');
 }
 
-/* Saves the state of conversion of run e to the archive a if a->saving, else restores it. The strains of material
+/* Saves the state of conversion of run to the archive a if a->saving, else restores it. The strains of material
  * points with bonds to peridynamic particles are not saved, but recomputed from the mesh on restoring. Returns FAILED
  * if the archive cannot be read or written or lacks the state. */
-static status coupling_state_of(struct run *e, struct archive *a)
+static status coupling_state_of(struct run *run, struct archive *a)
 {
     if (!a->saving)
-        bonded_points_update_strain_from_mesh_or_stress(&e->coupling->partial, e->frame, &e->part, e->scene->material);
-    return conversion_save_or_load(&e->coupling->conversion, a);
+        bonded_points_update_strain_from_mesh_or_stress(&run->coupling->partial, run->frame, &run->part,
+                                                        run->scene->material);
+    return conversion_save_or_load(&run->coupling->conversion, a);
 }
 
 const struct part part_coupling = {PART(coupling, coupling_state), .free = coupling_free_all, .summary = put_conversion,

@@ -105,17 +105,17 @@ static int touching(const struct particles *p, const struct cells *cells, int bo
     return pairs;
 }
 
-/* Adds a warning to `to` if bodies of run e touch at the start without being joined, and names them. Bodies touch if
+/* Adds a warning to `to` if bodies of run touch at the start without being joined, and names them. Bodies touch if
  * particles of both are within 1.5 spacings or the cutoff (largest bond length), whichever is smaller, and have the
  * same velocity. */
-static void warn_of_touch(const struct run *e, struct warnings *to)
+static void warn_of_touch(const struct run *run, struct warnings *to)
 {
-    const struct scene *s = e->scene;
+    const struct scene *s = run->scene;
     char name[2 * NAME_MAX_LENGTH + 8];
     if (s->bodies < 2) return;
     bool *touch = NEW("warn.touch", s->bodies * s->bodies, bool);
-    const real reach = real_min(1.5 * s->spacing, e->source.family.cutoff);
-    struct name_list names = {.all = touching(&e->part, &e->cells, s->bodies, reach, touch)};
+    const real reach = real_min(1.5 * s->spacing, run->source.family.cutoff);
+    struct name_list names = {.all = touching(&run->part, &run->cells, s->bodies, reach, touch)};
     for (int k = 0; k < s->bodies * s->bodies; k++) {
         if (!touch[k]) continue;
         snprintf(name, sizeof name, "%s with %s", s->body[k / s->bodies].name, s->body[k % s->bodies].name);
@@ -126,18 +126,18 @@ static void warn_of_touch(const struct run *e, struct warnings *to)
         warnings_add_if_new(
             to, "bodies touch at the start (%s), but no bond joins them, so %s; to join them, use the key interfaces",
             names.text,
-            s->method == METHOD_PD || e->grid->fields > 1
+            s->method == METHOD_PD || run->grid->fields > 1
                 ? "they separate freely"
                 : "on the grid of mpm.frame: current they stick together only until a gap of two cells opens");
 }
 
-void warn_of_bodies_that_penetrate_or_stick_together(const struct run *e, struct warnings *warning_list)
+void warn_of_bodies_that_penetrate_or_stick_together(const struct run *run, struct warnings *warning_list)
 {
-    const struct scene *s = e->scene;
-    const bool reference_possible = e->source.voids && s->method != METHOD_PD && s->bodies == 1 &&
+    const struct scene *s = run->scene;
+    const bool reference_possible = run->source.voids && s->method != METHOD_PD && s->bodies == 1 &&
                                     !scene_reason_total_lagrangian_mpm_unsupported(s, 0) &&
-                                    lagrangian_mesh_can_be_made_for_scene(e->frame, &e->part, s, e->grid);
-    warn_of_contact(s, e->frame, e->coupling->approaches, warning_list);
-    warn_of_touch(e, warning_list);
-    warn_of_voids_treated_as_closed(e, reference_possible, warning_list);
+                                    lagrangian_mesh_can_be_made_for_scene(run->frame, &run->part, s, run->grid);
+    warn_of_contact(s, run->frame, run->coupling->approaches, warning_list);
+    warn_of_touch(run, warning_list);
+    warn_of_voids_treated_as_closed(run, reference_possible, warning_list);
 }

@@ -51,28 +51,28 @@ static void mark_near(uint8_t *mark, const struct particles *p, const struct bon
 
 /* ---- making ------------------------------------------------------------------------------------------------------ */
 
-/* Appends the particles i with mark[i] = `as`, in ascending order, to r->particle, the list of members of the interface
- * zone (material points near peridynamic particles, and neighbours). slot[i]: receives the index of particle i in the
- * list; n: number of particles, length of mark and slot. */
-static void members_add(struct interface_zone *r, const uint8_t *mark, int32_t *slot, int64_t n, enum mark as)
+/* Appends the particles i with mark[i] = `as`, in ascending order, to zone->particle, the list of members of the
+ * interface zone (material points near peridynamic particles, and neighbours). slot[i]: receives the index of particle
+ * i in the list; n: number of particles, length of mark and slot. */
+static void members_add(struct interface_zone *zone, const uint8_t *mark, int32_t *slot, int64_t n, enum mark as)
 {
     for (int64_t i = 0; i < n; i++)
-        if (mark[i] == as) slot[i] = (int32_t)r->n, r->particle[r->n++] = (int32_t)i;
+        if (mark[i] == as) slot[i] = (int32_t)zone->n, zone->particle[zone->n++] = (int32_t)i;
 }
 
-/* Lists in r->particle the members of the interface zone: first the material points near peridynamic particles, then
+/* Lists in zone->particle the members of the interface zone: first the material points near peridynamic particles, then
  * the nearest neighbours of these points that are not such points themselves. s: cells of the neighbour search;
  * mark[p->n]: 0 before, receives POINT for members of the first group and BESIDE for those of the second; slot[p->n]:
  * receives the index of each member in the list. */
-static void members_make(struct interface_zone *r, const struct particles *p, const struct bond_source *s,
+static void members_make(struct interface_zone *zone, const struct particles *p, const struct bond_source *s,
                          uint8_t *mark, int32_t *slot)
 {
     const real spacing = s->family.spacing;
     mark_near(mark, p, s, p->list[KIND_PD], p->n_of[KIND_PD], s->family.cutoff + spacing * (1 + 1e-9), POINT);
-    members_add(r, mark, slot, p->n, POINT);
-    r->points = r->n;
-    mark_near(mark, p, s, r->particle, r->points, NEIGHBOUR_SPACINGS * spacing, BESIDE);
-    members_add(r, mark, slot, p->n, BESIDE);
+    members_add(zone, mark, slot, p->n, POINT);
+    zone->points = zone->n;
+    mark_near(mark, p, s, zone->particle, zone->points, NEIGHBOUR_SPACINGS * spacing, BESIDE);
+    members_add(zone, mark, slot, p->n, BESIDE);
 }
 
 /* Finds the neighbours with which damping acts on member k of the interface zone r (material points near peridynamic
@@ -80,10 +80,10 @@ static void members_make(struct interface_zone *r, const struct particles *p, co
  * by a pre-crack of s. At least one of the two must be a material point of the zone. p: particles; mark, slot: as
  * computed by members_make; to: receives the indices of these neighbours in the list of members, NULL: they are only
  * counted; near: working memory. Returns their number. */
-static int64_t pairs_of(const struct interface_zone *r, const struct particles *p, const struct bond_source *s,
+static int64_t pairs_of(const struct interface_zone *zone, const struct particles *p, const struct bond_source *s,
                         const uint8_t *mark, const int32_t *slot, int64_t k, struct neighbour_list *near, int32_t *to)
 {
-    const int32_t i = r->particle[k];
+    const int32_t i = zone->particle[k];
     int64_t n = 0;
     particles_list_neighbours_within_radius(near, s->cells, p, i, NEIGHBOUR_SPACINGS * s->family.spacing, false);
     for (int q = 0; q < near->n; q++) {
@@ -98,11 +98,12 @@ static int64_t pairs_of(const struct interface_zone *r, const struct particles *
 }
 
 /* Counts or lists the neighbours of all members (particles of p) of the interface zone r (material points near
- * peridynamic particles, and neighbours). With `count` true, stores the number of neighbours of member k in r->start[k
- * + 1]. With `count` false, stores their indices in r->neighbour, from r->start[k] on. mark, slot: as computed by
+ * peridynamic particles, and neighbours). With `count` true, stores the number of neighbours of member k in
+ * zone->start[k
+ * + 1]. With `count` false, stores their indices in zone->neighbour, from zone->start[k] on. mark, slot: as computed by
  * members_make. s: cells of the neighbour search and pre-cracks. Returns the largest number of neighbours of a member,
  * at least 1. */
-static int64_t pairs_pass(struct interface_zone *r, const struct particles *p, const struct bond_source *s,
+static int64_t pairs_pass(struct interface_zone *zone, const struct particles *p, const struct bond_source *s,
                           const uint8_t *mark, const int32_t *slot, bool count)
 {
     int64_t most = 1;
@@ -110,9 +111,10 @@ static int64_t pairs_pass(struct interface_zone *r, const struct particles *p, c
     {
         struct neighbour_list near = {0};
 #pragma omp for schedule(static)
-        for (int64_t k = 0; k < r->n; k++) {
-            const int64_t n = pairs_of(r, p, s, mark, slot, k, &near, count ? NULL : r->neighbour + r->start[k]);
-            if (count) r->start[k + 1] = n;
+        for (int64_t k = 0; k < zone->n; k++) {
+            const int64_t n =
+                pairs_of(zone, p, s, mark, slot, k, &near, count ? NULL : zone->neighbour + zone->start[k]);
+            if (count) zone->start[k + 1] = n;
             if (n > most) most = n;
         }
         memory_free(near.at);
@@ -120,45 +122,45 @@ static int64_t pairs_pass(struct interface_zone *r, const struct particles *p, c
     return most;
 }
 
-/* Lists the neighbours of each member of the interface zone r, particles of p, in r->neighbour, after members_make.
- * Computes r->scale, the factor on the velocity differences between neighbours, from the largest number of neighbours.
- * mark, slot: as computed by members_make; s: cells of the neighbour search and pre-cracks. */
-static void interface_zone_pairs_make(struct interface_zone *r, const struct particles *p, const struct bond_source *s,
-                                      const uint8_t *mark, const int32_t *slot)
+/* Lists the neighbours of each member of the interface zone r, particles of p, in zone->neighbour, after members_make.
+ * Computes zone->scale, the factor on the velocity differences between neighbours, from the largest number of
+ * neighbours. mark, slot: as computed by members_make; s: cells of the neighbour search and pre-cracks. */
+static void interface_zone_pairs_make(struct interface_zone *zone, const struct particles *p,
+                                      const struct bond_source *s, const uint8_t *mark, const int32_t *slot)
 {
-    const int64_t most = pairs_pass(r, p, s, mark, slot, true);
-    for (int64_t k = 0; k < r->n; k++) r->start[k + 1] += r->start[k];
-    r->neighbour = NEW("interface_zone.neighbour", r->start[r->n], int32_t);
-    pairs_pass(r, p, s, mark, slot, false);
+    const int64_t most = pairs_pass(zone, p, s, mark, slot, true);
+    for (int64_t k = 0; k < zone->n; k++) zone->start[k + 1] += zone->start[k];
+    zone->neighbour = NEW("interface_zone.neighbour", zone->start[zone->n], int32_t);
+    pairs_pass(zone, p, s, mark, slot, false);
     /* the norm of the sum of e e over n neighbours is about n/dim */
-    r->scale = 4 / ((real)most * (1 + 1.0 / p->dim));
+    zone->scale = 4 / ((real)most * (1 + 1.0 / p->dim));
 }
 
-void interface_zone_find_points_and_neighbours(struct interface_zone *r, const struct particles *p,
+void interface_zone_find_points_and_neighbours(struct interface_zone *zone, const struct particles *p,
                                                const struct bond_source *source)
 {
-    interface_zone_free(r);
+    interface_zone_free(zone);
     uint8_t *mark = NEW("interface_zone.mark", p->n, uint8_t);
     int32_t *slot = BARE("interface_zone.slot", p->n, int32_t); /* [n] index among the members */
-    r->particle = NEW("interface_zone.particle", p->n, int32_t);
-    members_make(r, p, source, mark, slot);
-    r->particle = memory_resize("interface_zone.particle", r->particle, p->n, r->n, sizeof *r->particle);
-    r->start = NEW("interface_zone.start", r->n + 1, int64_t);
-    interface_zone_pairs_make(r, p, source, mark, slot);
-    r->difference = NEW("interface_zone.difference", r->n * p->dim, real);
-    r->change = NEW("interface_zone.change", r->n * p->dim, real);
+    zone->particle = NEW("interface_zone.particle", p->n, int32_t);
+    members_make(zone, p, source, mark, slot);
+    zone->particle = memory_resize("interface_zone.particle", zone->particle, p->n, zone->n, sizeof *zone->particle);
+    zone->start = NEW("interface_zone.start", zone->n + 1, int64_t);
+    interface_zone_pairs_make(zone, p, source, mark, slot);
+    zone->difference = NEW("interface_zone.difference", zone->n * p->dim, real);
+    zone->change = NEW("interface_zone.change", zone->n * p->dim, real);
     memory_free(mark);
     memory_free(slot);
 }
 
-void interface_zone_free(struct interface_zone *r)
+void interface_zone_free(struct interface_zone *zone)
 {
-    memory_free(r->particle);
-    memory_free(r->start);
-    memory_free(r->neighbour);
-    memory_free(r->difference);
-    memory_free(r->change);
-    memset(r, 0, sizeof *r);
+    memory_free(zone->particle);
+    memory_free(zone->start);
+    memory_free(zone->neighbour);
+    memory_free(zone->difference);
+    memory_free(zone->change);
+    memset(zone, 0, sizeof *zone);
 }
 
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
@@ -183,59 +185,60 @@ static void velocity_of(const struct particles *p, int32_t i, real *v)
     for (int d = 0; d < p->dim; d++) v[d] = p->v[d][i];
 }
 
-/* Computes r->difference of member k (a particle of p) of the interface zone (material points near peridynamic
- * particles, and neighbours) [kg m/s]: r->scale times the mass of the member times a sum over its neighbours. A term of
- * the sum is the velocity of the neighbour relative to the member, projected on the line between both. */
-static void difference_make(struct interface_zone *r, const struct particles *p, int64_t k)
+/* Computes zone->difference of member k (a particle of p) of the interface zone (material points near peridynamic
+ * particles, and neighbours) [kg m/s]: zone->scale times the mass of the member times a sum over its neighbours. A term
+ * of the sum is the velocity of the neighbour relative to the member, projected on the line between both. */
+static void difference_make(struct interface_zone *zone, const struct particles *p, int64_t k)
 {
-    const int32_t i = r->particle[k];
+    const int32_t i = zone->particle[k];
     real own[DIM_MAX], other[DIM_MAX], sum[DIM_MAX] = {0};
     velocity_of(p, i, own);
-    for (int64_t q = r->start[k]; q < r->start[k + 1]; q++) {
-        const int32_t j = r->particle[r->neighbour[q]];
+    for (int64_t q = zone->start[k]; q < zone->start[k + 1]; q++) {
+        const int32_t j = zone->particle[zone->neighbour[q]];
         velocity_of(p, j, other);
-        add_along(p, i, j, own, other, r->scale, sum);
+        add_along(p, i, j, own, other, zone->scale, sum);
     }
-    for (int d = 0; d < p->dim; d++) r->difference[k * p->dim + d] = p->mass[i] * sum[d];
+    for (int d = 0; d < p->dim; d++) zone->difference[k * p->dim + d] = p->mass[i] * sum[d];
 }
 
-/* Computes r->change, the change of momentum of member k of the interface zone by damping [kg m/s], from r->difference
- * of the member and of its neighbours. The changes of the two members of a pair are bitwise opposite, so that momentum
- * is conserved. share: strength of the damping [1]; p: particles. */
-static void change_make(struct interface_zone *r, const struct particles *p, int64_t k, real share)
+/* Computes zone->change, the change of momentum of member k of the interface zone by damping [kg m/s], from
+ * zone->difference of the member and of its neighbours. The changes of the two members of a pair are bitwise opposite,
+ * so that momentum is conserved. share: strength of the damping [1]; p: particles. */
+static void change_make(struct interface_zone *zone, const struct particles *p, int64_t k, real share)
 {
-    real *sum = r->change + k * p->dim;
+    real *sum = zone->change + k * p->dim;
     for (int d = 0; d < p->dim; d++) sum[d] = 0;
-    for (int64_t q = r->start[k]; q < r->start[k + 1]; q++) {
-        const int32_t m = r->neighbour[q];
-        add_along(p, r->particle[k], r->particle[m], r->difference + k * p->dim, r->difference + m * p->dim,
-                  -share * r->scale, sum);
+    for (int64_t q = zone->start[k]; q < zone->start[k + 1]; q++) {
+        const int32_t m = zone->neighbour[q];
+        add_along(p, zone->particle[k], zone->particle[m], zone->difference + k * p->dim, zone->difference + m * p->dim,
+                  -share * zone->scale, sum);
     }
 }
 
 /* Returns the second half of the energy that damping has removed in this step [J]: -1/2 sum dp . v over the members of
  * the interface zone r, with their change of momentum dp and their present velocity v in p. Call it after the change
  * has been applied; the first half is this sum with the velocities before the step. */
-real interface_zone_damping_loss_by_new_velocity(const struct interface_zone *r, const struct particles *p)
+real interface_zone_damping_loss_by_new_velocity(const struct interface_zone *zone, const struct particles *p)
 {
     real lost = 0; /* serial: few members, and the sum must not depend on the number of threads */
-    for (int64_t k = 0; k < r->n; k++)
-        for (int d = 0; d < p->dim; d++) lost -= 0.5 * r->change[k * p->dim + d] * p->v[d][r->particle[k]];
+    for (int64_t k = 0; k < zone->n; k++)
+        for (int d = 0; d < p->dim; d++) lost -= 0.5 * zone->change[k * p->dim + d] * p->v[d][zone->particle[k]];
     return lost;
 }
 
-real interface_zone_damp_return_loss_by_old_velocity(struct interface_zone *r, struct particles *p, real viscosity)
+real interface_zone_damp_return_loss_by_old_velocity(struct interface_zone *zone, struct particles *p, real viscosity)
 {
 #pragma omp parallel
     {
 #pragma omp for schedule(static)
         /* 0 for members outside the interface zone */
-        for (int64_t k = 0; k < r->points; k++) difference_make(r, p, k);
+        for (int64_t k = 0; k < zone->points; k++) difference_make(zone, p, k);
 #pragma omp for schedule(static)
-        for (int64_t k = 0; k < r->n; k++) change_make(r, p, k, viscosity);
+        for (int64_t k = 0; k < zone->n; k++) change_make(zone, p, k, viscosity);
     }
-    const real lost = interface_zone_damping_loss_by_new_velocity(r, p);
-    for (int64_t k = 0; k < r->n; k++)
-        for (int d = 0; d < p->dim; d++) p->v[d][r->particle[k]] += r->change[k * p->dim + d] / p->mass[r->particle[k]];
+    const real lost = interface_zone_damping_loss_by_new_velocity(zone, p);
+    for (int64_t k = 0; k < zone->n; k++)
+        for (int d = 0; d < p->dim; d++)
+            p->v[d][zone->particle[k]] += zone->change[k * p->dim + d] / p->mass[zone->particle[k]];
     return lost;
 }

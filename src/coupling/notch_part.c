@@ -25,10 +25,10 @@ static const char *scene_obstacle(const struct scene *s)
 /* Returns the reason why pre-cracks may not be slits, along which nodes of the mesh are doubled, as a constant text: in
  * the scene s, the reference frame r (mesh of the undeformed body) or the background grid g. Returns NULL if nothing
  * prevents slits. */
-static const char *obstacle_of(const struct scene *s, const struct lagrangian_mesh *r, const struct grid *g)
+static const char *obstacle_of(const struct scene *s, const struct lagrangian_mesh *reference, const struct grid *g)
 {
     const char *why = scene_obstacle(s);
-    if (!why && !lagrangian_mesh_is_used_by_any_body(r))
+    if (!why && !lagrangian_mesh_is_used_by_any_body(reference))
         why = "the scene has no material points in the reference frame";
     if (!why && grid_has_mirror_plane_between_nodes(g, s)) why = "a mirror plane is between two nodes of the mesh";
     return why;
@@ -47,24 +47,24 @@ static status notches_check(const struct scene *s, const struct notches *n)
     return OK;
 }
 
-status precracks_apply_as_slits_or_cut_bonds(struct run *e)
+status precracks_apply_as_slits_or_cut_bonds(struct run *run)
 {
-    const struct scene *s = e->scene;
-    const struct grid *g = &e->grid->field[0].grid;
-    struct notches *n = &e->coupling->notches;
-    const real tips = s->conversion.tips * e->source.family.horizon;
+    const struct scene *s = run->scene;
+    const struct grid *g = &run->grid->field[0].grid;
+    struct notches *n = &run->coupling->notches;
+    const real tips = s->conversion.tips * run->source.family.horizon;
     const real radius = tips > 0 ? real_max(tips, NOTCH_ZONE_LEAST * s->spacing) : NOTCH_ZONE * s->spacing;
-    notches_choose_slits_or_cut_bonds(n, &e->part, &e->source, radius, obstacle_of(s, e->frame, g));
+    notches_choose_slits_or_cut_bonds(n, &run->part, &run->source, radius, obstacle_of(s, run->frame, g));
     TRY(notches_check(s, n));
-    struct bond_source cut = e->source;
+    struct bond_source cut = run->source;
     cut.crack = n->cut, cut.cracks = n->cuts;
-    initial_pd_region_make(&e->coupling->start_region, s->has_pd_region ? &s->pd_region : NULL, &e->part, &e->source,
-                           tips);
-    notches_make_slit_ends_peridynamic(n, &e->part, &e->source);
-    convert_particles_beside_voids_to_peridynamic(&e->part, e->source.voids,
+    initial_pd_region_make(&run->coupling->start_region, s->has_pd_region ? &s->pd_region : NULL, &run->part,
+                           &run->source, tips);
+    notches_make_slit_ends_peridynamic(n, &run->part, &run->source);
+    convert_particles_beside_voids_to_peridynamic(&run->part, run->source.voids,
                                                   mesh_cannot_have_free_surfaces_at_voids(g, s));
-    convert_particles_at_precracks_to_peridynamic(&e->part, &cut,
-                                                  e->coupling->start_region.n > 0 ? &e->coupling->start_region : NULL);
+    convert_particles_at_precracks_to_peridynamic(
+        &run->part, &cut, run->coupling->start_region.n > 0 ? &run->coupling->start_region : NULL);
     return OK;
 }
 

@@ -41,49 +41,49 @@ status reversion_check_scene_allows_return_to_mpm(const struct scene *s)
     return why ? status_set(REFUSED, "conversion.reversion: true is impossible: %s", why) : OK;
 }
 
-/* Returns the sum of the elastic and kinetic energies of the bodies of run e at the present positions [J], those of
+/* Returns the sum of the elastic and kinetic energies of the bodies of run at the present positions [J], those of
  * bonds, material points and mesh included. */
-static real energy_now(struct run *e)
+static real energy_now(struct run *run)
 {
-    if (e->source.modulus) bonds_compute_particle_stress(&e->bonds, &e->part, &e->source, &e->kernels);
-    return e->kernels.bond_energy(&e->bonds, &e->part, NULL) +
-           points_strain_energy(&e->part, e->scene->material, &e->coupling->partial) +
-           mesh_strain(&e->frame->mesh, &e->part, e->frame->elastic, !e->scene->small_strain) +
-           particles_kinetic_energy(&e->part) + mesh_kinetic(&e->frame->mesh);
+    if (run->source.modulus) bonds_compute_particle_stress(&run->bonds, &run->part, &run->source, &run->kernels);
+    return run->kernels.bond_energy(&run->bonds, &run->part, NULL) +
+           points_strain_energy(&run->part, run->scene->material, &run->coupling->partial) +
+           mesh_strain(&run->frame->mesh, &run->part, run->frame->elastic, !run->scene->small_strain) +
+           particles_kinetic_energy(&run->part) + mesh_kinetic(&run->frame->mesh);
 }
 
 /* Turns n peridynamic particles into material points, with bonds, mesh and interface zone updated. list[n]: indices of
  * the particles. The change of elastic and kinetic energy that this causes is added to the quantity
- * conversion.reversion_energy of run e [J]. */
-static void revert_listed(struct run *e, const int32_t *list, int64_t n)
+ * conversion.reversion_energy of run [J]. */
+static void revert_listed(struct run *run, const int32_t *list, int64_t n)
 {
-    const real before = energy_now(e);
-    reversion_convert_listed_particles_to_mpm(&e->coupling->conversion, &e->part, &e->bonds, &e->source,
-                                              e->coupling->uses_partial ? &e->coupling->partial : NULL, list, n);
-    lagrangian_mesh_insert_points(e->frame, &e->part, list, n, &e->damped);
-    conversion_update_mesh_after_conversion(e, n);
-    lagrangian_mesh_update_point_motion(e->frame, &e->part, &e->loads);
-    interface_zone_rebuild_after_bond_change(e->coupling, &e->part, &e->bonds, &e->source);
-    e->grid->sort_needed = SORT_ALL, e->contact->due = true;
-    e->coupling->conversion.reversion_energy += energy_now(e) - before;
+    const real before = energy_now(run);
+    reversion_convert_listed_particles_to_mpm(&run->coupling->conversion, &run->part, &run->bonds, &run->source,
+                                              run->coupling->uses_partial ? &run->coupling->partial : NULL, list, n);
+    lagrangian_mesh_insert_points(run->frame, &run->part, list, n, &run->damped);
+    conversion_update_mesh_after_conversion(run, n);
+    lagrangian_mesh_update_point_motion(run->frame, &run->part, &run->loads);
+    interface_zone_rebuild_after_bond_change(run->coupling, &run->part, &run->bonds, &run->source);
+    run->grid->sort_needed = SORT_ALL, run->contact->due = true;
+    run->coupling->conversion.reversion_energy += energy_now(run) - before;
 }
 
-void reversion_convert_relaxed_particles_to_mpm(struct run *e)
+void reversion_convert_relaxed_particles_to_mpm(struct run *run)
 {
-    const struct scene *s = e->scene;
+    const struct scene *s = run->scene;
     int32_t *list;
-    if (!e->part.low_since || e->clock.step == 0 || e->clock.step % period(&e->clock, &e->tables, &e->source) != 0 ||
-        e->part.n_of[KIND_PD] == 0)
+    if (!run->part.low_since || run->clock.step == 0 ||
+        run->clock.step % period(&run->clock, &run->tables, &run->source) != 0 || run->part.n_of[KIND_PD] == 0)
         return;
-    bonds_compute_particle_stress(&e->bonds, &e->part, &e->source, &e->kernels);
+    bonds_compute_particle_stress(&run->bonds, &run->part, &run->source, &run->kernels);
     const int64_t n = reversion_select_particles_to_become_mpm(
-        &(struct reversion_rule){.source = &e->source,
-                                 .elastic = e->tables.elastic,
-                                 .kept = e->coupling->start_region.n > 0 ? &e->coupling->start_region : NULL,
+        &(struct reversion_rule){.source = &run->source,
+                                 .elastic = run->tables.elastic,
+                                 .kept = run->coupling->start_region.n > 0 ? &run->coupling->start_region : NULL,
                                  .low_stress = s->conversion.low_stress,
                                  .hold_time =
-                                     s->conversion.hold_time * e->source.family.horizon / e->tables.wave_speed},
-        &e->part, &e->bonds, e->clock.t, &list);
-    if (n > 0) revert_listed(e, list, n);
+                                     s->conversion.hold_time * run->source.family.horizon / run->tables.wave_speed},
+        &run->part, &run->bonds, run->clock.t, &list);
+    if (n > 0) revert_listed(run, list, n);
     memory_free(list);
 }

@@ -114,37 +114,38 @@ static struct closed closed_in_lattice(const struct scene *s, const struct parti
     return 2 * regular > all ? found : (struct closed){0};
 }
 
-void warn_of_voids_treated_as_closed(const struct run *e, bool total_lagrangian_possible, struct warnings *warning_list)
+void warn_of_voids_treated_as_closed(const struct run *run, bool total_lagrangian_possible,
+                                     struct warnings *warning_list)
 {
-    const struct scene *s = e->scene;
-    const bool uncut = mesh_cannot_have_free_surfaces_at_voids(&e->grid->field[0].grid, s);
+    const struct scene *s = run->scene;
+    const bool uncut = mesh_cannot_have_free_surfaces_at_voids(&run->grid->field[0].grid, s);
     struct closed grid = {0}, plane = {0};
-    const real reach = scene_interaction_distance_across_voids(s, e->source.family.cutoff);
-    closed_on_grid(&e->part, e->source.voids, &e->cells, reach, uncut, &grid, &plane);
+    const real reach = scene_interaction_distance_across_voids(s, run->source.family.cutoff);
+    closed_on_grid(&run->part, run->source.voids, &run->cells, reach, uncut, &grid, &plane);
     if (grid.n > 0)
         warnings_add_if_new(warning_list,
                             "body %s has a void too narrow for its grid at (%s) m, where %lld material points share "
                             "grid nodes with points on the other side, so the void has no effect; use %smethod: pd, "
                             "method: adaptive or a smaller particles.spacing",
-                            s->body[e->part.body[grid.first]].name,
-                            particle_position_text(&e->part, grid.first, 4).text, (long long)grid.n,
+                            s->body[run->part.body[grid.first]].name,
+                            particle_position_text(&run->part, grid.first, 4).text, (long long)grid.n,
                             total_lagrangian_possible && !uncut ? "mpm.frame: reference, " : "");
     if (plane.n > 0)
         warnings_add_if_new(warning_list,
                             "body %s: the gap between this body and a plane of symmetry is too narrow for the grid at "
                             "(%s) m, where the plane acts on %lld material points that do not touch it; use method: "
                             "pd, method: adaptive or a smaller particles.spacing",
-                            s->body[e->part.body[plane.first]].name,
-                            particle_position_text(&e->part, plane.first, 4).text, (long long)plane.n);
+                            s->body[run->part.body[plane.first]].name,
+                            particle_position_text(&run->part, plane.first, 4).text, (long long)plane.n);
     for (int b = 0; b < s->bodies && s->dim > 1; b++) {
         if (s->body[b].joined != b || joined_bodies_are_all_defined_by_solids(s, b)) continue;
-        const struct closed gap = closed_in_lattice(s, &e->part, &e->cells, b, reach);
+        const struct closed gap = closed_in_lattice(s, &run->part, &run->cells, b, reach);
         if (gap.n == 0) continue;
         warnings_add_if_new(warning_list,
                             "body %s has a void one or two particles wide, for instance at (%s) m (%lld particles are "
                             "beside such voids). A particle list or image defines no surfaces, so %s join both sides "
                             "of the void; define its surfaces by the key cracks, or use a smaller particles.spacing",
-                            s->body[b].name, particle_position_text(&e->part, gap.first, 4).text, (long long)gap.n,
+                            s->body[b].name, particle_position_text(&run->part, gap.first, 4).text, (long long)gap.n,
                             s->method == METHOD_MPM  ? "cells"
                             : s->method == METHOD_PD ? "bonds"
                                                      : "bonds and cells");

@@ -3,9 +3,9 @@
 
 #include "base/memory.h"
 
-void cells_without_particles_free(struct cells_without_particles *h)
+void cells_without_particles_free(struct cells_without_particles *hollow)
 {
-    memory_free(h->whole);
-    memory_free(h->absent);
-    *h = (struct cells_without_particles){0};
+    memory_free(hollow->whole);
+    memory_free(hollow->absent);
+    *hollow = (struct cells_without_particles){0};
 }

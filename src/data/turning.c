@@ -111,16 +111,16 @@ static struct member *members_sorted(const struct particles *p, real spacing, co
 /* Finds the 26 neighbours of group g of t, a box of points that rotate together. Stores their indices in the array
  * `near` of the group, or -1 where the body has no group. Neighbours displaced along one axis come first, then those
  * displaced along two axes, then along three. */
-static void groups_near(struct corotating_groups *t, int32_t g)
+static void groups_near(struct corotating_groups *groups, int32_t g)
 {
-    struct turning_group *own = &t->group[g];
+    struct turning_group *own = &groups->group[g];
     for (int k = 0, n = 0; k < 81; k++) {
         const int step[DIM_MAX] = {k % 3 - 1, k / 3 % 3 - 1, k / 9 % 3 - 1};
         if (abs(step[0]) + abs(step[1]) + abs(step[2]) != 1 + k / 27) continue;
         struct turning_group like = {.body = own->body};
         for (int d = 0; d < DIM_MAX; d++) like.place[d] = own->place[d] + step[d];
-        const struct turning_group *at = bsearch(&like, t->group, (size_t)t->groups, sizeof like, by_group);
-        own->near[n++] = at ? (int32_t)(at - t->group) : -1;
+        const struct turning_group *at = bsearch(&like, groups->group, (size_t)groups->groups, sizeof like, by_group);
+        own->near[n++] = at ? (int32_t)(at - groups->group) : -1;
     }
 }
 
@@ -131,51 +131,51 @@ static bool groups_differ(const struct member *a, const struct member *b)
     return order_of_places(a->place, a->body, b->place, b->body) != 0;
 }
 
-/* Lists in t->run the particles of each group of t (points that rotate together) as runs: at most LANES particles that
- * have consecutive numbers and belong to one group. all[n]: particles sorted by group, then by position. */
-static void runs_make(struct corotating_groups *t, const struct member *all, int64_t n)
+/* Lists in groups->run the particles of each group of t (points that rotate together) as runs: at most LANES particles
+ * that have consecutive numbers and belong to one group. all[n]: particles sorted by group, then by position. */
+static void runs_make(struct corotating_groups *groups, const struct member *all, int64_t n)
 {
-    struct turning_group *g = t->group;
+    struct turning_group *g = groups->group;
     int64_t runs = 0;
-    t->run = NEW("turning.run", n, struct turning_run);
+    groups->run = NEW("turning.run", n, struct turning_run);
     for (int64_t k = 0; k < n; k++) {
         if (k > 0 && groups_differ(&all[k], &all[k - 1])) g++, g->first = runs;
-        struct turning_run *last = runs > g->first ? &t->run[runs - 1] : NULL;
+        struct turning_run *last = runs > g->first ? &groups->run[runs - 1] : NULL;
         if (last && last->n < LANES && last->first + last->n == all[k].particle)
             last->n++;
         else
-            t->run[runs++] = (struct turning_run){all[k].particle, 1};
+            groups->run[runs++] = (struct turning_run){all[k].particle, 1};
         g->end = runs;
     }
 }
 
-void corotating_groups_make(struct corotating_groups *t, const struct particles *p, real spacing,
+void corotating_groups_make(struct corotating_groups *groups, const struct particles *p, real spacing,
                             const real *symmetry_plane, const int *first_joined_body, const bool *body_is_supported,
                             int bodies)
 {
     struct division *division = divisions_make(p, spacing, symmetry_plane, first_joined_body, bodies);
     struct member *all = members_sorted(p, spacing, division, first_joined_body);
     memory_free(division);
-    corotating_groups_free(t);
-    for (int64_t k = 0; k < p->n; k++) t->groups += k == 0 || groups_differ(&all[k], &all[k - 1]);
-    t->group = NEW("turning.group", t->groups, struct turning_group);
-    for (int c = p->dim == 2 ? 2 : 0; c < 3; c++) t->turn[c] = NEW("turning.turn", p->n + LANES, real);
-    struct turning_group *g = t->group;
+    corotating_groups_free(groups);
+    for (int64_t k = 0; k < p->n; k++) groups->groups += k == 0 || groups_differ(&all[k], &all[k - 1]);
+    groups->group = NEW("turning.group", groups->groups, struct turning_group);
+    for (int c = p->dim == 2 ? 2 : 0; c < 3; c++) groups->turn[c] = NEW("turning.turn", p->n + LANES, real);
+    struct turning_group *g = groups->group;
     for (int64_t k = 0; k < p->n; k++) {
         if (k > 0 && !groups_differ(&all[k], &all[k - 1])) continue;
         *g = (struct turning_group){.body = all[k].body, .off = all[k].off, .held = body_is_supported[all[k].body]};
         memcpy(g->place, all[k].place, sizeof g->place);
         g++;
     }
-    runs_make(t, all, p->n);
+    runs_make(groups, all, p->n);
 #pragma omp parallel for schedule(static)
-    for (int32_t k = 0; k < t->groups; k++) groups_near(t, k);
+    for (int32_t k = 0; k < groups->groups; k++) groups_near(groups, k);
     memory_free(all);
 }
 
-void corotating_groups_free(struct corotating_groups *t)
+void corotating_groups_free(struct corotating_groups *groups)
 {
-    memory_free(t->group), memory_free(t->run);
-    for (int c = 0; c < 3; c++) memory_free(t->turn[c]);
-    *t = (struct corotating_groups){0};
+    memory_free(groups->group), memory_free(groups->run);
+    for (int c = 0; c < 3; c++) memory_free(groups->turn[c]);
+    *groups = (struct corotating_groups){0};
 }

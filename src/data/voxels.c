@@ -95,42 +95,42 @@ static void grid_distances(const struct voxels *v, float *f)
 
 /* Returns true if the grey value `grey` is in one of the ranges of p, so that its voxels belong to this part of the
  * image. */
-static bool grey_in(const struct voxel_solid *p, int grey)
+static bool grey_in(const struct voxel_solid *voxels, int grey)
 {
     bool in = false;
-    for (int k = 0; k < p->ranges; k++) in = in || (p->range[k].low <= grey && grey <= p->range[k].high);
+    for (int k = 0; k < voxels->ranges; k++) in = in || (voxels->range[k].low <= grey && grey <= voxels->range[k].high);
     return in;
 }
 
-void voxel_solid_make_from_grey_value_ranges(struct voxel_solid *p)
+void voxel_solid_make_from_grey_value_ranges(struct voxel_solid *voxels)
 {
-    const struct voxels *v = p->of;
+    const struct voxels *v = voxels->of;
     int64_t n[DIM_MAX], all = padded(v, n), inside = 0;
     float *out = BARE("voxels.level", all, float);
     real half = 0.5 * v->size[0];
-    p->level = BARE("voxels.level", all, float);
+    voxels->level = BARE("voxels.level", all, float);
     for (int d = 1; d < v->dim; d++) half = real_min(half, 0.5 * v->size[d]);
 #pragma omp parallel for schedule(static) reduction(+ : inside)
     for (int64_t k = 0; k < all; k++) {
         const int64_t i = k % n[0] - 1, j = k / n[0] % n[1] - 1, l = v->dim == 3 ? k / n[0] / n[1] - 1 : 0;
         const bool beyond = i < 0 || j < 0 || l < 0 || i >= v->n[0] || j >= v->n[1] || l >= v->n[2];
-        const bool in = !beyond && grey_in(p, v->grey[(l * v->n[1] + j) * v->n[0] + i]);
-        p->level[k] = in ? 0 : INFINITY, out[k] = in ? INFINITY : 0;
+        const bool in = !beyond && grey_in(voxels, v->grey[(l * v->n[1] + j) * v->n[0] + i]);
+        voxels->level[k] = in ? 0 : INFINITY, out[k] = in ? INFINITY : 0;
         inside += in;
     }
-    grid_distances(v, p->level);
+    grid_distances(v, voxels->level);
     grid_distances(v, out);
 #pragma omp parallel for schedule(static)
     for (int64_t k = 0; k < all; k++)
-        p->level[k] = out[k] > 0 ? (float)(half - sqrt(out[k])) : (float)(sqrt(p->level[k]) - half);
-    p->voxels = inside;
+        voxels->level[k] = out[k] > 0 ? (float)(half - sqrt(out[k])) : (float)(sqrt(voxels->level[k]) - half);
+    voxels->voxels = inside;
     memory_free(out);
 }
 
-void voxel_solid_free(struct voxel_solid *p)
+void voxel_solid_free(struct voxel_solid *voxels)
 {
-    memory_free(p->level);
-    p->level = NULL;
+    memory_free(voxels->level);
+    voxels->level = NULL;
 }
 
 /* Returns the index, in the padded grid (the image v with one more voxel on each side), of the voxel at X[dim], moved
@@ -158,16 +158,16 @@ static real box_beyond(const struct voxels *v, const real *X)
     return sqrt(sum);
 }
 
-real voxel_solid_signed_distance(const struct voxel_solid *p, const real *X, real *normal)
+real voxel_solid_signed_distance(const struct voxel_solid *voxels, const real *X, real *normal)
 {
-    const struct voxels *v = p->of;
+    const struct voxels *v = voxels->of;
     real size2 = 0;
     for (int d = 0; d < v->dim && normal; d++) {
-        const real up = p->level[level_index(v, X, d, 1)], down = p->level[level_index(v, X, d, -1)];
+        const real up = voxels->level[level_index(v, X, d, 1)], down = voxels->level[level_index(v, X, d, -1)];
         normal[d] = (up - down) / v->size[d];
         size2 += square(normal[d]);
     }
     for (int d = 0; d < v->dim && normal; d++) normal[d] = size2 > 0 ? normal[d] / sqrt(size2) : d == 0;
-    const real level = p->level[level_index(v, X, -1, 0)];
+    const real level = voxels->level[level_index(v, X, -1, 0)];
     return level > 0 ? level + box_beyond(v, X) : level;
 }

@@ -59,13 +59,13 @@ static status kernels_archive(struct warnings *to, struct archive *a)
 }
 
 /* Saves which mesh cells are hollow to the archive a. Hollow cells are inside a body and have no particles, because
- * coarse cells replace them. h: marks of these cells; h->absent is NULL if there are none. They are restored before the
- * rest of the checkpoint (restore.c). Returns FAILED if the archive cannot be written. */
-static status hollow_save(const struct cells_without_particles *h, struct archive *a)
+ * coarse cells replace them. hollow: marks of these cells; hollow->absent is NULL if there are none. They are restored
+ * before the rest of the checkpoint (restore.c). Returns FAILED if the archive cannot be written. */
+static status hollow_save(const struct cells_without_particles *hollow, struct archive *a)
 {
-    int64_t n = h->absent ? h->box.n : 0;
+    int64_t n = hollow->absent ? hollow->box.n : 0;
     ARCHIVE_VALUE(a, "hollow/cells", n);
-    return n > 0 ? a->exchange(a, "hollow/absent", h->absent, (size_t)n) : OK;
+    return n > 0 ? a->exchange(a, "hollow/absent", hollow->absent, (size_t)n) : OK;
 }
 
 /* Saves time, step number, number of steps and time step of the clock c of a run to the archive a if a->saving, else
@@ -89,47 +89,47 @@ static status body_save(struct cells_without_particles *hollow, struct particles
     return bonds_save_or_load(b, p, a);
 }
 
-/* Restores the particles and bonds of run e from the archive a, and rebuilds from them what is not stored: lists of
+/* Restores the particles and bonds of run from the archive a, and rebuilds from them what is not stored: lists of
  * particles, coupling, mesh and coarse cells. Returns FAILED, with a message, if an entry is missing or a particle has
  * an impossible state; e then is incomplete and can only be freed. */
-static status body_restore(struct run *e, struct archive *a)
+static status body_restore(struct run *run, struct archive *a)
 {
-    TRY(particles_save_or_load(&e->part, e->optional, a));
-    TRY(particles_check(e->scene, &e->part));
-    particles_rebuild_lists_by_kind(&e->part);
-    bonds_free(&e->bonds);
-    bonds_make(&e->bonds, NULL, &e->part, &e->source);
-    partial_stress_free(&e->coupling->partial);
-    e->grid->sort_needed = SORT_ALL;
-    TRY(bonds_save_or_load(&e->bonds, &e->part, a));
-    state_based_update_weighted_volumes(&e->bonds, &e->part, &e->source);
-    coupling_set_method_and_compute_partial_stress(e);
-    mesh_levels_free(&e->frame->levels);
-    mesh_free(&e->frame->mesh);
-    memory_free(e->frame->elastic);
-    TRY(coupling_build_total_lagrangian_mesh(e, true));
-    return mesh_levels_make_coarse_cells(e, true);
+    TRY(particles_save_or_load(&run->part, run->optional, a));
+    TRY(particles_check(run->scene, &run->part));
+    particles_rebuild_lists_by_kind(&run->part);
+    bonds_free(&run->bonds);
+    bonds_make(&run->bonds, NULL, &run->part, &run->source);
+    partial_stress_free(&run->coupling->partial);
+    run->grid->sort_needed = SORT_ALL;
+    TRY(bonds_save_or_load(&run->bonds, &run->part, a));
+    state_based_update_weighted_volumes(&run->bonds, &run->part, &run->source);
+    coupling_set_method_and_compute_partial_stress(run);
+    mesh_levels_free(&run->frame->levels);
+    mesh_free(&run->frame->mesh);
+    memory_free(run->frame->elastic);
+    TRY(coupling_build_total_lagrangian_mesh(run, true));
+    return mesh_levels_make_coarse_cells(run, true);
 }
 
-status run_components_save_or_load_state(struct run *e, struct archive *a)
+status run_components_save_or_load_state(struct run *run, struct archive *a)
 {
-    TRY(loads_save_or_load(&e->loads, a));
-    for (const struct part *const *p = e->parts; *p; p++)
-        if ((*p)->state) TRY((*p)->state(e, a));
+    TRY(loads_save_or_load(&run->loads, a));
+    for (const struct part *const *p = run->parts; *p; p++)
+        if ((*p)->state) TRY((*p)->state(run, a));
     return OK;
 }
 
 status run_save_or_load_state(void *engine, struct archive *a)
 {
-    struct run *e = engine;
-    TRY(kernels_archive(&e->warnings, a));
-    TRY(a->saving ? body_save(&e->frame->hollow, &e->part, e->optional, &e->bonds, a) : body_restore(e, a));
-    TRY(clock_archive(&e->clock, a));
-    ARCHIVE_VALUE(a, "engine/damped", e->damped);
-    TRY(active_set_save_or_load(&e->bonds.active, "bonds", a));
-    TRY(run_components_save_or_load_state(e, a));
-    const int known = e->warnings.n;
-    TRY(warnings_save_or_load(&e->warnings, a));
-    warnings_print(&e->warnings, known, stderr);
+    struct run *run = engine;
+    TRY(kernels_archive(&run->warnings, a));
+    TRY(a->saving ? body_save(&run->frame->hollow, &run->part, run->optional, &run->bonds, a) : body_restore(run, a));
+    TRY(clock_archive(&run->clock, a));
+    ARCHIVE_VALUE(a, "engine/damped", run->damped);
+    TRY(active_set_save_or_load(&run->bonds.active, "bonds", a));
+    TRY(run_components_save_or_load_state(run, a));
+    const int known = run->warnings.n;
+    TRY(warnings_save_or_load(&run->warnings, a));
+    warnings_print(&run->warnings, known, stderr);
     return OK;
 }

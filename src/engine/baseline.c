@@ -30,18 +30,18 @@ static void baseline_keep(struct probing *probing, const struct particles *p, re
     probing->has_baseline = true;
 }
 
-status run_repeat_with_mpm_only_for_pulse_probe(struct run *e)
+status run_repeat_with_mpm_only_for_pulse_probe(struct run *run)
 {
-    if (!wanted(e->scene)) return OK;
-    struct scene scene = *e->scene;
+    if (!wanted(run->scene)) return OK;
+    struct scene scene = *run->scene;
     struct run twin = {0};
     scene.method = METHOD_MPM;
     scene.probes = 0;
-    scene.time_step = e->clock.dt;
+    scene.time_step = run->clock.dt;
     status s = run_set_up_from_scene(&twin, &scene, NULL);
     twin.report->quiet = true;
     if (s == OK) s = run_advance_to_end_time(&twin);
-    if (s == OK) baseline_keep(e->probing, &twin.part, observed_run_make_read_only_view(&twin).energy_change);
+    if (s == OK) baseline_keep(run->probing, &twin.part, observed_run_make_read_only_view(&twin).energy_change);
     run_free_memory(&twin);
     return s;
 }

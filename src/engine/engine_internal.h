@@ -9,11 +9,11 @@
 
 /* Allocates the parts of a run (contact, cracks, mesh, probes and others), sets all of them to zero, and stores
  * pointers to them in *e. */
-void run_components_allocate(struct run *e);
+void run_components_allocate(struct run *run);
 
-/* Releases all parts of run e (contact, cracks, mesh, probes and others) and what they own. Parts that were not created
+/* Releases all parts of run (contact, cracks, mesh, probes and others) and what they own. Parts that were not created
  * are skipped. */
-void run_components_free(struct run *e);
+void run_components_free(struct run *run);
 
 /* A run that is to be replaced by a run of the same scene with other particles, and the map between the particles of
  * both. */
@@ -22,12 +22,12 @@ struct predecessor {
     int32_t *now; /* [particles and mirror images of `run`] their indices in the new run; -1: not in the new run */
 };
 
-/* Creates the run e of scene s (the input file) without the particles of the cells listed in `omitted_cells`: cells
+/* Creates the run of scene s (the input file) without the particles of the cells listed in `omitted_cells`: cells
  * inside a body that coarse (larger) cells replace. output: output of the run. predecessor: NULL, or a run from which
  * particles, bonds and time are transferred. In the latter case the caller sets all other state that time steps have
  * changed, and the coarsening levels of the mesh cells. Returns REFUSED (invalid input) or FAILED (for example too many
  * nodes), with a message, if the scene cannot be set up. */
-status run_create_and_transfer_from_predecessor(struct run *e, const struct scene *s, struct output *output,
+status run_create_and_transfer_from_predecessor(struct run *run, const struct scene *s, struct output *output,
                                                 struct cells_without_particles omitted_cells,
                                                 struct predecessor *predecessor);
 
@@ -35,21 +35,21 @@ status run_create_and_transfer_from_predecessor(struct run *e, const struct scen
  * require. cell_level: level of each mesh cell (0: finest; the edge doubles with each level, and coarse cells inside a
  * body have no particles). Returns FAILED if the new run cannot be made, or if the output of results that is in
  * progress fails. */
-status run_replace_particles_for_coarsening_levels(struct run *e, const uint8_t *cell_level);
+status run_replace_particles_for_coarsening_levels(struct run *run, const uint8_t *cell_level);
 
-/* Transfers the particles of predecessor->run, a run of the same scene with other particles, to the run e, which is
+/* Transfers the particles of predecessor->run, a run of the same scene with other particles, to the run, which is
  * being created, and stores the new indices of these particles in predecessor->now. The mirror images (copies beyond
  * planes of symmetry) of the new particles must exist. */
-void run_transfer_particles_from_predecessor(struct run *e, struct predecessor *predecessor);
+void run_transfer_particles_from_predecessor(struct run *run, struct predecessor *predecessor);
 
-/* Transfers the broken bonds of predecessor->run to the run e, which is being created. Releases the bonds and particles
+/* Transfers the broken bonds of predecessor->run to the run, which is being created. Releases the bonds and particles
  * of predecessor->run. run_transfer_particles_from_predecessor must have been called before. */
-void run_transfer_broken_bonds_from_predecessor(struct run *e, const struct predecessor *predecessor);
+void run_transfer_broken_bonds_from_predecessor(struct run *run, const struct predecessor *predecessor);
 
-/* Saves the state of loads and of all parts of run e (contact, cracks, mesh, probes and others) to the archive a if
+/* Saves the state of loads and of all parts of run (contact, cracks, mesh, probes and others) to the archive a if
  * a->saving is true, else restores it from a. Each part saves only the state that a->scope selects: all, or what a
  * trial equilibrium changes, for example. Returns FAILED if an entry is missing or has another size. */
-status run_components_save_or_load_state(struct run *e, struct archive *a);
+status run_components_save_or_load_state(struct run *run, struct archive *a);
 
 /* Adds warnings to *warnings about bodies of scene s (the input file) in which particles of p have no neighbours within
  * the horizon. b: bonds; cells: neighbour search over reference positions. */

@@ -178,35 +178,36 @@ static void make_mirrors(const struct scene *s, const struct loads *loads, struc
     source->crack = tables->cracks.crack, source->cracks = tables->cracks.n, source->crack_of = tables->cracks.of;
 }
 
-/* Converts the initial peridynamic particles and creates the bonds of run e. before: run from which broken bonds are
+/* Converts the initial peridynamic particles and creates the bonds of run. before: run from which broken bonds are
  * transferred, or NULL. Returns REFUSED or FAILED, with a message, if surface weights or pre-cracks cannot be made. */
-static status make_bonds(struct run *e, struct predecessor *before)
+static status make_bonds(struct run *run, struct predecessor *before)
 {
-    const struct scene *s = e->scene;
-    make_mirrors(e->scene, &e->loads, &e->tables, &e->source);
-    e->source.image = e->loads.image;
-    if (material_tables_list_bodies_with_possible_voids(&e->tables, s, &e->loads)) {
-        voids_mark_particles_beside_voids(&e->tables.voids, &e->part, &e->cells, e->loads.image,
-                                          scene_interaction_distance_across_voids(s, e->source.family.cutoff));
-        e->source.voids = &e->tables.voids;
+    const struct scene *s = run->scene;
+    make_mirrors(run->scene, &run->loads, &run->tables, &run->source);
+    run->source.image = run->loads.image;
+    if (material_tables_list_bodies_with_possible_voids(&run->tables, s, &run->loads)) {
+        voids_mark_particles_beside_voids(&run->tables.voids, &run->part, &run->cells, run->loads.image,
+                                          scene_interaction_distance_across_voids(s, run->source.family.cutoff));
+        run->source.voids = &run->tables.voids;
     }
-    e->source.room = bonds_neighbour_count_upper_bound(&e->source);
+    run->source.room = bonds_neighbour_count_upper_bound(&run->source);
     if (s->surface == SURFACE_VOLUME && has_peridynamics(s)) {
-        e->tables.neighbour_volume = NEW("engine.neighbour_volume", e->part.n_all, real);
-        bonds_compute_family_volumes(e->tables.neighbour_volume, &e->part, &e->source);
-        e->source.neighbour_volume = e->tables.neighbour_volume;
+        run->tables.neighbour_volume = NEW("engine.neighbour_volume", run->part.n_all, real);
+        bonds_compute_family_volumes(run->tables.neighbour_volume, &run->part, &run->source);
+        run->source.neighbour_volume = run->tables.neighbour_volume;
     }
     if (s->surface == SURFACE_MOMENTS && has_peridynamics(s))
-        TRY(surface_correction_compute_bond_weight_factors(&e->tables.surface, &e->source, &e->part, &e->loads, s));
-    if (s->method == METHOD_ADAPTIVE) TRY(precracks_apply_as_slits_or_cut_bonds(e));
+        TRY(surface_correction_compute_bond_weight_factors(&run->tables.surface, &run->source, &run->part, &run->loads,
+                                                           s));
+    if (s->method == METHOD_ADAPTIVE) TRY(precracks_apply_as_slits_or_cut_bonds(run));
     if (before)
         run_transfer_particles_from_predecessor(
-            e, before); /* after precracks_apply_as_slits_or_cut_bonds, which makes slits from initial particles */
-    bonds_make(&e->bonds, NULL, &e->part, &e->source);
-    if (before) run_transfer_broken_bonds_from_predecessor(e, before);
-    e->coupling->conversion.first_time = NAN;
-    e->coupling->conversion.start = e->coupling->conversion.peak = e->part.n_of[KIND_PD];
-    e->coupling->conversion.peak_bonds = e->bonds.n;
+            run, before); /* after precracks_apply_as_slits_or_cut_bonds, which makes slits from initial particles */
+    bonds_make(&run->bonds, NULL, &run->part, &run->source);
+    if (before) run_transfer_broken_bonds_from_predecessor(run, before);
+    run->coupling->conversion.first_time = NAN;
+    run->coupling->conversion.start = run->coupling->conversion.peak = run->part.n_of[KIND_PD];
+    run->coupling->conversion.peak_bonds = run->bonds.n;
     return OK;
 }
 
@@ -266,14 +267,14 @@ static enum pd_model law_of(const struct scene *s, const struct bond_source *sou
     return source->yield.stretch ? PD_BOND_PLASTIC : source->limit.softening ? PD_BOND_SOFT : PD_BOND;
 }
 
-/* Computes the critical time step and the time step of run e, or copies both from the run `before`, which e replaces.
+/* Computes the critical time step and the time step of run, or copies both from the run `before`, which e replaces.
  * before: NULL if there is none. Returns REFUSED, with a message, if no time step is possible. */
-static status make_time(struct run *e, const struct predecessor *before)
+static status make_time(struct run *run, const struct predecessor *before)
 {
-    if (!before) return scene_prepend_location_to_error_message(e->scene, run_choose_time_step_and_step_count(e));
-    e->clock = before->run->clock;
-    e->source.limit.dt = before->run->source.limit.dt;
-    e->source.core = e->bonds.core = before->run->source.core;
+    if (!before) return scene_prepend_location_to_error_message(run->scene, run_choose_time_step_and_step_count(run));
+    run->clock = before->run->clock;
+    run->source.limit.dt = before->run->source.limit.dt;
+    run->source.core = run->bonds.core = before->run->source.core;
     return OK;
 }
 
@@ -289,150 +290,152 @@ static void make_contact(struct contact *c, const struct scene *s, const struct 
                  s->contact_stiffness, source, rigid->shape, rigid->body, s->rigids);
 }
 
-/* Creates the materials, kernels and particles of run e. Returns REFUSED, with a message, if there is not enough memory
+/* Creates the materials, kernels and particles of run. Returns REFUSED, with a message, if there is not enough memory
  * or a body cannot be filled with particles. */
-static status make_particles(struct run *e)
+static status make_particles(struct run *run)
 {
-    const struct scene *s = e->scene;
-    e->optional = optional_arrays(s);
-    make_materials(s, &e->tables, &e->source);
-    e->source.family = scene_make_complete_lattice_family(s);
-    e->source.material = s->material, e->source.materials = s->materials;
-    kernels_choose(&e->kernels, s->dim, law_of(s, &e->source), s->shape, s->transfer);
+    const struct scene *s = run->scene;
+    run->optional = optional_arrays(s);
+    make_materials(s, &run->tables, &run->source);
+    run->source.family = scene_make_complete_lattice_family(s);
+    run->source.material = s->material, run->source.materials = s->materials;
+    kernels_choose(&run->kernels, s->dim, law_of(s, &run->source), s->shape, s->transfer);
     TRY(scene_prepend_location_to_error_message(
-        s, cells_without_particles_predict_from_scene(&e->frame->hollow, s, &e->source)));
-    if (!e->frame->hollow.absent)
-        TRY(scene_prepend_location_to_error_message(s, run_check_memory_suffices(s, &e->part, &e->source)));
-    TRY(bodies_fill_with_particles(&e->part, s, &e->frame->hollow, e->optional));
-    conversion_stress_reduce_to_weakest_particle(e->tables.elastic, &e->part);
+        s, cells_without_particles_predict_from_scene(&run->frame->hollow, s, &run->source)));
+    if (!run->frame->hollow.absent)
+        TRY(scene_prepend_location_to_error_message(s, run_check_memory_suffices(s, &run->part, &run->source)));
+    TRY(bodies_fill_with_particles(&run->part, s, &run->frame->hollow, run->optional));
+    conversion_stress_reduce_to_weakest_particle(run->tables.elastic, &run->part);
     return scene_prepend_location_to_error_message(
-        s, run_check_memory_suffices(s, &e->part, &e->source)); /* with the actual number of particles */
+        s, run_check_memory_suffices(s, &run->part, &run->source)); /* with the actual number of particles */
 }
 
-/* Creates crack tips, crack growth, static solver, diagnostics and probes of run e. Returns REFUSED, with a message, if
+/* Creates crack tips, crack growth, static solver, diagnostics and probes of run. Returns REFUSED, with a message, if
  * the scene does not allow the growth of a crack by stress-intensity factors, the static solver or a probe as it is
  * specified. */
-static status make_probes(struct run *e)
+static status make_probes(struct run *run)
 {
-    const struct scene *s = e->scene;
-    e->probing->strain_stress = particles_largest_stress_component(&e->part);
-    tips_make_at_precrack_ends(&e->fracture->tips, &e->part, &e->cells, s->crack, s->cracks, s->spacing,
+    const struct scene *s = run->scene;
+    run->probing->strain_stress = particles_largest_stress_component(&run->part);
+    tips_make_at_precrack_ends(&run->fracture->tips, &run->part, &run->cells, s->crack, s->cracks, s->spacing,
                                s->speed_window);
-    if (e->coupling->notches.lost)
-        tips_ignore_particles_damaged_by_precracks(&e->fracture->tips, e->coupling->notches.lost);
-    TRY(scene_prepend_location_to_error_message(s, sif_growth_check_direction_is_determinable(e)));
-    e->fracture->growth = NEW("engine.growth", s->growths, struct growing_crack);
-    e->fracture->growths = s->growths;
-    for (int k = 0; k < s->growths; k++) growing_crack_make(&e->fracture->growth[k], &s->growth[k]);
+    if (run->coupling->notches.lost)
+        tips_ignore_particles_damaged_by_precracks(&run->fracture->tips, run->coupling->notches.lost);
+    TRY(scene_prepend_location_to_error_message(s, sif_growth_check_direction_is_determinable(run)));
+    run->fracture->growth = NEW("engine.growth", s->growths, struct growing_crack);
+    run->fracture->growths = s->growths;
+    for (int k = 0; k < s->growths; k++) growing_crack_make(&run->fracture->growth[k], &s->growth[k]);
     if (scene_is_single_equilibrium(s))
-        TRY(scene_prepend_location_to_error_message(s, run_make_single_equilibrium_solver(e)));
-    diagnostics_initialise(e->diagnostics);
-    e->diagnostics->mass = e->mass;
-    scene_list_initial_wave_pulses(e->scene, e->probing);
-    struct observed_run o = observed_run_make_read_only_view(e);
-    return scene_prepend_location_to_error_message(s, probes_make(&e->probing->probes, s->probe, s->probes, &o));
+        TRY(scene_prepend_location_to_error_message(s, run_make_single_equilibrium_solver(run)));
+    diagnostics_initialise(run->diagnostics);
+    run->diagnostics->mass = run->mass;
+    scene_list_initial_wave_pulses(run->scene, run->probing);
+    struct observed_run o = observed_run_make_read_only_view(run);
+    return scene_prepend_location_to_error_message(s, probes_make(&run->probing->probes, s->probe, s->probes, &o));
 }
 
-/* Creates loads, bonds, rigid bodies, contact, coupling and mesh of run e, and computes the time step. Call it after
+/* Creates loads, bonds, rigid bodies, contact, coupling and mesh of run, and computes the time step. Call it after
  * make_particles. before: run that e replaces, or NULL. Returns REFUSED or FAILED, with a message, if one of them is
  * impossible in the scene. */
-static status make_forces(struct run *e, struct predecessor *before)
+static status make_forces(struct run *run, struct predecessor *before)
 {
-    const struct scene *s = e->scene;
+    const struct scene *s = run->scene;
     TRY(scene_prepend_location_to_error_message(
-        s, bodies_choose_material_mesh_or_background_grid(e->frame, e->grid, &e->part, s)));
-    if (!scene_is_dynamic(s)) e->boundary = NEW("engine.boundary", s->boundaries, struct boundary);
+        s, bodies_choose_material_mesh_or_background_grid(run->frame, run->grid, &run->part, s)));
+    if (!scene_is_dynamic(s)) run->boundary = NEW("engine.boundary", s->boundaries, struct boundary);
     if (scene_is_single_equilibrium(s))
-        static_boundaries_make_from_dynamic(e->boundary, s->boundary, s->boundaries, s->duration, 1);
-    else if (e->boundary)
-        array_copy(e->boundary, s->boundary, s->boundaries, sizeof *e->boundary);
-    TRY(scene_prepend_location_to_error_message(s, loads_make(&e->loads, e->boundary ? e->boundary : s->boundary,
-                                                              s->boundaries, &e->part, s->spacing,
-                                                              e->source.family.cutoff, e->optional)));
+        static_boundaries_make_from_dynamic(run->boundary, s->boundary, s->boundaries, s->duration, 1);
+    else if (run->boundary)
+        array_copy(run->boundary, s->boundary, s->boundaries, sizeof *run->boundary);
+    TRY(scene_prepend_location_to_error_message(s, loads_make(&run->loads, run->boundary ? run->boundary : s->boundary,
+                                                              s->boundaries, &run->part, s->spacing,
+                                                              run->source.family.cutoff, run->optional)));
     if (has_peridynamics(s))
         TRY(scene_prepend_location_to_error_message(
-            s, loads_check_distance_between_mirrors(&e->loads, e->source.family.cutoff)));
-    e->tables.impedance = absorbing_boundary_impedances(s, &e->source);
-    const struct impedance *z = e->tables.impedance;
+            s, loads_check_distance_between_mirrors(&run->loads, run->source.family.cutoff)));
+    run->tables.impedance = absorbing_boundary_impedances(s, &run->source);
+    const struct impedance *z = run->tables.impedance;
     if (z)
-        absorbing_dashpots_make(&e->loads, &e->part,
+        absorbing_dashpots_make(&run->loads, &run->part,
                                 (const struct impedance *const[MOVERS]){z, z + s->materials, z + 2 * s->materials});
-    cells_make_for_neighbour_search(&e->cells, &e->part, e->source.family.cutoff * (1 + 1e-9));
-    e->source.cells = &e->cells;
-    TRY(make_bonds(e, before));
-    TRY(rigids_make(e->rigid, s));
-    TRY(rigids_check_no_overlap_at_start(e->rigid, s, &e->part));
+    cells_make_for_neighbour_search(&run->cells, &run->part, run->source.family.cutoff * (1 + 1e-9));
+    run->source.cells = &run->cells;
+    TRY(make_bonds(run, before));
+    TRY(rigids_make(run->rigid, s));
+    TRY(rigids_check_no_overlap_at_start(run->rigid, s, &run->part));
     TRY(scene_prepend_location_to_error_message(
-        s, joined_bodies_check_within_bond_reach(s, &e->part, &e->cells, e->source.family.cutoff)));
-    TRY(scene_prepend_location_to_error_message(s, load_steps_check_scene_is_supported(e)));
-    make_contact(e->contact, s, &e->source, e->rigid);
-    coupling_set_method_and_compute_partial_stress(e);
-    TRY(scene_prepend_location_to_error_message(s, coupling_build_total_lagrangian_mesh(e, before != NULL)));
-    TRY(prescribed_motion_check_is_admissible(&e->loads, &e->part, s, before == NULL));
-    bonded_points_update_strain_from_mesh_or_stress(&e->coupling->partial, e->frame, &e->part, s->material);
-    stability_store_largest_initial_speed(e->stability, &e->part);
-    return make_time(e, before);
+        s, joined_bodies_check_within_bond_reach(s, &run->part, &run->cells, run->source.family.cutoff)));
+    TRY(scene_prepend_location_to_error_message(s, load_steps_check_scene_is_supported(run)));
+    make_contact(run->contact, s, &run->source, run->rigid);
+    coupling_set_method_and_compute_partial_stress(run);
+    TRY(scene_prepend_location_to_error_message(s, coupling_build_total_lagrangian_mesh(run, before != NULL)));
+    TRY(prescribed_motion_check_is_admissible(&run->loads, &run->part, s, before == NULL));
+    bonded_points_update_strain_from_mesh_or_stress(&run->coupling->partial, run->frame, &run->part, s->material);
+    stability_store_largest_initial_speed(run->stability, &run->part);
+    return make_time(run, before);
 }
 
-status run_create_and_transfer_from_predecessor(struct run *e, const struct scene *s, struct output *output,
+status run_create_and_transfer_from_predecessor(struct run *run, const struct scene *s, struct output *output,
                                                 struct cells_without_particles omitted_cells,
                                                 struct predecessor *predecessor)
 {
-    memset(e, 0, sizeof *e);
-    run_components_allocate(e);
-    e->save = run_save_or_load_state;
-    e->scene = s;
-    e->warnings.locate = scene_find_file_location_of_warning, e->warnings.scene = s;
-    e->report->out = output;
-    e->report->began = wall_clock_seconds();
-    e->frame->hollow = omitted_cells;
-    TRY(make_particles(e));
-    TRY(scene_prepend_location_to_error_message(s, reversion_check_scene_allows_return_to_mpm(e->scene)));
-    TRY(make_forces(e, predecessor));
-    for (int64_t i = 0; i < e->part.n; i++) e->mass += e->part.mass[i];
-    e->mass += (real)(e->part.n_body - e->part.n) * e->part.mass[0];
-    if (!predecessor) TRY(scene_prepend_location_to_error_message(s, mesh_levels_make_coarse_cells(e, false)));
-    e->coupling->damping_share =
-        interface_damping_share(s, e->tables.wave_speed, e->clock.dt, e->grid->field[0].grid.h);
-    e->coupling->approaches = s->method == METHOD_ADAPTIVE && s->contact_between != CONTACT_NONE &&
-                              s->contact_convert && scene_first_body_of_joined_group(s, 1) + s->rigids >= 0 &&
-                              !coupling_moves_all_particles_by_one_grid(s->coupling);
-    e->grid->transfer = (struct transfer_data){.order = &e->grid->field[0].order,
-                                               .partial = &e->coupling->partial,
-                                               .elastic = e->tables.elastic,
-                                               .half_width = grid_shape_function_reach_beyond_cell(s),
-                                               .dt = e->clock.dt,
-                                               .dt_velocity = e->clock.dt,
-                                               .laws = e->part.plastic_work != NULL};
-    for (int m = 0; m < s->materials; m++) e->grid->transfer.mean_dilatation |= e->tables.elastic[m].mean_dilatation;
-    if (e->grid->transfer.mean_dilatation) e->grid->transfer.dilatation = NEW("engine.dilatation", e->part.n, real);
-    corotating_groups_make_for_flip_transfer(e->grid, &e->part, &e->loads, e->scene, e->coupling_kind);
-    return make_probes(e);
+    memset(run, 0, sizeof *run);
+    run_components_allocate(run);
+    run->save = run_save_or_load_state;
+    run->scene = s;
+    run->warnings.locate = scene_find_file_location_of_warning, run->warnings.scene = s;
+    run->report->out = output;
+    run->report->began = wall_clock_seconds();
+    run->frame->hollow = omitted_cells;
+    TRY(make_particles(run));
+    TRY(scene_prepend_location_to_error_message(s, reversion_check_scene_allows_return_to_mpm(run->scene)));
+    TRY(make_forces(run, predecessor));
+    for (int64_t i = 0; i < run->part.n; i++) run->mass += run->part.mass[i];
+    run->mass += (real)(run->part.n_body - run->part.n) * run->part.mass[0];
+    if (!predecessor) TRY(scene_prepend_location_to_error_message(s, mesh_levels_make_coarse_cells(run, false)));
+    run->coupling->damping_share =
+        interface_damping_share(s, run->tables.wave_speed, run->clock.dt, run->grid->field[0].grid.h);
+    run->coupling->approaches = s->method == METHOD_ADAPTIVE && s->contact_between != CONTACT_NONE &&
+                                s->contact_convert && scene_first_body_of_joined_group(s, 1) + s->rigids >= 0 &&
+                                !coupling_moves_all_particles_by_one_grid(s->coupling);
+    run->grid->transfer = (struct transfer_data){.order = &run->grid->field[0].order,
+                                                 .partial = &run->coupling->partial,
+                                                 .elastic = run->tables.elastic,
+                                                 .half_width = grid_shape_function_reach_beyond_cell(s),
+                                                 .dt = run->clock.dt,
+                                                 .dt_velocity = run->clock.dt,
+                                                 .laws = run->part.plastic_work != NULL};
+    for (int m = 0; m < s->materials; m++)
+        run->grid->transfer.mean_dilatation |= run->tables.elastic[m].mean_dilatation;
+    if (run->grid->transfer.mean_dilatation)
+        run->grid->transfer.dilatation = NEW("engine.dilatation", run->part.n, real);
+    corotating_groups_make_for_flip_transfer(run->grid, &run->part, &run->loads, run->scene, run->coupling_kind);
+    return make_probes(run);
 }
 
-status run_set_up_from_scene(struct run *e, const struct scene *s, struct output *output)
+status run_set_up_from_scene(struct run *run, const struct scene *s, struct output *output)
 {
     struct cells_without_particles hollow = {0};
     for (;;) {
-        TRY(run_create_and_transfer_from_predecessor(e, s, output, hollow, NULL));
-        if (!e->frame->lacks) return OK;
-        hollow = e->frame->hollow;
-        e->frame->hollow = (struct cells_without_particles){0};
-        run_free_memory(e);
+        TRY(run_create_and_transfer_from_predecessor(run, s, output, hollow, NULL));
+        if (!run->frame->lacks) return OK;
+        hollow = run->frame->hollow;
+        run->frame->hollow = (struct cells_without_particles){0};
+        run_free_memory(run);
     }
 }
 
-void run_free_memory(struct run *e)
+void run_free_memory(struct run *run)
 {
-    if (e->report && e->report->out)
-        (void)output_wait_until_frame_is_written(e->report->out); /* the writer of frames still reads the particles */
-    run_components_free(e);
-    bonds_free(&e->bonds);
-    cells_free(&e->cells);
-    loads_free(&e->loads);
-    particles_free(&e->part);
-    memory_free(e->boundary);
-    tables_free(&e->tables);
-    warnings_free(&e->warnings);
-    memset(e, 0, sizeof *e);
+    if (run->report && run->report->out)
+        (void)output_wait_until_frame_is_written(run->report->out); /* the writer of frames still reads the particles */
+    run_components_free(run);
+    bonds_free(&run->bonds);
+    cells_free(&run->cells);
+    loads_free(&run->loads);
+    particles_free(&run->part);
+    memory_free(run->boundary);
+    tables_free(&run->tables);
+    warnings_free(&run->warnings);
+    memset(run, 0, sizeof *run);
 }

@@ -13,23 +13,23 @@ static const struct part *const parts[] = {&part_grid,        &part_frame,    &p
                                            &part_diagnostics, &part_probing,  &part_damping, &part_viscosity,
                                            &part_stability,   &part_report,   NULL};
 
-/* Returns the address of the pointer in run e to the structure of the part p (contact, mesh, probes and so on). p->at
+/* Returns the address of the pointer in run to the structure of the part p (contact, mesh, probes and so on). p->at
  * is the offset of this pointer in struct run. */
-static void **part_place(struct run *e, const struct part *p) { return (void **)((char *)e + p->at); }
+static void **part_place(struct run *run, const struct part *p) { return (void **)((char *)run + p->at); }
 
-void run_components_allocate(struct run *e)
+void run_components_allocate(struct run *run)
 {
-    e->parts = parts;
+    run->parts = parts;
     for (size_t k = 0; k < COUNT_OF(parts) - 1; k++)
-        *part_place(e, parts[k]) = memory_new(parts[k]->name, 1, parts[k]->size);
+        *part_place(run, parts[k]) = memory_new(parts[k]->name, 1, parts[k]->size);
 }
 
-void run_components_free(struct run *e)
+void run_components_free(struct run *run)
 {
     for (size_t k = 0; k < COUNT_OF(parts) - 1; k++)
-        if (parts[k]->free && *part_place(e, parts[k])) parts[k]->free(e);
+        if (parts[k]->free && *part_place(run, parts[k])) parts[k]->free(run);
     for (size_t k = 0; k < COUNT_OF(parts) - 1; k++) {
-        void **place = part_place(e, parts[k]);
+        void **place = part_place(run, parts[k]);
         memory_free(*place), *place = NULL;
     }
 }

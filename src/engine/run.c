@@ -20,50 +20,51 @@ static void rings_find(struct lagrangian_mesh *f, struct probes *p, const struct
         f->rings += probes_locate_sif_contour(p, k, seen, f->ring[f->rings].place, &f->ring[f->rings].radius);
 }
 
-/* Adapts the coarsening levels of the mesh cells of run e (0: finest; the edge doubles with each level) to cracks and
+/* Adapts the coarsening levels of the mesh cells of run (0: finest; the edge doubles with each level) to cracks and
  * stress. If cells that become finer lack particles, the run is first replaced by a run that has these particles.
  * Returns FAILED or REFUSED, with a message, if that is not possible; OK otherwise, also if nothing has changed. */
-static status refine(struct run *e)
+static status refine(struct run *run)
 {
-    if (!mesh_levels_may_change_before_step(&e->frame->levels, e->clock.step)) return OK;
-    const struct observed_run seen = observed_run_make_read_only_view(e);
-    rings_find(e->frame, &e->probing->probes, &seen);
-    uint8_t *level = mesh_levels_choose_level_of_each_cell(e->frame, &e->part, &e->loads, e->clock.step, e->mass);
+    if (!mesh_levels_may_change_before_step(&run->frame->levels, run->clock.step)) return OK;
+    const struct observed_run seen = observed_run_make_read_only_view(run);
+    rings_find(run->frame, &run->probing->probes, &seen);
+    uint8_t *level =
+        mesh_levels_choose_level_of_each_cell(run->frame, &run->part, &run->loads, run->clock.step, run->mass);
     if (!level) return OK;
-    const status s = mesh_cells_to_become_finest_lack_particles(&e->frame->mesh, level)
-                         ? run_replace_particles_for_coarsening_levels(e, level)
+    const status s = mesh_cells_to_become_finest_lack_particles(&run->frame->mesh, level)
+                         ? run_replace_particles_for_coarsening_levels(run, level)
                          : OK;
-    if (s == OK) mesh_levels_change_cell_levels(e, level);
+    if (s == OK) mesh_levels_change_cell_levels(run, level);
     memory_free(level);
     return s;
 }
 
-status run_adapt_mesh_and_advance_one_step(struct run *e)
+status run_adapt_mesh_and_advance_one_step(struct run *run)
 {
-    TRY(refine(e));
-    return step(e);
+    TRY(refine(run));
+    return step(run);
 }
 
 /* Runs the scene of e to its end: as one equilibrium, in load steps or in time, as its solver requires. Returns OK;
  * FAILED, with a message, if a step fails; INTERRUPTED if a signal ends the run early. */
-static status run_to_end(struct run *e)
+static status run_to_end(struct run *run)
 {
-    if (scene_is_single_equilibrium(e->scene)) return run_solve_single_equilibrium(e);
-    if (scene_has_load_steps(e->scene)) return run_solve_load_steps(e);
-    TRY(report_open_history_and_write_first_frame(e));
-    timers_start(&e->timers);
-    while (e->clock.step < e->clock.steps) {
-        TRY(run_adapt_mesh_and_advance_one_step(e));
-        TRY(run_check_stability_after_step(e));
-        TRY(report_write_outputs_due_after_step(e));
+    if (scene_is_single_equilibrium(run->scene)) return run_solve_single_equilibrium(run);
+    if (scene_has_load_steps(run->scene)) return run_solve_load_steps(run);
+    TRY(report_open_history_and_write_first_frame(run));
+    timers_start(&run->timers);
+    while (run->clock.step < run->clock.steps) {
+        TRY(run_adapt_mesh_and_advance_one_step(run));
+        TRY(run_check_stability_after_step(run));
+        TRY(report_write_outputs_due_after_step(run));
     }
-    return report_write_last_checkpoint_and_finish(e);
+    return report_write_last_checkpoint_and_finish(run);
 }
 
-status run_advance_to_end_time(struct run *e)
+status run_advance_to_end_time(struct run *run)
 {
     memory_set_reuse_of_freed_arrays(true);
-    const status ended = run_to_end(e);
+    const status ended = run_to_end(run);
     memory_set_reuse_of_freed_arrays(false);
     return ended;
 }

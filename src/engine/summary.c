@@ -19,25 +19,25 @@
 
 /* ---- physical results -------------------------------------------------------------------------------------------- */
 
-/* Writes name, method, status, numbers of steps and particles, and times of run e to the JSON object j. s: status with
+/* Writes name, method, status, numbers of steps and particles, and times of run to the JSON object j. s: status with
  * which the run has ended; message: its error message, "" without one. */
-static void put_run(struct json *j, const struct run *e, status s, const char *message)
+static void put_run(struct json *j, const struct run *run, status s, const char *message)
 {
     static const char *const method[] = {[METHOD_PD] = "pd", [METHOD_MPM] = "mpm", [METHOD_ADAPTIVE] = "adaptive"};
-    json_write_text(j, "name", e->scene->name);
+    json_write_text(j, "name", run->scene->name);
     json_write_text(j, "version", CLEAVE_VERSION);
-    json_write_text(j, "method", method[e->scene->method]);
+    json_write_text(j, "method", method[run->scene->method]);
     json_write_text(j, "status", s == OK ? "done" : s == INTERRUPTED ? "interrupted" : "failed");
     if (s != OK && message[0]) json_write_text(j, "message", message);
-    json_write_integer(j, "steps", e->clock.step);
-    json_write_real(j, "time_step", e->clock.dt);
-    json_write_real(j, "time_step_critical", e->clock.dt_critical);
-    json_write_real(j, "time_end", e->clock.t);
-    json_write_integer(j, "particles", e->part.n_body);
-    json_write_integer(j, "particles_made", e->part.n);
-    json_write_integer(j, "particles_pd_start", e->coupling->conversion.start);
-    json_write_integer(j, "particles_pd_end", e->part.n_of[KIND_PD]);
-    json_write_integer(j, "bonds_peak", e->coupling->conversion.peak_bonds);
+    json_write_integer(j, "steps", run->clock.step);
+    json_write_real(j, "time_step", run->clock.dt);
+    json_write_real(j, "time_step_critical", run->clock.dt_critical);
+    json_write_real(j, "time_end", run->clock.t);
+    json_write_integer(j, "particles", run->part.n_body);
+    json_write_integer(j, "particles_made", run->part.n);
+    json_write_integer(j, "particles_pd_start", run->coupling->conversion.start);
+    json_write_integer(j, "particles_pd_end", run->part.n_of[KIND_PD]);
+    json_write_integer(j, "bonds_peak", run->coupling->conversion.peak_bonds);
 }
 
 static void put_warnings(struct json *j, const struct warnings *w)
@@ -140,44 +140,44 @@ static void put_timers(struct json *j, const struct timers *timers)
     json_end_object_or_list(j, '}');
 }
 
-/* Prints the contents of summary.json to `file`. e: the run; fragments: its fragments at the end; s: status with which
- * the run has ended; message: its error message, "" without one; threads: number of threads. */
-static void summary_print(FILE *file, const struct run *e, const struct fragments *fragments, status s,
+/* Prints the contents of summary.json to `file`. run: the run; fragments: its fragments at the end; s: status with
+ * which the run has ended; message: its error message, "" without one; threads: number of threads. */
+static void summary_print(FILE *file, const struct run *run, const struct fragments *fragments, status s,
                           const char *message, int threads)
 {
     struct json j = {.file = file, .depth = 1};
     fputc('{', file);
-    put_run(&j, e, s, message);
-    put_warnings(&j, &e->warnings);
-    for (const struct part *const *p = e->parts; *p; p++)
-        if ((*p)->summary) (*p)->summary(e, &j);
-    if (has_fragments(e->scene, e->diagnostics)) put_fragments(&j, fragments);
-    const struct run_seconds spent = report_wall_clock_times(e->report, &e->timers);
-    put_machine(&j, e->report, e->clock.step, threads, &spent);
-    put_timers(&j, &e->timers);
+    put_run(&j, run, s, message);
+    put_warnings(&j, &run->warnings);
+    for (const struct part *const *p = run->parts; *p; p++)
+        if ((*p)->summary) (*p)->summary(run, &j);
+    if (has_fragments(run->scene, run->diagnostics)) put_fragments(&j, fragments);
+    const struct run_seconds spent = report_wall_clock_times(run->report, &run->timers);
+    put_machine(&j, run->report, run->clock.step, threads, &spent);
+    put_timers(&j, &run->timers);
     fputs("\n}\n", file);
 }
 
-status run_write_summary_files(const struct run *e, status end_status, int thread_count)
+status run_write_summary_files(const struct run *run, status end_status, int thread_count)
 {
     char message[1024], *text = NULL;
     size_t length = 0;
-    if (!e->report->out) return OK;
+    if (!run->report->out) return OK;
     snprintf(message, sizeof message, "%s", status_message());
     struct fragments fragments = {0};
-    if (has_fragments(e->scene, e->diagnostics)) {
-        fragments_find_by_intact_bonds(&fragments, &e->bonds, &e->part);
-        TRY(fragments_write(&e->part, e->report, &fragments));
+    if (has_fragments(run->scene, run->diagnostics)) {
+        fragments_find_by_intact_bonds(&fragments, &run->bonds, &run->part);
+        TRY(fragments_write(&run->part, run->report, &fragments));
     }
     FILE *file = memory_stream_open(&text, &length);
     if (!file)
         return status_set(
             FAILED,
             "cannot write summary.json: out of memory; use a larger particles.spacing, or a machine with more memory");
-    summary_print(file, e, &fragments, end_status, message, thread_count);
+    summary_print(file, run, &fragments, end_status, message, thread_count);
     fragments_free(&fragments);
     const bool whole = fclose(file) == 0;
-    status written = whole ? output_write_text(e->report->out, "summary.json", text, length)
+    status written = whole ? output_write_text(run->report->out, "summary.json", text, length)
                            : status_set(FAILED, "cannot write summary.json: out of memory; use a larger "
                                                 "particles.spacing, or a machine with more memory");
     free(text);

@@ -29,20 +29,20 @@ static int32_t *numbers_now(const struct particles *p, const struct loads *loads
     return now;
 }
 
-void run_transfer_particles_from_predecessor(struct run *e, struct predecessor *predecessor)
+void run_transfer_particles_from_predecessor(struct run *run, struct predecessor *predecessor)
 {
-    predecessor->now = numbers_now(&e->part, &e->loads, &predecessor->run->part, &predecessor->run->loads);
-    particles_copy_fields_by_new_index(&e->part, &predecessor->run->part, predecessor->now, e->optional);
-    particles_rebuild_lists_by_kind(&e->part);
-    mirror_images_copy_particle_kinds(&e->part, &e->source);
+    predecessor->now = numbers_now(&run->part, &run->loads, &predecessor->run->part, &predecessor->run->loads);
+    particles_copy_fields_by_new_index(&run->part, &predecessor->run->part, predecessor->now, run->optional);
+    particles_rebuild_lists_by_kind(&run->part);
+    mirror_images_copy_particle_kinds(&run->part, &run->source);
 }
 
-void run_transfer_broken_bonds_from_predecessor(struct run *e, const struct predecessor *predecessor)
+void run_transfer_broken_bonds_from_predecessor(struct run *run, const struct predecessor *predecessor)
 {
     struct run *old = predecessor->run;
-    bonds_copy_damage_to_new_particles(&e->bonds, &e->part, &e->source.limit, &old->bonds, &old->part,
+    bonds_copy_damage_to_new_particles(&run->bonds, &run->part, &run->source.limit, &old->bonds, &old->part,
                                        predecessor->now);
-    state_based_update_weighted_volumes(&e->bonds, &e->part, &e->source);
+    state_based_update_weighted_volumes(&run->bonds, &run->part, &run->source);
     bonds_free(&old->bonds);
     particles_free(&old->part);
 }

@@ -253,45 +253,46 @@ static void warn_of_stiffness(const struct scene *s, const struct family *f, str
                             f->calibration == CALIBRATION_CONTINUUM ? "continuum" : "vmpd", ratio);
 }
 
-void run_warn_of_suspicious_input(struct run *e)
+void run_warn_of_suspicious_input(struct run *run)
 {
-    const struct scene *s = e->scene;
-    struct warnings *to = &e->warnings;
+    const struct scene *s = run->scene;
+    struct warnings *to = &run->warnings;
     if (s->renamed[0])
         warnings_add_if_new(to,
                             "the scene uses earlier names of keys (%s), which this version still accepts with the same "
                             "meaning; write the new names",
                             s->renamed);
-    warn_of_step(s, &e->clock, to);
+    warn_of_step(s, &run->clock, to);
     warn_of_horizon(s, to);
-    warn_of_stiffness(s, &e->source.family, to);
-    warn_of_coupling(s, e->coupling_kind, to);
-    warn_of_cells(s, e->part.n_free > 0, to);
-    if (e->part.n_free > 0) warn_of_spin(s, e->grid, to);
-    warn_of_idle_keys(s, e->frame, to);
-    warn_of_materials(s, &e->tables, to);
+    warn_of_stiffness(s, &run->source.family, to);
+    warn_of_coupling(s, run->coupling_kind, to);
+    warn_of_cells(s, run->part.n_free > 0, to);
+    if (run->part.n_free > 0) warn_of_spin(s, run->grid, to);
+    warn_of_idle_keys(s, run->frame, to);
+    warn_of_materials(s, &run->tables, to);
     warn_of_lists(s, to);
     warn_of_probes(s, to);
-    run_warn_of_mistaken_units(s, &e->part, &e->loads, &e->clock, e->tables.wave_speed, to);
-    run_warn_of_suspicious_temperatures(s, &e->part, to);
-    run_warn_of_strength_averaging_over_thin_bodies(s, &e->part, to);
-    run_warn_of_isolated_particles(s, &e->cells, &e->bonds, &e->part, to);
-    run_warn_of_supports_moving_too_fast(s, &e->loads, &e->part, to);
-    run_warn_of_particles_faster_than_waves(&e->part, e->tables.wave_speed, to);
-    run_warn_of_conflicting_supports(s, &e->loads, &e->part, to);
-    if (e->grid->field) run_warn_of_supports_between_grid_nodes(s, &e->loads, &e->part, &e->grid->field[0].grid, to);
+    run_warn_of_mistaken_units(s, &run->part, &run->loads, &run->clock, run->tables.wave_speed, to);
+    run_warn_of_suspicious_temperatures(s, &run->part, to);
+    run_warn_of_strength_averaging_over_thin_bodies(s, &run->part, to);
+    run_warn_of_isolated_particles(s, &run->cells, &run->bonds, &run->part, to);
+    run_warn_of_supports_moving_too_fast(s, &run->loads, &run->part, to);
+    run_warn_of_particles_faster_than_waves(&run->part, run->tables.wave_speed, to);
+    run_warn_of_conflicting_supports(s, &run->loads, &run->part, to);
+    if (run->grid->field)
+        run_warn_of_supports_between_grid_nodes(s, &run->loads, &run->part, &run->grid->field[0].grid, to);
     run_warn_of_solids_without_effect_on_bodies(s, to);
     run_warn_of_overlapping_closed_surface_files(s, to);
-    run_warn_of_bodies_too_thin_to_correct_faces(s, &e->part, &e->tables.surface, to);
-    run_warn_of_bodies_that_never_meet(s, &e->part, to);
-    run_warn_of_overlapping_bodies(s, &e->part, to);
-    run_warn_of_gaps_at_mirrors_and_empty_regions(s, &e->part, e->source.family.horizon, to);
+    run_warn_of_bodies_too_thin_to_correct_faces(s, &run->part, &run->tables.surface, to);
+    run_warn_of_bodies_that_never_meet(s, &run->part, to);
+    run_warn_of_overlapping_bodies(s, &run->part, to);
+    run_warn_of_gaps_at_mirrors_and_empty_regions(s, &run->part, run->source.family.horizon, to);
     run_warn_of_frames_after_end_of_run(s, to);
-    warn_of_fields(s->fields, &e->part, &e->bonds, to);
-    warn_of_regions(s, e->frame, &e->part, to);
-    warn_of_boundaries(s, &e->loads, &e->part, to);
-    run_warn_of_ineffective_precracks(s, &e->part, &e->cells, &e->bonds, &e->loads, e->source.family.cutoff,
-                                      e->tables.wave_speed, to);
-    for (const struct part *const *p = e->parts; *p; p++)
-        if ((*p)->warn) (*p)->warn(e, to);
+    warn_of_fields(s->fields, &run->part, &run->bonds, to);
+    warn_of_regions(s, run->frame, &run->part, to);
+    warn_of_boundaries(s, &run->loads, &run->part, to);
+    run_warn_of_ineffective_precracks(s, &run->part, &run->cells, &run->bonds, &run->loads, run->source.family.cutoff,
+                                      run->tables.wave_speed, to);
+    for (const struct part *const *p = run->parts; *p; p++)
+        if ((*p)->warn) (*p)->warn(run, to);
 }

@@ -63,13 +63,14 @@ static status bond_refuse(const struct lammps_export *x, int64_t i, const char *
  * can occur for bonds as long as the horizon. */
 static status row_mark(const struct lammps_export *x, int64_t i, int64_t *bonded, int *n)
 {
-    const struct run *e = x->e;
+    const struct run *run = x->e;
     *n = 0;
-    for (struct bond_iterator it = bond_iterator_of_row(&e->bonds, e->bonds.row_of[i]); bond_iterator_advance(&it);) {
+    for (struct bond_iterator it = bond_iterator_of_row(&run->bonds, run->bonds.row_of[i]);
+         bond_iterator_advance(&it);) {
         if (it.bond.w == 0) continue;
         bonded[it.bond.nbr] = i + 1;
         ++*n;
-        if (!(distance2(&e->part, i, it.bond.nbr) <= square(x->cutoff)))
+        if (!(distance2(&run->part, i, it.bond.nbr) <= square(x->cutoff)))
             return bond_refuse(x, i,
                                "is as long as the horizon, so in LAMMPS round-off decides whether it exists; set a "
                                "horizon between two distances of the lattice, such as -s particles.horizon=3.015");
@@ -84,14 +85,14 @@ static status row_mark(const struct lammps_export *x, int64_t i, int64_t *bonded
  * receives their indices; it must have capacity for all of them. Returns their number. */
 static int lammps_near(const struct lammps_export *x, int64_t i, int32_t *found, int capacity)
 {
-    const struct run *e = x->e;
+    const struct run *run = x->e;
     real X[DIM_MAX];
     int kept = 0;
-    particle_reference_position(&e->part, i, X);
-    const int n =
-        cells_list_particles_near_point(&e->cells, &e->part, X, e->source.family.cutoff, (int32_t)i, found, capacity);
+    particle_reference_position(&run->part, i, X);
+    const int n = cells_list_particles_near_point(&run->cells, &run->part, X, run->source.family.cutoff, (int32_t)i,
+                                                  found, capacity);
     for (int k = 0; k < n; k++)
-        if (distance2(&e->part, i, found[k]) <= square(x->cutoff)) found[kept++] = found[k];
+        if (distance2(&run->part, i, found[k]) <= square(x->cutoff)) found[kept++] = found[k];
     return kept;
 }
 

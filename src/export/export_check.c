@@ -35,21 +35,21 @@ int64_t lammps_comparison_step_count(const struct lammps_export *exported)
 
 status lammps_run_and_write_comparison_positions(FILE *file, struct lammps_export *x)
 {
-    struct run *e = x->e;
-    const int64_t n = e->part.n, steps = e->clock.steps;
+    struct run *run = x->e;
+    const int64_t n = run->part.n, steps = run->clock.steps;
     real *before = NEW("check.before", n, real), *after = NEW("check.after", n, real),
          *damage = NEW("check.damage", n, real);
-    joined_volume(before, &e->part, &e->bonds);
-    array_copy(damage, e->part.damage, n, sizeof *damage);
-    e->report->quiet = e->report->excerpt = true;
-    e->clock.steps = lammps_comparison_step_count(x);
-    const status ran = run_advance_to_end_time(e);
-    e->clock.steps = steps;
+    joined_volume(before, &run->part, &run->bonds);
+    array_copy(damage, run->part.damage, n, sizeof *damage);
+    run->report->quiet = run->report->excerpt = true;
+    run->clock.steps = lammps_comparison_step_count(x);
+    const status ran = run_advance_to_end_time(run);
+    run->clock.steps = steps;
     if (ran == OK) {
         /* In LAMMPS the new positions have already broken bonds. */
-        e->kernels.bond_force(&e->bonds, &e->part, &e->source.limit, NULL);
-        joined_volume(after, &e->part, &e->bonds);
-        check_rows_write(file, &e->part, before, after, damage);
+        run->kernels.bond_force(&run->bonds, &run->part, &run->source.limit, NULL);
+        joined_volume(after, &run->part, &run->bonds);
+        check_rows_write(file, &run->part, before, after, damage);
     }
     memory_free(before);
     memory_free(after);

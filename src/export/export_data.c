@@ -63,16 +63,17 @@ static void columns_write(FILE *to, const struct lammps_export *x)
 
 static void bonds_write(FILE *to, const struct lammps_export *x)
 {
-    const struct run *e = x->e;
-    const uint8_t *material = e->part.material;
+    const struct run *run = x->e;
+    const uint8_t *material = run->part.material;
     int64_t k = 0;
     fputs("\nBonds\n\n", to);
-    for (int64_t i = 0; i < e->part.n; i++)
-        for (struct bond_iterator it = bond_iterator_of_row(&e->bonds, e->bonds.row_of[i]); bond_iterator_advance(&it);)
+    for (int64_t i = 0; i < run->part.n; i++)
+        for (struct bond_iterator it = bond_iterator_of_row(&run->bonds, run->bonds.row_of[i]);
+             bond_iterator_advance(&it);)
             if (it.bond.w != 0 && it.bond.nbr > i)
                 fprintf(to, "%lld %d %d %d\n", (long long)++k,
-                        bond_type(x->s->materials, material[i], material[it.bond.nbr]), e->part.id[i] + 1,
-                        e->part.id[it.bond.nbr] + 1);
+                        bond_type(x->s->materials, material[i], material[it.bond.nbr]), run->part.id[i] + 1,
+                        run->part.id[it.bond.nbr] + 1);
 }
 
 void lammps_data_write(FILE *file, const struct lammps_export *x, const struct lammps_types *types)

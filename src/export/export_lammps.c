@@ -285,16 +285,16 @@ static status export_write(struct lammps_export *x)
 status export_lammps(const struct export_request *request)
 {
     struct scene s = {0};
-    struct run *e = NEW("export.engine", 1, struct run);
+    struct run *run = NEW("export.engine", 1, struct run);
     struct lammps_export *x = NEW("export", 1, struct lammps_export);
-    x->s = &s, x->e = e, x->request = request, x->bond_style = request->bond_style;
+    x->s = &s, x->e = run, x->request = request, x->bond_style = request->bond_style;
     status result = scene_to_export(&s, &x->settings, request);
     if (result == OK) result = export_guard(request);
-    if (result == OK) result = run_set_up_from_scene(e, &s, NULL);
+    if (result == OK) result = run_set_up_from_scene(run, &s, NULL);
     if (result == OK) result = export_write(x);
-    run_free_memory(e);
+    run_free_memory(run);
     scene_free(&s);
     memory_free(x);
-    memory_free(e);
+    memory_free(run);
     return result;
 }

@@ -160,13 +160,13 @@ static void test_write(FILE *to, int64_t steps)
             (long long)steps, (long long)steps);
 }
 
-/* Returns the number of time steps from each frame (output of all particles) of run e to the next if it is the same for
+/* Returns the number of time steps from each frame (output of all particles) of run to the next if it is the same for
  * all frames, else 0. frames: number of frames. */
-static int64_t frame_distance(const struct run *e, int64_t frames)
+static int64_t frame_distance(const struct run *run, int64_t frames)
 {
-    const int64_t first = report_step_number_of_frame(e->scene, &e->clock, 1);
+    const int64_t first = report_step_number_of_frame(run->scene, &run->clock, 1);
     for (int64_t k = 2; k <= frames; k++)
-        if (report_step_number_of_frame(e->scene, &e->clock, k) != k * first) return 0;
+        if (report_step_number_of_frame(run->scene, &run->clock, k) != k * first) return 0;
     return first;
 }
 
@@ -177,9 +177,9 @@ static void frames_write(FILE *to, const struct lammps_export *x)
 {
     static const char columns[] = "plate.dump id x y z vx vy vz c_damage\n"
                                   "dump_modify frames sort id format float %.17g";
-    const struct run *e = x->e;
-    const int64_t frames = report_frame_count_of_run(e->scene, &e->clock), steps = e->clock.steps;
-    int64_t every = frames > 0 ? frame_distance(e, frames) : steps;
+    const struct run *run = x->e;
+    const int64_t frames = report_frame_count_of_run(run->scene, &run->clock), steps = run->clock.steps;
+    int64_t every = frames > 0 ? frame_distance(run, frames) : steps;
     if (every == 0 && frames > FRAMES_MOST) {
         every = steps / frames;
         fputs("# more frames than a variable takes: these are not at the steps of Cleave's\n", to);
@@ -188,10 +188,10 @@ static void frames_write(FILE *to, const struct lammps_export *x)
         fprintf(to, "dump frames all custom %lld %s\n", (long long)every, columns);
         return;
     }
-    fprintf(to, "variable next equal %lld", (long long)report_step_number_of_frame(e->scene, &e->clock, 1));
+    fprintf(to, "variable next equal %lld", (long long)report_step_number_of_frame(run->scene, &run->clock, 1));
     for (int64_t k = 1; k <= frames; k++) {
-        const int64_t here = report_step_number_of_frame(e->scene, &e->clock, k),
-                      next = k < frames ? report_step_number_of_frame(e->scene, &e->clock, k + 1) : steps + 1;
+        const int64_t here = report_step_number_of_frame(run->scene, &run->clock, k),
+                      next = k < frames ? report_step_number_of_frame(run->scene, &run->clock, k + 1) : steps + 1;
         if (next > here) fprintf(to, "+(step>=%lld)*%lld", (long long)here, (long long)(next - here));
     }
     fprintf(to, "\ndump frames all custom %lld %s every v_next first yes\n", (long long)steps, columns);

@@ -3,9 +3,9 @@
 #include "base/memory.h"
 #include "run/part.h"
 
-static void fracture_free_all(struct run *e)
+static void fracture_free_all(struct run *run)
 {
-    struct fracture_state *f = e->fracture;
+    struct fracture_state *f = run->fracture;
     tips_free(&f->tips);
     for (int k = 0; k < f->growths; k++) growing_crack_free(&f->growth[k]);
     memory_free(f->growth);
@@ -18,10 +18,10 @@ bool any_growing_crack_weakens_bonds_gradually(const struct fracture_state *f)
     return fades;
 }
 
-static status fracture_state_of(struct run *e, struct archive *a)
+static status fracture_state_of(struct run *run, struct archive *a)
 {
-    TRY(tips_save_or_load(&e->fracture->tips, a));
-    for (int k = 0; k < e->fracture->growths; k++) TRY(growing_crack_save_or_load(&e->fracture->growth[k], k, a));
+    TRY(tips_save_or_load(&run->fracture->tips, a));
+    for (int k = 0; k < run->fracture->growths; k++) TRY(growing_crack_save_or_load(&run->fracture->growth[k], k, a));
     return OK;
 }
 

@@ -289,16 +289,16 @@ static status keywords_read(struct abaqus_input_deck *d)
     return OK;
 }
 
-status abaqus_read(struct element_mesh *m, struct geometry_file *s)
+status abaqus_read(struct element_mesh *m, struct geometry_file *file)
 {
-    struct abaqus_input_deck d = {.s = s, .m = m, .length = s->length};
+    struct abaqus_input_deck d = {.s = file, .m = m, .length = file->length};
     scope_begin(&d, "");
     status result = keywords_read(&d);
     if (result == OK) result = scope_end(&d);
     if (result == OK && m->nodes == 0)
-        result =
-            geometry_file_report_fault(s, "has no *NODE, so this is not a mesh in the format of Abaqus; give an Abaqus "
-                                          "input file with nodes and elements");
+        result = geometry_file_report_fault(
+            file, "has no *NODE, so this is not a mesh in the format of Abaqus; give an Abaqus "
+                  "input file with nodes and elements");
     for (int k = 0; k < d.scopes; k++) {
         label_map_free(&d.scope[k].node_of);
         label_map_free(&d.scope[k].element_of);

@@ -12,35 +12,38 @@ enum { LABEL_MAX = 999999999 }; /* largest number of a node or element in a deck
 /* ---- lines and fields ------------------------------------------------------------------------------------------ */
 
 /* Returns true if the reading position of s is at the end of a line or of the file. */
-static bool at_end_of_line(const struct geometry_file *s) { return s->at >= s->length || s->text[s->at] == '\n'; }
+static bool at_end_of_line(const struct geometry_file *file)
+{
+    return file->at >= file->length || file->text[file->at] == '\n';
+}
 
-bool abaqus_read_field(struct geometry_file *s, char field[FIELD])
+bool abaqus_read_field(struct geometry_file *file, char field[FIELD])
 {
     size_t n = 0;
-    while (!at_end_of_line(s) && isspace((unsigned char)s->text[s->at])) s->at++;
-    if (at_end_of_line(s)) return false;
-    for (; !at_end_of_line(s) && s->text[s->at] != ','; s->at++)
-        if (n + 1 < FIELD) field[n++] = s->text[s->at];
+    while (!at_end_of_line(file) && isspace((unsigned char)file->text[file->at])) file->at++;
+    if (at_end_of_line(file)) return false;
+    for (; !at_end_of_line(file) && file->text[file->at] != ','; file->at++)
+        if (n + 1 < FIELD) field[n++] = file->text[file->at];
     while (n > 0 && isspace((unsigned char)field[n - 1])) n--;
     field[n] = '\0';
-    if (!at_end_of_line(s)) s->at++;
+    if (!at_end_of_line(file)) file->at++;
     return true;
 }
 
-bool abaqus_find_data_line(struct geometry_file *s)
+bool abaqus_find_data_line(struct geometry_file *file)
 {
-    while (s->at < s->length) {
-        int64_t at = s->at;
-        while (at < s->length && (s->text[at] == ' ' || s->text[at] == '\t' || s->text[at] == '\r')) at++;
-        const bool empty = at >= s->length || s->text[at] == '\n';
-        const bool comment = at + 1 < s->length && s->text[at] == '*' && s->text[at + 1] == '*';
-        if (!empty && !comment) return s->text[at] != '*';
-        geometry_file_skip_to_next_line(s);
+    while (file->at < file->length) {
+        int64_t at = file->at;
+        while (at < file->length && (file->text[at] == ' ' || file->text[at] == '\t' || file->text[at] == '\r')) at++;
+        const bool empty = at >= file->length || file->text[at] == '\n';
+        const bool comment = at + 1 < file->length && file->text[at] == '*' && file->text[at + 1] == '*';
+        if (!empty && !comment) return file->text[at] != '*';
+        geometry_file_skip_to_next_line(file);
     }
     return false;
 }
 
-status abaqus_parse_real(const struct geometry_file *s, const char *field, real *value)
+status abaqus_parse_real(const struct geometry_file *file, const char *field, real *value)
 {
     char text[FIELD], *end;
     snprintf(text, sizeof text, "%s", field);
@@ -49,18 +52,18 @@ status abaqus_parse_real(const struct geometry_file *s, const char *field, real 
     *value = strtod(text, &end);
     if (field[0] == '\0') *value = 0; /* the deck's default for an empty field */
     if (*end == '\0' && isfinite(*value) && !strpbrk(text, "xX")) return OK;
-    return geometry_file_report_fault(s, "%.40s is not a number; correct this entry", field);
+    return geometry_file_report_fault(file, "%.40s is not a number; correct this entry", field);
 }
 
 bool abaqus_field_is_label(const char *field) { return isdigit((unsigned char)field[0]); }
 
-status abaqus_parse_label(const struct geometry_file *s, const char *field, int32_t *label)
+status abaqus_parse_label(const struct geometry_file *file, const char *field, int32_t *label)
 {
     real value;
     *label = 0;
-    TRY(abaqus_parse_real(s, field, &value));
+    TRY(abaqus_parse_real(file, field, &value));
     if (!(value >= 0 && value <= LABEL_MAX && value == floor(value)))
-        return geometry_file_report_fault(s, "%.40s is not the number of a node or an element; correct this entry",
+        return geometry_file_report_fault(file, "%.40s is not the number of a node or an element; correct this entry",
                                           field);
     *label = (int32_t)value;
     return OK;
@@ -93,18 +96,18 @@ static void parameter_add(struct abaqus_keyword *k, char *field)
     abaqus_copy_word_in_capitals(p->name, field);
 }
 
-void abaqus_read_keyword(struct geometry_file *s, struct abaqus_keyword *keyword)
+void abaqus_read_keyword(struct geometry_file *file, struct abaqus_keyword *keyword)
 {
     char field[FIELD];
     bool more;
     *keyword = (struct abaqus_keyword){0};
-    abaqus_read_field(s, field);
+    abaqus_read_field(file, field);
     abaqus_copy_word_in_capitals(keyword->name, field + (field[0] == '*'));
     do {
-        while (abaqus_read_field(s, field)) parameter_add(keyword, field);
-        int64_t last = s->at - 1;
-        while (last > 0 && (s->text[last] == ' ' || s->text[last] == '\r')) last--;
-        more = s->at < s->length && last >= 0 && s->text[last] == ',' && abaqus_find_data_line(s);
+        while (abaqus_read_field(file, field)) parameter_add(keyword, field);
+        int64_t last = file->at - 1;
+        while (last > 0 && (file->text[last] == ' ' || file->text[last] == '\r')) last--;
+        more = file->at < file->length && last >= 0 && file->text[last] == ',' && abaqus_find_data_line(file);
     } while (more);
 }
 

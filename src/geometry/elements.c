@@ -50,20 +50,21 @@ int32_t element_mesh_add_node_unchecked(struct element_mesh *m, const real *coor
     return (int32_t)m->nodes++;
 }
 
-status element_mesh_add_node(struct element_mesh *m, const struct geometry_file *s, const real *coordinates,
+status element_mesh_add_node(struct element_mesh *m, const struct geometry_file *file, const real *coordinates,
                              int64_t label)
 {
     if (m->nodes >= HULL_CORNERS_MAX)
-        return geometry_file_report_fault(s, "the mesh has more than %d nodes; use a coarser one", HULL_CORNERS_MAX);
+        return geometry_file_report_fault(file, "the mesh has more than %d nodes; use a coarser one", HULL_CORNERS_MAX);
     element_mesh_add_node_unchecked(m, coordinates, label);
     return OK;
 }
 
-status element_mesh_add_element(struct element_mesh *m, const struct geometry_file *s, enum element_kind kind,
+status element_mesh_add_element(struct element_mesh *m, const struct geometry_file *file, enum element_kind kind,
                                 const int32_t *corner_node, int64_t label)
 {
     if (m->elements >= HULL_CORNERS_MAX)
-        return geometry_file_report_fault(s, "the mesh has more than %d elements; use a coarser one", HULL_CORNERS_MAX);
+        return geometry_file_report_fault(file, "the mesh has more than %d elements; use a coarser one",
+                                          HULL_CORNERS_MAX);
     GROW("mesh.element", m->element, m->elements + 1);
     GROW("mesh.label", m->element_label, m->elements + 1);
     struct element *e = &m->element[m->elements];

@@ -325,11 +325,11 @@ static status mesh_read(struct exodus *x)
     return OK;
 }
 
-status exodus_read(struct element_mesh *m, struct geometry_file *s)
+status exodus_read(struct element_mesh *m, struct geometry_file *file)
 {
-    struct exodus x = {.s = s, .m = m};
-    s->binary = true;
-    TRY(exodus_open_from_memory(&x.file, s->path, s->text, s->length));
+    struct exodus x = {.s = file, .m = m};
+    file->binary = true;
+    TRY(exodus_open_from_memory(&x.file, file->path, file->text, file->length));
     const status result = mesh_read(&x);
     exodus_close(&x.file);
     memory_free(x.element);

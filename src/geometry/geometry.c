@@ -29,12 +29,12 @@ static const struct format *format_of(const char *path)
 
 /* Returns REFUSED, with a message, if all faces of the surface s in 3D lie in one plane x, y or z = const to 1e-6 of
  * their extent, as in a mesh of plane elements. path: file of the surface, for the message. */
-static status check_not_plane(const struct hull *s, const char *path)
+static status check_not_plane(const struct hull *hull, const char *path)
 {
-    const real *low = s->node[0].low, *high = s->node[0].high;
+    const real *low = hull->node[0].low, *high = hull->node[0].high;
     real longest = 0;
-    for (int d = 0; d < s->dim; d++) longest = real_max(longest, high[d] - low[d]);
-    for (int d = 0; d < s->dim && s->dim == 3; d++)
+    for (int d = 0; d < hull->dim; d++) longest = real_max(longest, high[d] - low[d]);
+    for (int d = 0; d < hull->dim && hull->dim == 3; d++)
         if (high[d] - low[d] <= 1e-6 * longest)
             return status_set(REFUSED,
                               "%s: its elements are plane, all at %c = %.6g m, and fill no volume; set space: plane "
@@ -46,27 +46,27 @@ static status check_not_plane(const struct hull *s, const char *path)
 /* Returns REFUSED, with a message, if the surface s has no faces or encloses no volume, has coordinates of FARTHEST or
  * more, lies in a plane, or has holes such that more than the share DOUBT_MOST of sampled positions is neither inside
  * nor outside; else OK. path: file of the surface, for messages. */
-static status check_closed(const struct hull *s, const char *path)
+static status check_closed(const struct hull *hull, const char *path)
 {
-    const real *at = s->open_at;
-    if (s->faces == 0)
+    const real *at = hull->open_at;
+    if (hull->faces == 0)
         return status_set(
             REFUSED,
             "%s: pairs of its faces coincide and cancel each other, so no body is left; give the surface of a body",
             path);
-    for (int d = 0; d < s->dim; d++)
-        if (!(fabs(s->node[0].low[d]) < FARTHEST && fabs(s->node[0].high[d]) < FARTHEST))
+    for (int d = 0; d < hull->dim; d++)
+        if (!(fabs(hull->node[0].low[d]) < FARTHEST && fabs(hull->node[0].high[d]) < FARTHEST))
             return status_set(REFUSED, "%s: coordinates of up to %.3g m are too large; check the unit of the file",
-                              path, real_max(fabs(s->node[0].low[d]), fabs(s->node[0].high[d])));
-    TRY(check_not_plane(s, path));
-    const real doubt = s->open_edges > 0 ? hull_sample_winding_number_statistics(s).unclear : 0;
+                              path, real_max(fabs(hull->node[0].low[d]), fabs(hull->node[0].high[d])));
+    TRY(check_not_plane(hull, path));
+    const real doubt = hull->open_edges > 0 ? hull_sample_winding_number_statistics(hull).unclear : 0;
     if (doubt > DOUBT_MOST)
         return status_set(REFUSED,
                           "%s: its surface is open or turned inside out at %lld edges, one at (%.6g, %.6g, %.6g) m, so "
                           "%.0f %% of the positions in it are neither inside nor outside; close it (admesh or MeshLab "
                           "close holes and orient faces)",
-                          path, (long long)s->open_edges, at[0], at[1], at[2], 100 * doubt);
-    if (s->volume > 0) return OK;
+                          path, (long long)hull->open_edges, at[0], at[1], at[2], 100 * doubt);
+    if (hull->volume > 0) return OK;
     return status_set(REFUSED, "%s: the surface encloses no volume; give the surface of a body", path);
 }
 

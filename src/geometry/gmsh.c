@@ -12,17 +12,17 @@
 
 /* Reads a text in double quotes from the file s into text[capacity]; longer texts are cut off. Returns REFUSED if the
  * text does not begin with a quote, or does not end with one on the same line. */
-static status quoted_next(struct geometry_file *s, char *text, size_t capacity)
+static status quoted_next(struct geometry_file *file, char *text, size_t capacity)
 {
     size_t n = 0;
-    if (!geometry_file_skip_blanks(s) || s->text[s->at] != '"')
-        return geometry_file_report_fault(s, "the name of this group is not in quotes; write it in quotes");
-    for (s->at++; s->at < s->length && s->text[s->at] != '"' && s->text[s->at] != '\n'; s->at++)
-        if (n + 1 < capacity) text[n++] = s->text[s->at];
+    if (!geometry_file_skip_blanks(file) || file->text[file->at] != '"')
+        return geometry_file_report_fault(file, "the name of this group is not in quotes; write it in quotes");
+    for (file->at++; file->at < file->length && file->text[file->at] != '"' && file->text[file->at] != '\n'; file->at++)
+        if (n + 1 < capacity) text[n++] = file->text[file->at];
     text[n] = '\0';
-    if (s->at >= s->length || s->text[s->at] != '"')
-        return geometry_file_report_fault(s, "a name has no closing quote");
-    s->at++;
+    if (file->at >= file->length || file->text[file->at] != '"')
+        return geometry_file_report_fault(file, "a name has no closing quote");
+    file->at++;
     return OK;
 }
 
@@ -130,12 +130,12 @@ static status format_read(struct gmsh *g)
 
 /* Skips the rest of the section `name` of the file s, such as $Nodes: advances to the line after its last one, such as
  * $EndNodes, or to the end of the file. */
-static void section_skip(struct geometry_file *s, const char *name)
+static void section_skip(struct geometry_file *file, const char *name)
 {
     char end[48];
     const int length = snprintf(end, sizeof end, "$End%s", name + 1);
-    const char *found = memmem(s->text + s->at, (size_t)(s->length - s->at), end, (size_t)length);
-    s->at = found ? found - s->text + length : s->length;
+    const char *found = memmem(file->text + file->at, (size_t)(file->length - file->at), end, (size_t)length);
+    file->at = found ? found - file->text + length : file->length;
 }
 
 /* Advances over the last line of the section `name` of the file g, such as $EndNodes of $Nodes. Returns REFUSED, with a
@@ -204,9 +204,9 @@ static status sections_read(struct gmsh *g)
     return g->m->elements > 0 ? OK : geometry_file_report_fault(g->s, "ends without $Elements");
 }
 
-status gmsh_read(struct element_mesh *m, struct geometry_file *s)
+status gmsh_read(struct element_mesh *m, struct geometry_file *file)
 {
-    struct gmsh g = {.s = s, .m = m, .last_set = -1};
+    struct gmsh g = {.s = file, .m = m, .last_set = -1};
     const status result = sections_read(&g);
     label_map_free(&g.node);
     label_map_free(&g.of_entity);

@@ -32,7 +32,7 @@ static const signed char middle_at[ELEMENT_KINDS][1 + ELEMENT_MIDDLES_MAX] = {
     [ELEMENT_HEXAHEDRON] = {0, 3, 8, 1, 9, 2, 10, 11, 4, 7, 5, 6, 12, 14, 17, 15, 16, 13, -1}};
 #define STRAIGHT 1e-6 /* an edge is straight up to this distance of its nodes from the chord [length of the edge] */
 
-status gmsh_find_element_type(const struct geometry_file *s, int64_t number, const struct gmsh_type **type)
+status gmsh_find_element_type(const struct geometry_file *file, int64_t number, const struct gmsh_type **type)
 {
     for (size_t k = 0; k < COUNT_OF(types); k++)
         if (types[k].type == number) {
@@ -40,7 +40,7 @@ status gmsh_find_element_type(const struct geometry_file *s, int64_t number, con
             return OK;
         }
     return geometry_file_report_fault(
-        s,
+        file,
         "Gmsh's element type %lld is not supported; use lines, triangles, quadrilaterals, "
         "tetrahedra, hexahedra, prisms or pyramids",
         (long long)number);

@@ -44,7 +44,7 @@ static inline int64_t gmsh_key_of_dimension_and_tag(int64_t dim, int64_t tag) { 
 
 /* Sets *type to the element type with Gmsh's number `number`. Returns REFUSED, with a message, for an unsupported type.
  */
-status gmsh_find_element_type(const struct geometry_file *s, int64_t number, const struct gmsh_type **type);
+status gmsh_find_element_type(const struct geometry_file *file, int64_t number, const struct gmsh_type **type);
 
 /* Adds an element to the set that the mesh of g has of a physical group, which is created if it is new. dim, tag:
  * dimension and number of the group; element: index of the element in the mesh. Returns REFUSED, with a message, if

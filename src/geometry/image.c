@@ -10,24 +10,26 @@ enum { BYTES_A_VOXEL = 16 };            /* memory for grey values and levels per
 
 int luminance(int red, int green, int blue) { return (int)(0.2126 * red + 0.7152 * green + 0.0722 * blue + 0.5); }
 
-status image_pages_append_page(struct image_pages *p, const struct geometry_file *s, int64_t width, int64_t height,
+status image_pages_append_page(struct image_pages *p, const struct geometry_file *file, int64_t width, int64_t height,
                                uint16_t **grey_values)
 {
     const int64_t memory = machine_memory_size();
     const real all = (real)width * (real)height * (real)(p->n + 1);
-    if (width < 1 || height < 1) return status_set(REFUSED, "%s: the image has no pixels; give another image", s->path);
+    if (width < 1 || height < 1)
+        return status_set(REFUSED, "%s: the image has no pixels; give another image", file->path);
     if (p->n > 0 && (width != p->width || height != p->height))
         return status_set(
             REFUSED,
             "%s: this slice has %lld x %lld pixels, but earlier slices have %lld x %lld; give slices of equal size",
-            s->path, (long long)width, (long long)height, (long long)p->width, (long long)p->height);
-    if ((real)width * (real)height > (real)s->length * SHRINKS_MOST * BITS)
+            file->path, (long long)width, (long long)height, (long long)p->width, (long long)p->height);
+    if ((real)width * (real)height > (real)file->length * SHRINKS_MOST * BITS)
         return status_set(REFUSED,
                           "%s: its header gives %lld x %lld pixels, more than a file of its size can contain, so it is "
                           "damaged; save it again",
-                          s->path, (long long)width, (long long)height);
+                          file->path, (long long)width, (long long)height);
     if (all > VOXELS_MAX || (memory > 0 && all * BYTES_A_VOXEL > (real)memory))
-        return status_set(REFUSED, "%s: %.3g voxels do not fit into memory; use fewer or smaller slices", s->path, all);
+        return status_set(REFUSED, "%s: %.3g voxels do not fit into memory; use fewer or smaller slices", file->path,
+                          all);
     const int64_t size = width * height;
     p->grey = memory_resize("image.grey", p->grey, p->n * size, (p->n + 1) * size, sizeof *p->grey);
     *grey_values = p->grey + p->n * size;

@@ -11,10 +11,10 @@
  * ends before. png: state of libpng, which has the file. */
 static void bytes_next(png_structp png, png_bytep to, size_t n)
 {
-    struct geometry_file *s = png_get_io_ptr(png);
-    if ((int64_t)n > s->length - s->at) png_error(png, "it is cut off");
-    memcpy(to, s->text + s->at, n);
-    s->at += (int64_t)n;
+    struct geometry_file *file = png_get_io_ptr(png);
+    if ((int64_t)n > file->length - file->at) png_error(png, "it is cut off");
+    memcpy(to, file->text + file->at, n);
+    file->at += (int64_t)n;
 }
 
 /* Callback of libpng for errors: stores the message `what` in the state `png` of libpng and jumps back to
@@ -41,22 +41,22 @@ static void make_grey(png_structp png, png_infop info)
     png_read_update_info(png, info);
 }
 
-/* Reads the image png, info into a new page of p. s: the file. *rows, *bytes: working memory, which the caller frees,
- * also after a failure. Returns REFUSED, with a message, for an image of another size than the other pages, or of an
- * unsupported kind. */
-static status page_read(png_structp png, png_infop info, struct image_pages *p, const struct geometry_file *s,
+/* Reads the image png, info into a new page of p. file: the file. *rows, *bytes: working memory, which the caller
+ * frees, also after a failure. Returns REFUSED, with a message, for an image of another size than the other pages, or
+ * of an unsupported kind. */
+static status page_read(png_structp png, png_infop info, struct image_pages *p, const struct geometry_file *file,
                         png_bytep *volatile *rows, png_bytep volatile *bytes)
 {
     uint16_t *page;
     png_read_info(png, info);
     const int64_t width = png_get_image_width(png, info), height = png_get_image_height(png, info);
-    TRY(image_pages_append_page(p, s, width, height, &page));
+    TRY(image_pages_append_page(p, file, width, height, &page));
     make_grey(png, info);
     const int64_t row = (int64_t)png_get_rowbytes(png, info);
     const bool wide = png_get_bit_depth(png, info) == 16;
     if (row != width * (wide ? 2 : 1))
         return status_set(REFUSED, "%s: this kind of PNG is not supported; save it with grey values of 8 or 16 bits",
-                          s->path);
+                          file->path);
     *bytes = memory_new_uninitialised("image.rows", row * height, 1);
     *rows = BARE("image.rows", height, png_bytep);
     for (int64_t j = 0; j < height; j++) (*rows)[j] = *bytes + j * row;
@@ -66,7 +66,7 @@ static status page_read(png_structp png, png_infop info, struct image_pages *p, 
     return OK;
 }
 
-status png_read_pages(struct image_pages *p, struct geometry_file *s)
+status png_read_pages(struct image_pages *p, struct geometry_file *file)
 {
     char what[128] = "";
     png_bytep *volatile rows = NULL;
@@ -77,16 +77,16 @@ status png_read_pages(struct image_pages *p, struct geometry_file *s)
     if (!info) {
         png_destroy_read_struct(&png, NULL, NULL);
         return status_set(FAILED, "%s: libpng cannot start, probably for lack of memory; free memory and try again",
-                          s->path);
+                          file->path);
     }
     if (setjmp(png_jmpbuf(png)) == 0) {
-        png_set_read_fn(png, s, bytes_next);
+        png_set_read_fn(png, file, bytes_next);
         png_set_user_limits(png, INT32_MAX, INT32_MAX);
         png_set_chunk_malloc_max(png, 1 << 24);
-        result = page_read(png, info, p, s, &rows, &bytes);
+        result = page_read(png, info, p, file, &rows, &bytes);
     } else {
         text_replace_control_characters(what);
-        result = status_set(REFUSED, "%s: the PNG file is incomplete or damaged (%s); save it again", s->path, what);
+        result = status_set(REFUSED, "%s: the PNG file is incomplete or damaged (%s); save it again", file->path, what);
     }
     memory_free((void *)rows);
     memory_free(bytes);

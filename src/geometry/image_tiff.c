@@ -12,11 +12,11 @@
  * end of the file. */
 static tmsize_t tiff_take(thandle_t handle, void *to, tmsize_t n)
 {
-    struct geometry_file *s = handle;
-    const int64_t rest = s->length - s->at, taken = n < rest ? n : rest;
+    struct geometry_file *file = handle;
+    const int64_t rest = file->length - file->at, taken = n < rest ? n : rest;
     if (taken <= 0) return 0;
-    array_copy(to, s->text + s->at, taken, 1);
-    s->at += taken;
+    array_copy(to, file->text + file->at, taken, 1);
+    file->at += taken;
     return taken;
 }
 
@@ -31,10 +31,13 @@ static tmsize_t tiff_write(thandle_t handle, void *from, tmsize_t n)
  * (SEEK_SET, SEEK_CUR, SEEK_END). Returns the position, or -1 if it is outside the file. */
 static toff_t tiff_seek(thandle_t handle, toff_t offset, int whence)
 {
-    struct geometry_file *s = handle;
-    const int64_t base = whence == SEEK_SET ? 0 : whence == SEEK_CUR ? s->at : s->length, to = base + (int64_t)offset;
-    if (to < 0 || to > s->length) return (toff_t)-1;
-    s->at = to;
+    struct geometry_file *file = handle;
+    const int64_t base = whence == SEEK_SET   ? 0
+                         : whence == SEEK_CUR ? file->at
+                                              : file->length,
+                  to = base + (int64_t)offset;
+    if (to < 0 || to > file->length) return (toff_t)-1;
+    file->at = to;
     return (toff_t)to;
 }
 
@@ -201,30 +204,31 @@ static bool colours_read(TIFF *tiff, uint16_t *page, int64_t width, int64_t heig
     return good;
 }
 
-/* Appends the current page of `tiff` to the pages p. s: the file. Returns REFUSED, with a message, if its samples are
- * not supported or it is malformed. */
-static status tiff_page(TIFF *tiff, struct image_pages *p, const struct geometry_file *s)
+/* Appends the current page of `tiff` to the pages p. file: the file. Returns REFUSED, with a message, if its samples
+ * are not supported or it is malformed. */
+static status tiff_page(TIFF *tiff, struct image_pages *p, const struct geometry_file *file)
 {
     const struct samples a = samples_of(tiff);
     uint16_t *page;
-    TRY(check_samples(&a, s->path));
-    TRY(image_pages_append_page(p, s, a.width, a.height, &page));
+    TRY(check_samples(&a, file->path));
+    TRY(image_pages_append_page(p, file, a.width, a.height, &page));
     const bool good = samples_used(&a) > 0 ? samples_read(tiff, page, &a) : colours_read(tiff, page, a.width, a.height);
     return good ? OK
                 : status_set(REFUSED,
                              "%s: page %lld cannot be read, because the file is cut off, or compressed by a method "
                              "that libtiff lacks; save it uncompressed",
-                             s->path, (long long)p->n);
+                             file->path, (long long)p->n);
 }
 
-status tiff_read_pages(struct image_pages *p, struct geometry_file *s)
+status tiff_read_pages(struct image_pages *p, struct geometry_file *file)
 {
     TIFFSetErrorHandler(NULL), TIFFSetWarningHandler(NULL);
-    TIFF *tiff = TIFFClientOpen(s->path, "rm", s, tiff_take, tiff_write, tiff_seek, tiff_close, tiff_size, NULL, NULL);
+    TIFF *tiff =
+        TIFFClientOpen(file->path, "rm", file, tiff_take, tiff_write, tiff_seek, tiff_close, tiff_size, NULL, NULL);
     status result =
-        tiff ? OK : status_set(REFUSED, "%s: the file is damaged, or not a TIFF file; save it again", s->path);
+        tiff ? OK : status_set(REFUSED, "%s: the file is damaged, or not a TIFF file; save it again", file->path);
     while (result == OK) {
-        result = tiff_page(tiff, p, s);
+        result = tiff_page(tiff, p, file);
         if (result != OK || !TIFFReadDirectory(tiff)) break;
     }
     if (tiff) TIFFClose(tiff);

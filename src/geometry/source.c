@@ -12,23 +12,23 @@
 
 enum { FILE_SHARE = 8 }; /* a file may take up to an eighth of the memory, because its data need more */
 
-status geometry_file_read_whole(struct geometry_file *s, const char *path)
+status geometry_file_read_whole(struct geometry_file *source, const char *path)
 {
     FILE *file;
-    *s = (struct geometry_file){.path = path};
+    *source = (struct geometry_file){.path = path};
     TRY(input_file_open(&file, path, NULL));
     const bool sized = fseeko(file, 0, SEEK_END) == 0;
     const int64_t length = sized ? (int64_t)ftello(file) : -1, memory = machine_memory_size();
     const bool fits = memory <= 0 || length <= memory / FILE_SHARE;
     if (length > 0 && fits && length < INT64_MAX) {
         rewind(file);
-        s->text = memory_new_uninitialised("file", length + 1, 1);
-        s->length = (int64_t)fread(s->text, 1, (size_t)length, file);
-        s->text[s->length] = '\0';
+        source->text = memory_new_uninitialised("file", length + 1, 1);
+        source->length = (int64_t)fread(source->text, 1, (size_t)length, file);
+        source->text[source->length] = '\0';
     }
     fclose(file);
-    if (s->length == length && length > 0) return OK;
-    geometry_file_close(s);
+    if (source->length == length && length > 0) return OK;
+    geometry_file_close(source);
     if (!fits)
         return status_set(REFUSED,
                           "%s: its %.3g GB do not fit into the memory of this machine; use a smaller file or a machine "
@@ -37,13 +37,13 @@ status geometry_file_read_whole(struct geometry_file *s, const char *path)
     return status_set(REFUSED, length == 0 ? "%s: empty" : "%s: cannot be read", path);
 }
 
-void geometry_file_close(struct geometry_file *s)
+void geometry_file_close(struct geometry_file *file)
 {
-    memory_free(s->text);
-    *s = (struct geometry_file){0};
+    memory_free(file->text);
+    *file = (struct geometry_file){0};
 }
 
-status geometry_file_report_fault(const struct geometry_file *s, const char *format, ...)
+status geometry_file_report_fault(const struct geometry_file *file, const char *format, ...)
 {
     char what[256];
     int64_t line = 1;
@@ -52,99 +52,100 @@ status geometry_file_report_fault(const struct geometry_file *s, const char *for
     vsnprintf(what, sizeof what, format, more);
     va_end(more);
     text_replace_control_characters(what);
-    if (s->binary) return status_set(REFUSED, "%s: %s", s->path, what);
-    for (int64_t k = 0; k < s->at && k < s->length; k++) line += s->text[k] == '\n';
-    return status_set(REFUSED, "%s:%lld: %s", s->path, (long long)line, what);
+    if (file->binary) return status_set(REFUSED, "%s: %s", file->path, what);
+    for (int64_t k = 0; k < file->at && k < file->length; k++) line += file->text[k] == '\n';
+    return status_set(REFUSED, "%s:%lld: %s", file->path, (long long)line, what);
 }
 
 static bool blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
-bool geometry_file_skip_blanks(struct geometry_file *s)
+bool geometry_file_skip_blanks(struct geometry_file *file)
 {
-    while (s->at < s->length && blank(s->text[s->at])) s->at++;
-    return s->at < s->length;
+    while (file->at < file->length && blank(file->text[file->at])) file->at++;
+    return file->at < file->length;
 }
 
-void geometry_file_read_word(struct geometry_file *s, char *word, size_t capacity)
+void geometry_file_read_word(struct geometry_file *file, char *word, size_t capacity)
 {
     size_t n = 0;
-    geometry_file_skip_blanks(s);
-    for (; s->at < s->length && !blank(s->text[s->at]); s->at++)
-        if (n + 1 < capacity) word[n++] = s->text[s->at];
+    geometry_file_skip_blanks(file);
+    for (; file->at < file->length && !blank(file->text[file->at]); file->at++)
+        if (n + 1 < capacity) word[n++] = file->text[file->at];
     word[n] = '\0';
 }
 
 /* Parses the next word of the text file s as a number *value. what: name of the number, for messages. Returns REFUSED,
  * with a message, if it is no finite number. Words are limited to 63 characters, so that a long file without blanks is
  * refused at once. */
-static status text_real(struct geometry_file *s, const char *what, real *value)
+static status text_real(struct geometry_file *file, const char *what, real *value)
 {
     char word[64], *end;
-    if (!geometry_file_skip_blanks(s)) return geometry_file_report_fault(s, "ends where %s is expected", what);
-    const int64_t from = s->at;
-    geometry_file_read_word(s, word, sizeof word);
+    if (!geometry_file_skip_blanks(file)) return geometry_file_report_fault(file, "ends where %s is expected", what);
+    const int64_t from = file->at;
+    geometry_file_read_word(file, word, sizeof word);
     *value = strtod(word, &end);
     if (end != word && *end == '\0' && isfinite(*value)) return OK;
-    s->at = from;
-    return geometry_file_report_fault(s, "%.40s is not a %s; write a number", word, what);
+    file->at = from;
+    return geometry_file_report_fault(file, "%.40s is not a %s; write a number", word, what);
 }
 
 /* Copies the next `size` bytes of the binary file s to `value`. what: name of the value, for messages. Returns REFUSED,
  * with a message, if the file ends before. */
-static status bytes_take(struct geometry_file *s, const char *what, void *value, int64_t size)
+static status bytes_take(struct geometry_file *file, const char *what, void *value, int64_t size)
 {
-    if (s->length - s->at < size)
-        return geometry_file_report_fault(s, "the file ends where %s is expected, so it is cut off; write it again",
+    if (file->length - file->at < size)
+        return geometry_file_report_fault(file, "the file ends where %s is expected, so it is cut off; write it again",
                                           what);
-    array_copy(value, s->text + s->at, size, 1);
-    s->at += size;
+    array_copy(value, file->text + file->at, size, 1);
+    file->at += size;
     return OK;
 }
 
-status geometry_file_read_real(struct geometry_file *s, const char *quantity, real *value)
+status geometry_file_read_real(struct geometry_file *file, const char *quantity, real *value)
 {
-    if (!s->binary) return text_real(s, quantity, value);
-    TRY(bytes_take(s, quantity, value, sizeof *value));
-    return isfinite(*value) ? OK : geometry_file_report_fault(s, "%s is not finite", quantity);
+    if (!file->binary) return text_real(file, quantity, value);
+    TRY(bytes_take(file, quantity, value, sizeof *value));
+    return isfinite(*value) ? OK : geometry_file_report_fault(file, "%s is not finite", quantity);
 }
 
-status geometry_file_read_integer(struct geometry_file *s, const char *quantity, int64_t *value)
+status geometry_file_read_integer(struct geometry_file *file, const char *quantity, int64_t *value)
 {
     real number = 0;
-    TRY(text_real(s, quantity, &number));
+    TRY(text_real(file, quantity, &number));
     if (number != floor(number) || fabs(number) > 9e15)
-        return geometry_file_report_fault(s, "%s is %.17g; write a whole number", quantity, number);
+        return geometry_file_report_fault(file, "%s is %.17g; write a whole number", quantity, number);
     *value = (int64_t)number;
     return OK;
 }
 
-status geometry_file_read_int32(struct geometry_file *s, const char *quantity, int64_t *value)
+status geometry_file_read_int32(struct geometry_file *file, const char *quantity, int64_t *value)
 {
     int32_t number = 0;
-    if (!s->binary) return geometry_file_read_integer(s, quantity, value);
-    TRY(bytes_take(s, quantity, &number, sizeof number));
+    if (!file->binary) return geometry_file_read_integer(file, quantity, value);
+    TRY(bytes_take(file, quantity, &number, sizeof number));
     *value = number;
     return OK;
 }
 
-status geometry_file_read_int64(struct geometry_file *s, const char *quantity, int64_t *value)
+status geometry_file_read_int64(struct geometry_file *file, const char *quantity, int64_t *value)
 {
-    return s->binary ? bytes_take(s, quantity, value, sizeof *value) : geometry_file_read_integer(s, quantity, value);
+    return file->binary ? bytes_take(file, quantity, value, sizeof *value)
+                        : geometry_file_read_integer(file, quantity, value);
 }
 
-status geometry_file_check_count_fits_size(const struct geometry_file *s, const char *item_name, int64_t count,
+status geometry_file_check_count_fits_size(const struct geometry_file *file, const char *item_name, int64_t count,
                                            int64_t bytes_per_item)
 {
-    if (count >= 0 && count <= (s->length - s->at) / bytes_per_item) return OK;
+    if (count >= 0 && count <= (file->length - file->at) / bytes_per_item) return OK;
     return geometry_file_report_fault(
-        s,
+        file,
         "the header gives %lld %s, more than the rest of the file can contain, so it is cut off "
         "or damaged; write it again",
         (long long)count, item_name);
 }
 
-void geometry_file_skip_to_next_line(struct geometry_file *s)
+void geometry_file_skip_to_next_line(struct geometry_file *file)
 {
-    const char *end = memchr(s->text + s->at, '\n', (size_t)(s->length - s->at));
-    s->at = end ? end - s->text + 1 : s->length;
+    const char *end = memchr(file->text + file->at, '\n', (size_t)(file->length - file->at));
+    file->at = end ? end - file->text + 1 : file->length;
 }

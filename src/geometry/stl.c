@@ -10,56 +10,57 @@
 enum { HEADER = 80, COUNT = 4, FACET = 50, NORMAL = 12 }; /* sizes in a binary file [byte] */
 
 /* Appends a corner of a triangle at X as a new node of the mesh m. Every third corner completes a triangle, which is
- * appended too. s: the file, for messages. Returns REFUSED if the mesh has no space for more. */
-static status corner_add(struct element_mesh *m, const struct geometry_file *s, const real *X)
+ * appended too. file: the file, for messages. Returns REFUSED if the mesh has no space for more. */
+static status corner_add(struct element_mesh *m, const struct geometry_file *file, const real *X)
 {
     const int32_t node[] = {(int32_t)m->nodes - 2, (int32_t)m->nodes - 1, (int32_t)m->nodes};
-    TRY(element_mesh_add_node(m, s, X, m->nodes));
-    return m->nodes % 3 == 0 ? element_mesh_add_element(m, s, ELEMENT_TRIANGLE, node, m->elements) : OK;
+    TRY(element_mesh_add_node(m, file, X, m->nodes));
+    return m->nodes % 3 == 0 ? element_mesh_add_element(m, file, ELEMENT_TRIANGLE, node, m->elements) : OK;
 }
 
 /* ---- binary --------------------------------------------------------------------------------------------------- */
 
 /* Returns the little-endian integer of four bytes at position `at` of the file s. */
-static uint32_t word_at(const struct geometry_file *s, int64_t at)
+static uint32_t word_at(const struct geometry_file *file, int64_t at)
 {
-    const unsigned char *c = (const unsigned char *)s->text + at;
+    const unsigned char *c = (const unsigned char *)file->text + at;
     return (uint32_t)c[0] | (uint32_t)c[1] << 8 | (uint32_t)c[2] << 16 | (uint32_t)c[3] << 24;
 }
 
 /* Returns true if the file s is binary: its length is that which its number of triangles implies. Binary files may also
  * begin with "solid", the first word of text files. */
-static bool is_binary(const struct geometry_file *s)
+static bool is_binary(const struct geometry_file *file)
 {
-    return s->length >= HEADER + COUNT && s->length == HEADER + COUNT + FACET * (int64_t)word_at(s, HEADER);
+    return file->length >= HEADER + COUNT && file->length == HEADER + COUNT + FACET * (int64_t)word_at(file, HEADER);
 }
 
 /* Returns true if the file s can be text: it begins with "solid" and has no zero byte, which all binary files have. */
-static bool may_be_text(const struct geometry_file *s)
+static bool may_be_text(const struct geometry_file *file)
 {
-    return s->length >= 5 && strncasecmp(s->text, "solid", 5) == 0 && !memchr(s->text, '\0', (size_t)s->length);
+    return file->length >= 5 && strncasecmp(file->text, "solid", 5) == 0 &&
+           !memchr(file->text, '\0', (size_t)file->length);
 }
 
 /* Reads all triangles of the binary file s into the mesh m. Returns REFUSED, with a message, if a coordinate is not
  * finite. */
-static status binary_read(struct element_mesh *m, struct geometry_file *s)
+static status binary_read(struct element_mesh *m, struct geometry_file *file)
 {
-    const int64_t n = word_at(s, HEADER);
-    s->binary = true;
+    const int64_t n = word_at(file, HEADER);
+    file->binary = true;
     for (int64_t k = 0; k < n; k++)
         for (int c = 0; c < 3; c++) {
             real X[DIM_MAX];
             for (int d = 0; d < 3; d++) {
-                const uint32_t bits = word_at(s, HEADER + COUNT + k * FACET + NORMAL + 4 * (3 * c + d));
+                const uint32_t bits = word_at(file, HEADER + COUNT + k * FACET + NORMAL + 4 * (3 * c + d));
                 float value;
                 memcpy(&value, &bits, sizeof value);
                 X[d] = value;
                 /* infinite or NaN: all exponent bits are set */
                 if ((bits & 0x7F800000u) == 0x7F800000u)
                     return geometry_file_report_fault(
-                        s, "triangle %lld: a coordinate is infinite or not a number; correct it", (long long)k);
+                        file, "triangle %lld: a coordinate is infinite or not a number; correct it", (long long)k);
             }
-            TRY(corner_add(m, s, X));
+            TRY(corner_add(m, file, X));
         }
     return OK;
 }
@@ -68,26 +69,26 @@ static status binary_read(struct element_mesh *m, struct geometry_file *s)
 
 /* Reads all triangles of the text file s into the mesh m. Returns REFUSED, with a message, if a facet does not have
  * three corners, or endsolid is missing. */
-static status words_read(struct element_mesh *m, struct geometry_file *s)
+static status words_read(struct element_mesh *m, struct geometry_file *file)
 {
     char word[32];
     bool ended = false;
-    geometry_file_skip_to_next_line(s); /* solid NAME, possibly several words */
-    while (geometry_file_skip_blanks(s)) {
-        geometry_file_read_word(s, word, sizeof word);
+    geometry_file_skip_to_next_line(file); /* solid NAME, possibly several words */
+    while (geometry_file_skip_blanks(file)) {
+        geometry_file_read_word(file, word, sizeof word);
         if (strcasecmp(word, "vertex") == 0) {
             real X[DIM_MAX];
-            for (int d = 0; d < 3; d++) TRY(geometry_file_read_real(s, "coordinate", &X[d]));
-            TRY(corner_add(m, s, X));
+            for (int d = 0; d < 3; d++) TRY(geometry_file_read_real(file, "coordinate", &X[d]));
+            TRY(corner_add(m, file, X));
         } else if (strcasecmp(word, "endfacet") == 0 && m->nodes % 3 != 0) {
-            return geometry_file_report_fault(s, "a facet has %d corners; give three", (int)(m->nodes % 3));
+            return geometry_file_report_fault(file, "a facet has %d corners; give three", (int)(m->nodes % 3));
         } else if (strcasecmp(word, "endsolid") == 0 || strcasecmp(word, "solid") == 0) {
             ended = strcasecmp(word, "endsolid") == 0;
-            geometry_file_skip_to_next_line(s);
+            geometry_file_skip_to_next_line(file);
         }
     }
     if (m->nodes % 3 != 0 || !ended)
-        return geometry_file_report_fault(s, "the file ends within a solid, so it is cut off; write it again");
+        return geometry_file_report_fault(file, "the file ends within a solid, so it is cut off; write it again");
     return OK;
 }
 
@@ -145,29 +146,29 @@ static void corners_weld(struct element_mesh *m)
     memory_free(key);
 }
 
-status stl_read(struct element_mesh *m, struct geometry_file *s)
+status stl_read(struct element_mesh *m, struct geometry_file *file)
 {
-    if (is_binary(s))
-        TRY(binary_read(m, s));
-    else if (may_be_text(s))
-        TRY(words_read(m, s));
-    else if (s->length >= HEADER + COUNT) {
-        const long long needed = HEADER + COUNT + FACET * (long long)word_at(s, HEADER);
-        s->binary = true;
+    if (is_binary(file))
+        TRY(binary_read(m, file));
+    else if (may_be_text(file))
+        TRY(words_read(m, file));
+    else if (file->length >= HEADER + COUNT) {
+        const long long needed = HEADER + COUNT + FACET * (long long)word_at(file, HEADER);
+        file->binary = true;
         return geometry_file_report_fault(
-            s,
+            file,
             "the STL file is incomplete: it has %lld bytes, but the %lld triangles that its "
             "header gives need %lld; %s or it is not in the STL format",
-            (long long)s->length, (long long)word_at(s, HEADER), needed,
-            s->length < needed ? "it is cut off" : "this number is wrong");
+            (long long)file->length, (long long)word_at(file, HEADER), needed,
+            file->length < needed ? "it is cut off" : "this number is wrong");
     } else {
         return geometry_file_report_fault(
-            s,
+            file,
             "this is not an STL file, because it neither begins with `solid` nor has a header "
             "of %d bytes; give a file in the STL format",
             HEADER + COUNT);
     }
-    if (m->elements == 0) return geometry_file_report_fault(s, "contains no triangle");
+    if (m->elements == 0) return geometry_file_report_fault(file, "contains no triangle");
     corners_weld(m);
     return OK;
 }

@@ -63,41 +63,43 @@ static int64_t active_points_reach_of(const struct grid *g, enum shape shape, en
     return ACTIVE_POINTS_STEPS * ((transfer == TRANSFER_FLIP ? 2 : 1) * shared + (g->mirror_nodes > 0 ? 2 : 0));
 }
 
-/* Sets r->active_cell to 1 for the active cells of g, else to 0. A cell is active if one of its points in p moves or
- * has a force, stress, a load of l or a bond of b. It is also active if a load other than a plane of symmetry
+/* Sets active->active_cell to 1 for the active cells of g, else to 0. A cell is active if one of its points in p moves
+ * or has a force, stress, a load of l or a bond of b. It is also active if a load other than a plane of symmetry
  * prescribes the velocity of its lowest node. now: sorted points to be examined, since points outside this list are
  * still at rest; has_gradient: true if points have velocity gradients (APIC). */
-static void active_points_mark(struct active_points *r, const struct transfer_order *now, const struct particles *p,
-                               const struct grid *g, const struct bonds *b, const struct loads *l, bool has_gradient)
+static void active_points_mark(struct active_points *active, const struct transfer_order *now,
+                               const struct particles *p, const struct grid *g, const struct bonds *b,
+                               const struct loads *l, bool has_gradient)
 {
-    array_fill_bytes(r->active_cell, 0, g->n, 1);
+    array_fill_bytes(active->active_cell, 0, g->n, 1);
 #pragma omp parallel for schedule(static)
     for (int32_t c = 0; c < now->cells; c++) {
         bool inactive = true;
         for (int32_t k = now->cell_start[c]; k < now->cell_start[c + 1] && inactive; k++)
             inactive = active_points_is_inactive(l, p, b, now->particle[k], has_gradient);
-        if (!inactive) r->active_cell[active_points_cell_of(g, p, now->particle[now->cell_start[c]])] = 1;
+        if (!inactive) active->active_cell[active_points_cell_of(g, p, now->particle[now->cell_start[c]])] = 1;
     }
     for (int64_t k = 0; k < g->walls; k++)
-        if (moves(l, g->wall[k].load)) r->active_cell[g->wall[k].node] = 1;
+        if (moves(l, g->wall[k].load)) active->active_cell[g->wall[k].node] = 1;
 }
 
 /* Replaces the arrays active_cell and near of r, which have one flag per cell, by longer ones if grid g has more nodes
  * than they have entries. All flags of the new arrays are 0. */
-static void make_room(struct active_points *r, const struct grid *g)
+static void make_room(struct active_points *active, const struct grid *g)
 {
-    if (r->nodes >= g->n) return;
-    memory_free(r->active_cell), memory_free(r->near);
-    r->nodes = g->n;
-    r->active_cell = NEW("active_set.active_cell", g->n, uint8_t), r->near = NEW("active_set.near", g->n, uint8_t);
+    if (active->nodes >= g->n) return;
+    memory_free(active->active_cell), memory_free(active->near);
+    active->nodes = g->n;
+    active->active_cell = NEW("active_set.active_cell", g->n, uint8_t),
+    active->near = NEW("active_set.near", g->n, uint8_t);
 }
 
-/* Makes r->active, the list of the points of p in active cells of g sorted by cell, from `all`, the sorted list of all
- * points. Cells and points keep their sequence. */
-static void active_points_take(struct active_points *r, const struct transfer_order *all, const struct particles *p,
-                               const struct grid *g)
+/* Makes active->active, the list of the points of p in active cells of g sorted by cell, from `all`, the sorted list of
+ * all points. Cells and points keep their sequence. */
+static void active_points_take(struct active_points *active, const struct transfer_order *all,
+                               const struct particles *p, const struct grid *g)
 {
-    struct transfer_order *a = &r->active;
+    struct transfer_order *a = &active->active;
     transfer_order_reserve_arrays(a, all->n, all->blocks, all->cells);
     memcpy(a->blocks_of, all->blocks_of, sizeof a->blocks_of);
     a->blocks = all->blocks, a->cells = 0, a->n = 0;
@@ -105,7 +107,7 @@ static void active_points_take(struct active_points *r, const struct transfer_or
         a->block_start[block] = (int32_t)a->n, a->block_cell[block] = a->cells;
         for (int32_t c = all->block_cell[block]; c < all->block_cell[block + 1]; c++) {
             const int32_t *list = all->particle + all->cell_start[c], n = all->cell_start[c + 1] - all->cell_start[c];
-            if (!r->active_cell[active_points_cell_of(g, p, list[0])]) continue;
+            if (!active->active_cell[active_points_cell_of(g, p, list[0])]) continue;
             a->cell_start[a->cells++] = (int32_t)a->n;
             array_copy(a->particle + a->n, list, n, sizeof *list);
             a->n += n;
@@ -115,7 +117,7 @@ static void active_points_take(struct active_points *r, const struct transfer_or
     a->cell_start[a->cells] = (int32_t)a->n;
 }
 
-const struct transfer_order *active_points_update_transfer_order(struct active_points *r,
+const struct transfer_order *active_points_update_transfer_order(struct active_points *active,
                                                                  const struct transfer_order *full_order,
                                                                  const struct transfer_order *previous_order,
                                                                  const struct particles *p, const struct grid *grid,
@@ -123,22 +125,22 @@ const struct transfer_order *active_points_update_transfer_order(struct active_p
                                                                  enum shape shape, enum transfer transfer)
 {
     const int64_t reach = active_points_reach_of(grid, shape, transfer);
-    make_room(r, grid);
-    active_points_mark(r, previous_order, p, grid, b, l, transfer == TRANSFER_APIC);
+    make_room(active, grid);
+    active_points_mark(active, previous_order, p, grid, b, l, transfer == TRANSFER_APIC);
     for (int d = 0; d < grid->dim; d++) {
-        uint8_t *from = r->active_cell;
-        widen(grid, from, r->near, d, reach);
-        r->active_cell = r->near, r->near = from;
+        uint8_t *from = active->active_cell;
+        widen(grid, from, active->near, d, reach);
+        active->active_cell = active->near, active->near = from;
     }
-    active_points_take(r, full_order, p, grid);
-    r->over = r->active.n == full_order->n;
-    return r->over ? full_order : &r->active;
+    active_points_take(active, full_order, p, grid);
+    active->over = active->active.n == full_order->n;
+    return active->over ? full_order : &active->active;
 }
 
-void active_points_free(struct active_points *r)
+void active_points_free(struct active_points *active)
 {
-    transfer_order_free(&r->active);
-    memory_free(r->active_cell);
-    memory_free(r->near);
-    *r = (struct active_points){0};
+    transfer_order_free(&active->active);
+    memory_free(active->active_cell);
+    memory_free(active->near);
+    *active = (struct active_points){0};
 }

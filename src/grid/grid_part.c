@@ -4,9 +4,9 @@
 #include "base/memory.h"
 #include "run/part.h"
 
-static void grid_free_all(struct run *e)
+static void grid_free_all(struct run *run)
 {
-    struct grid_method *g = e->grid;
+    struct grid_method *g = run->grid;
     active_points_free(&g->active), corotating_groups_free(&g->turning), grid_coupled_free(&g->coupled);
     for (int k = 0; k < g->fields; k++) {
         struct grid_field *f = &g->field[k];
@@ -16,9 +16,9 @@ static void grid_free_all(struct run *e)
     memory_free(g->field), memory_free(g->transfer.dilatation), grid_contact_free(&g->contact);
 }
 
-static status grid_state(struct run *e, struct archive *a)
+static status grid_state(struct run *run, struct archive *a)
 {
-    return e->grid->fields > 1 ? grid_contact_save_or_load(&e->grid->contact, a) : OK;
+    return run->grid->fields > 1 ? grid_contact_save_or_load(&run->grid->contact, a) : OK;
 }
 
 const struct part part_grid = {PART(grid, grid_method), .free = grid_free_all, .state = grid_state};

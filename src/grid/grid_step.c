@@ -92,32 +92,32 @@ static status points_sort(struct grid_method *mpm, const struct particles *p, en
     return OK;
 }
 
-/* Updates the list of active points of run e (active_points.h), so that transfers skip cells that are still at rest.
+/* Updates the list of active points of run (active_points.h), so that transfers skip cells that are still at rest.
  * Does nothing if the scene switches this off, if no point is at rest any more, or with several grids, points that
  * rotate in groups, particles coupled to the grid, or a static solver. */
-static void update_active_points(struct run *e)
+static void update_active_points(struct run *run)
 {
-    const struct grid_method *mpm = e->grid;
-    if (!e->scene->active_set || mpm->active.over || mpm->fields > 1 || mpm->turning.groups > 0 ||
-        coupling_moves_pd_particles_by_grid(e->coupling_kind) || !scene_is_dynamic(e->scene))
+    const struct grid_method *mpm = run->grid;
+    if (!run->scene->active_set || mpm->active.over || mpm->fields > 1 || mpm->turning.groups > 0 ||
+        coupling_moves_pd_particles_by_grid(run->coupling_kind) || !scene_is_dynamic(run->scene))
         return;
-    e->grid->transfer.order = active_points_update_transfer_order(
-        &e->grid->active, &e->grid->field[0].order, e->grid->transfer.order, &e->part, &e->grid->field[0].grid,
-        &e->bonds, &e->loads, e->scene->shape, e->scene->transfer);
+    run->grid->transfer.order = active_points_update_transfer_order(
+        &run->grid->active, &run->grid->field[0].order, run->grid->transfer.order, &run->part,
+        &run->grid->field[0].grid, &run->bonds, &run->loads, run->scene->shape, run->scene->transfer);
 }
 
-status grid_sort_points_into_cells(struct run *e, bool *position_not_finite)
+status grid_sort_points_into_cells(struct run *run, bool *position_not_finite)
 {
     *position_not_finite = false;
-    if (e->part.n_free == 0 && !coupling_moves_all_particles_by_one_grid(e->coupling_kind)) {
-        grid_coupled_clear_particles_moved_by_grid(&e->grid->coupled, &e->part);
+    if (run->part.n_free == 0 && !coupling_moves_all_particles_by_one_grid(run->coupling_kind)) {
+        grid_coupled_clear_particles_moved_by_grid(&run->grid->coupled, &run->part);
         return OK;
     }
-    if (!e->grid->sort_needed && e->clock.step % ACTIVE_POINTS_STEPS == 0) update_active_points(e);
-    TRY(points_sort(e->grid, &e->part, e->coupling_kind, position_not_finite));
-    if (coupling_moves_pd_particles_by_grid(e->coupling_kind))
-        grid_coupled_select_particles_moved_by_grid(&e->grid->coupled, e->coupling_kind, &e->part,
-                                                    &e->grid->field[0].grid);
+    if (!run->grid->sort_needed && run->clock.step % ACTIVE_POINTS_STEPS == 0) update_active_points(run);
+    TRY(points_sort(run->grid, &run->part, run->coupling_kind, position_not_finite));
+    if (coupling_moves_pd_particles_by_grid(run->coupling_kind))
+        grid_coupled_select_particles_moved_by_grid(&run->grid->coupled, run->coupling_kind, &run->part,
+                                                    &run->grid->field[0].grid);
     return OK;
 }
 
@@ -171,22 +171,23 @@ static struct grid_contact_side *meeting_find(struct grid_method *mpm, struct pa
     return side;
 }
 
-/* Advances the velocities of all grid nodes of run e under forces, contact, prescribed velocities (walls) and mirrors.
+/* Advances the velocities of all grid nodes of run under forces, contact, prescribed velocities (walls) and mirrors.
  * side: grids of the bodies for contact, from meeting_find; NULL: no contact; middle: time in the middle of the step
  * [s]; dt: duration of the velocity update [s]. */
-static void grids_move(struct run *e, const struct grid_contact_side *side, real middle, real dt)
+static void grids_move(struct run *run, const struct grid_contact_side *side, real middle, real dt)
 {
-    struct grid_method *mpm = e->grid;
-    const enum transfer transfer = e->scene->transfer;
+    struct grid_method *mpm = run->grid;
+    const enum transfer transfer = run->scene->transfer;
     for (int k = 0; k < mpm->fields; k++) {
         struct grid_field *f = &mpm->field[k];
-        loads_prescribe_grid_velocities(&e->loads, &f->held, &f->grid, &e->part, &e->kernels, mpm->transfer.half_width,
-                                        middle, e->clock.dt);
+        loads_prescribe_grid_velocities(&run->loads, &f->held, &f->grid, &run->part, &run->kernels,
+                                        mpm->transfer.half_width, middle, run->clock.dt);
         grid_advance(&f->grid, transfer, dt, mpm->smallest_mass);
     }
-    if (side) e->damped += grid_contact_apply_impulses_return_dissipation(&mpm->contact, side);
+    if (side) run->damped += grid_contact_apply_impulses_return_dissipation(&mpm->contact, side);
     for (int k = 0; k < mpm->fields; k++)
-        grid_constrain(&mpm->field[k].grid, transfer, mpm->smallest_mass, e->loads.impulse, &e->loads.constraint_work);
+        grid_constrain(&mpm->field[k].grid, transfer, mpm->smallest_mass, run->loads.impulse,
+                       &run->loads.constraint_work);
 }
 
 /* Smallest displacement of a body in half a step for which grid.ahead is used (field_set_flight) [node distances]. For
@@ -203,14 +204,14 @@ static void grids_move(struct run *e, const struct grid_contact_side *side, real
  * [s] times momentum/mass of the groups t, which rotate together. It is 0 if walls, mirrors or absorbing faces act on
  * the points, for one grid of several, for linear and cubic shape functions, and unless between AHEAD_LEAST and
  * AHEAD_MOST. If not 0, clears the nodal masses, since the second map adds those at the displaced positions. */
-static void field_set_flight(struct grid_field *f, const struct corotating_groups *t, enum shape shape, real dt)
+static void field_set_flight(struct grid_field *f, const struct corotating_groups *groups, enum shape shape, real dt)
 {
     struct grid *g = &f->grid;
     real mass = 0, momentum[DIM_MAX] = {0}, far = 0;
     const real most = shape == SHAPE_LINEAR || shape == SHAPE_CUBIC ? 0 : AHEAD_MOST;
     bool free = g->body == 0 && g->walls + g->mirror_nodes + g->dashpots == 0;
-    for (int32_t k = 0; k < t->groups && free; k++) {
-        const struct turning_group *own = &t->group[k];
+    for (int32_t k = 0; k < groups->groups && free; k++) {
+        const struct turning_group *own = &groups->group[k];
         free = !own->held;
         mass += own->mass;
         for (int d = 0; d < g->dim; d++) momentum[d] += own->momentum[d];
@@ -225,30 +226,30 @@ static void field_set_flight(struct grid_field *f, const struct corotating_group
         memset(g->ahead, 0, sizeof g->ahead);
 }
 
-/* Adds the change of the nodal velocities to the points of run e and maps the momentum of the points to the nodes again
+/* Adds the change of the nodal velocities to the points of run and maps the momentum of the points to the nodes again
  * (modified update stress last, MUSL). side: data of each grid for contact between bodies, from meeting_find; NULL: no
  * contact. */
-static void grids_remap(struct run *e, const struct grid_contact_side *side)
+static void grids_remap(struct run *run, const struct grid_contact_side *side)
 {
-    const struct transfer_data grid_coupled = grid_coupled_data(e->grid);
-    for (int k = 0; k < e->grid->fields; k++) {
-        const struct transfer_data own = field_data(e->grid, k);
-        if (e->grid->turning.groups == 0)
-            e->kernels.remap(&e->grid->field[k].grid, &e->part, &own);
+    const struct transfer_data grid_coupled = grid_coupled_data(run->grid);
+    for (int k = 0; k < run->grid->fields; k++) {
+        const struct transfer_data own = field_data(run->grid, k);
+        if (run->grid->turning.groups == 0)
+            run->kernels.remap(&run->grid->field[k].grid, &run->part, &own);
         else
-            e->kernels.turn_gather(&e->grid->field[k].grid, &e->part, &own);
+            run->kernels.turn_gather(&run->grid->field[k].grid, &run->part, &own);
     }
-    if (e->grid->turning.groups > 0) corotating_groups_restore_angular_momentum(&e->grid->turning, &e->part);
-    for (int k = 0; k < e->grid->fields && e->grid->turning.groups > 0; k++) {
-        const struct transfer_data own = field_data(e->grid, k);
-        field_set_flight(&e->grid->field[k], &e->grid->turning, e->scene->shape, e->clock.dt);
-        e->kernels.turn_scatter(&e->grid->field[k].grid, &e->part, &own);
+    if (run->grid->turning.groups > 0) corotating_groups_restore_angular_momentum(&run->grid->turning, &run->part);
+    for (int k = 0; k < run->grid->fields && run->grid->turning.groups > 0; k++) {
+        const struct transfer_data own = field_data(run->grid, k);
+        field_set_flight(&run->grid->field[k], &run->grid->turning, run->scene->shape, run->clock.dt);
+        run->kernels.turn_scatter(&run->grid->field[k].grid, &run->part, &own);
     }
-    if (e->part.n_grid_coupled > 0) e->kernels.remap(&e->grid->field[0].grid, &e->part, &grid_coupled);
-    timer_add_elapsed_to_section(&e->timers, TIMER_SCATTER);
-    for (int k = 0; k < e->grid->fields; k++) grid_remapped(&e->grid->field[k].grid, e->grid->smallest_mass);
-    if (side) e->damped += grid_contact_add_second_mapping_dissipation(&e->grid->contact, side);
-    timer_add_elapsed_to_section(&e->timers, TIMER_GRID);
+    if (run->part.n_grid_coupled > 0) run->kernels.remap(&run->grid->field[0].grid, &run->part, &grid_coupled);
+    timer_add_elapsed_to_section(&run->timers, TIMER_SCATTER);
+    for (int k = 0; k < run->grid->fields; k++) grid_remapped(&run->grid->field[k].grid, run->grid->smallest_mass);
+    if (side) run->damped += grid_contact_add_second_mapping_dissipation(&run->grid->contact, side);
+    timer_add_elapsed_to_section(&run->timers, TIMER_GRID);
 }
 
 void grid_map_points_to_nodes(struct grid_method *mpm, struct particles *p, const struct kernels *kernels,
@@ -288,53 +289,53 @@ static status points_enter_cells(struct grid_method *mpm, struct particles *p, e
     return OK;
 }
 
-status grid_advance_material_points_one_step(struct run *e, real t_middle)
+status grid_advance_material_points_one_step(struct run *run, real t_middle)
 {
-    struct particles *p = &e->part;
-    const struct transfer_data grid_coupled = grid_coupled_data(e->grid);
+    struct particles *p = &run->part;
+    const struct transfer_data grid_coupled = grid_coupled_data(run->grid);
     int64_t moved = 0;
-    if (!grid_holds(&e->part)) return OK;
-    struct grid_contact_side *side = meeting_find(e->grid, &e->part);
-    grids_move(e, side, t_middle, e->grid->transfer.dt_velocity); /* 3: motion of nodes */
-    timer_add_elapsed_to_section(&e->timers, TIMER_GRID);
-    if (e->scene->transfer == TRANSFER_FLIP) grids_remap(e, side); /* 4, 6: velocities; momentum to the nodes */
-    if (side) grid_contact_record_first_and_last_contact(&e->grid->contact, e->clock.t);
-    for (int k = 0; k < e->grid->fields; k++) { /* 4, 7: positions, strain, stress */
-        const struct transfer_data own = field_data(e->grid, k);
-        moved += e->kernels.g2p(&e->grid->field[k].grid, p, &own);
-        memset(e->grid->field[k].grid.ahead, 0, sizeof e->grid->field[k].grid.ahead);
+    if (!grid_holds(&run->part)) return OK;
+    struct grid_contact_side *side = meeting_find(run->grid, &run->part);
+    grids_move(run, side, t_middle, run->grid->transfer.dt_velocity); /* 3: motion of nodes */
+    timer_add_elapsed_to_section(&run->timers, TIMER_GRID);
+    if (run->scene->transfer == TRANSFER_FLIP) grids_remap(run, side); /* 4, 6: velocities; momentum to the nodes */
+    if (side) grid_contact_record_first_and_last_contact(&run->grid->contact, run->clock.t);
+    for (int k = 0; k < run->grid->fields; k++) { /* 4, 7: positions, strain, stress */
+        const struct transfer_data own = field_data(run->grid, k);
+        moved += run->kernels.g2p(&run->grid->field[k].grid, p, &own);
+        memset(run->grid->field[k].grid.ahead, 0, sizeof run->grid->field[k].grid.ahead);
     }
-    if (p->n_grid_coupled > 0) moved += e->kernels.g2p(&e->grid->field[0].grid, p, &grid_coupled);
+    if (p->n_grid_coupled > 0) moved += run->kernels.g2p(&run->grid->field[0].grid, p, &grid_coupled);
     memory_free(side);
-    e->grid->sort_needed = moved > 0 ? SORT_LEFT : SORT_NONE;
-    if (!e->grid->sort_needed || !e->grid->transfer.dilatation || e->grid->transfer.laws) return OK;
-    return points_enter_cells(e->grid, p, e->coupling_kind);
+    run->grid->sort_needed = moved > 0 ? SORT_LEFT : SORT_NONE;
+    if (!run->grid->sort_needed || !run->grid->transfer.dilatation || run->grid->transfer.laws) return OK;
+    return points_enter_cells(run->grid, p, run->coupling_kind);
 }
 
-/* Returns the power of the forces on the grids of run e at the start of a step [W]: the sum of P . f/m over the nodes
+/* Returns the power of the forces on the grids of run at the start of a step [W]: the sum of P . f/m over the nodes
  * before they move, with the nodal momentum P, nodal mass m, and f the change of momentum per time by forces, contact
  * and walls. t_middle: time in the middle of the step [s]. Returns 0 if no particle is on a grid. */
-real grid_power_of_forces_on_material_points(struct run *e, real t_middle)
+real grid_power_of_forces_on_material_points(struct run *run, real t_middle)
 {
     real power = 0;
     bool lost;
-    if (!grid_holds(&e->part) || grid_sort_points_into_cells(e, &lost) != OK || lost) return 0;
-    grid_receive(e->grid, &e->part, &e->kernels);
-    real **momentum = NEW("engine.momenta", e->grid->fields, real *);
-    for (int k = 0; k < e->grid->fields; k++) {
-        const struct grid *g = &e->grid->field[k].grid;
+    if (!grid_holds(&run->part) || grid_sort_points_into_cells(run, &lost) != OK || lost) return 0;
+    grid_receive(run->grid, &run->part, &run->kernels);
+    real **momentum = NEW("engine.momenta", run->grid->fields, real *);
+    for (int k = 0; k < run->grid->fields; k++) {
+        const struct grid *g = &run->grid->field[k].grid;
         momentum[k] = BARE("engine.momentum", g->n * g->dim, real);
         for (int d = 0; d < g->dim; d++) array_copy(momentum[k] + d * g->n, g->momentum[d], g->n, sizeof(real));
     }
-    struct grid_contact_side *side = meeting_find(e->grid, &e->part);
-    const real damped = e->damped;
-    grids_move(e, side, t_middle, e->clock.dt);
-    e->damped = damped;
-    for (int k = 0; k < e->grid->fields; k++) {
-        const struct grid *g = &e->grid->field[k].grid;
+    struct grid_contact_side *side = meeting_find(run->grid, &run->part);
+    const real damped = run->damped;
+    grids_move(run, side, t_middle, run->clock.dt);
+    run->damped = damped;
+    for (int k = 0; k < run->grid->fields; k++) {
+        const struct grid *g = &run->grid->field[k].grid;
         /* once a run; serial, so that the sum does not depend on the number of threads */
         for (int d = 0; d < g->dim; d++)
-            for (int64_t I = 0; I < g->n; I++) power += momentum[k][d * g->n + I] * g->force[d][I] / e->clock.dt;
+            for (int64_t I = 0; I < g->n; I++) power += momentum[k][d * g->n + I] * g->force[d][I] / run->clock.dt;
         memory_free(momentum[k]);
     }
     memory_free(momentum);

@@ -88,17 +88,19 @@ static bool is_next_to(const struct bonds *b, const struct particles *p, const s
  * particles. Must be called after rows were rebuilt. */
 static void row_levels_find(struct bonds *b, const struct particles *p, const struct loads *l)
 {
-    struct active_set *r = &b->active;
+    struct active_set *set = &b->active;
 #pragma omp parallel for schedule(static)
-    for (int64_t k = 0; k < r->blocks; k++) r->level[k] = active_set_is_inactive(b, p, l, k) ? 0 : (uint8_t)most_of(b);
+    for (int64_t k = 0; k < set->blocks; k++)
+        set->level[k] = active_set_is_inactive(b, p, l, k) ? 0 : (uint8_t)most_of(b);
     for (int level = most_of(b) - 1; level > 0; level--) {
 #pragma omp parallel for schedule(static)
-        for (int64_t k = 0; k < r->blocks; k++) r->moved[k] = r->level[k] == 0 && is_next_to(b, p, l, k, level + 1);
-        for (int64_t k = 0; k < r->blocks; k++)
-            if (r->moved[k]) r->level[k] = (uint8_t)level;
+        for (int64_t k = 0; k < set->blocks; k++)
+            set->moved[k] = set->level[k] == 0 && is_next_to(b, p, l, k, level + 1);
+        for (int64_t k = 0; k < set->blocks; k++)
+            if (set->moved[k]) set->level[k] = (uint8_t)level;
     }
-    array_fill_bytes(r->moved, 0, r->blocks, 1);
-    r->is_current = true;
+    array_fill_bytes(set->moved, 0, set->blocks, 1);
+    set->is_current = true;
 }
 
 /* Updates the activity levels of blocks of eight rows of b (LANES rows of bonds stored together, one for each particle
@@ -108,22 +110,22 @@ static void row_levels_find(struct bonds *b, const struct particles *p, const st
  * mirror images. */
 static void active_set_follow(struct bonds *b, const struct particles *p, const struct loads *l)
 {
-    struct active_set *r = &b->active;
+    struct active_set *set = &b->active;
     const int most = most_of(b);
     int64_t still = 0, moved = 0;
-    if (r->over) return;
+    if (set->over) return;
 #pragma omp parallel for schedule(static) reduction(+ : still, moved)
-    for (int64_t k = 0; k < r->active; k++) {
-        if (r->level[r->list[k]] >= most) continue;
-        r->moved[r->list[k]] = has_moved(b, p, r->list[k]);
-        moved += r->moved[r->list[k]], still++;
+    for (int64_t k = 0; k < set->active; k++) {
+        if (set->level[set->list[k]] >= most) continue;
+        set->moved[set->list[k]] = has_moved(b, p, set->list[k]);
+        moved += set->moved[set->list[k]], still++;
     }
-    r->over = still == 0 && !r->resumed;
-    if (moved == 0 && !r->resumed) return;
-    for (int64_t k = 0; k < r->active; k++)
-        if (r->moved[r->list[k]]) row_block_activate(b, p, l, r->list[k], most);
-    active_set_rebuild_active_block_list(r);
-    r->resumed = false;
+    set->over = still == 0 && !set->resumed;
+    if (moved == 0 && !set->resumed) return;
+    for (int64_t k = 0; k < set->active; k++)
+        if (set->moved[set->list[k]]) row_block_activate(b, p, l, set->list[k], most);
+    active_set_rebuild_active_block_list(set);
+    set->resumed = false;
 }
 
 void active_bond_rows_update_after_step(struct bonds *b, const struct particles *p, const struct loads *l)

@@ -51,16 +51,16 @@ static void slits_activate(struct mesh *mesh, int64_t near, bool moves)
  * mass. Inactive blocks are at rest and left out of computations. */
 static void mesh_activate(struct mesh *mesh, int64_t block)
 {
-    struct active_set *r = &mesh->active;
+    struct active_set *set = &mesh->active;
     const int dim = mesh->grid.dim;
     const int64_t far[DIM_MAX] = {1, mesh->segments, dim > 2 ? mesh->segments * mesh->grid.count[1] : 0};
-    if (r->level[block] == MOVED) return;
-    r->level[block] = MOVED;
+    if (set->level[block] == MOVED) return;
+    set->level[block] = MOVED;
     for (int q = 0; q < (dim == 1 ? 3 : dim == 2 ? 9 : 27); q++) {
         int64_t near = block;
         for (int d = 0, active = q; d < dim; d++, active /= 3) near += (active % 3 - 1) * far[d];
-        if (near < 0 || near >= r->blocks) continue;
-        if (r->level[near] == 0 && !nodes_empty(mesh, near)) r->level[near] = 1;
+        if (near < 0 || near >= set->blocks) continue;
+        if (set->level[near] == 0 && !nodes_empty(mesh, near)) set->level[near] = 1;
         slits_activate(mesh, near, near == block);
     }
 }
@@ -111,14 +111,14 @@ void active_nodes_activate_all_blocks(struct mesh *mesh)
  * blocks around exposed points (points whose motion is needed in every step). */
 static void mesh_find_levels(struct mesh *mesh, const struct loads *l)
 {
-    struct active_set *r = &mesh->active;
+    struct active_set *set = &mesh->active;
 #pragma omp parallel for schedule(static)
-    for (int64_t k = 0; k < r->blocks; k++) r->moved[k] = !nodes_inactive(mesh, k);
-    array_fill_bytes(r->level, 0, r->blocks, 1);
-    r->is_current = true, r->empty = 0;
-    for (int64_t k = 0; k < r->blocks; k++) r->empty += nodes_empty(mesh, k);
-    for (int64_t k = 0; k < r->blocks; k++)
-        if (r->moved[k]) mesh_activate(mesh, k);
+    for (int64_t k = 0; k < set->blocks; k++) set->moved[k] = !nodes_inactive(mesh, k);
+    array_fill_bytes(set->level, 0, set->blocks, 1);
+    set->is_current = true, set->empty = 0;
+    for (int64_t k = 0; k < set->blocks; k++) set->empty += nodes_empty(mesh, k);
+    for (int64_t k = 0; k < set->blocks; k++)
+        if (set->moved[k]) mesh_activate(mesh, k);
     for (int64_t k = 0; k < mesh->grid.walls; k++)
         if (!wall_is_fixed(l, &mesh->grid.wall[k]))
             mesh_activate(mesh, mesh_block_of_node(mesh, mesh->grid.wall[k].node));
@@ -127,20 +127,20 @@ static void mesh_find_levels(struct mesh *mesh, const struct loads *l)
 
 void active_nodes_update_list_of_active_blocks(struct mesh *mesh, const struct loads *l)
 {
-    struct active_set *r = &mesh->active;
-    if (!r->is_current) {
+    struct active_set *set = &mesh->active;
+    if (!set->is_current) {
         mesh_find_levels(mesh, l);
         return;
     }
     bool moved = false;
 #pragma omp parallel for schedule(static) reduction(|| : moved)
-    for (int64_t k = 0; k < r->active; k++) {
-        const int32_t block = r->list[k];
-        r->moved[block] = r->level[block] == 1 && nodes_moved(mesh, block);
-        moved = moved || r->moved[block];
+    for (int64_t k = 0; k < set->active; k++) {
+        const int32_t block = set->list[k];
+        set->moved[block] = set->level[block] == 1 && nodes_moved(mesh, block);
+        moved = moved || set->moved[block];
     }
-    for (int64_t k = 0; k < r->active && moved; k++)
-        if (r->moved[r->list[k]]) mesh_activate(mesh, r->list[k]);
-    if (moved || r->resumed) active_set_rebuild_active_block_list(r);
-    r->resumed = false;
+    for (int64_t k = 0; k < set->active && moved; k++)
+        if (set->moved[set->list[k]]) mesh_activate(mesh, set->list[k]);
+    if (moved || set->resumed) active_set_rebuild_active_block_list(set);
+    set->resumed = false;
 }

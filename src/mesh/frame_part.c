@@ -72,11 +72,12 @@ static const char *frame_obstacle(const struct particles *p, const struct scene 
 
 /* Returns REFUSED, with a message, if scene s has a plane of symmetry at which a body of p in the reference frame r (on
  * a mesh of the undeformed body) has no nodes; else OK. */
-static status planes_check(const struct lagrangian_mesh *r, const struct particles *p, const struct scene *s)
+static status planes_check(const struct lagrangian_mesh *reference, const struct particles *p, const struct scene *s)
 {
     for (int body = 0; body < s->bodies; body++) {
-        const struct boundary *b =
-            r->choice[body].reference ? plane_with_fit(p, s, body, r->hollow.absent, PLANE_MISFIT) : NULL;
+        const struct boundary *b = reference->choice[body].reference
+                                       ? plane_with_fit(p, s, body, reference->hollow.absent, PLANE_MISFIT)
+                                       : NULL;
         if (b)
             return status_set(REFUSED,
                               "boundary %s: body %s has no layer of particles at half a spacing from this plane of "
@@ -90,10 +91,10 @@ static status planes_check(const struct lagrangian_mesh *r, const struct particl
 /* Adds a warning to *to if body `body` of p, which is in the reference frame r (on a mesh of the undeformed body), does
  * not reach a plane of symmetry of scene s at the start. In this frame only nodes of the undeformed body on the plane
  * are constrained, so that the plane never acts on such a body, even if the body later moves through it. */
-static void warn_of_plane_apart(const struct lagrangian_mesh *r, const struct particles *p, const struct scene *s,
-                                int body, struct warnings *to)
+static void warn_of_plane_apart(const struct lagrangian_mesh *reference, const struct particles *p,
+                                const struct scene *s, int body, struct warnings *to)
 {
-    const struct boundary *b = plane_with_fit(p, s, body, r->hollow.absent, PLANE_APART);
+    const struct boundary *b = plane_with_fit(p, s, body, reference->hollow.absent, PLANE_APART);
     if (b)
         warnings_add_if_new(
             to,
@@ -102,24 +103,24 @@ static void warn_of_plane_apart(const struct lagrangian_mesh *r, const struct pa
             b->name, s->body[body].name);
 }
 
-/* Adds warnings to warning_list of planes of symmetry of run e that do not fit the nodes. On a background grid these
+/* Adds warnings to warning_list of planes of symmetry of run that do not fit the nodes. On a background grid these
  * planes are neither on a node nor midway between two; with a mesh of the undeformed body, the body does not reach them
  * at the start of a dynamic run. Measured with inputs/bar_converge.yaml: displacements are 11 to 24 % off if mirrors
  * are 0.15 and 0.25 of a cell from a node, with 50 to 200 points per metre; half the spacing reduces the error by at
  * most a third. */
-void mirror_planes_warn_if_not_fitting_grid_or_mesh(const struct run *e, struct warnings *warning_list)
+void mirror_planes_warn_if_not_fitting_grid_or_mesh(const struct run *run, struct warnings *warning_list)
 {
-    const struct scene *s = e->scene;
+    const struct scene *s = run->scene;
     for (int b = 0; b < s->boundaries; b++)
         if (s->method != METHOD_PD && s->boundary[b].kind == BOUNDARY_MIRROR &&
-            !mirror_plane_is_at_or_midway_between_nodes(&s->boundary[b], &e->grid->field[0].grid, s->spacing))
+            !mirror_plane_is_at_or_midway_between_nodes(&s->boundary[b], &run->grid->field[0].grid, s->spacing))
             warnings_add_if_new(
                 warning_list,
                 "boundary %s: the mirror plane is neither on a grid node nor midway between two nodes: displacements "
                 "are 15 to 20 %% off, and refinement hardly helps; move the nodes by mpm.origin or mpm.cell",
                 s->boundary[b].name);
     for (int body = 0; body < s->bodies && s->method != METHOD_PD && scene_is_dynamic(s); body++)
-        if (e->frame->choice[body].reference) warn_of_plane_apart(e->frame, &e->part, s, body, warning_list);
+        if (run->frame->choice[body].reference) warn_of_plane_apart(run->frame, &run->part, s, body, warning_list);
 }
 
 static void take_frame(struct frame_choice *f, bool reference, const char *reason)
@@ -135,16 +136,16 @@ static void frames_mark(struct particles *part, struct lagrangian_mesh *frame)
         if (frame->choice[part->body[i]].reference) part->flag[i] |= FLAG_MESHED;
 }
 
-status bodies_choose_material_mesh_or_background_grid(struct lagrangian_mesh *r, struct grid_method *mpm,
+status bodies_choose_material_mesh_or_background_grid(struct lagrangian_mesh *reference, struct grid_method *mpm,
                                                       struct particles *p, const struct scene *s)
 {
-    r->bodies = s->bodies;
-    r->spacing = s->spacing;
-    r->finite = !s->small_strain;
-    r->converts = s->method == METHOD_ADAPTIVE;
-    r->active_set = s->active_set;
-    r->room_limits = s->levels == LEVELS_AUTO;
-    r->choice = NEW("engine.frame", s->bodies, struct frame_choice);
+    reference->bodies = s->bodies;
+    reference->spacing = s->spacing;
+    reference->finite = !s->small_strain;
+    reference->converts = s->method == METHOD_ADAPTIVE;
+    reference->active_set = s->active_set;
+    reference->room_limits = s->levels == LEVELS_AUTO;
+    reference->choice = NEW("engine.frame", s->bodies, struct frame_choice);
     for (int b = 0; b < s->bodies && s->method != METHOD_PD; b++) {
         const enum grid_frame said = s->body[b].frame;
         const char *why = scene_reason_total_lagrangian_mpm_unsupported(s, b);
@@ -153,33 +154,33 @@ status bodies_choose_material_mesh_or_background_grid(struct lagrangian_mesh *r,
                               "mpm.frame: body %s cannot be in the reference frame: %s; set mpm.frame: current, or "
                               "remove this obstacle",
                               s->body[b].name, why);
-        take_frame(&r->choice[b], said != FRAME_CURRENT,
+        take_frame(&reference->choice[b], said != FRAME_CURRENT,
                    said == FRAME_REFERENCE ? "the scene sets this" : s->body[b].frame_reason);
     }
-    background_grids_make(mpm, s, p, lagrangian_mesh_is_used_by_any_body(r));
+    background_grids_make(mpm, s, p, lagrangian_mesh_is_used_by_any_body(reference));
     if (s->bodies == 1 && s->body[0].frame == FRAME_AUTO && s->method != METHOD_PD) {
-        const char *why = frame_obstacle(p, s, mpm, &r->hollow);
-        take_frame(&r->choice[0], !why,
+        const char *why = frame_obstacle(p, s, mpm, &reference->hollow);
+        take_frame(&reference->choice[0], !why,
                    why             ? why
                    : s->rigids > 0 ? "its points keep their neighbours and have contact with rigid bodies only"
                                    : "its points keep their neighbours and have no contact with other bodies");
-        if (why) background_grids_make(mpm, s, p, lagrangian_mesh_is_used_by_any_body(r));
+        if (why) background_grids_make(mpm, s, p, lagrangian_mesh_is_used_by_any_body(reference));
     }
-    if (s->method != METHOD_PD) TRY(planes_check(r, p, s));
-    frames_mark(p, r);
+    if (s->method != METHOD_PD) TRY(planes_check(reference, p, s));
+    frames_mark(p, reference);
     return OK;
 }
 
-bool lagrangian_mesh_can_be_made_for_scene(const struct lagrangian_mesh *r, const struct particles *p,
+bool lagrangian_mesh_can_be_made_for_scene(const struct lagrangian_mesh *reference, const struct particles *p,
                                            const struct scene *s, const struct grid_method *mpm)
 {
-    return frame_obstacle(p, s, mpm, &r->hollow) == NULL;
+    return frame_obstacle(p, s, mpm, &reference->hollow) == NULL;
 }
 
-bool lagrangian_mesh_is_used_by_any_body(const struct lagrangian_mesh *r)
+bool lagrangian_mesh_is_used_by_any_body(const struct lagrangian_mesh *reference)
 {
-    for (int b = 0; b < r->bodies; b++)
-        if (r->choice[b].reference) return true;
+    for (int b = 0; b < reference->bodies; b++)
+        if (reference->choice[b].reference) return true;
     return false;
 }
 
@@ -201,34 +202,35 @@ static struct elastic *cell_constants(const struct scene *s, const struct elasti
     return cell;
 }
 
-void lagrangian_mesh_list_bonded_or_loaded_points(struct lagrangian_mesh *r, const struct particles *p,
+void lagrangian_mesh_list_bonded_or_loaded_points(struct lagrangian_mesh *reference, const struct particles *p,
                                                   const struct bonds *bonds, struct loads *loads)
 {
-    mesh_list_bonded_or_loaded_points(&r->mesh, p, bonds, loads);
-    loads_find_driven_mesh_nodes(loads, &r->mesh, p);
+    mesh_list_bonded_or_loaded_points(&reference->mesh, p, bonds, loads);
+    loads_find_driven_mesh_nodes(loads, &reference->mesh, p);
 }
 
-status lagrangian_mesh_make_for_run(struct run *e, const struct mesh_source *source, bool caller_sets_motion)
+status lagrangian_mesh_make_for_run(struct run *run, const struct mesh_source *source, bool caller_sets_motion)
 {
-    struct lagrangian_mesh *r = e->frame;
-    const struct grid *g = &e->grid->field[0].grid;
-    r->elastic = cell_constants(e->scene, e->tables.elastic, &e->source.family);
-    r->source = (struct mesh_source){.elastic = r->elastic,
-                                     .isotropic = e->tables.elastic,
-                                     .materials = e->scene->materials,
-                                     .partial = source->partial,
-                                     .hollow = &r->hollow,
-                                     .slit = source->slit,
-                                     .slits = source->slits,
-                                     .voids = grid_has_mirror_plane_between_nodes(g, e->scene) ? NULL : e->source.voids,
-                                     .mirror = e->source.mirror,
-                                     .mirrors = e->source.mirrors,
-                                     .still = caller_sets_motion};
-    TRY(mesh_make(&r->mesh, &e->part, g, &r->source));
+    struct lagrangian_mesh *reference = run->frame;
+    const struct grid *g = &run->grid->field[0].grid;
+    reference->elastic = cell_constants(run->scene, run->tables.elastic, &run->source.family);
+    reference->source =
+        (struct mesh_source){.elastic = reference->elastic,
+                             .isotropic = run->tables.elastic,
+                             .materials = run->scene->materials,
+                             .partial = source->partial,
+                             .hollow = &reference->hollow,
+                             .slit = source->slit,
+                             .slits = source->slits,
+                             .voids = grid_has_mirror_plane_between_nodes(g, run->scene) ? NULL : run->source.voids,
+                             .mirror = run->source.mirror,
+                             .mirrors = run->source.mirrors,
+                             .still = caller_sets_motion};
+    TRY(mesh_make(&reference->mesh, &run->part, g, &reference->source));
     /* a mesh rebuilt after a restart has no mirrors, though its box is unchanged */
-    e->loads.constrained_mesh.count[0] = 0;
-    mesh_levels_store_coarsening_limits_by_thickness(r, e->scene, e->part.n_body);
-    lagrangian_mesh_list_bonded_or_loaded_points(r, &e->part, &e->bonds, &e->loads);
+    run->loads.constrained_mesh.count[0] = 0;
+    mesh_levels_store_coarsening_limits_by_thickness(reference, run->scene, run->part.n_body);
+    lagrangian_mesh_list_bonded_or_loaded_points(reference, &run->part, &run->bonds, &run->loads);
     return OK;
 }
 
@@ -236,13 +238,14 @@ status lagrangian_mesh_make_for_run(struct run *e, const struct mesh_source *sou
  * later leave any subset of points in a cell. With partial stress, no such cell has a smaller critical step than the
  * initial cells. With hand-shake coupling, a cell with a single point has a smaller one, which is then included. s:
  * scene, with the densities; coupling: how points and particles are coupled. */
-real lagrangian_mesh_critical_time_step(const struct lagrangian_mesh *r, const struct scene *s, enum coupling coupling)
+real lagrangian_mesh_critical_time_step(const struct lagrangian_mesh *reference, const struct scene *s,
+                                        enum coupling coupling)
 {
     real density[UINT8_MAX], step = INFINITY;
     for (int m = 0; m < s->materials; m++) density[m] = s->material[m].density;
-    if (r->mesh.points > 0)
-        step =
-            mesh_critical_time_step(&r->mesh, &r->source, density, r->converts && coupling != COUPLING_PARTIAL_STRESS);
+    if (reference->mesh.points > 0)
+        step = mesh_critical_time_step(&reference->mesh, &reference->source, density,
+                                       reference->converts && coupling != COUPLING_PARTIAL_STRESS);
     return step;
 }
 
@@ -250,29 +253,29 @@ real lagrangian_mesh_critical_time_step(const struct lagrangian_mesh *r, const s
 
 /* Updates from the mesh nodes of r the positions of the exposed points of p (points with bonds or loads, whose motion
  * is needed in every step), and the strains at points with state-based bonds to peridynamic particles. */
-void lagrangian_mesh_move_bonded_or_loaded_points(struct lagrangian_mesh *r, struct particles *p)
+void lagrangian_mesh_move_bonded_or_loaded_points(struct lagrangian_mesh *reference, struct particles *p)
 {
-    mesh_exposed_move(&r->mesh, p);
-    mesh_ends_update(&r->mesh, p, r->finite);
+    mesh_exposed_move(&reference->mesh, p);
+    mesh_ends_update(&reference->mesh, p, reference->finite);
 }
 
-void lagrangian_mesh_compute_nodal_forces(struct lagrangian_mesh *r, struct particles *p, int64_t step)
+void lagrangian_mesh_compute_nodal_forces(struct lagrangian_mesh *reference, struct particles *p, int64_t step)
 {
-    mesh_clear(&r->mesh);
-    mesh_exposed_force(&r->mesh, p);
-    mesh_force(&r->mesh, p, r->elastic, r->finite);
-    mesh_levels_compute_forces_of_coarse_cells(&r->levels, p, r->coarse, r->finite,
-                                               mesh_levels_coarsest_level_integrated_in_step(&r->levels, step));
+    mesh_clear(&reference->mesh);
+    mesh_exposed_force(&reference->mesh, p);
+    mesh_force(&reference->mesh, p, reference->elastic, reference->finite);
+    mesh_levels_compute_forces_of_coarse_cells(&reference->levels, p, reference->coarse, reference->finite,
+                                               mesh_levels_coarsest_level_integrated_in_step(&reference->levels, step));
 }
 
 /* Sets the velocities that `loads` prescribe at nodes of the mesh of r and of the levels 1 .. due of coarse cells. A
  * cell of level k has 2^k times the edge of the finest, and its step is 2^k times as long. due: highest level that
  * begins a step now; middle: time in the middle of the step of the mesh [s]; dt: length of that step [s]. */
-static void nodes_walls(struct lagrangian_mesh *r, const struct loads *loads, real middle, real dt, int due)
+static void nodes_walls(struct lagrangian_mesh *reference, const struct loads *loads, real middle, real dt, int due)
 {
-    loads_prescribe_mesh_velocities(loads, &r->mesh, middle, dt);
+    loads_prescribe_mesh_velocities(loads, &reference->mesh, middle, dt);
     for (int k = 1; k <= due; k++) {
-        struct mesh_level *level = &r->levels.at[k];
+        struct mesh_level *level = &reference->levels.at[k];
         const real longer = (real)(1 << k) * dt;
         loads_prescribe_coarse_node_velocities(loads, &level->held, &level->mesh.grid, middle + 0.5 * (longer - dt),
                                                longer);
@@ -290,72 +293,78 @@ static void nodes_react(struct loads *loads, struct lagrangian_mesh *frame, real
         loads_add_grid_reactions(loads, &frame->levels.at[level].mesh.grid, dt_velocity * (real)(1 << level));
 }
 
-void lagrangian_mesh_move_nodes(struct lagrangian_mesh *r, struct particles *p, struct loads *loads,
+void lagrangian_mesh_move_nodes(struct lagrangian_mesh *reference, struct particles *p, struct loads *loads,
                                 const struct run_clock *clock, real t_middle, real dt_velocity)
 {
-    const int due = mesh_levels_coarsest_level_integrated_in_step(&r->levels, clock->step);
-    if (r->mesh.points == 0) return;
-    if (r->converts) mesh_points_mark(&r->mesh, p, r->elastic, r->finite);
-    if (p->mesh_stress[0] && clock->step == 0) mesh_points_flow(&r->mesh, p, r->elastic, 0, r->finite);
-    nodes_walls(r, loads, t_middle, clock->dt, due);
-    r->speed = r->levels.n > 0 ? mesh_levels_move_nodes_return_largest_velocity(&r->levels, clock->dt, dt_velocity, due,
-                                                                                loads->impulse, &loads->constraint_work)
-                               : mesh_move(&r->mesh, clock->dt, dt_velocity, loads->impulse, &loads->constraint_work);
-    nodes_react(loads, r, dt_velocity, due);
-    if (p->mesh_stress[0]) mesh_points_flow(&r->mesh, p, r->elastic, clock->dt, r->finite);
-    lagrangian_mesh_move_bonded_or_loaded_points(r, p);
-    if (r->active_set && r->levels.n == 0) active_nodes_update_list_of_active_blocks(&r->mesh, loads);
+    const int due = mesh_levels_coarsest_level_integrated_in_step(&reference->levels, clock->step);
+    if (reference->mesh.points == 0) return;
+    if (reference->converts) mesh_points_mark(&reference->mesh, p, reference->elastic, reference->finite);
+    if (p->mesh_stress[0] && clock->step == 0)
+        mesh_points_flow(&reference->mesh, p, reference->elastic, 0, reference->finite);
+    nodes_walls(reference, loads, t_middle, clock->dt, due);
+    reference->speed =
+        reference->levels.n > 0
+            ? mesh_levels_move_nodes_return_largest_velocity(&reference->levels, clock->dt, dt_velocity, due,
+                                                             loads->impulse, &loads->constraint_work)
+            : mesh_move(&reference->mesh, clock->dt, dt_velocity, loads->impulse, &loads->constraint_work);
+    nodes_react(loads, reference, dt_velocity, due);
+    if (p->mesh_stress[0]) mesh_points_flow(&reference->mesh, p, reference->elastic, clock->dt, reference->finite);
+    lagrangian_mesh_move_bonded_or_loaded_points(reference, p);
+    if (reference->active_set && reference->levels.n == 0)
+        active_nodes_update_list_of_active_blocks(&reference->mesh, loads);
 }
 
-void lagrangian_mesh_update_point_motion(struct lagrangian_mesh *r, struct particles *p, const struct loads *loads)
+void lagrangian_mesh_update_point_motion(struct lagrangian_mesh *reference, struct particles *p,
+                                         const struct loads *loads)
 {
-    if (r->mesh.points == 0) return;
-    mesh_levels_prolong_motion_near_particles(&r->levels);
-    mesh_points_move(&r->mesh, p);
+    if (reference->mesh.points == 0) return;
+    mesh_levels_prolong_motion_near_particles(&reference->levels);
+    mesh_points_move(&reference->mesh, p);
     loads_update_mirror_images(loads, p);
 }
 
-void lagrangian_mesh_update_point_motion_and_stress(struct lagrangian_mesh *r, struct particles *p,
+void lagrangian_mesh_update_point_motion_and_stress(struct lagrangian_mesh *reference, struct particles *p,
                                                     const struct loads *loads)
 {
-    if (r->mesh.points == 0) return;
-    lagrangian_mesh_update_point_motion(r, p, loads);
-    mesh_points_stress(&r->mesh, p, r->elastic, r->finite);
+    if (reference->mesh.points == 0) return;
+    lagrangian_mesh_update_point_motion(reference, p, loads);
+    mesh_points_stress(&reference->mesh, p, reference->elastic, reference->finite);
 }
 
-void lagrangian_mesh_update_motion_of_listed_points(struct lagrangian_mesh *r, struct particles *p,
+void lagrangian_mesh_update_motion_of_listed_points(struct lagrangian_mesh *reference, struct particles *p,
                                                     const struct loads *loads, const int32_t *point_list,
                                                     int64_t point_count)
 {
-    if (r->mesh.points == 0) return;
-    mesh_listed_move(&r->mesh, p, point_list, point_count);
+    if (reference->mesh.points == 0) return;
+    mesh_listed_move(&reference->mesh, p, point_list, point_count);
     loads_update_mirror_images(loads, p);
 }
 
-bool lagrangian_mesh_update_after_point_conversion(struct lagrangian_mesh *r, struct particles *p,
+bool lagrangian_mesh_update_after_point_conversion(struct lagrangian_mesh *reference, struct particles *p,
                                                    int64_t converted_count, const struct partial_stress *partial,
                                                    real *energy_lost)
 {
-    if (r->mesh.points == 0) return false;
+    if (reference->mesh.points == 0) return false;
     /* if bonds break without conversion, the same cells stay partial: their stiffness is recomputed in place */
-    if (converted_count == 0 &&
-        mesh_try_update_stiffness_for_partial_stress(&r->mesh, p, &r->source, partial->touched, partial->touches))
+    if (converted_count == 0 && mesh_try_update_stiffness_for_partial_stress(&reference->mesh, p, &reference->source,
+                                                                             partial->touched, partial->touches))
         return false;
-    *energy_lost +=
-        mesh_remove_points_and_return_lost_energy(&r->mesh, p, &r->source, partial->touched, partial->touches);
+    *energy_lost += mesh_remove_points_and_return_lost_energy(&reference->mesh, p, &reference->source, partial->touched,
+                                                              partial->touches);
     return true;
 }
 
-void lagrangian_mesh_insert_points(struct lagrangian_mesh *r, struct particles *p, const int32_t *inserted_points,
-                                   int64_t inserted_count, real *energy_lost)
+void lagrangian_mesh_insert_points(struct lagrangian_mesh *reference, struct particles *p,
+                                   const int32_t *inserted_points, int64_t inserted_count, real *energy_lost)
 {
     int32_t *own = NEW("engine.own", inserted_count, int32_t);
     int64_t m = 0;
     for (int64_t k = 0; k < inserted_count; k++)
-        if (r->mesh.place && r->choice[p->body[inserted_points[k]]].reference) own[m++] = inserted_points[k];
+        if (reference->mesh.place && reference->choice[p->body[inserted_points[k]]].reference)
+            own[m++] = inserted_points[k];
     if (m > 0) {
-        *energy_lost += mesh_insert_points_and_return_lost_energy(&r->mesh, p, own, m);
-        active_nodes_activate_all_blocks(&r->mesh);
+        *energy_lost += mesh_insert_points_and_return_lost_energy(&reference->mesh, p, own, m);
+        active_nodes_activate_all_blocks(&reference->mesh);
     }
     memory_free(own);
 }

@@ -104,18 +104,18 @@ static bool loads_reach(const struct scene *s, const real *X, real tolerance)
 
 /* Returns true if a load of scene s on a face of the body acts at cell I. For a traction or pressure, cell I is at the
  * face if the next cell along the axis of the load is not completely inside the body; for a prescribed displacement, if
- * the face is within its depth. h: grid of cells; X[dim]: a point of cell I, which must be in the region of the load
- * [m]. */
-static bool face_loaded(const struct scene *s, const struct cells_without_particles *h, int64_t I, const real *X)
+ * the face is within its depth. hollow: grid of cells; X[dim]: a point of cell I, which must be in the region of the
+ * load [m]. */
+static bool face_loaded(const struct scene *s, const struct cells_without_particles *hollow, int64_t I, const real *X)
 {
     for (int b = 0; b < s->boundaries; b++) {
         const struct boundary *load = &s->boundary[b];
         if (load->side == 0) continue;
-        const int64_t deep = load->kind == BOUNDARY_VELOCITY ? (int64_t)ceil(load->depth / h->box.h) : 1;
+        const int64_t deep = load->kind == BOUNDARY_VELOCITY ? (int64_t)ceil(load->depth / hollow->box.h) : 1;
         for (int64_t k = 1; k <= deep; k++) {
-            const int64_t beside = I + k * load->side * h->box.stride[load->face];
-            if ((beside < 0 || beside >= h->box.n || !h->whole[beside]) &&
-                region_contains(&load->region, X, s->dim, h->box.h))
+            const int64_t beside = I + k * load->side * hollow->box.stride[load->face];
+            if ((beside < 0 || beside >= hollow->box.n || !hollow->whole[beside]) &&
+                region_contains(&load->region, X, s->dim, hollow->box.h))
                 return true;
         }
     }
@@ -152,38 +152,38 @@ static bool probed(const struct scene *s, const real *X, real h)
  * a load, on a loaded face, or near the region that is peridynamic from the start of scene s. source: has the cutoff of
  * bonds. */
 static bool cell_needed(const struct scene *s, const struct bond_source *source,
-                        const struct cells_without_particles *h, int64_t I)
+                        const struct cells_without_particles *hollow, int64_t I)
 {
     for (int c = 0; c < 1 << s->dim; c++) {
         real X[DIM_MAX] = {0};
-        for (int d = 0; d < s->dim; d++) X[d] = grid_cell_quadrature_point_coordinate(&h->box, I, c, d);
-        if (c == 0 && (near_cracks(s, source, X, h->box.h) || probed(s, X, h->box.h))) return true;
-        if (loads_reach(s, X, s->spacing) || face_loaded(s, h, I, X)) return true;
+        for (int d = 0; d < s->dim; d++) X[d] = grid_cell_quadrature_point_coordinate(&hollow->box, I, c, d);
+        if (c == 0 && (near_cracks(s, source, X, hollow->box.h) || probed(s, X, hollow->box.h))) return true;
+        if (loads_reach(s, X, s->spacing) || face_loaded(s, hollow, I, X)) return true;
         if (s->has_pd_region && region_contains(&s->pd_region, X, s->dim, 2 * source->family.cutoff)) return true;
     }
     return false;
 }
 
-status cells_without_particles_predict_from_scene(struct cells_without_particles *h, const struct scene *s,
+status cells_without_particles_predict_from_scene(struct cells_without_particles *hollow, const struct scene *s,
                                                   const struct bond_source *source)
 {
     int64_t absent = 0;
-    if (h->whole || scene_reason_all_particles_must_be_created(s)) return OK;
-    TRY(box_find(&h->box, s));
-    const int64_t least = s->fill == FILL_NEEDED ? 0 : PAYS >> h->box.dim;
-    if (h->box.n <= least) return OK;
-    body_mark_cells_with_all_sites_inside(h, s, 0);
-    h->absent = NEW("hollow.absent", h->box.n, uint8_t);
+    if (hollow->whole || scene_reason_all_particles_must_be_created(s)) return OK;
+    TRY(box_find(&hollow->box, s));
+    const int64_t least = s->fill == FILL_NEEDED ? 0 : PAYS >> hollow->box.dim;
+    if (hollow->box.n <= least) return OK;
+    body_mark_cells_with_all_sites_inside(hollow, s, 0);
+    hollow->absent = NEW("hollow.absent", hollow->box.n, uint8_t);
 #pragma omp parallel for schedule(dynamic, 4096) reduction(+ : absent)
-    for (int64_t I = 0; I < h->box.n; I++) {
-        h->absent[I] = h->whole[I] && !cell_needed(s, source, h, I);
-        absent += h->absent[I];
+    for (int64_t I = 0; I < hollow->box.n; I++) {
+        hollow->absent[I] = hollow->whole[I] && !cell_needed(s, source, hollow, I);
+        absent += hollow->absent[I];
     }
     /* positions of loads, faces of pre-cracks and probes do not change */
-    array_copy(h->whole, h->absent, h->box.n, 1);
+    array_copy(hollow->whole, hollow->absent, hollow->box.n, 1);
     if (absent > least) return OK;
-    memory_free(h->absent);
-    h->absent = NULL;
+    memory_free(hollow->absent);
+    hollow->absent = NULL;
     return OK;
 }
 
@@ -198,55 +198,55 @@ bool mesh_cells_to_become_finest_lack_particles(const struct mesh *mesh, const u
     return false;
 }
 
-/* Returns an array of flags [box.n] that are 1 for the cells of r->hollow.box whose particles need not be created.
- * Particles are created near cells of level 0, the finest: within `margin` cells, and within `ahead` cells of those
- * that have no particles at present. A coarse cell has all of its particles or none. level: level of each cell of the
- * mesh of r. Release the flags with memory_free. */
-static uint8_t *absent_with(const struct lagrangian_mesh *r, const uint8_t *level, int margin, int ahead)
+/* Returns an array of flags [box.n] that are 1 for the cells of reference->hollow.box whose particles need not be
+ * created. Particles are created near cells of level 0, the finest: within `margin` cells, and within `ahead` cells of
+ * those that have no particles at present. A coarse cell has all of its particles or none. level: level of each cell of
+ * the mesh of r. Release the flags with memory_free. */
+static uint8_t *absent_with(const struct lagrangian_mesh *reference, const uint8_t *level, int margin, int ahead)
 {
-    const struct cells_without_particles *h = &r->hollow;
-    const struct grid *g = &r->mesh.grid;
-    uint8_t *absent = NEW("hollow.absent", h->box.n, uint8_t), *keep = NEW("hollow.keep", g->n, uint8_t);
+    const struct cells_without_particles *hollow = &reference->hollow;
+    const struct grid *g = &reference->mesh.grid;
+    uint8_t *absent = NEW("hollow.absent", hollow->box.n, uint8_t), *keep = NEW("hollow.keep", g->n, uint8_t);
     uint8_t *outgrown = NEW("hollow.outgrown", g->n, uint8_t);
     for (int64_t I = 0; I < g->n; I++) { /* also where bonds have taken all points of a cell */
-        const int64_t J = grid_cell_index_in_other_grid(g, I, &h->box);
-        keep[I] = level[I] == 0 && (mesh_cell_contains_material(&r->mesh, I) || (J >= 0 && h->whole[J]));
-        outgrown[I] = keep[I] && r->mesh.absent && r->mesh.absent[I];
+        const int64_t J = grid_cell_index_in_other_grid(g, I, &hollow->box);
+        keep[I] = level[I] == 0 && (mesh_cell_contains_material(&reference->mesh, I) || (J >= 0 && hollow->whole[J]));
+        outgrown[I] = keep[I] && reference->mesh.absent && reference->mesh.absent[I];
     }
-    mesh_levels_mark_cells_near_marked_cells(&r->levels, keep, margin);
-    mesh_levels_mark_cells_near_marked_cells(&r->levels, outgrown, ahead);
+    mesh_levels_mark_cells_near_marked_cells(&reference->levels, keep, margin);
+    mesh_levels_mark_cells_near_marked_cells(&reference->levels, outgrown, ahead);
     for (int64_t I = 0; I < g->n; I++) {
-        const int64_t J = grid_cell_index_in_other_grid(g, I, &h->box);
-        keep[I] = keep[I] || outgrown[I] || J < 0 || !h->whole[J];
+        const int64_t J = grid_cell_index_in_other_grid(g, I, &hollow->box);
+        keep[I] = keep[I] || outgrown[I] || J < 0 || !hollow->whole[J];
     }
-    mesh_levels_extend_marks_to_whole_coarse_cells(&r->levels, level, keep);
+    mesh_levels_extend_marks_to_whole_coarse_cells(&reference->levels, level, keep);
     for (int64_t I = 0; I < g->n; I++)
-        if (!keep[I]) absent[grid_cell_index_in_other_grid(g, I, &h->box)] = 1;
+        if (!keep[I]) absent[grid_cell_index_in_other_grid(g, I, &hollow->box)] = 1;
     memory_free(outgrown);
     memory_free(keep);
     return absent;
 }
 
-bool initial_finest_cells_have_all_particles(struct lagrangian_mesh *r, const uint8_t *cell_level)
+bool initial_finest_cells_have_all_particles(struct lagrangian_mesh *reference, const uint8_t *cell_level)
 {
-    if (!r->hollow.absent) return true;
-    if (r->hollow.restored) return false; /* the checkpoint contains the levels */
-    if (!cell_level) {                    /* no coarse cells */
-        memory_free(r->hollow.absent);
-        r->hollow.absent = NULL, r->lacks = true;
+    if (!reference->hollow.absent) return true;
+    if (reference->hollow.restored) return false; /* the checkpoint contains the levels */
+    if (!cell_level) {                            /* no coarse cells */
+        memory_free(reference->hollow.absent);
+        reference->hollow.absent = NULL, reference->lacks = true;
         return false;
     }
-    r->lacks = mesh_cells_to_become_finest_lack_particles(&r->mesh, cell_level);
-    if (!r->lacks) return true;
-    uint8_t *absent = absent_with(r, cell_level, 0, 0);
-    for (int64_t J = 0; J < r->hollow.box.n; J++) r->hollow.absent[J] &= absent[J];
+    reference->lacks = mesh_cells_to_become_finest_lack_particles(&reference->mesh, cell_level);
+    if (!reference->lacks) return true;
+    uint8_t *absent = absent_with(reference, cell_level, 0, 0);
+    for (int64_t J = 0; J < reference->hollow.box.n; J++) reference->hollow.absent[J] &= absent[J];
     memory_free(absent);
     return false;
 }
 
-void cells_without_particles_update_from_levels(struct lagrangian_mesh *r, const uint8_t *cell_level)
+void cells_without_particles_update_from_levels(struct lagrangian_mesh *reference, const uint8_t *cell_level)
 {
-    uint8_t *absent = absent_with(r, cell_level, MARGIN, AHEAD);
-    memory_free(r->hollow.absent);
-    r->hollow.absent = absent;
+    uint8_t *absent = absent_with(reference, cell_level, MARGIN, AHEAD);
+    memory_free(reference->hollow.absent);
+    reference->hollow.absent = absent;
 }

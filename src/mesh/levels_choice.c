@@ -120,31 +120,31 @@ static real spacings_across(const struct scene *s, const struct particles *p,
 
 /* ---- choice ------------------------------------------------------------------------------------------------------ */
 
-/* Computes r->room[cell], the highest coarsening level (0: finest) that the thickness of the body allows in each cell,
- * if scene s may have coarse cells: it is dynamic, has a mesh and allows coarse levels, and with automatic levels has
- * at least PAYS particles. Otherwise r->room remains NULL. particle_count: number of particles of the body, including
- * those not created. */
-void mesh_levels_store_coarsening_limits_by_thickness(struct lagrangian_mesh *r, const struct scene *s,
+/* Computes reference->room[cell], the highest coarsening level (0: finest) that the thickness of the body allows in
+ * each cell, if scene s may have coarse cells: it is dynamic, has a mesh and allows coarse levels, and with automatic
+ * levels has at least PAYS particles. Otherwise reference->room remains NULL. particle_count: number of particles of
+ * the body, including those not created. */
+void mesh_levels_store_coarsening_limits_by_thickness(struct lagrangian_mesh *reference, const struct scene *s,
                                                       int64_t particle_count)
 {
-    if (!scene_is_dynamic(s) || r->mesh.points == 0 || s->levels == 0) return;
+    if (!scene_is_dynamic(s) || reference->mesh.points == 0 || s->levels == 0) return;
     if (s->levels == LEVELS_AUTO && particle_count < PAYS) return;
-    r->room = NEW("engine.room", r->mesh.grid.n, uint8_t);
-    r->room_most =
-        mesh_compute_cell_coarsening_limit_by_thickness(&r->mesh, r->source.mirror, r->source.mirrors, r->room);
+    reference->room = NEW("engine.room", reference->mesh.grid.n, uint8_t);
+    reference->room_most = mesh_compute_cell_coarsening_limit_by_thickness(&reference->mesh, reference->source.mirror,
+                                                                           reference->source.mirrors, reference->room);
 }
 
-struct levels_choice mesh_levels_choose_level_count(const struct lagrangian_mesh *r, const struct particles *p,
+struct levels_choice mesh_levels_choose_level_count(const struct lagrangian_mesh *reference, const struct particles *p,
                                                     const struct scene *s, real dt_critical)
 {
     struct levels_choice c = {.given = s->levels != LEVELS_AUTO,
                               .particles = p->n_body,
                               .step_share = s->time_step / dt_critical,
-                              .across = spacings_across(s, p, &r->hollow)};
+                              .across = spacings_across(s, p, &reference->hollow)};
     c.rise = sharpest_rise(s, c.across);
     if (!scene_is_dynamic(s))
         c.why = LEVELS_AT_REST;
-    else if (r->mesh.points == 0)
+    else if (reference->mesh.points == 0)
         c.why = LEVELS_NO_MESH;
     else if (c.particles < PAYS)
         c.why = LEVELS_FEW;
@@ -156,7 +156,8 @@ struct levels_choice mesh_levels_choose_level_count(const struct lagrangian_mesh
         const real most = edge_for(&c.rise, c.across, ACROSS);
         while (c.automatic < LEVELS_MAX && (real)(4 << c.automatic) <= most * (1 + 1e-6)) c.automatic++;
         c.why = LEVELS_BY_LOADS;
-        if (r->room && r->room_most < c.automatic) c.automatic = r->room_most, c.why = LEVELS_THIN;
+        if (reference->room && reference->room_most < c.automatic)
+            c.automatic = reference->room_most, c.why = LEVELS_THIN;
     }
     c.levels = c.why == LEVELS_AT_REST || c.why == LEVELS_NO_MESH ? 0 : c.given ? s->levels : c.automatic;
     return c;
@@ -266,15 +267,15 @@ void mesh_levels_describe_level_count(const struct levels_choice *c, const struc
 
 /* Writes to text[capacity] where the body of r is too thin for the coarse cells that the scene prescribes: fewer than
  * CELLS_ACROSS of them fit across it. Returns false, without text, if there is no such cell. */
-static bool thin_text(const struct lagrangian_mesh *r, char *text, size_t capacity)
+static bool thin_text(const struct lagrangian_mesh *reference, char *text, size_t capacity)
 {
-    const struct grid *g = &r->mesh.grid;
+    const struct grid *g = &reference->mesh.grid;
     int64_t thin = 0, coarse = 0, first = 0;
     int level = 0;
-    for (int64_t I = 0; I < g->n && r->room && r->levels.n > 0; I++) {
-        coarse += r->levels.level[I] > 0;
-        if (r->levels.level[I] <= r->room[I]) continue;
-        if (thin++ == 0) first = I, level = r->levels.level[I];
+    for (int64_t I = 0; I < g->n && reference->room && reference->levels.n > 0; I++) {
+        coarse += reference->levels.level[I] > 0;
+        if (reference->levels.level[I] <= reference->room[I]) continue;
+        if (thin++ == 0) first = I, level = reference->levels.level[I];
     }
     if (thin == 0) return false;
     real at[DIM_MAX] = {0};
@@ -283,11 +284,11 @@ static bool thin_text(const struct lagrangian_mesh *r, char *text, size_t capaci
              "mpm.levels: %d makes coarse cells of %d spacings in thin parts, such as at (%.4g, %.4g, %.4g) m, with "
              "fewer than %d cells across (%.0f %% of all coarse cells). Such parts bend too stiffly, with natural "
              "frequencies about 5 %% too high; set mpm.levels: auto, which makes no coarse cells there",
-             r->levels.n, 2 << level, at[0], at[1], at[2], CELLS_ACROSS, 100.0 * (double)thin / (double)coarse);
+             reference->levels.n, 2 << level, at[0], at[1], at[2], CELLS_ACROSS, 100.0 * (double)thin / (double)coarse);
     return true;
 }
 
-bool mesh_levels_given_by_scene_are_too_many(const struct levels_choice *c, const struct lagrangian_mesh *r,
+bool mesh_levels_given_by_scene_are_too_many(const struct levels_choice *c, const struct lagrangian_mesh *reference,
                                              const struct scene *s, char *reason, size_t capacity)
 {
     char load[256], want[160];
@@ -295,7 +296,7 @@ bool mesh_levels_given_by_scene_are_too_many(const struct levels_choice *c, cons
     const real most = edge_for(&c->rise, c->across, ACROSS_LEAST);
     while (levels < LEVELS_MAX && (real)(4 << levels) <= most * (1 + 1e-6)) levels++;
     if (!c->given) return false;
-    if (c->levels <= levels) return thin_text(r, reason, capacity);
+    if (c->levels <= levels) return thin_text(reference, reason, capacity);
     rise_text(s, &c->rise, load, sizeof load);
     want_text(c, 2 << c->levels, ACROSS_LEAST, want, sizeof want);
     snprintf(

@@ -128,15 +128,15 @@ static void marks_add(const struct mesh_levels *l, const uint8_t *more, uint8_t 
     for (int64_t I = 0; I < l->fine->grid.n && more; I++) mark[I] |= more[I];
 }
 
-/* Returns flags [fine->grid.n] that are 1 for the cells of r that must be of level 0 (the finest). With l = r->levels
- * and R = l.roomy_cells + more, these are the cells within R cells of peridynamic particles of p and of the cells
- * requested in l.wanted; within R + FLANK_MORE cells of slits if there are several, within one cell of a single slit;
- * and within one cell of particles on which `loads` act, of probes of stress-intensity factors and of planes of
- * symmetry that are not on nodes. Release the flags with memory_free. */
-static uint8_t *demand_make(const struct lagrangian_mesh *r, const struct particles *p, const struct loads *loads,
-                            int more)
+/* Returns flags [fine->grid.n] that are 1 for the cells of r that must be of level 0 (the finest). With l =
+ * reference->levels and R = l.roomy_cells + more, these are the cells within R cells of peridynamic particles of p and
+ * of the cells requested in l.wanted; within R + FLANK_MORE cells of slits if there are several, within one cell of a
+ * single slit; and within one cell of particles on which `loads` act, of probes of stress-intensity factors and of
+ * planes of symmetry that are not on nodes. Release the flags with memory_free. */
+static uint8_t *demand_make(const struct lagrangian_mesh *reference, const struct particles *p,
+                            const struct loads *loads, int more)
 {
-    const struct mesh_levels *l = &r->levels;
+    const struct mesh_levels *l = &reference->levels;
     const int64_t n = l->fine->grid.n;
     uint8_t *demand = NEW("levels.demand", n, uint8_t), *fixed = NEW("levels.fixed", n, uint8_t);
     uint8_t *flank = NEW("levels.flank", n, uint8_t);
@@ -144,13 +144,14 @@ static uint8_t *demand_make(const struct lagrangian_mesh *r, const struct partic
     for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) demand[cell_of(l->fine, p, p->list[KIND_PD][k])] = 1;
     mesh_levels_mark_cells_near_marked_cells(l, demand, l->roomy_cells + more);
     demand_slits(l->fine, flank);
-    mesh_levels_mark_cells_near_marked_cells(l, flank, r->source.slits > 1 ? l->roomy_cells + more + FLANK_MORE : 1);
+    mesh_levels_mark_cells_near_marked_cells(l, flank,
+                                             reference->source.slits > 1 ? l->roomy_cells + more + FLANK_MORE : 1);
     marks_add(l, flank, demand);
     memory_free(flank);
     for (int b = 0; b < loads->n; b++)
         for (int64_t k = 0; k < loads->load[b].n; k++) fixed[cell_of(l->fine, p, loads->load[b].particle[k])] = 1;
-    demand_mirrors(r, loads, fixed);
-    rings_cells(r, fixed);
+    demand_mirrors(reference, loads, fixed);
+    rings_cells(reference, fixed);
     mesh_levels_mark_cells_near_marked_cells(l, fixed, 1);
     marks_add(l, fixed, demand);
     memory_free(fixed);
@@ -206,91 +207,99 @@ static bool any_merges(const struct mesh_levels *l, const uint8_t *level)
     return any;
 }
 
-/* Reduces limit[I], the largest coarsening level (0: finest) allowed for cell I of r, to r->room[I], the largest level
- * that the thickness of the body allows there. Does nothing if the scene prescribes the number of levels. */
-static void limit_by_room(const struct lagrangian_mesh *r, uint8_t *limit)
+/* Reduces limit[I], the largest coarsening level (0: finest) allowed for cell I of r, to reference->room[I], the
+ * largest level that the thickness of the body allows there. Does nothing if the scene prescribes the number of levels.
+ */
+static void limit_by_room(const struct lagrangian_mesh *reference, uint8_t *limit)
 {
-    for (int64_t I = 0; I < r->mesh.grid.n && r->room && r->room_limits; I++)
-        if (r->room[I] < limit[I]) limit[I] = r->room[I];
+    for (int64_t I = 0; I < reference->mesh.grid.n && reference->room && reference->room_limits; I++)
+        if (reference->room[I] < limit[I]) limit[I] = reference->room[I];
 }
 
 /* Computes level[I], the coarsening levels (0: finest) of all finest cells I of r for the next steps. demand[I]: not 0
  * for cells that must be of level 0; limit[I]: largest level allowed, reduced here for cells that would lose more
  * energy per mass by becoming coarser than the share ROUGH (1 %) of the present energy per mass of the body; p:
  * particles; mass: mass of the body [kg]. */
-static void next_levels(struct lagrangian_mesh *r, const struct particles *p, real mass, const uint8_t *demand,
+static void next_levels(struct lagrangian_mesh *reference, const struct particles *p, real mass, const uint8_t *demand,
                         uint8_t *limit, uint8_t *level)
 {
-    struct mesh_levels *l = &r->levels;
+    struct mesh_levels *l = &reference->levels;
     mesh_levels_compute_coarsest_admissible_levels(l, p, demand, limit, level);
     if (!any_merges(l, level)) return;
-    const real most = ROUGH * (lagrangian_mesh_kinetic_energy(r) + lagrangian_mesh_strain_energy(r, p)) / mass;
+    const real most =
+        ROUGH * (lagrangian_mesh_kinetic_energy(reference) + lagrangian_mesh_strain_energy(reference, p)) / mass;
     mesh_levels_prolong_motion_to_fine_nodes(l);
     while (mesh_levels_limit_coarsening_by_energy_loss(l, level, most, limit))
         mesh_levels_compute_coarsest_admissible_levels(l, p, demand, limit, level);
 }
 
-void mesh_levels_update_lists_of_loaded_nodes(struct lagrangian_mesh *r, const struct particles *p,
+void mesh_levels_update_lists_of_loaded_nodes(struct lagrangian_mesh *reference, const struct particles *p,
                                               const struct bonds *bonds, struct loads *loads)
 {
-    struct mesh_levels *l = &r->levels;
+    struct mesh_levels *l = &reference->levels;
     for (int k = 1; k <= l->n; k++) loads_find_driven_coarse_nodes(loads, &l->at[k].held, &l->at[k].mesh.grid, p);
-    lagrangian_mesh_list_bonded_or_loaded_points(r, p, bonds, loads);
+    lagrangian_mesh_list_bonded_or_loaded_points(reference, p, bonds, loads);
 }
 
-/* Changes the coarsening levels of the cells of run e to level[I] (0: finest; I: index of the finest cell). The kinetic
- * and strain energy that the change loses is added to e->damped, so that the energy balance includes it. */
-static void change(struct run *e, const uint8_t *level)
+/* Changes the coarsening levels of the cells of run to level[I] (0: finest; I: index of the finest cell). The kinetic
+ * and strain energy that the change loses is added to run->damped, so that the energy balance includes it. */
+static void change(struct run *run, const uint8_t *level)
 {
-    struct lagrangian_mesh *r = e->frame;
+    struct lagrangian_mesh *reference = run->frame;
     /* before the first step velocities and displacements are at the same time */
-    const real dt = e->clock.step > 0 ? e->clock.dt : 0;
-    mesh_levels_shift_velocities_half_step(&r->levels, &e->part, r->elastic, r->finite, dt);
-    const real before = lagrangian_mesh_kinetic_energy(r) + lagrangian_mesh_strain_energy(r, &e->part);
-    mesh_levels_change_refinement(&r->levels, &e->part, &r->source, level);
-    mesh_levels_update_lists_of_loaded_nodes(r, &e->part, &e->bonds, &e->loads);
-    e->damped += before - lagrangian_mesh_kinetic_energy(r) - lagrangian_mesh_strain_energy(r, &e->part);
-    mesh_levels_shift_velocities_half_step(&r->levels, &e->part, r->elastic, r->finite, -dt);
+    const real dt = run->clock.step > 0 ? run->clock.dt : 0;
+    mesh_levels_shift_velocities_half_step(&reference->levels, &run->part, reference->elastic, reference->finite, dt);
+    const real before =
+        lagrangian_mesh_kinetic_energy(reference) + lagrangian_mesh_strain_energy(reference, &run->part);
+    mesh_levels_change_refinement(&reference->levels, &run->part, &reference->source, level);
+    mesh_levels_update_lists_of_loaded_nodes(reference, &run->part, &run->bonds, &run->loads);
+    run->damped +=
+        before - lagrangian_mesh_kinetic_energy(reference) - lagrangian_mesh_strain_energy(reference, &run->part);
+    mesh_levels_shift_velocities_half_step(&reference->levels, &run->part, reference->elastic, reference->finite, -dt);
 }
 
-status mesh_levels_make_coarse_cells(struct run *e, bool levels_from_checkpoint)
+status mesh_levels_make_coarse_cells(struct run *run, bool levels_from_checkpoint)
 {
-    struct lagrangian_mesh *r = e->frame;
-    const struct scene *s = e->scene;
+    struct lagrangian_mesh *reference = run->frame;
+    const struct scene *s = run->scene;
     real density[UINT8_MAX], fastest = 0;
     for (int m = 0; m < s->materials; m++) density[m] = s->material[m].density;
-    const struct levels_choice choice = mesh_levels_choose_level_count(r, &e->part, s, e->clock.dt_critical);
-    TRY(mesh_levels_make_over_finest_mesh(&r->levels, choice.levels, &r->mesh, &e->part, &r->source, density));
-    memory_free(r->coarse);
-    r->coarse = NEW("engine.coarse_elastic", s->materials, struct elastic);
+    const struct levels_choice choice =
+        mesh_levels_choose_level_count(reference, &run->part, s, run->clock.dt_critical);
+    TRY(mesh_levels_make_over_finest_mesh(&reference->levels, choice.levels, &reference->mesh, &run->part,
+                                          &reference->source, density));
+    memory_free(reference->coarse);
+    reference->coarse = NEW("engine.coarse_elastic", s->materials, struct elastic);
     for (int m = 0; m < s->materials; m++) {
-        r->coarse[m] = r->elastic[m];
-        r->coarse[m].trigger *= SPLITS;
+        reference->coarse[m] = reference->elastic[m];
+        reference->coarse[m].trigger *= SPLITS;
         fastest = real_max(fastest, s->material[m].wave_speed);
     }
-    if (r->levels.n == 0) {
-        initial_finest_cells_have_all_particles(r, NULL);
+    if (reference->levels.n == 0) {
+        initial_finest_cells_have_all_particles(reference, NULL);
         return OK;
     }
-    mesh_levels_match_wave_dispersion_of_bonds(&r->levels, dispersion_edge(s), fastest, e->clock.dt);
+    mesh_levels_match_wave_dispersion_of_bonds(&reference->levels, dispersion_edge(s), fastest, run->clock.dt);
     /* a point converts with its neighbours, these get bonds, and the neighbourhoods at their other ends extend one
      * horizon more */
     const real reach = (s->model == MODEL_BOND ? 1.0 : 1.5) * s->horizon;
     const int safe = (int)ceil(reach) + 1;
-    mesh_levels_set_postpone_and_refine_distances(&r->levels, safe, safe + (int)ceil(0.5 * s->horizon));
-    for (int k = 1; k <= r->levels.n; k++)
-        loads_find_driven_coarse_nodes(&e->loads, &r->levels.at[k].held, &r->levels.at[k].mesh.grid, &e->part);
+    mesh_levels_set_postpone_and_refine_distances(&reference->levels, safe, safe + (int)ceil(0.5 * s->horizon));
+    for (int k = 1; k <= reference->levels.n; k++)
+        loads_find_driven_coarse_nodes(&run->loads, &reference->levels.at[k].held, &reference->levels.at[k].mesh.grid,
+                                       &run->part);
     if (levels_from_checkpoint) return OK;
-    uint8_t *demand = demand_make(r, &e->part, &e->loads, ZONE_MORE);
-    uint8_t *stressed = stressed_cells(r, SPLITS, true), *level = NEW("levels.next", r->mesh.grid.n, uint8_t);
-    marks_add(&r->levels, stressed, demand);
-    uint8_t *limit = NEW("levels.limit", r->mesh.grid.n, uint8_t);
-    array_fill_bytes(limit, r->levels.n, r->mesh.grid.n, 1);
-    limit_by_room(r, limit);
-    next_levels(r, &e->part, e->mass, demand, limit, level);
-    if (initial_finest_cells_have_all_particles(r, level)) change(e, level);
+    uint8_t *demand = demand_make(reference, &run->part, &run->loads, ZONE_MORE);
+    uint8_t *stressed = stressed_cells(reference, SPLITS, true),
+            *level = NEW("levels.next", reference->mesh.grid.n, uint8_t);
+    marks_add(&reference->levels, stressed, demand);
+    uint8_t *limit = NEW("levels.limit", reference->mesh.grid.n, uint8_t);
+    array_fill_bytes(limit, reference->levels.n, reference->mesh.grid.n, 1);
+    limit_by_room(reference, limit);
+    next_levels(reference, &run->part, run->mass, demand, limit, level);
+    if (initial_finest_cells_have_all_particles(reference, level)) change(run, level);
     memory_free(limit);
-    e->damped = 0; /* the run starts with the energy of the coarse cells */
+    run->damped = 0; /* the run starts with the energy of the coarse cells */
     memory_free(demand);
     memory_free(stressed);
     memory_free(level);
@@ -312,20 +321,21 @@ static bool any_stressed(const struct mesh_levels *l)
 /* Computes limit[I], the largest coarsening level (0: finest) that each cell I of r may have after the next change.
  * Cells may always become finer. They may become coarser only in calls with `checks` true, and only after CALM_CHECKS
  * consecutive such calls in which neither cracks and stresses of p nor loads required level 0 nearby. */
-static void limits_find(struct lagrangian_mesh *r, const struct particles *p, const struct loads *loads, bool checks,
-                        uint8_t *limit)
+static void limits_find(struct lagrangian_mesh *reference, const struct particles *p, const struct loads *loads,
+                        bool checks, uint8_t *limit)
 {
-    struct mesh_levels *l = &r->levels;
+    struct mesh_levels *l = &reference->levels;
     const int64_t n = l->fine->grid.n;
     array_copy(limit, l->level, n, 1);
     if (!checks) return;
-    uint8_t *late = demand_make(r, p, loads, ZONE_MORE + ZONE_LATE), *stressed = stressed_cells(r, MERGES, true);
+    uint8_t *late = demand_make(reference, p, loads, ZONE_MORE + ZONE_LATE),
+            *stressed = stressed_cells(reference, MERGES, true);
     marks_add(l, stressed, late);
     for (int64_t I = 0; I < n; I++) {
         l->calm[I] = late[I] ? 0 : l->calm[I] < CALM_CHECKS ? l->calm[I] + 1 : CALM_CHECKS;
         if (l->calm[I] == CALM_CHECKS) limit[I] = (uint8_t)l->n;
     }
-    limit_by_room(r, limit);
+    limit_by_room(reference, limit);
     memory_free(late);
     memory_free(stressed);
 }
@@ -348,31 +358,31 @@ bool mesh_levels_may_change_before_step(const struct mesh_levels *l, int64_t ste
     return l->n > 0 && step > 0 && step % mesh_levels_time_steps_per_cycle(l) == 0;
 }
 
-uint8_t *mesh_levels_choose_level_of_each_cell(struct lagrangian_mesh *r, const struct particles *p,
+uint8_t *mesh_levels_choose_level_of_each_cell(struct lagrangian_mesh *reference, const struct particles *p,
                                                const struct loads *loads, int64_t step, real mass)
 {
-    struct mesh_levels *l = &r->levels;
+    struct mesh_levels *l = &reference->levels;
     const bool checks = step % CHECK_STEPS == 0;
     mesh_levels_copy_motion_to_ghost_nodes(l);
-    uint8_t *stressed = any_stressed(l) ? stressed_cells(r, SPLITS, false) : NULL;
-    if (!checks && !stressed && !l->any_wanted && !rings_cells(r, NULL)) return NULL;
+    uint8_t *stressed = any_stressed(l) ? stressed_cells(reference, SPLITS, false) : NULL;
+    if (!checks && !stressed && !l->any_wanted && !rings_cells(reference, NULL)) return NULL;
     const int64_t n = l->fine->grid.n;
-    uint8_t *demand = demand_make(r, p, loads, ZONE_MORE), *limit = NEW("levels.limit", n, uint8_t);
+    uint8_t *demand = demand_make(reference, p, loads, ZONE_MORE), *limit = NEW("levels.limit", n, uint8_t);
     uint8_t *level = NEW("levels.next", n, uint8_t);
     marks_add(l, stressed, demand);
-    limits_find(r, p, loads, checks, limit);
-    next_levels(r, p, mass, demand, limit, level);
+    limits_find(reference, p, loads, checks, limit);
+    next_levels(reference, p, mass, demand, limit, level);
     memory_free(demand);
     memory_free(limit);
     memory_free(stressed);
     return level;
 }
 
-void mesh_levels_change_cell_levels(struct run *e, const uint8_t *new_cell_level)
+void mesh_levels_change_cell_levels(struct run *run, const uint8_t *new_cell_level)
 {
-    struct mesh_levels *l = &e->frame->levels;
-    if (!arrays_equal(new_cell_level, l->level, l->fine->grid.n, 1)) change(e, new_cell_level);
-    lost_bonds_return(l, &e->part);
+    struct mesh_levels *l = &run->frame->levels;
+    if (!arrays_equal(new_cell_level, l->level, l->fine->grid.n, 1)) change(run, new_cell_level);
+    lost_bonds_return(l, &run->part);
     l->any_wanted = false;
 }
 
@@ -410,8 +420,8 @@ real lagrangian_mesh_kinetic_energy(const struct lagrangian_mesh *reference)
     return mesh_kinetic(&reference->mesh) + mesh_levels_kinetic_energy_of_coarse_levels(&reference->levels);
 }
 
-real lagrangian_mesh_strain_energy(struct lagrangian_mesh *r, const struct particles *p)
+real lagrangian_mesh_strain_energy(struct lagrangian_mesh *reference, const struct particles *p)
 {
-    return mesh_strain(&r->mesh, p, r->elastic, r->finite) +
-           mesh_levels_strain_energy_of_coarse_cells(&r->levels, p, r->elastic, r->finite);
+    return mesh_strain(&reference->mesh, p, reference->elastic, reference->finite) +
+           mesh_levels_strain_energy_of_coarse_cells(&reference->levels, p, reference->elastic, reference->finite);
 }

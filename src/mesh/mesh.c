@@ -215,13 +215,13 @@ static void cells_sort_out(struct mesh *mesh, const struct particles *p, const s
 
 void mesh_activate_node_blocks_at_cells(struct mesh *mesh)
 {
-    struct active_set *r = &mesh->active;
-    array_fill_bytes(r->level, 0, r->blocks, 1);
+    struct active_set *set = &mesh->active;
+    array_fill_bytes(set->level, 0, set->blocks, 1);
     for (int64_t I = 0; I < mesh->grid.n; I++)
         for (int c = 0; c < 1 << mesh->grid.dim && (mesh->kind[I] == CELL_WHOLE || mesh->kind[I] == CELL_PARTIAL); c++)
-            r->level[mesh_block_of_node(mesh, mesh_cell_corner_node(mesh, I, c))] = 1;
-    active_set_rebuild_active_block_list(r);
-    r->empty = r->blocks - r->active;
+            set->level[mesh_block_of_node(mesh, mesh_cell_corner_node(mesh, I, c))] = 1;
+    active_set_rebuild_active_block_list(set);
+    set->empty = set->blocks - set->active;
 }
 
 void mesh_find_uniform_cell_rows_and_node_spans(struct mesh *mesh)
@@ -294,13 +294,13 @@ static bool node_filled(const struct mesh *mesh, int64_t I)
     return filled;
 }
 
-/* Marks in mesh->absent the cells of the mesh whose particles were not created (h->absent). Lists all other cells in
- * mesh->filled_cell and the nodes of these in mesh->filled_node. */
-static void mesh_absent_make(struct mesh *mesh, const struct cells_without_particles *h)
+/* Marks in mesh->absent the cells of the mesh whose particles were not created (hollow->absent). Lists all other cells
+ * in mesh->filled_cell and the nodes of these in mesh->filled_node. */
+static void mesh_absent_make(struct mesh *mesh, const struct cells_without_particles *hollow)
 {
     mesh->absent = NEW("mesh.absent", mesh->grid.n, uint8_t);
-    for (int64_t I = 0; I < h->box.n; I++)
-        if (h->absent[I]) mesh->absent[grid_cell_index_in_other_grid(&h->box, I, &mesh->grid)] = 1;
+    for (int64_t I = 0; I < hollow->box.n; I++)
+        if (hollow->absent[I]) mesh->absent[grid_cell_index_in_other_grid(&hollow->box, I, &mesh->grid)] = 1;
     for (int64_t I = 0; I < mesh->grid.n; I++)
         mesh->filled_cells += !mesh->absent[I], mesh->filled_nodes += node_filled(mesh, I);
     mesh->filled_cell = NEW("mesh.filled_cell", mesh->filled_cells, int32_t);

@@ -4,19 +4,19 @@
 #include "base/memory.h"
 #include "run/part.h"
 
-static void frame_free_all(struct run *e)
+static void frame_free_all(struct run *run)
 {
-    struct lagrangian_mesh *f = e->frame;
+    struct lagrangian_mesh *f = run->frame;
     memory_free(f->elastic), memory_free(f->coarse), memory_free(f->room), memory_free(f->choice);
     mesh_levels_free(&f->levels), mesh_free(&f->mesh), cells_without_particles_free(&f->hollow), memory_free(f->ring);
     coarse_cell_points_free(&f->shown);
 }
 
-/* Writes to the summary j the number of cells of each coarsening level (0: finest) of run e, and how often the levels
+/* Writes to the summary j the number of cells of each coarsening level (0: finest) of run, and how often the levels
  * have changed. Writes nothing if no coarse cells are possible. */
-static void put_levels(const struct run *e, struct json *j)
+static void put_levels(const struct run *run, struct json *j)
 {
-    const struct mesh_levels *l = &e->frame->levels;
+    const struct mesh_levels *l = &run->frame->levels;
     if (l->n == 0) return;
     json_begin_object_or_list(j, "levels", '{');
     json_begin_object_or_list(j, "cells", '[');
@@ -26,12 +26,12 @@ static void put_levels(const struct run *e, struct json *j)
     json_end_object_or_list(j, '}');
 }
 
-static status frame_state(struct run *e, struct archive *a)
+static status frame_state(struct run *run, struct archive *a)
 {
-    struct lagrangian_mesh *f = e->frame;
+    struct lagrangian_mesh *f = run->frame;
     if (a->scope == ARCHIVE_REBUILD) return OK;
     TRY(mesh_save_or_load_node_motion(&f->mesh, a));
-    TRY(mesh_levels_save_or_load(&f->levels, &e->part, &f->source, a));
+    TRY(mesh_levels_save_or_load(&f->levels, &run->part, &f->source, a));
     return active_set_save_or_load(&f->mesh.active, "mesh", a);
 }
 

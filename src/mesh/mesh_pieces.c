@@ -48,14 +48,14 @@ static void join(int32_t *above, int32_t I, int32_t J)
 }
 
 /* Joins the nodes of each cell whose particles were not created into one set, as if the particles were there. above: 1
- * + parent of each node of `box` in its set (union-find), 0 for a node without particles; h: the cells, NULL if all
- * particles were created. */
-static void hollow_join(int32_t *above, const struct mesh *box, const struct cells_without_particles *h)
+ * + parent of each node of `box` in its set (union-find), 0 for a node without particles; hollow: the cells, NULL if
+ * all particles were created. */
+static void hollow_join(int32_t *above, const struct mesh *box, const struct cells_without_particles *hollow)
 {
-    for (int64_t I = 0; h && h->absent && I < h->box.n; I++) {
-        if (!h->absent[I]) continue;
-        const int64_t cell = grid_cell_index_in_other_grid(&h->box, I, &box->grid);
-        for (int c = 0; c < 1 << h->box.dim; c++) join(above, (int32_t)cell, (int32_t)cell + box->corner[c]);
+    for (int64_t I = 0; hollow && hollow->absent && I < hollow->box.n; I++) {
+        if (!hollow->absent[I]) continue;
+        const int64_t cell = grid_cell_index_in_other_grid(&hollow->box, I, &box->grid);
+        for (int c = 0; c < 1 << hollow->box.dim; c++) join(above, (int32_t)cell, (int32_t)cell + box->corner[c]);
     }
 }
 

@@ -37,32 +37,32 @@ static void entry_path(char *path, size_t capacity, const char *name)
  * fault is recorded in the struct hdf of the file, so that the function that opened the file reports it. */
 static status entry_save(struct archive *a, const char *name, void *data, size_t size)
 {
-    struct hdf *f = a->file;
+    struct hdf *hdf = a->file;
     char path[PATH_NAME_ROOM];
     entry_path(path, sizeof path, name);
-    hdf_write_rows(f, path, HDF_U8, (int64_t)size, 1, data);
-    return f->failed ? FAILED : OK;
+    hdf_write_rows(hdf, path, HDF_U8, (int64_t)size, 1, data);
+    return hdf->failed ? FAILED : OK;
 }
 
 /* Reads one entry of the archive a, `size` bytes under `name`, into `data`. Returns FAILED if the entry is missing, of
  * another size or unreadable, with a message. */
 static status entry_restore(struct archive *a, const char *name, void *data, size_t size)
 {
-    struct hdf *f = a->file;
+    struct hdf *hdf = a->file;
     char path[PATH_NAME_ROOM];
     entry_path(path, sizeof path, name);
-    int64_t stored = hdf_dataset_element_count(f, path);
+    int64_t stored = hdf_dataset_element_count(hdf, path);
     if (stored != (int64_t)size)
         return status_set(FAILED,
                           "cannot resume: entry %s of the checkpoint has %lld bytes, but this program needs %zu; "
                           "restore the file from a copy, or start again with --overwrite",
                           name, (long long)stored, size);
-    hdf_read_rows(f, path, HDF_U8, stored, data);
-    return f->failed ? status_set(FAILED,
-                                  "cannot resume: entry %s of the checkpoint cannot be read; restore the file from a "
-                                  "copy, or start again with --overwrite",
-                                  name)
-                     : OK;
+    hdf_read_rows(hdf, path, HDF_U8, stored, data);
+    return hdf->failed ? status_set(FAILED,
+                                    "cannot resume: entry %s of the checkpoint cannot be read; restore the file from a "
+                                    "copy, or start again with --overwrite",
+                                    name)
+                       : OK;
 }
 
 static int64_t checkpoint_entry_size(struct archive *a, const char *name)
@@ -72,12 +72,12 @@ static int64_t checkpoint_entry_size(struct archive *a, const char *name)
     return hdf_dataset_element_count(a->file, path);
 }
 
-static struct archive archive_of(struct hdf *f, bool saving)
+static struct archive archive_of(struct hdf *hdf, bool saving)
 {
     return (struct archive){.saving = saving,
                             .exchange = saving ? entry_save : entry_restore,
                             .stored_size = checkpoint_entry_size,
-                            .file = f};
+                            .file = hdf};
 }
 
 /* ---- writing ----------------------------------------------------------------------------------------------------- */
@@ -138,14 +138,14 @@ status checkpoint_write(struct output *o, const char *scene_text, run_state_save
 /* ---- reading ----------------------------------------------------------------------------------------------------- */
 
 /* Returns true if the open checkpoint f belongs to the scene with the text scene_text. */
-static bool same_scene(struct hdf *f, const char *scene_text)
+static bool same_scene(struct hdf *hdf, const char *scene_text)
 {
-    int64_t length = hdf_dataset_element_count(f, "/Cleave/scene");
+    int64_t length = hdf_dataset_element_count(hdf, "/Cleave/scene");
     if (length < 0 || length > SCENE_LONGEST) return false;
     char *stored = NEW("checkpoint.scene", length + 1, char);
-    hdf_read_rows(f, "/Cleave/scene", HDF_U8, length, stored);
+    hdf_read_rows(hdf, "/Cleave/scene", HDF_U8, length, stored);
     const bool same =
-        !f->failed && strlen(stored) == (size_t)length && scene_texts_describe_same_scene(stored, scene_text);
+        !hdf->failed && strlen(stored) == (size_t)length && scene_texts_describe_same_scene(stored, scene_text);
     memory_free(stored);
     return same;
 }

@@ -210,22 +210,22 @@ void output_discard_stored_particle_order_by_id(struct output *o)
 
 /* Writes the groups and attributes of the output frame of `job` to the file f, and its time, which VTK shows beside
  * the particles. */
-static void write_marks(struct hdf *f, const struct frame_job *job)
+static void write_marks(struct hdf *hdf, const struct frame_job *job)
 {
     static const int32_t vtk_version[2] = {1, 0}, version = FRAME_VERSION;
     int32_t dimension = job->dim;
-    hdf_create_group(f, "/VTKHDF");
-    hdf_write_attribute(f, "/VTKHDF", "Version", HDF_I32, 2, vtk_version);
-    hdf_write_text_attribute(f, "/VTKHDF", "Type", "UnstructuredGrid");
-    hdf_create_group(f, "/VTKHDF/PointData");
-    hdf_create_group(f, "/VTKHDF/FieldData");
-    hdf_write_rows(f, "/VTKHDF/FieldData/TimeValue", HDF_F64, 1, 1, &job->t);
-    hdf_create_group(f, "/Cleave");
-    hdf_write_scalar_attribute(f, "/Cleave", "version", HDF_I32, &version);
-    hdf_write_scalar_attribute(f, "/Cleave", "dim", HDF_I32, &dimension);
-    hdf_write_scalar_attribute(f, "/Cleave", "time", HDF_F64, &job->t);
-    hdf_write_scalar_attribute(f, "/Cleave", "step", HDF_I64, &job->step);
-    if (job->untouched) hdf_write_text_attribute(f, "/Cleave", "zero", "contact_force");
+    hdf_create_group(hdf, "/VTKHDF");
+    hdf_write_attribute(hdf, "/VTKHDF", "Version", HDF_I32, 2, vtk_version);
+    hdf_write_text_attribute(hdf, "/VTKHDF", "Type", "UnstructuredGrid");
+    hdf_create_group(hdf, "/VTKHDF/PointData");
+    hdf_create_group(hdf, "/VTKHDF/FieldData");
+    hdf_write_rows(hdf, "/VTKHDF/FieldData/TimeValue", HDF_F64, 1, 1, &job->t);
+    hdf_create_group(hdf, "/Cleave");
+    hdf_write_scalar_attribute(hdf, "/Cleave", "version", HDF_I32, &version);
+    hdf_write_scalar_attribute(hdf, "/Cleave", "dim", HDF_I32, &dimension);
+    hdf_write_scalar_attribute(hdf, "/Cleave", "time", HDF_F64, &job->t);
+    hdf_write_scalar_attribute(hdf, "/Cleave", "step", HDF_I64, &job->step);
+    if (job->untouched) hdf_write_text_attribute(hdf, "/Cleave", "zero", "contact_force");
 }
 
 /* Writes the output frame of a job (the description of a frame to be written) under its temporary name PATH.cleave.tmp,

@@ -60,99 +60,99 @@ static hid_t hdf_native(enum hdf_type type)
 
 /* Records in f whether an HDF5 call failed, with errno. result: value that the call returned, negative on a fault.
  * Returns true if the call succeeded. */
-static bool good(struct hdf *f, int64_t result)
+static bool good(struct hdf *hdf, int64_t result)
 {
     if (result >= 0) return true;
-    f->failed = true;
-    f->cause = errno;
+    hdf->failed = true;
+    hdf->cause = errno;
     return false;
 }
 
 /* Returns true if no operation on the file f has failed so far. Clears errno for the next call. */
-static bool ready(const struct hdf *f)
+static bool ready(const struct hdf *hdf)
 {
     errno = 0;
-    return !f->failed;
+    return !hdf->failed;
 }
 
 /* Returns the access properties for an HDF5 file: objects that are still open are closed with it, and no file locks are
  * used, which some network file systems do not have. Release the list with H5Pclose. On a fault, records it in f and
  * returns a negative number. */
-static hid_t access_list(struct hdf *f)
+static hid_t access_list(struct hdf *hdf)
 {
     hid_t list = -1;
     hdf_disable_exit_handler_and_messages();
-    if (good(f, list = H5Pcreate(H5P_FILE_ACCESS))) good(f, H5Pset_fclose_degree(list, H5F_CLOSE_STRONG));
+    if (good(hdf, list = H5Pcreate(H5P_FILE_ACCESS))) good(hdf, H5Pset_fclose_degree(list, H5F_CLOSE_STRONG));
 #if H5_VERSION_GE(1, 10, 7)
-    if (!f->failed) good(f, H5Pset_file_locking(list, false, true));
+    if (!hdf->failed) good(hdf, H5Pset_file_locking(list, false, true));
 #endif
     return list;
 }
 
-void hdf_create(struct hdf *f, const char *path, bool compress)
+void hdf_create(struct hdf *hdf, const char *path, bool compress)
 {
     hid_t create = -1;
-    *f = (struct hdf){.file = -1, .compress = compress};
+    *hdf = (struct hdf){.file = -1, .compress = compress};
     errno = 0;
-    hid_t access = access_list(f);
-    if (f->failed) return;
+    hid_t access = access_list(hdf);
+    if (hdf->failed) return;
     unlink(path); /* left by a killed run; a link of this name is not followed */
-    (void)(good(f, create = H5Pcreate(H5P_FILE_CREATE)) && good(f, H5Pset_obj_track_times(create, false)) &&
-           good(f, H5Pset_istore_k(create, INDEX_HALF)) &&
-           good(f, f->file = H5Fcreate(path, H5F_ACC_EXCL, create, access)) && good(f, H5Pclose(create)) &&
-           good(f, H5Pclose(access)));
+    (void)(good(hdf, create = H5Pcreate(H5P_FILE_CREATE)) && good(hdf, H5Pset_obj_track_times(create, false)) &&
+           good(hdf, H5Pset_istore_k(create, INDEX_HALF)) &&
+           good(hdf, hdf->file = H5Fcreate(path, H5F_ACC_EXCL, create, access)) && good(hdf, H5Pclose(create)) &&
+           good(hdf, H5Pclose(access)));
 }
 
-void hdf_open_for_reading(struct hdf *f, const char *path)
+void hdf_open_for_reading(struct hdf *hdf, const char *path)
 {
-    *f = (struct hdf){.file = -1};
+    *hdf = (struct hdf){.file = -1};
     errno = 0;
-    hid_t access = access_list(f);
-    if (f->failed) return;
-    (void)(good(f, f->file = H5Fopen(path, H5F_ACC_RDONLY, access)) && good(f, H5Pclose(access)));
+    hid_t access = access_list(hdf);
+    if (hdf->failed) return;
+    (void)(good(hdf, hdf->file = H5Fopen(path, H5F_ACC_RDONLY, access)) && good(hdf, H5Pclose(access)));
 }
 
-void hdf_close(struct hdf *f)
+void hdf_close(struct hdf *hdf)
 {
-    if (f->file < 0) return;
+    if (hdf->file < 0) return;
     errno = 0;
-    if (H5Fclose(f->file) < 0 && !f->failed) {
-        f->failed = true;
-        f->cause = errno;
+    if (H5Fclose(hdf->file) < 0 && !hdf->failed) {
+        hdf->failed = true;
+        hdf->cause = errno;
     }
-    f->file = -1;
+    hdf->file = -1;
 }
 
-status hdf_close_or_remove_if_write_failed(struct hdf *f, const char *path, bool *write_failed)
+status hdf_close_or_remove_if_write_failed(struct hdf *hdf, const char *path, bool *write_failed)
 {
-    if (!f->failed) hdf_close(f);
-    if (!f->failed) return OK;
+    if (!hdf->failed) hdf_close(hdf);
+    if (!hdf->failed) return OK;
     *write_failed = true;
     file_discard_temporary(path);
-    return file_report_write_failure(path, f->cause);
+    return file_report_write_failure(path, hdf->cause);
 }
 
-void hdf_create_group(struct hdf *f, const char *name)
+void hdf_create_group(struct hdf *hdf, const char *name)
 {
     hid_t list = -1, group = -1;
-    if (!ready(f)) return;
-    (void)(good(f, list = H5Pcreate(H5P_GROUP_CREATE)) && good(f, H5Pset_obj_track_times(list, false)) &&
-           good(f, group = H5Gcreate2(f->file, name, H5P_DEFAULT, list, H5P_DEFAULT)) && good(f, H5Gclose(group)) &&
-           good(f, H5Pclose(list)));
+    if (!ready(hdf)) return;
+    (void)(good(hdf, list = H5Pcreate(H5P_GROUP_CREATE)) && good(hdf, H5Pset_obj_track_times(list, false)) &&
+           good(hdf, group = H5Gcreate2(hdf->file, name, H5P_DEFAULT, list, H5P_DEFAULT)) &&
+           good(hdf, H5Gclose(group)) && good(hdf, H5Pclose(list)));
 }
 
-void hdf_write_rows(struct hdf *f, const char *name, enum hdf_type type, int64_t rows, int columns, const void *data)
+void hdf_write_rows(struct hdf *hdf, const char *name, enum hdf_type type, int64_t rows, int columns, const void *data)
 {
     hsize_t shape[2] = {(hsize_t)rows, (hsize_t)columns};
     int rank = columns > 1 ? 2 : 1;
     hid_t space = -1, list = -1, set = -1, native;
-    if (!ready(f)) return;
+    if (!ready(hdf)) return;
     native = hdf_native(type);
-    (void)(good(f, space = H5Screate_simple(rank, shape, NULL)) && good(f, list = H5Pcreate(H5P_DATASET_CREATE)) &&
-           good(f, H5Pset_obj_track_times(list, false)) &&
-           good(f, set = H5Dcreate2(f->file, name, native, space, H5P_DEFAULT, list, H5P_DEFAULT)) &&
-           (rows == 0 || good(f, H5Dwrite(set, native, H5S_ALL, H5S_ALL, H5P_DEFAULT, data))) &&
-           good(f, H5Dclose(set)) && good(f, H5Pclose(list)) && good(f, H5Sclose(space)));
+    (void)(good(hdf, space = H5Screate_simple(rank, shape, NULL)) && good(hdf, list = H5Pcreate(H5P_DATASET_CREATE)) &&
+           good(hdf, H5Pset_obj_track_times(list, false)) &&
+           good(hdf, set = H5Dcreate2(hdf->file, name, native, space, H5P_DEFAULT, list, H5P_DEFAULT)) &&
+           (rows == 0 || good(hdf, H5Dwrite(set, native, H5S_ALL, H5S_ALL, H5P_DEFAULT, data))) &&
+           good(hdf, H5Dclose(set)) && good(hdf, H5Pclose(list)) && good(hdf, H5Sclose(space)));
 }
 
 /* ---- tables ------------------------------------------------------------------------------------------------------ */
@@ -181,82 +181,82 @@ static bool table_is_fill(const struct table *t, int64_t first, int64_t end)
 
 /* Writes the rows first .. end - 1 of table t, one chunk, to the file f. Returns false on a fault, which is recorded in
  * f. */
-static bool table_write_chunk(struct hdf *f, const struct table *t, int64_t first, int64_t end)
+static bool table_write_chunk(struct hdf *hdf, const struct table *t, int64_t first, int64_t end)
 {
     const hsize_t at[2] = {(hsize_t)first, 0}, shape[2] = {(hsize_t)(end - first), t->stored};
     const char *rows = t->data + (size_t)first * t->row;
     hid_t from = -1;
 #if H5_VERSION_GE(1, 10, 3)
     /* whole chunks go to the file as they are, without a copy in the cache of chunks */
-    if (!f->compress && end - first == t->chunk)
-        return good(f, H5Dwrite_chunk(t->set, H5P_DEFAULT, 0, at, (size_t)t->chunk * t->row, rows));
+    if (!hdf->compress && end - first == t->chunk)
+        return good(hdf, H5Dwrite_chunk(t->set, H5P_DEFAULT, 0, at, (size_t)t->chunk * t->row, rows));
 #endif
-    return good(f, from = H5Screate_simple(t->rank, shape, NULL)) &&
-           good(f, H5Sselect_hyperslab(t->space, H5S_SELECT_SET, at, NULL, shape, NULL)) &&
-           good(f, H5Dwrite(t->set, t->native, from, t->space, H5P_DEFAULT, rows)) && good(f, H5Sclose(from));
+    return good(hdf, from = H5Screate_simple(t->rank, shape, NULL)) &&
+           good(hdf, H5Sselect_hyperslab(t->space, H5S_SELECT_SET, at, NULL, shape, NULL)) &&
+           good(hdf, H5Dwrite(t->set, t->native, from, t->space, H5P_DEFAULT, rows)) && good(hdf, H5Sclose(from));
 }
 
 /* Writes to the file f all chunks of table t in which a number differs from the fill value; HDF5 reads the others as
  * fill value. Returns false on a fault, which is recorded in f. */
-static bool table_write_chunks(struct hdf *f, const struct table *t)
+static bool table_write_chunks(struct hdf *hdf, const struct table *t)
 {
     for (int64_t first = 0; first < t->rows; first += t->chunk) {
         const int64_t end = first + t->chunk < t->rows ? first + t->chunk : t->rows;
-        if (!table_is_fill(t, first, end) && !table_write_chunk(f, t, first, end)) return false;
+        if (!table_is_fill(t, first, end) && !table_write_chunk(hdf, t, first, end)) return false;
     }
     return true;
 }
 
-/* Returns the creation properties of table t for the file f: fill value, chunks of t->chunk rows, compressed if
- * f->compress. Returns -1 on a fault. Release the list with H5Pclose. */
-static hid_t table_list(struct hdf *f, const struct table *t)
+/* Returns the creation properties of table t for the file hdf: fill value, chunks of t->chunk rows, compressed if
+ * hdf->compress. Returns -1 on a fault. Release the list with H5Pclose. */
+static hid_t table_list(struct hdf *hdf, const struct table *t)
 {
     const hsize_t chunk[2] = {(hsize_t)t->chunk, t->stored};
     hid_t list = -1;
-    if (!good(f, list = H5Pcreate(H5P_DATASET_CREATE)) || !good(f, H5Pset_obj_track_times(list, false)) ||
-        !good(f, H5Pset_fill_value(list, t->native, &t->fill)) || !good(f, H5Pset_chunk(list, t->rank, chunk)))
+    if (!good(hdf, list = H5Pcreate(H5P_DATASET_CREATE)) || !good(hdf, H5Pset_obj_track_times(list, false)) ||
+        !good(hdf, H5Pset_fill_value(list, t->native, &t->fill)) || !good(hdf, H5Pset_chunk(list, t->rank, chunk)))
         return -1;
-    if (!f->compress) return list;
-    return good(f, H5Pset_shuffle(list)) && good(f, H5Pset_deflate(list, GZIP_LEVEL)) ? list : -1;
+    if (!hdf->compress) return list;
+    return good(hdf, H5Pset_shuffle(list)) && good(hdf, H5Pset_deflate(list, GZIP_LEVEL)) ? list : -1;
 }
 
-void hdf_write_rows_zero_padded(struct hdf *f, const char *name, enum hdf_type type, int64_t rows, int columns,
+void hdf_write_rows_zero_padded(struct hdf *hdf, const char *name, enum hdf_type type, int64_t rows, int columns,
                                 int stored_columns, const void *data)
 {
     const hsize_t shape[2] = {(hsize_t)rows, (hsize_t)columns};
     const int64_t chunks = (rows + CHUNK_ROWS - 1) / CHUNK_ROWS;
     struct table t = {.rank = columns > 1 ? 2 : 1, .rows = rows, .stored = (hsize_t)stored_columns, .data = data};
     hid_t list = -1;
-    if (rows == 0) hdf_write_rows(f, name, type, rows, columns, data);
-    if (!ready(f) || rows == 0) return;
+    if (rows == 0) hdf_write_rows(hdf, name, type, rows, columns, data);
+    if (!ready(hdf) || rows == 0) return;
     t.chunk = (rows + chunks - 1) / chunks;
     t.native = hdf_native(type), t.number = hdf_type_size(type), t.row = (size_t)stored_columns * t.number;
     if (columns == 1) array_copy(&t.fill, data, 1, t.number);
-    (void)(good(f, t.space = H5Screate_simple(t.rank, shape, NULL)) && good(f, list = table_list(f, &t)) &&
-           good(f, t.set = H5Dcreate2(f->file, name, t.native, t.space, H5P_DEFAULT, list, H5P_DEFAULT)) &&
-           table_write_chunks(f, &t) && good(f, H5Dclose(t.set)) && good(f, H5Pclose(list)) &&
-           good(f, H5Sclose(t.space)));
+    (void)(good(hdf, t.space = H5Screate_simple(t.rank, shape, NULL)) && good(hdf, list = table_list(hdf, &t)) &&
+           good(hdf, t.set = H5Dcreate2(hdf->file, name, t.native, t.space, H5P_DEFAULT, list, H5P_DEFAULT)) &&
+           table_write_chunks(hdf, &t) && good(hdf, H5Dclose(t.set)) && good(hdf, H5Pclose(list)) &&
+           good(hdf, H5Sclose(t.space)));
 }
 
 /* ---- links ------------------------------------------------------------------------------------------------------- */
 
 /* Creates in f the external link `name` to the dataset of the same path in the file target_file, a path relative to the
- * folder of f. A failure is stored in f->failed. */
-void hdf_create_external_link(struct hdf *f, const char *name, const char *target_file)
+ * folder of f. A failure is stored in hdf->failed. */
+void hdf_create_external_link(struct hdf *hdf, const char *name, const char *target_file)
 {
-    if (ready(f)) good(f, H5Lcreate_external(target_file, name, f->file, name, H5P_DEFAULT, H5P_DEFAULT));
+    if (ready(hdf)) good(hdf, H5Lcreate_external(target_file, name, hdf->file, name, H5P_DEFAULT, H5P_DEFAULT));
 }
 
-bool hdf_read_external_link_target(struct hdf *f, const char *name, char *target_file, size_t capacity)
+bool hdf_read_external_link_target(struct hdf *hdf, const char *name, char *target_file, size_t capacity)
 {
     H5L_info_t link;
     char value[1024];
     const char *target = NULL;
     target_file[0] = '\0';
-    if (!ready(f) || !good(f, H5Lget_info(f->file, name, &link, H5P_DEFAULT)) || link.type != H5L_TYPE_EXTERNAL)
+    if (!ready(hdf) || !good(hdf, H5Lget_info(hdf->file, name, &link, H5P_DEFAULT)) || link.type != H5L_TYPE_EXTERNAL)
         return false;
-    if (link.u.val_size <= sizeof value && good(f, H5Lget_val(f->file, name, value, sizeof value, H5P_DEFAULT)) &&
-        good(f, H5Lunpack_elink_val(value, link.u.val_size, NULL, &target, NULL)))
+    if (link.u.val_size <= sizeof value && good(hdf, H5Lget_val(hdf->file, name, value, sizeof value, H5P_DEFAULT)) &&
+        good(hdf, H5Lunpack_elink_val(value, link.u.val_size, NULL, &target, NULL)))
         snprintf(target_file, capacity, "%s", target);
     return true;
 }
@@ -266,153 +266,155 @@ bool hdf_read_external_link_target(struct hdf *f, const char *name, char *target
 /* Maps the rows of one source file to the rows of a virtual dataset of f from at[0] on. list: creation properties of
  * the dataset; space: its data space; name: path of the dataset in the source; at[rank]: first row and column in the
  * virtual dataset; shape[rank]: rows and columns of the source. Returns false on a fault. */
-static bool source_map(struct hdf *f, hid_t list, hid_t space, const char *name, const hsize_t *at,
+static bool source_map(struct hdf *hdf, hid_t list, hid_t space, const char *name, const hsize_t *at,
                        const struct hdf_source *source, const hsize_t *shape, int rank)
 {
     hid_t from = -1;
-    return good(f, from = H5Screate_simple(rank, shape, NULL)) &&
-           good(f, H5Sselect_hyperslab(space, H5S_SELECT_SET, at, NULL, shape, NULL)) &&
-           good(f, H5Pset_virtual(list, space, source->file, name, from)) && good(f, H5Sclose(from));
+    return good(hdf, from = H5Screate_simple(rank, shape, NULL)) &&
+           good(hdf, H5Sselect_hyperslab(space, H5S_SELECT_SET, at, NULL, shape, NULL)) &&
+           good(hdf, H5Pset_virtual(list, space, source->file, name, from)) && good(hdf, H5Sclose(from));
 }
 
-void hdf_write_virtual_dataset(struct hdf *f, const char *name, enum hdf_type type, int columns,
+void hdf_write_virtual_dataset(struct hdf *hdf, const char *name, enum hdf_type type, int columns,
                                const struct hdf_source *source_files, int source_count, int extra_rows)
 {
     hsize_t all[2] = {0, (hsize_t)columns}, at[2] = {0, 0};
     const int rank = columns > 1 ? 2 : 1;
     hid_t space = -1, list = -1, set = -1;
-    if (!ready(f)) return;
+    if (!ready(hdf)) return;
     for (int k = 0; k < source_count; k++) all[0] += (hsize_t)(source_files[k].rows + extra_rows);
-    if (!good(f, space = H5Screate_simple(rank, all, NULL)) || !good(f, list = H5Pcreate(H5P_DATASET_CREATE)) ||
-        !good(f, H5Pset_obj_track_times(list, false)))
+    if (!good(hdf, space = H5Screate_simple(rank, all, NULL)) || !good(hdf, list = H5Pcreate(H5P_DATASET_CREATE)) ||
+        !good(hdf, H5Pset_obj_track_times(list, false)))
         return;
     for (int k = 0; k < source_count; k++) {
         const hsize_t shape[2] = {(hsize_t)(source_files[k].rows + extra_rows), (hsize_t)columns};
         if (source_files[k].file && shape[0] > 0 &&
-            !source_map(f, list, space, name, at, &source_files[k], shape, rank))
+            !source_map(hdf, list, space, name, at, &source_files[k], shape, rank))
             return;
         at[0] += shape[0];
     }
-    (void)(good(f, H5Sselect_all(space)) &&
-           good(f, set = H5Dcreate2(f->file, name, hdf_native(type), space, H5P_DEFAULT, list, H5P_DEFAULT)) &&
-           good(f, H5Dclose(set)) && good(f, H5Pclose(list)) && good(f, H5Sclose(space)));
+    (void)(good(hdf, H5Sselect_all(space)) &&
+           good(hdf, set = H5Dcreate2(hdf->file, name, hdf_native(type), space, H5P_DEFAULT, list, H5P_DEFAULT)) &&
+           good(hdf, H5Dclose(set)) && good(hdf, H5Pclose(list)) && good(hdf, H5Sclose(space)));
 }
 
 /* Returns an HDF5 type of fixed length for the text `text`, or -1 on a fault, which is recorded in f. VTK 9.1 cannot
  * read texts of variable length. Release it with H5Tclose. */
-static hid_t text_type(struct hdf *f, const char *text)
+static hid_t text_type(struct hdf *hdf, const char *text)
 {
     hid_t type = -1;
     size_t length = strlen(text);
-    if (good(f, type = H5Tcopy(H5T_C_S1))) good(f, H5Tset_size(type, length > 0 ? length : 1));
-    if (!f->failed) good(f, H5Tset_strpad(type, H5T_STR_NULLPAD));
-    return f->failed ? -1 : type;
+    if (good(hdf, type = H5Tcopy(H5T_C_S1))) good(hdf, H5Tset_size(type, length > 0 ? length : 1));
+    if (!hdf->failed) good(hdf, H5Tset_strpad(type, H5T_STR_NULLPAD));
+    return hdf->failed ? -1 : type;
 }
 
-void hdf_write_text(struct hdf *f, const char *name, const char *text)
+void hdf_write_text(struct hdf *hdf, const char *name, const char *text)
 {
     hid_t type = -1, space = -1, list = -1, set = -1;
-    if (!ready(f)) return;
-    (void)(good(f, type = text_type(f, text)) && good(f, space = H5Screate(H5S_SCALAR)) &&
-           good(f, list = H5Pcreate(H5P_DATASET_CREATE)) && good(f, H5Pset_obj_track_times(list, false)) &&
-           good(f, set = H5Dcreate2(f->file, name, type, space, H5P_DEFAULT, list, H5P_DEFAULT)) &&
-           good(f, H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text)) && good(f, H5Dclose(set)) &&
-           good(f, H5Pclose(list)) && good(f, H5Sclose(space)) && good(f, H5Tclose(type)));
+    if (!ready(hdf)) return;
+    (void)(good(hdf, type = text_type(hdf, text)) && good(hdf, space = H5Screate(H5S_SCALAR)) &&
+           good(hdf, list = H5Pcreate(H5P_DATASET_CREATE)) && good(hdf, H5Pset_obj_track_times(list, false)) &&
+           good(hdf, set = H5Dcreate2(hdf->file, name, type, space, H5P_DEFAULT, list, H5P_DEFAULT)) &&
+           good(hdf, H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text)) && good(hdf, H5Dclose(set)) &&
+           good(hdf, H5Pclose(list)) && good(hdf, H5Sclose(space)) && good(hdf, H5Tclose(type)));
 }
 
-void hdf_write_text_list(struct hdf *f, const char *name, const char *text)
+void hdf_write_text_list(struct hdf *hdf, const char *name, const char *text)
 {
     const hsize_t one = 1;
     hid_t type = -1, space = -1, list = -1, transfer = -1, set = -1;
-    char *plain = f->failed ? NULL : strdup(text);
-    if (!ready(f)) return;
+    char *plain = hdf->failed ? NULL : strdup(text);
+    if (!ready(hdf)) return;
     for (char *c = plain; c && *c; c++)
         if ((unsigned char)*c > 126) *c = '?';
-    (void)(good(f, plain ? 0 : -1) && good(f, type = H5Tcopy(H5T_C_S1)) && good(f, H5Tset_size(type, H5T_VARIABLE)) &&
-           good(f, space = H5Screate_simple(1, &one, NULL)) && good(f, list = H5Pcreate(H5P_DATASET_CREATE)) &&
-           good(f, H5Pset_obj_track_times(list, false)) && good(f, transfer = H5Pcreate(H5P_DATASET_XFER)) &&
-           good(f, H5Pset_buffer(transfer, TEXT_BUFFER, NULL, NULL)) &&
-           good(f, set = H5Dcreate2(f->file, name, type, space, H5P_DEFAULT, list, H5P_DEFAULT)) &&
-           good(f, H5Dwrite(set, type, H5S_ALL, H5S_ALL, transfer, &plain)) && good(f, H5Dclose(set)) &&
-           good(f, H5Pclose(transfer)) && good(f, H5Pclose(list)) && good(f, H5Sclose(space)) &&
-           good(f, H5Tclose(type)));
+    (void)(good(hdf, plain ? 0 : -1) && good(hdf, type = H5Tcopy(H5T_C_S1)) &&
+           good(hdf, H5Tset_size(type, H5T_VARIABLE)) && good(hdf, space = H5Screate_simple(1, &one, NULL)) &&
+           good(hdf, list = H5Pcreate(H5P_DATASET_CREATE)) && good(hdf, H5Pset_obj_track_times(list, false)) &&
+           good(hdf, transfer = H5Pcreate(H5P_DATASET_XFER)) &&
+           good(hdf, H5Pset_buffer(transfer, TEXT_BUFFER, NULL, NULL)) &&
+           good(hdf, set = H5Dcreate2(hdf->file, name, type, space, H5P_DEFAULT, list, H5P_DEFAULT)) &&
+           good(hdf, H5Dwrite(set, type, H5S_ALL, H5S_ALL, transfer, &plain)) && good(hdf, H5Dclose(set)) &&
+           good(hdf, H5Pclose(transfer)) && good(hdf, H5Pclose(list)) && good(hdf, H5Sclose(space)) &&
+           good(hdf, H5Tclose(type)));
     free(plain);
 }
 
 /* Writes the attribute `name` of the group `group` in the file f, with one value *value of the HDF5 type `type`, and
  * closes the data space `space`. A fault is recorded in f. */
-static void output_hdf5_mark(struct hdf *f, const char *group, const char *name, hid_t type, hid_t space,
+static void output_hdf5_mark(struct hdf *hdf, const char *group, const char *name, hid_t type, hid_t space,
                              const void *value)
 {
     hid_t at = -1;
-    (void)(good(f, type) && good(f, space) &&
-           good(f, at = H5Acreate_by_name(f->file, group, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT)) &&
-           good(f, H5Awrite(at, type, value)) && good(f, H5Aclose(at)) && good(f, H5Sclose(space)));
+    (void)(good(hdf, type) && good(hdf, space) &&
+           good(hdf,
+                at = H5Acreate_by_name(hdf->file, group, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT)) &&
+           good(hdf, H5Awrite(at, type, value)) && good(hdf, H5Aclose(at)) && good(hdf, H5Sclose(space)));
 }
 
-void hdf_write_attribute(struct hdf *f, const char *group, const char *name, enum hdf_type type, int count,
+void hdf_write_attribute(struct hdf *hdf, const char *group, const char *name, enum hdf_type type, int count,
                          const void *values)
 {
     hsize_t shape = (hsize_t)count;
-    if (ready(f)) output_hdf5_mark(f, group, name, hdf_native(type), H5Screate_simple(1, &shape, NULL), values);
+    if (ready(hdf)) output_hdf5_mark(hdf, group, name, hdf_native(type), H5Screate_simple(1, &shape, NULL), values);
 }
 
-void hdf_write_scalar_attribute(struct hdf *f, const char *group, const char *name, enum hdf_type type,
+void hdf_write_scalar_attribute(struct hdf *hdf, const char *group, const char *name, enum hdf_type type,
                                 const void *value)
 {
-    if (ready(f)) output_hdf5_mark(f, group, name, hdf_native(type), H5Screate(H5S_SCALAR), value);
+    if (ready(hdf)) output_hdf5_mark(hdf, group, name, hdf_native(type), H5Screate(H5S_SCALAR), value);
 }
 
-void hdf_write_text_attribute(struct hdf *f, const char *group, const char *name, const char *text)
+void hdf_write_text_attribute(struct hdf *hdf, const char *group, const char *name, const char *text)
 {
-    if (!ready(f)) return;
-    hid_t type = text_type(f, text);
-    if (f->failed) return;
-    output_hdf5_mark(f, group, name, type, H5Screate(H5S_SCALAR), text);
-    if (!f->failed) good(f, H5Tclose(type));
+    if (!ready(hdf)) return;
+    hid_t type = text_type(hdf, text);
+    if (hdf->failed) return;
+    output_hdf5_mark(hdf, group, name, type, H5Screate(H5S_SCALAR), text);
+    if (!hdf->failed) good(hdf, H5Tclose(type));
 }
 
-int64_t hdf_dataset_element_count(struct hdf *f, const char *name)
+int64_t hdf_dataset_element_count(struct hdf *hdf, const char *name)
 {
     hid_t set = -1, space = -1;
-    if (!ready(f)) return -1;
-    const htri_t there = H5Lexists(f->file, name, H5P_DEFAULT);
-    if (!good(f, there) || there == 0 || !good(f, set = H5Dopen2(f->file, name, H5P_DEFAULT))) return -1;
-    const int64_t count = good(f, space = H5Dget_space(set)) ? H5Sget_simple_extent_npoints(space) : -1;
+    if (!ready(hdf)) return -1;
+    const htri_t there = H5Lexists(hdf->file, name, H5P_DEFAULT);
+    if (!good(hdf, there) || there == 0 || !good(hdf, set = H5Dopen2(hdf->file, name, H5P_DEFAULT))) return -1;
+    const int64_t count = good(hdf, space = H5Dget_space(set)) ? H5Sget_simple_extent_npoints(space) : -1;
     if (space >= 0) H5Sclose(space);
     H5Dclose(set);
     return count;
 }
 
-void hdf_read_rows(struct hdf *f, const char *name, enum hdf_type type, int64_t count, void *data)
+void hdf_read_rows(struct hdf *hdf, const char *name, enum hdf_type type, int64_t count, void *data)
 {
     hid_t set = -1;
-    if (!ready(f)) return;
-    if (hdf_dataset_element_count(f, name) != count) {
-        f->failed = true;
+    if (!ready(hdf)) return;
+    if (hdf_dataset_element_count(hdf, name) != count) {
+        hdf->failed = true;
         return;
     }
     if (count == 0) return;
-    (void)(good(f, set = H5Dopen2(f->file, name, H5P_DEFAULT)) &&
-           good(f, H5Dread(set, hdf_native(type), H5S_ALL, H5S_ALL, H5P_DEFAULT, data)) && good(f, H5Dclose(set)));
+    (void)(good(hdf, set = H5Dopen2(hdf->file, name, H5P_DEFAULT)) &&
+           good(hdf, H5Dread(set, hdf_native(type), H5S_ALL, H5S_ALL, H5P_DEFAULT, data)) && good(hdf, H5Dclose(set)));
 }
 
-bool hdf_has_attribute(struct hdf *f, const char *group, const char *name)
+bool hdf_has_attribute(struct hdf *hdf, const char *group, const char *name)
 {
     htri_t there = 0;
-    if (ready(f)) good(f, there = H5Aexists_by_name(f->file, group, name, H5P_DEFAULT));
+    if (ready(hdf)) good(hdf, there = H5Aexists_by_name(hdf->file, group, name, H5P_DEFAULT));
     return there > 0;
 }
 
-void hdf_read_attribute(struct hdf *f, const char *group, const char *name, enum hdf_type type, void *value)
+void hdf_read_attribute(struct hdf *hdf, const char *group, const char *name, enum hdf_type type, void *value)
 {
     hid_t at = -1, space = -1;
-    if (!ready(f)) return;
-    if (!good(f, at = H5Aopen_by_name(f->file, group, name, H5P_DEFAULT, H5P_DEFAULT))) return;
-    if (!good(f, space = H5Aget_space(at))) return;
+    if (!ready(hdf)) return;
+    if (!good(hdf, at = H5Aopen_by_name(hdf->file, group, name, H5P_DEFAULT, H5P_DEFAULT))) return;
+    if (!good(hdf, space = H5Aget_space(at))) return;
     /* A damaged or foreign file may hold more numbers than `value` has room for. */
-    if (H5Sget_simple_extent_npoints(space) != 1) f->failed = true;
-    if (!f->failed) (void)(good(f, H5Aread(at, hdf_native(type), value)) && good(f, H5Aclose(at)));
+    if (H5Sget_simple_extent_npoints(space) != 1) hdf->failed = true;
+    if (!hdf->failed) (void)(good(hdf, H5Aread(at, hdf_native(type), value)) && good(hdf, H5Aclose(at)));
     H5Sclose(space);
 }
 

@@ -55,86 +55,86 @@ static void frames_look(struct temporal *a, const struct frame_series *series)
 
 /* Writes the group Steps of f, the file of all output frames for VTK: the times of the frames of a, and where the data
  * of each frame begin in the arrays. number: working memory of n entries, n being the number of frames. */
-static void write_steps(struct hdf *f, const struct temporal *a, int64_t *number)
+static void write_steps(struct hdf *hdf, const struct temporal *a, int64_t *number)
 {
     static const char *const start[] = {"PointOffsets", "CellOffsets", "ConnectivityIdOffsets"};
     const int32_t steps = a->n;
     char name[PATH_NAME_ROOM];
     double *time = (void *)number;
-    hdf_create_group(f, "/VTKHDF/Steps");
-    hdf_write_scalar_attribute(f, "/VTKHDF/Steps", "NSteps", HDF_I32, &steps);
+    hdf_create_group(hdf, "/VTKHDF/Steps");
+    hdf_write_scalar_attribute(hdf, "/VTKHDF/Steps", "NSteps", HDF_I32, &steps);
     for (int k = 0; k < a->n; k++) time[k] = a->time[k];
-    hdf_write_rows(f, "/VTKHDF/Steps/Values", HDF_F64, a->n, 1, time);
+    hdf_write_rows(hdf, "/VTKHDF/Steps/Values", HDF_F64, a->n, 1, time);
     for (int k = 0; k < a->n; k++) number[k] = k;
-    hdf_write_rows(f, "/VTKHDF/Steps/PartOffsets", HDF_I64, a->n, 1, number);
+    hdf_write_rows(hdf, "/VTKHDF/Steps/PartOffsets", HDF_I64, a->n, 1, number);
     for (int k = 0; k < a->n; k++) number[k] = 1;
-    hdf_write_rows(f, "/VTKHDF/Steps/NumberOfParts", HDF_I64, a->n, 1, number);
+    hdf_write_rows(hdf, "/VTKHDF/Steps/NumberOfParts", HDF_I64, a->n, 1, number);
     for (int s = 0; s < 3; s++) {
         snprintf(name, sizeof name, "/VTKHDF/Steps/%s", start[s]);
-        hdf_write_rows(f, name, HDF_I64, a->n, 1, a->start);
+        hdf_write_rows(hdf, name, HDF_I64, a->n, 1, a->start);
     }
-    hdf_create_group(f, "/VTKHDF/Steps/PointDataOffsets");
+    hdf_create_group(hdf, "/VTKHDF/Steps/PointDataOffsets");
     for (int field = FIELD_POINTS + 1; field < FRAME_FIELDS; field++) {
         if (!(a->fields >> field & 1) || frame_fields[field].columns == 0) continue;
         snprintf(name, sizeof name, "/VTKHDF/Steps/PointDataOffsets/%s", strrchr(frame_fields[field].path, '/') + 1);
-        hdf_write_rows(f, name, HDF_I64, a->n, 1, a->start);
+        hdf_write_rows(hdf, name, HDF_I64, a->n, 1, a->start);
     }
 }
 
 /* Writes a virtual dataset to f that concatenates `field` of all output frames of a. needed: bits of the fields
  * without which a frame does not contain the dataset, 0 if every frame contains it; the rows of frames that lack a
  * needed field read as 0. more: number of rows in each frame beyond its number of points. */
-static void write_virtual(struct hdf *f, const struct temporal *a, const struct frame_field *field, uint32_t needed,
+static void write_virtual(struct hdf *hdf, const struct temporal *a, const struct frame_field *field, uint32_t needed,
                           int more)
 {
     for (int k = 0; k < a->n; k++) {
         const char *file = field->fixed ? a->particles[k] : a->frame[k];
         a->source[k].file = (a->has[k] & needed) == needed ? file : NULL;
     }
-    hdf_write_virtual_dataset(f, field->path, field->type, field->columns, a->source, a->n, more);
+    hdf_write_virtual_dataset(hdf, field->path, field->type, field->columns, a->source, a->n, more);
 }
 
 /* Writes points, cells and fields of all output frames of a to f as virtual datasets. number: working memory with an
  * entry for each frame. */
-static void write_rows(struct hdf *f, const struct temporal *a, int64_t *number)
+static void write_rows(struct hdf *hdf, const struct temporal *a, int64_t *number)
 {
     static const char *const count[] = {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"};
     char name[PATH_NAME_ROOM];
     for (int k = 0; k < a->n; k++) number[k] = a->source[k].rows;
     for (int c = 0; c < 3; c++) {
         snprintf(name, sizeof name, "/VTKHDF/%s", count[c]);
-        hdf_write_rows(f, name, HDF_I64, a->n, 1, number);
+        hdf_write_rows(hdf, name, HDF_I64, a->n, 1, number);
     }
-    for (int c = 0; c < CELL_LISTS; c++) write_virtual(f, a, &frame_cells[c], 0, c == CELLS_OFFSETS);
-    hdf_create_group(f, "/VTKHDF/PointData");
+    for (int c = 0; c < CELL_LISTS; c++) write_virtual(hdf, a, &frame_cells[c], 0, c == CELLS_OFFSETS);
+    hdf_create_group(hdf, "/VTKHDF/PointData");
     for (int k = 0; k < FRAME_FIELDS; k++) {
         const struct frame_field *field = &frame_fields[k];
         if (!(a->fields >> k & 1) || field->columns == 0) continue;
-        write_virtual(f, a, field, 1u << k, 0);
-        hdf_write_text_attribute(f, field->path, "unit", field->unit[0] ? field->unit : "1");
+        write_virtual(hdf, a, field, 1u << k, 0);
+        hdf_write_text_attribute(hdf, field->path, "unit", field->unit[0] ? field->unit : "1");
     }
 }
 
 /* Writes the units of the fields of a and scene_text, the text of the input file (scene), to f as field data that all
  * times share. number: working memory with two entries for each output frame. */
-static void write_texts(struct hdf *f, const struct temporal *a, const char *scene_text, int64_t *number)
+static void write_texts(struct hdf *hdf, const struct temporal *a, const char *scene_text, int64_t *number)
 {
     static const char *const name[] = {"units", "scene"};
     char units[1000], path[PATH_NAME_ROOM];
     frame_fields_list_units_as_text(a->fields, units, sizeof units);
     const char *const text[] = {units, scene_text};
-    hdf_create_group(f, "/VTKHDF/FieldData");
-    hdf_create_group(f, "/VTKHDF/Steps/FieldDataOffsets");
-    hdf_create_group(f, "/VTKHDF/Steps/FieldDataSizes");
+    hdf_create_group(hdf, "/VTKHDF/FieldData");
+    hdf_create_group(hdf, "/VTKHDF/Steps/FieldDataOffsets");
+    hdf_create_group(hdf, "/VTKHDF/Steps/FieldDataSizes");
     for (int k = 0; k < 2; k++) {
         snprintf(path, sizeof path, "/VTKHDF/FieldData/%s", name[k]);
-        hdf_write_text_list(f, path, text[k]);
+        hdf_write_text_list(hdf, path, text[k]);
         for (int step = 0; step < a->n; step++) number[step] = 0;
         snprintf(path, sizeof path, "/VTKHDF/Steps/FieldDataOffsets/%s", name[k]);
-        hdf_write_rows(f, path, HDF_I64, a->n, 1, number);
+        hdf_write_rows(hdf, path, HDF_I64, a->n, 1, number);
         for (int step = 0; step < 2 * a->n; step++) number[step] = 1;
         snprintf(path, sizeof path, "/VTKHDF/Steps/FieldDataSizes/%s", name[k]);
-        hdf_write_rows(f, path, HDF_I64, a->n, 2, number);
+        hdf_write_rows(hdf, path, HDF_I64, a->n, 2, number);
     }
 }
 

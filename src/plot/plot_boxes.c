@@ -84,24 +84,25 @@ static int leaves_cube(const struct camera *eye, const struct cube *b, const dou
 /* Computes the cube by which the picture shows particle i of c, deformed by the particle's deformation gradient, and
  * stores it in *b. A cube smaller than a pixel of the canvas v is enlarged to one pixel. Without a gradient, or if it
  * cannot be inverted, the cube is undeformed. */
-static void cube_of(const struct scene_canvas *v, const struct plotted_particles *c, int64_t i, struct cube *b)
+static void cube_of(const struct scene_canvas *v, const struct plotted_particles *plotted, int64_t i, struct cube *b)
 {
-    const double *axis[3] = {c->camera.right, c->camera.up, c->camera.towards};
-    const double least = 0.6 / v->per_metre[0], own = HALF * (c->size ? c->size[i] : c->spacing);
+    const double *axis[3] = {plotted->camera.right, plotted->camera.up, plotted->camera.towards};
+    const double least = 0.6 / v->per_metre[0], own = HALF * (plotted->size ? plotted->size[i] : plotted->spacing);
     for (int k = 0; k < 3; k++) b->half[k] = fmax(own, least);
-    if (c->tall > 0) b->half[1] = c->tall;
-    for (int k = 0; k < 9; k++) b->F[k / 3][k % 3] = c->gradient ? (double)c->gradient[9 * i + k] : k % 4 == 0;
+    if (plotted->tall > 0) b->half[1] = plotted->tall;
+    for (int k = 0; k < 9; k++)
+        b->F[k / 3][k % 3] = plotted->gradient ? (double)plotted->gradient[9 * i + k] : k % 4 == 0;
     if (!matrix_invert_3x3((const double(*)[3])b->F, b->inverse))
         for (int k = 0; k < 9; k++) b->F[k / 3][k % 3] = b->inverse[k / 3][k % 3] = k % 4 == 0;
-    b->cloud = c;
-    for (int m = 0; m < c->mirrors; m++) {
-        b->beyond[m] = c->mirror[m].at;
+    b->cloud = plotted;
+    for (int m = 0; m < plotted->mirrors; m++) {
+        b->beyond[m] = plotted->mirror[m].at;
         for (int a = 0; a < 3; a++)
-            if (c->position[a]) b->beyond[m] -= c->position[a][i] * axis[a][c->mirror[m].axis];
+            if (plotted->position[a]) b->beyond[m] -= plotted->position[a][i] * axis[a][plotted->mirror[m].axis];
     }
     for (int k = 0; k < 3; k++) {
         b->towards[k] = 0;
-        for (int d = 0; d < 3; d++) b->towards[k] += b->inverse[k][d] * c->camera.towards[d];
+        for (int d = 0; d < 3; d++) b->towards[k] += b->inverse[k][d] * plotted->camera.towards[d];
     }
 }
 
@@ -134,29 +135,30 @@ static double face_brightness(const struct cube *b, int face, const double *towa
 
 /* Paints the cube of particle i of c in the given colour on those pixels of the canvas v on which the cube is nearer to
  * the viewer than the cubes painted before. */
-static void paint_cube(struct scene_canvas *v, const struct plotted_particles *c, int64_t i, struct colour colour)
+static void paint_cube(struct scene_canvas *v, const struct plotted_particles *plotted, int64_t i, struct colour colour)
 {
     struct cube cube;
     double at[2];
     int from[2], to[2];
-    cube_of(v, c, i, &cube);
-    const double reach[2] = {cube_reach(&cube, c->camera.right), cube_reach(&cube, c->camera.up)};
+    cube_of(v, plotted, i, &cube);
+    const double reach[2] = {cube_reach(&cube, plotted->camera.right), cube_reach(&cube, plotted->camera.up)};
     for (int a = 0; a < 2; a++) {
-        at[a] = c->position[a][i] - v->view->from[a];
+        at[a] = plotted->position[a][i] - v->view->from[a];
         const double low = (at[a] - reach[a]) * v->per_metre[a], high = (at[a] + reach[a]) * v->per_metre[a];
         if (!(high > 0 && low < v->size[a])) return; /* outside the picture, or NaN */
         from[a] = (int)fmax(ceil(low - 0.5), 0);
         to[a] = (int)fmin(floor(high - 0.5), v->size[a] - 1);
     }
     double bright[3];
-    for (int k = 0; k < 3; k++) bright[k] = c->position[2] ? face_brightness(&cube, k, c->camera.towards) : 1;
+    for (int k = 0; k < 3; k++)
+        bright[k] = plotted->position[2] ? face_brightness(&cube, k, plotted->camera.towards) : 1;
     for (int row = from[1]; row <= to[1]; row++)
         for (int column = from[0]; column <= to[0]; column++) {
             const double off[2] = {(column + 0.5) / v->per_metre[0] - at[0], (row + 0.5) / v->per_metre[1] - at[1]};
             double depth = 0;
-            const int face = leaves_cube(&c->camera, &cube, off, &depth);
+            const int face = leaves_cube(&plotted->camera, &cube, off, &depth);
             const int64_t q = (int64_t)row * v->size[0] + column;
-            if (c->position[2]) depth += c->position[2][i];
+            if (plotted->position[2]) depth += plotted->position[2][i];
             if (face < 0 || depth <= v->depth[q]) continue;
             v->depth[q] = (float)depth;
             v->pixel[q] = colour_mixed_with_black(colour, bright[face]);
@@ -169,7 +171,7 @@ static void canvas_clear_depth(struct scene_canvas *v)
 }
 
 void image_paint_particles_as_cubes(struct colour *pixel, int width, int height, const struct view *view,
-                                    const struct plotted_particles *c, enum map map)
+                                    const struct plotted_particles *plotted, enum map map)
 {
     const int64_t pixels = (int64_t)width * height;
     struct scene_canvas v = {
@@ -178,13 +180,14 @@ void image_paint_particles_as_cubes(struct colour *pixel, int width, int height,
     for (int64_t q = 0; q < pixels; q++) pixel[q] = (struct colour){255, 255, 255, 0};
     canvas_clear_depth(&v);
     const struct colour ghost = colour_mixed_with_white(colour_on_damage_scale(0), GHOST);
-    for (int64_t i = 0; i < c->n; i++)
-        paint_cube(&v, c, i, map == MAP_CRACKS ? ghost : plotted_particle_colour(view, c, i, map));
-    if (c->position[2]) image_paint_rigid_bodies_from_outside(pixel, v.depth, width, height, view, c, map);
+    for (int64_t i = 0; i < plotted->n; i++)
+        paint_cube(&v, plotted, i, map == MAP_CRACKS ? ghost : plotted_particle_colour(view, plotted, i, map));
+    if (plotted->position[2]) image_paint_rigid_bodies_from_outside(pixel, v.depth, width, height, view, plotted, map);
     if (map == MAP_CRACKS) {
         canvas_clear_depth(&v);
-        for (int64_t i = 0; i < c->n; i++)
-            if (c->damage[i] >= CRACK_DAMAGE) paint_cube(&v, c, i, plotted_particle_colour(view, c, i, map));
+        for (int64_t i = 0; i < plotted->n; i++)
+            if (plotted->damage[i] >= CRACK_DAMAGE)
+                paint_cube(&v, plotted, i, plotted_particle_colour(view, plotted, i, map));
     }
     memory_free(v.depth);
 }

@@ -35,10 +35,10 @@ static void category_name(char *name, size_t capacity, const char *field, int va
 
 /* Returns the value of particle i of c as a whole number. Values outside -1..2^24 and values that are no number, as in
  * a damaged file, are replaced by a number in this range. */
-static int category_value(const struct plotted_particles *c, int64_t i)
+static int category_value(const struct plotted_particles *plotted, int64_t i)
 {
     static const float MOST = 1 << 24;
-    return (int)fminf(fmaxf(c->value[i], -1), MOST);
+    return (int)fminf(fmaxf(plotted->value[i], -1), MOST);
 }
 
 /* Finds the values that occur in the drawn particles of the output frames cloud[clouds]. Returns an allocated array in
@@ -56,21 +56,22 @@ static bool *values_seen(int *last, const struct plotted_particles *cloud, int c
     return seen;
 }
 
-void categories_list_values_present_in_frames(struct categories *k, const struct plot_field *field, const char *folder,
-                                              const struct plotted_particles *cloud, int frame_count)
+void categories_list_values_present_in_frames(struct categories *categories, const struct plot_field *field,
+                                              const char *folder, const struct plotted_particles *cloud,
+                                              int frame_count)
 {
     struct scene scene;
     const bool known = scene_read(&scene, path_join(folder, "scene.yaml").text, NULL, 0) == OK;
     int last = -1;
     bool *seen = values_seen(&last, cloud, frame_count);
-    *k = (struct categories){0};
+    *categories = (struct categories){0};
     for (int value = -1; value <= last; value++) {
         if (!seen[value + 1]) continue;
-        if (k->n == CATEGORIES_MOST) {
-            k->more++;
+        if (categories->n == CATEGORIES_MOST) {
+            categories->more++;
             continue;
         }
-        struct category *of = &k->of[k->n++];
+        struct category *of = &categories->of[categories->n++];
         of->colour = category_colour(field, (float)value);
         category_name(of->name, sizeof of->name, field->name, value, known ? &scene : NULL);
     }

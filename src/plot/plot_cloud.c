@@ -234,91 +234,97 @@ static double along(const double *direction, const double *x)
 
 /* Appends particle i of the output frame f to c, the drawn particles: its drawn position and its reference position
  * along the axes of the map. Extends the bounding box of the cloud by the reference position. */
-static void cloud_place(struct plotted_particles *c, const struct output_frame *f, int64_t i)
+static void cloud_place(struct plotted_particles *plotted, const struct output_frame *f, int64_t i)
 {
-    const int64_t k = c->n;
+    const int64_t k = plotted->n;
     double x[3], X[3];
-    place_now(f, i, c->magnify, x);
+    place_now(f, i, plotted->magnify, x);
     for (int d = 0; d < 3; d++) X[d] = d < f->dim ? f->X[d][i] : 0;
-    const double *axis[3] = {c->camera.right, c->camera.up, c->camera.towards};
+    const double *axis[3] = {plotted->camera.right, plotted->camera.up, plotted->camera.towards};
     for (int a = 0; a < 3; a++)
-        if (c->position[a]) c->position[a][k] = along(axis[a], x);
+        if (plotted->position[a]) plotted->position[a][k] = along(axis[a], x);
     for (int a = 0; a < 2; a++) {
-        c->reference[a][k] = along(axis[a], X);
-        c->from[a] = fmin(c->from[a], along(axis[a], X));
-        c->to[a] = fmax(c->to[a], along(axis[a], X));
+        plotted->reference[a][k] = along(axis[a], X);
+        plotted->from[a] = fmin(plotted->from[a], along(axis[a], X));
+        plotted->to[a] = fmax(plotted->to[a], along(axis[a], X));
     }
 }
 
 /* Copies the planes of symmetry of the scene s to c, the drawn particles; s may be NULL: there are none. */
-static void cloud_copy_mirrors(struct plotted_particles *c, const struct scene *s)
+static void cloud_copy_mirrors(struct plotted_particles *plotted, const struct scene *s)
 {
-    for (int b = 0; s && b < s->boundaries && c->mirrors < MIRRORS_SHOWN_MOST; b++)
+    for (int b = 0; s && b < s->boundaries && plotted->mirrors < MIRRORS_SHOWN_MOST; b++)
         if (s->boundary[b].kind == BOUNDARY_MIRROR)
-            c->mirror[c->mirrors++] = (struct shown_mirror){s->boundary[b].axis, s->boundary[b].at};
+            plotted->mirror[plotted->mirrors++] = (struct shown_mirror){s->boundary[b].axis, s->boundary[b].at};
 }
 
-static void cloud_allocate(struct plotted_particles *c, const struct output_frame *f,
+static void cloud_allocate(struct plotted_particles *plotted, const struct output_frame *f,
                            const struct projection *projection)
 {
     for (int k = 0; k < (f->dim == 3 && projection->outside ? 3 : 2); k++)
-        c->position[k] = NEW("plot.position", f->n, double);
-    c->damage = NEW("plot.damage", f->n, float);
-    c->kind = NEW("plot.kind", f->n, uint8_t);
-    if (f->fragment) c->fragment = NEW("plot.fragment", f->n, int32_t);
-    if (f->spacing) c->size = NEW("plot.size", f->n, float);
-    if (projection->value) c->value = NEW("plot.value", f->n, float);
+        plotted->position[k] = NEW("plot.position", f->n, double);
+    plotted->damage = NEW("plot.damage", f->n, float);
+    plotted->kind = NEW("plot.kind", f->n, uint8_t);
+    if (f->fragment) plotted->fragment = NEW("plot.fragment", f->n, int32_t);
+    if (f->spacing) plotted->size = NEW("plot.size", f->n, float);
+    if (projection->value) plotted->value = NEW("plot.value", f->n, float);
 }
 
 /* Sets the axes of the map in c, the drawn particles of output frame f (output of one time): x and y in 2D; in 3D, as
  * `projection` requests, the axes in the plane of the slice or the directions of the camera. */
-static void cloud_axes(struct plotted_particles *c, const struct output_frame *f, const struct projection *projection)
+static void cloud_axes(struct plotted_particles *plotted, const struct output_frame *f,
+                       const struct projection *projection)
 {
-    c->camera = f->dim == 3 && projection->outside ? projection->camera : camera_along_axis(2, 1);
+    plotted->camera = f->dim == 3 && projection->outside ? projection->camera : camera_along_axis(2, 1);
     if (f->dim < 3 || projection->outside) return;
-    c->normal = projection->normal, c->layer = projection->layer;
-    c->axis[0] = c->normal == 0 ? 1 : 0;
-    c->axis[1] = c->normal == 2 ? 1 : 2;
-    c->camera = camera_along_axis(c->normal, c->normal == 1 ? -1 : 1);
+    plotted->normal = projection->normal, plotted->layer = projection->layer;
+    plotted->axis[0] = plotted->normal == 0 ? 1 : 0;
+    plotted->axis[1] = plotted->normal == 2 ? 1 : 2;
+    plotted->camera = camera_along_axis(plotted->normal, plotted->normal == 1 ? -1 : 1);
 }
 
 /* Selects in c the particles of output frame f that a map with the given projection shows, with their drawn positions,
  * deformation and fields (plotted_particles_select_from_frame). projection: NULL for a default slice. The sizes of
  * particles must be in f->spacing, unless all particles have one size. */
-static void cloud_select(struct plotted_particles *c, const struct output_frame *f, const struct projection *projection)
+static void cloud_select(struct plotted_particles *plotted, const struct output_frame *f,
+                         const struct projection *projection)
 {
     struct projection open = {.normal = -1};
     if (!projection) (void)projection_choose_slice_normal_and_position(&open, f, NULL), projection = &open;
-    *c = (struct plotted_particles){.axis = {0, 1},
-                                    .normal = -1,
-                                    .t = f->t,
-                                    .spacing = frame_particle_spacing(f),
-                                    .magnify = projection->magnify > 0 ? projection->magnify : 1,
-                                    .in_steps = projection->in_steps,
-                                    .equilibrium = projection_shows_single_equilibrium_run(projection),
-                                    .step = f->step,
-                                    .from = {INFINITY, INFINITY},
-                                    .to = {-INFINITY, -INFINITY}};
-    cloud_axes(c, f, projection);
-    cloud_copy_mirrors(c, projection->scene);
-    cloud_allocate(c, f, projection);
-    for (int a = 0; a < 2; a++) c->reference[a] = NEW("plot.reference", f->n, double);
-    c->apart = NEW("plot.apart", f->n, uint8_t);
-    c->gradient = deformation_gradients_fit_to_displacements(f, c->spacing, c->magnify, projection->scene, c->apart);
+    *plotted = (struct plotted_particles){.axis = {0, 1},
+                                          .normal = -1,
+                                          .t = f->t,
+                                          .spacing = frame_particle_spacing(f),
+                                          .magnify = projection->magnify > 0 ? projection->magnify : 1,
+                                          .in_steps = projection->in_steps,
+                                          .equilibrium = projection_shows_single_equilibrium_run(projection),
+                                          .step = f->step,
+                                          .from = {INFINITY, INFINITY},
+                                          .to = {-INFINITY, -INFINITY}};
+    cloud_axes(plotted, f, projection);
+    cloud_copy_mirrors(plotted, projection->scene);
+    cloud_allocate(plotted, f, projection);
+    for (int a = 0; a < 2; a++) plotted->reference[a] = NEW("plot.reference", f->n, double);
+    plotted->apart = NEW("plot.apart", f->n, uint8_t);
+    plotted->gradient = deformation_gradients_fit_to_displacements(f, plotted->spacing, plotted->magnify,
+                                                                   projection->scene, plotted->apart);
     for (int64_t i = 0; i < f->n; i++) {
-        const double size = f->spacing ? f->spacing[i] : c->spacing;
-        if (f->fragment && f->fragment[i] >= c->fragments) c->fragments = f->fragment[i] + 1;
-        if (c->normal >= 0 && fabs(f->X[c->normal][i] - c->layer) > 0.5 * size - 0.01 * c->spacing) continue;
-        if (f->spacing) c->size[c->n] = (float)size;
-        cloud_place(c, f, i);
-        if (c->gradient) memmove(c->gradient + 9 * c->n, c->gradient + 9 * i, 9 * sizeof *c->gradient);
-        c->apart[c->n] = c->apart[i];
-        c->damage[c->n] = f->damage[i];
-        if (f->fragment) c->fragment[c->n] = f->fragment[i];
-        if (c->value) c->value[c->n] = projection->value[i];
-        c->kind[c->n++] = f->kind[i];
+        const double size = f->spacing ? f->spacing[i] : plotted->spacing;
+        if (f->fragment && f->fragment[i] >= plotted->fragments) plotted->fragments = f->fragment[i] + 1;
+        if (plotted->normal >= 0 &&
+            fabs(f->X[plotted->normal][i] - plotted->layer) > 0.5 * size - 0.01 * plotted->spacing)
+            continue;
+        if (f->spacing) plotted->size[plotted->n] = (float)size;
+        cloud_place(plotted, f, i);
+        if (plotted->gradient)
+            memmove(plotted->gradient + 9 * plotted->n, plotted->gradient + 9 * i, 9 * sizeof *plotted->gradient);
+        plotted->apart[plotted->n] = plotted->apart[i];
+        plotted->damage[plotted->n] = f->damage[i];
+        if (f->fragment) plotted->fragment[plotted->n] = f->fragment[i];
+        if (plotted->value) plotted->value[plotted->n] = projection->value[i];
+        plotted->kind[plotted->n++] = f->kind[i];
     }
-    c->aligned = !c->position[2] && particles_are_on_lattice(c->reference, 2, c->n);
+    plotted->aligned = !plotted->position[2] && particles_are_on_lattice(plotted->reference, 2, plotted->n);
 }
 
 static bool has_lists(const struct scene *s)
@@ -328,7 +334,7 @@ static bool has_lists(const struct scene *s)
     return has;
 }
 
-void plotted_particles_select_from_frame(struct plotted_particles *c, const struct output_frame *f,
+void plotted_particles_select_from_frame(struct plotted_particles *plotted, const struct output_frame *f,
                                          const struct projection *projection)
 {
     struct output_frame sized = *f;
@@ -336,11 +342,11 @@ void plotted_particles_select_from_frame(struct plotted_particles *c, const stru
     if (projection && has_lists(projection->scene))
         size = frame_estimate_graded_particle_sizes(f, frame_particle_spacing(f));
     if (size && particles_are_on_lattice(f->X, f->dim, f->n)) sized.spacing = size;
-    cloud_select(c, &sized, projection);
+    cloud_select(plotted, &sized, projection);
     memory_free(size);
 }
 
-status plotted_particles_read(struct plotted_particles *c, const char *folder, const struct listed_frame *frame,
+status plotted_particles_read(struct plotted_particles *plotted, const char *folder, const struct listed_frame *frame,
                               const struct projection *projection)
 {
     struct projection own = *projection;
@@ -350,25 +356,25 @@ status plotted_particles_read(struct plotted_particles *c, const char *folder, c
     TRY(run_read_frame(&f, folder, frame->number));
     if (own.field) s = plot_field_read(&value, own.field, &f, run_frame_path(folder, frame->number).text);
     own.value = value;
-    if (s == OK) plotted_particles_select_from_frame(c, &f, &own);
-    if (s == OK) plotted_particles_add_rigid_bodies(c, &f, own.scene, folder, frame->number);
+    if (s == OK) plotted_particles_select_from_frame(plotted, &f, &own);
+    if (s == OK) plotted_particles_add_rigid_bodies(plotted, &f, own.scene, folder, frame->number);
     memory_free(value);
     frame_free(&f);
     return s;
 }
 
-void plotted_particles_free(struct plotted_particles *c)
+void plotted_particles_free(struct plotted_particles *plotted)
 {
-    for (int k = 0; k < DIM_MAX; k++) memory_free(c->position[k]);
-    for (int k = 0; k < 2; k++) memory_free(c->reference[k]);
-    memory_free(c->damage);
-    memory_free(c->kind);
-    memory_free(c->fragment);
-    memory_free(c->size);
-    memory_free(c->value);
-    memory_free(c->colour);
-    memory_free(c->gradient);
-    memory_free(c->apart);
-    memory_free(c->rigid);
-    *c = (struct plotted_particles){0};
+    for (int k = 0; k < DIM_MAX; k++) memory_free(plotted->position[k]);
+    for (int k = 0; k < 2; k++) memory_free(plotted->reference[k]);
+    memory_free(plotted->damage);
+    memory_free(plotted->kind);
+    memory_free(plotted->fragment);
+    memory_free(plotted->size);
+    memory_free(plotted->value);
+    memory_free(plotted->colour);
+    memory_free(plotted->gradient);
+    memory_free(plotted->apart);
+    memory_free(plotted->rigid);
+    *plotted = (struct plotted_particles){0};
 }

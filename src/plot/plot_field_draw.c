@@ -35,20 +35,20 @@ static bool same_everywhere(const struct plotted_particles *cloud, int clouds)
     return true;
 }
 
-static void field_title(char *title, const struct plot_request *r, const struct plotted_particles *c,
+static void field_title(char *title, const struct plot_request *r, const struct plotted_particles *plotted,
                         const struct view *view)
 {
     char name[TITLE_LENGTH];
     plot_field_write_label(name, sizeof name, r->projection.field);
-    picture_compose_title(title, r, name, c, view);
+    picture_compose_title(title, r, name, plotted, view);
 }
 
 /* Prints the named values k of a field, such as the names of materials, to standard output: the first ones by name,
  * then the number of further ones. */
-static void say_categories(const struct categories *k)
+static void say_categories(const struct categories *categories)
 {
-    for (int i = 0; i < k->n; i++) printf("%s%s", i ? ", " : ": ", k->of[i].name);
-    if (k->more > 0) printf(" and %d more", k->more);
+    for (int i = 0; i < categories->n; i++) printf("%s%s", i ? ", " : ": ", categories->of[i].name);
+    if (categories->more > 0) printf(" and %d more", categories->more);
     putchar('\n');
 }
 

@@ -227,23 +227,24 @@ static void write_factor(char *text, size_t capacity, double factor)
 }
 
 void picture_compose_title(char *title, const struct plot_request *r, const char *quantity,
-                           const struct plotted_particles *c, const struct view *view)
+                           const struct plotted_particles *plotted, const struct view *view)
 {
     const char *folder = r->folder;
     char name[NAME_MAX_LENGTH], method[NAME_MAX_LENGTH], layer[NAME_MAX_LENGTH] = "";
     if (summary_read_string(folder, "name", name, sizeof name) != OK) path_copy_base_name(name, sizeof name, folder);
     bool known = summary_read_string(folder, "method", method, sizeof method) == OK;
-    if (c != NULL && c->normal >= 0) {
+    if (plotted != NULL && plotted->normal >= 0) {
         const struct unit metre = panel_axis_unit(view);
-        snprintf(layer, sizeof layer, ", %c = %.4g %s", 'x' + c->normal, c->layer / metre.factor, metre.name);
+        snprintf(layer, sizeof layer, ", %c = %.4g %s", 'x' + plotted->normal, plotted->layer / metre.factor,
+                 metre.name);
     }
     if (r->title)
         snprintf(title, TITLE_LENGTH, "%s", r->title);
     else
         snprintf(title, TITLE_LENGTH, "%s%s%s: %s%s", name, known ? ", " : "", known ? method : "", quantity, layer);
     const size_t length = strlen(title);
-    if (c == NULL || c->magnify == 1) return;
+    if (plotted == NULL || plotted->magnify == 1) return;
     char factor[32];
-    write_factor(factor, sizeof factor, c->magnify);
+    write_factor(factor, sizeof factor, plotted->magnify);
     snprintf(title + length, TITLE_LENGTH - length, "%sdisplacements x %s", length > 0 ? ", " : "", factor);
 }

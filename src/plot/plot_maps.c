@@ -11,7 +11,8 @@
  * axes and title. l: layout; shown: map and view; second: unit of the time in the title; lowest: true if no panel is
  * below this one, so that its horizontal axis has labels. */
 static void plot_maps_draw_panel(FILE *to, const struct maps_layout *l, const struct maps_content *shown,
-                                 const struct plotted_particles *c, const struct unit *second, int place, bool lowest)
+                                 const struct plotted_particles *plotted, const struct unit *second, int place,
+                                 bool lowest)
 {
     const struct view *view = shown->view;
     int column = place % l->columns, row = place / l->columns;
@@ -27,22 +28,22 @@ static void plot_maps_draw_panel(FILE *to, const struct maps_layout *l, const st
         fprintf(to, "set %crange [%.12g:%.12g]\n", 'x' + k, from[k], view->to[k] / metre.factor);
     }
     char state[NAME_MAX_LENGTH];
-    if (frame_compose_label_if_static(state, c->in_steps, c->equilibrium, c->t, c->step))
+    if (frame_compose_label_if_static(state, plotted->in_steps, plotted->equilibrium, plotted->t, plotted->step))
         fprintf(to, "set title '%s'", state);
     else
-        fprintf(to, "set title 't = %.3g %s'", c->t / second->factor, second->name);
+        fprintf(to, "set title 't = %.3g %s'", plotted->t / second->factor, second->name);
     fputs(" font ',13' offset 0,-0.5\n", to);
-    if (c->position[2])
+    if (plotted->position[2])
         fputs("unset xtics\nunset ytics\nunset xlabel\nunset ylabel\nset border 0\nunset arrow\n", to);
     else
-        panel_write_axes(to, l, view, c, &metre, column, lowest);
-    if (c->position[2] && row == l->rows - 1 && column == 0)
-        panel_write_axis_arrows(to, l, view, c, &metre, left, above);
+        panel_write_axes(to, l, view, plotted, &metre, column, lowest);
+    if (plotted->position[2] && row == l->rows - 1 && column == 0)
+        panel_write_axis_arrows(to, l, view, plotted, &metre, left, above);
     const int fines[2] = {gnuplot_image_pixel_count_along_edge(shown->format, size[0]),
                           gnuplot_image_pixel_count_along_edge(shown->format, size[1])};
     for (int k = 0; k < 2; k++) step[k] *= (double)size[k] / fines[k];
     struct colour *pixel = NEW("plot.pixel", (int64_t)fines[0] * fines[1], struct colour);
-    image_paint_particles_in_plane(pixel, fines[0], fines[1], view, c, shown->map);
+    image_paint_particles_in_plane(pixel, fines[0], fines[1], view, plotted, shown->map);
     panel_write_image(to, pixel, fines[0], fines[1], from, step, "");
     memory_free(pixel);
 }

@@ -45,23 +45,23 @@ static double place_along(const struct faces *f, const double *X, double *off)
 
 /* Returns true if particle i of c, with the coordinate s along the pre-crack and the distance `off` from it [m], is
  * beside the pre-crack f: at most BESIDE spacings from it, and not more than half a section beyond its ends. */
-static bool is_beside(const struct faces *f, const struct plotted_particles *c, int64_t i, double s, double off)
+static bool is_beside(const struct faces *f, const struct plotted_particles *plotted, int64_t i, double s, double off)
 {
-    const double reach = BESIDE * (c->size ? c->size[i] : c->spacing);
+    const double reach = BESIDE * (plotted->size ? plotted->size[i] : plotted->spacing);
     return fabs(off) <= reach && s >= -0.5 * f->section && s <= f->length + 0.5 * f->section;
 }
 
 /* Moves the drawn line of the pre-crack f sideways to the middle of the gap between the particles of c on its two
  * sides, which is where the crack opens. A pre-crack along the lattice may be anywhere between two rows of particles;
  * one across the lattice hardly moves. */
-static void faces_move_between_particles(struct faces *f, const struct plotted_particles *c)
+static void faces_move_between_particles(struct faces *f, const struct plotted_particles *plotted)
 {
     double edge[2] = {INFINITY, INFINITY}; /* distance of the nearest edge on each side [m] */
-    for (int64_t i = 0; i < c->n; i++) {
+    for (int64_t i = 0; i < plotted->n; i++) {
         double off;
-        const double s = place_along(f, (double[]){c->reference[0][i], c->reference[1][i]}, &off);
-        const double half = 0.5 * (c->size ? c->size[i] : c->spacing);
-        if (is_beside(f, c, i, s, off)) edge[off < 0] = fmin(edge[off < 0], fabs(off) - half);
+        const double s = place_along(f, (double[]){plotted->reference[0][i], plotted->reference[1][i]}, &off);
+        const double half = 0.5 * (plotted->size ? plotted->size[i] : plotted->spacing);
+        if (is_beside(f, plotted, i, s, off)) edge[off < 0] = fmin(edge[off < 0], fabs(off) - half);
     }
     if (!isfinite(edge[0] + edge[1])) return;
     f->from[0] -= 0.5 * (edge[0] - edge[1]) * f->along[1];
@@ -72,19 +72,20 @@ static void faces_move_between_particles(struct faces *f, const struct plotted_p
  * particle is farther from the pre-crack than BESIDE spacings or its damage exceeds RUBBLE. Each face is divided into
  * sections along the pre-crack. The displacement is extrapolated from the particle to the nearest point of the face by
  * the deformation gradient, and is added, weighted by nearness, to the sum of the section there. */
-static void face_add_motion(struct faces *f, const struct plotted_particles *c, int64_t i)
+static void face_add_motion(struct faces *f, const struct plotted_particles *plotted, int64_t i)
 {
-    const double X[2] = {c->reference[0][i], c->reference[1][i]}, *axis[2] = {c->camera.right, c->camera.up};
+    const double X[2] = {plotted->reference[0][i], plotted->reference[1][i]},
+                 *axis[2] = {plotted->camera.right, plotted->camera.up};
     double off, u[2];
     const double s = place_along(f, X, &off);
-    const double reach = BESIDE * (c->size ? c->size[i] : c->spacing);
-    if (!is_beside(f, c, i, s, off) || c->damage[i] > RUBBLE) return;
+    const double reach = BESIDE * (plotted->size ? plotted->size[i] : plotted->spacing);
+    if (!is_beside(f, plotted, i, s, off) || plotted->damage[i] > RUBBLE) return;
     const double xi[2] = {off * f->along[1], -off * f->along[0]}; /* from the particle to the face */
     for (int a = 0; a < 2; a++) {
-        u[a] = c->position[a][i] - X[a];
-        for (int b = 0; b < 2 && c->gradient; b++) {
+        u[a] = plotted->position[a][i] - X[a];
+        for (int b = 0; b < 2 && plotted->gradient; b++) {
             double F = 0;
-            for (int m = 0; m < 9; m++) F += axis[a][m / 3] * (double)c->gradient[9 * i + m] * axis[b][m % 3];
+            for (int m = 0; m < 9; m++) F += axis[a][m / 3] * (double)plotted->gradient[9 * i + m] * axis[b][m % 3];
             u[a] += (F - (a == b)) * xi[b];
         }
     }
@@ -286,31 +287,31 @@ static void faces_make(struct faces *f, const struct crack *crack, double sectio
 }
 
 /* Returns true if both ends of `crack` are within half a spacing of a plane of symmetry of c. */
-static bool crack_is_in_mirror(const struct crack *crack, const struct plotted_particles *c)
+static bool crack_is_in_mirror(const struct crack *crack, const struct plotted_particles *plotted)
 {
     bool in = false;
-    for (int m = 0; m < c->mirrors; m++) {
-        const int axis = c->mirror[m].axis;
-        in |= fabs(crack->corner[0][axis] - c->mirror[m].at) < 0.5 * c->spacing &&
-              fabs(crack->corner[1][axis] - c->mirror[m].at) < 0.5 * c->spacing;
+    for (int m = 0; m < plotted->mirrors; m++) {
+        const int axis = plotted->mirror[m].axis;
+        in |= fabs(crack->corner[0][axis] - plotted->mirror[m].at) < 0.5 * plotted->spacing &&
+              fabs(crack->corner[1][axis] - plotted->mirror[m].at) < 0.5 * plotted->spacing;
     }
     return in;
 }
 
 void image_paint_precrack_faces(struct colour *pixel, int width, int height, const struct view *v,
-                                const struct plotted_particles *c, enum map map)
+                                const struct plotted_particles *plotted, enum map map)
 {
-    if ((map != MAP_DAMAGE && map != MAP_FIELD) || !c->reference[0] || !(c->spacing > 0)) return;
+    if ((map != MAP_DAMAGE && map != MAP_FIELD) || !plotted->reference[0] || !(plotted->spacing > 0)) return;
     for (int k = 0; k < v->notches; k++) {
         struct faces f;
         if (v->notch[k].n != 2 || !(hypot(v->notch[k].corner[1][0] - v->notch[k].corner[0][0],
                                           v->notch[k].corner[1][1] - v->notch[k].corner[0][1]) > 0))
             continue;
-        faces_make(&f, &v->notch[k], 2 * c->spacing);
-        f.in_mirror = crack_is_in_mirror(&v->notch[k], c);
-        faces_move_between_particles(&f, c);
-        for (int64_t i = 0; i < c->n; i++) face_add_motion(&f, c, i);
-        faces_trim(pixel, width, height, v, &f, width / (v->to[0] - v->from[0]), c->spacing);
+        faces_make(&f, &v->notch[k], 2 * plotted->spacing);
+        f.in_mirror = crack_is_in_mirror(&v->notch[k], plotted);
+        faces_move_between_particles(&f, plotted);
+        for (int64_t i = 0; i < plotted->n; i++) face_add_motion(&f, plotted, i);
+        faces_trim(pixel, width, height, v, &f, width / (v->to[0] - v->from[0]), plotted->spacing);
         faces_paint(pixel, width, height, v, &f, map == MAP_DAMAGE ? FACE : GAP);
         for (int side = 0; side < 2; side++)
             memory_free(f.u[side]), memory_free(f.weight[side]), memory_free(f.place[side]);

@@ -32,30 +32,32 @@ struct outline {
 
 /* Returns true if a crack or another body begins beside particle i of c, on side b of the axis `axis` of the map (0:
  * towards larger coordinates, 1: smaller ones). */
-static bool is_apart(const struct plotted_particles *c, int64_t i, const double *axis, int b)
+static bool is_apart(const struct plotted_particles *plotted, int64_t i, const double *axis, int b)
 {
-    for (int m = 0; m < 3 && c->apart; m++)
-        if (fabs(axis[m]) > 0.9) return c->apart[i] >> (2 * m + (axis[m] < 0 ? !b : b)) & 1;
+    for (int m = 0; m < 3 && plotted->apart; m++)
+        if (fabs(axis[m]) > 0.9) return plotted->apart[i] >> (2 * m + (axis[m] < 0 ? !b : b)) & 1;
     return false;
 }
 
 /* Returns the shape of particle i of c. On a side where a crack or another body begins, a square ends half a spacing
  * plus half a pixel from its centre, so that a gap is drawn in its true width. The half pixel prevents that a gap
  * narrower than a pixel is drawn as a dotted line. pixel: edge of a pixel [m]. */
-static struct outline outline_of(const struct plotted_particles *c, int64_t i, double pixel)
+static struct outline outline_of(const struct plotted_particles *plotted, int64_t i, double pixel)
 {
-    const double wide = c->size ? c->size[i] - c->spacing : 0; /* additional width of a coarse cell's point */
-    const double *axis[2] = {c->camera.right, c->camera.up};
-    struct outline s = {.F = {{1, 0}, {0, 1}}, .square = c->aligned};
-    s.half = c->aligned ? SQUARE * c->spacing + 0.5 * wide : DISC * (c->spacing + wide);
+    const double wide =
+        plotted->size ? plotted->size[i] - plotted->spacing : 0; /* additional width of a coarse cell's point */
+    const double *axis[2] = {plotted->camera.right, plotted->camera.up};
+    struct outline s = {.F = {{1, 0}, {0, 1}}, .square = plotted->aligned};
+    s.half = plotted->aligned ? SQUARE * plotted->spacing + 0.5 * wide : DISC * (plotted->spacing + wide);
     for (int k = 0; k < 4; k++) {
-        const bool apart = s.square && is_apart(c, i, axis[k / 2], k % 2);
-        s.side[k / 2][k % 2] = apart ? 0.5 * (c->spacing + wide + pixel) : SQUARE * c->spacing + 0.5 * wide;
+        const bool apart = s.square && is_apart(plotted, i, axis[k / 2], k % 2);
+        s.side[k / 2][k % 2] = apart ? 0.5 * (plotted->spacing + wide + pixel) : SQUARE * plotted->spacing + 0.5 * wide;
     }
     for (int k = 0; k < 4 && s.square; k++) s.half = fmax(s.half, s.side[k / 2][k % 2]);
-    for (int k = 0; k < 4 && c->gradient; k++) {
+    for (int k = 0; k < 4 && plotted->gradient; k++) {
         double sum = 0;
-        for (int m = 0; m < 9; m++) sum += axis[k / 2][m / 3] * (double)c->gradient[9 * i + m] * axis[k % 2][m % 3];
+        for (int m = 0; m < 9; m++)
+            sum += axis[k / 2][m / 3] * (double)plotted->gradient[9 * i + m] * axis[k % 2][m % 3];
         s.F[k / 2][k % 2] = sum;
     }
     const double determinant = s.F[0][0] * s.F[1][1] - s.F[0][1] * s.F[1][0];
@@ -87,13 +89,13 @@ static double distance_within(const struct outline *s, const double *off, double
 
 /* Limits the range *low .. *high [m] along axis k of the map that particle i of c covers to the side of each plane of
  * symmetry on which its centre is. Planes that are not perpendicular to axis k are skipped. */
-static void clip_at_mirrors(const struct plotted_particles *c, int64_t i, int k, double *low, double *high)
+static void clip_at_mirrors(const struct plotted_particles *plotted, int64_t i, int k, double *low, double *high)
 {
-    const double *axis = k == 0 ? c->camera.right : c->camera.up;
-    for (int m = 0; m < c->mirrors; m++) {
-        const double along = axis[c->mirror[m].axis], plane = along * c->mirror[m].at;
+    const double *axis = k == 0 ? plotted->camera.right : plotted->camera.up;
+    for (int m = 0; m < plotted->mirrors; m++) {
+        const double along = axis[plotted->mirror[m].axis], plane = along * plotted->mirror[m].at;
         if (fabs(along) < 0.999) continue;
-        if (c->position[k][i] > plane)
+        if (plotted->position[k][i] > plane)
             *low = fmax(*low, plane);
         else
             *high = fmin(*high, plane);
@@ -103,31 +105,32 @@ static void clip_at_mirrors(const struct plotted_particles *c, int64_t i, int k,
 /* Paints particle i of c on all pixels of the canvas v that it covers, except those with a particle of better rank. The
  * rank is better the nearer the centre of the particle is to the pixel or, if pixels are larger than particles, the
  * more damaged the particle is. view: rectangle that is shown; map: what the colours show. */
-static void paint_particle(struct canvas *v, const struct view *view, const struct plotted_particles *c, int64_t i,
-                           enum map map)
+static void paint_particle(struct canvas *v, const struct view *view, const struct plotted_particles *plotted,
+                           int64_t i, enum map map)
 {
     double at[2], reach[2], off[2];
     int from[2], to[2], size[2] = {v->width, v->height};
-    const struct outline outline = outline_of(c, i, 1 / v->per_metre[0]);
-    const bool fine = c->spacing * v->per_metre[0] < 1.5; /* several particles per pixel: show the most damaged one */
-    const double beside = fine ? INFINITY : 1e-3 * c->spacing;
+    const struct outline outline = outline_of(plotted, i, 1 / v->per_metre[0]);
+    const bool fine =
+        plotted->spacing * v->per_metre[0] < 1.5; /* several particles per pixel: show the most damaged one */
+    const double beside = fine ? INFINITY : 1e-3 * plotted->spacing;
     for (int k = 0; k < 2; k++) {
-        at[k] = (c->position[k][i] - view->from[k]) * v->per_metre[k];
+        at[k] = (plotted->position[k][i] - view->from[k]) * v->per_metre[k];
         reach[k] = fmax(outline_reach(&outline, k) * v->per_metre[k], 0.5);
         if (!(at[k] > -reach[k] && at[k] < size[k] + reach[k])) return; /* outside the picture, or NaN */
         double low = -INFINITY, high = INFINITY;
-        clip_at_mirrors(c, i, k, &low, &high);
+        clip_at_mirrors(plotted, i, k, &low, &high);
         low = fmax((low - view->from[k]) * v->per_metre[k], at[k] - reach[k]);
         high = fmin((high - view->from[k]) * v->per_metre[k], at[k] + reach[k]);
         from[k] = (int)fmax(ceil(low - 0.5), 0), to[k] = (int)fmin(floor(high - 0.5), size[k] - 1);
     }
-    const struct colour colour = plotted_particle_colour(view, c, i, map);
+    const struct colour colour = plotted_particle_colour(view, plotted, i, map);
     for (int row = from[1]; row <= to[1]; row++) {
         off[1] = (row + 0.5 - at[1]) / v->per_metre[1];
         for (int column = from[0]; column <= to[0]; column++) {
             off[0] = (column + 0.5 - at[0]) / v->per_metre[0];
             const double far = distance_within(&outline, off, beside);
-            const float rank = fine ? (float)-(c->damage[i] + c->kind[i]) : (float)(far / c->spacing);
+            const float rank = fine ? (float)-(plotted->damage[i] + plotted->kind[i]) : (float)(far / plotted->spacing);
             const int64_t q = (int64_t)row * v->width + column;
             if (!isfinite(far) || rank >= v->rank[q]) continue;
             v->rank[q] = rank;
@@ -137,11 +140,11 @@ static void paint_particle(struct canvas *v, const struct view *view, const stru
 }
 
 void image_paint_particles_in_plane(struct colour *pixel, int width, int height, const struct view *view,
-                                    const struct plotted_particles *c, enum map map)
+                                    const struct plotted_particles *plotted, enum map map)
 {
     int64_t pixels = (int64_t)width * height;
-    if (c->position[2] || c->tall > 0) {
-        image_paint_particles_as_cubes(pixel, width, height, view, c, map);
+    if (plotted->position[2] || plotted->tall > 0) {
+        image_paint_particles_as_cubes(pixel, width, height, view, plotted, map);
         return;
     }
     struct canvas v = {.pixel = pixel, .rank = NEW("plot.rank", pixels, float), .width = width, .height = height};
@@ -151,8 +154,8 @@ void image_paint_particles_in_plane(struct colour *pixel, int width, int height,
         v.rank[q] = INFINITY;
         pixel[q] = (struct colour){255, 255, 255, 0};
     }
-    for (int64_t i = 0; i < c->n; i++) paint_particle(&v, view, c, i, map);
-    image_paint_precrack_faces(pixel, width, height, view, c, map);
-    image_paint_rigid_bodies_in_plane(pixel, width, height, view, c);
+    for (int64_t i = 0; i < plotted->n; i++) paint_particle(&v, view, plotted, i, map);
+    image_paint_precrack_faces(pixel, width, height, view, plotted, map);
+    image_paint_rigid_bodies_in_plane(pixel, width, height, view, plotted);
     memory_free(v.rank);
 }

@@ -52,21 +52,21 @@ void rigid_body_find_nearest_particle_displacement(const struct region *shape, c
     for (int d = 0; d < f->dim; d++) displacement[d] = nearest < 0 ? 0 : f->u[d][nearest];
 }
 
-void plotted_particles_add_placed_rigid_bodies(struct plotted_particles *c, const struct scene *s,
+void plotted_particles_add_placed_rigid_bodies(struct plotted_particles *plotted, const struct scene *s,
                                                const struct rigid_placement *placement, const real *low,
                                                const real *high)
 {
-    c->rigids = s->rigids, c->dim = s->dim;
-    c->rigid = NEW("plot.rigid", s->rigids, struct plotted_rigid_body);
+    plotted->rigids = s->rigids, plotted->dim = s->dim;
+    plotted->rigid = NEW("plot.rigid", s->rigids, struct plotted_rigid_body);
     for (int b = 0; b < s->rigids; b++) {
-        struct plotted_rigid_body *r = &c->rigid[b];
+        struct plotted_rigid_body *r = &plotted->rigid[b];
         *r = (struct plotted_rigid_body){.shape = &s->body[s->bodies + b].shape, .at = placement[b]};
         for (int d = 0; d < s->dim; d++) r->low[d] = low[d], r->high[d] = high[d];
         r->bounded = rigid_compute_plotting_box(r->shape, s->dim, r->low, r->high);
     }
 }
 
-void plotted_particles_add_rigid_bodies(struct plotted_particles *c, const struct output_frame *f,
+void plotted_particles_add_rigid_bodies(struct plotted_particles *plotted, const struct output_frame *f,
                                         const struct scene *s, const char *folder, int frame_number)
 {
     if (!s || s->rigids == 0 || s->dim != f->dim || f->dim < 2) return;
@@ -77,12 +77,12 @@ void plotted_particles_add_rigid_bodies(struct plotted_particles *c, const struc
         for (int64_t i = 0; i < f->n; i++) low[d] = fmin(low[d], f->X[d][i]), high[d] = fmax(high[d], f->X[d][i]);
     }
     if (rigids_read_placements_of_frame(at, s->rigids, folder, frame_number)) {
-        for (int b = 0; b < s->rigids && c->magnify != 1; b++) {
+        for (int b = 0; b < s->rigids && plotted->magnify != 1; b++) {
             real beside[DIM_MAX];
             rigid_body_find_nearest_particle_displacement(&s->body[s->bodies + b].shape, &at[b], f, beside);
-            for (int d = 0; d < f->dim; d++) at[b].x[d] += (c->magnify - 1) * beside[d];
+            for (int d = 0; d < f->dim; d++) at[b].x[d] += (plotted->magnify - 1) * beside[d];
         }
-        plotted_particles_add_placed_rigid_bodies(c, s, at, low, high);
+        plotted_particles_add_placed_rigid_bodies(plotted, s, at, low, high);
     }
     memory_free(at);
 }
@@ -113,12 +113,13 @@ static double corner_along(const struct plotted_rigid_body *r, int dim, int k, c
 }
 
 /* Returns true if the rigid body r is not in the plane of the section that c shows: its box is on one side of it. */
-static bool misses_section(const struct plotted_rigid_body *r, const struct plotted_particles *c)
+static bool misses_section(const struct plotted_rigid_body *r, const struct plotted_particles *plotted)
 {
-    int below = 0, corners = 1 << c->dim;
-    if (c->normal < 0) return false;
+    int below = 0, corners = 1 << plotted->dim;
+    if (plotted->normal < 0) return false;
     for (int k = 0; k < corners; k++)
-        below += corner_along(r, c->dim, k, c->camera.towards) < c->layer * c->camera.towards[c->normal];
+        below += corner_along(r, plotted->dim, k, plotted->camera.towards) <
+                 plotted->layer * plotted->camera.towards[plotted->normal];
     return below == 0 || below == corners;
 }
 
@@ -126,11 +127,12 @@ void view_extend_to_rigid_bodies(struct view *v, const struct plotted_particles 
 {
     const double longest = fmax(v->to[0] - v->from[0], v->to[1] - v->from[1]);
     const double from[2] = {v->from[0], v->from[1]}, to[2] = {v->to[0], v->to[1]};
-    for (const struct plotted_particles *c = cloud; c < cloud + frame_count; c++)
-        for (int q = 0; q < c->rigids << c->dim; q++) {
-            const struct plotted_rigid_body *r = &c->rigid[q >> c->dim];
-            for (int a = 0; a < 2 && !misses_section(r, c); a++) {
-                const double x = corner_along(r, c->dim, q % (1 << c->dim), a ? c->camera.up : c->camera.right);
+    for (const struct plotted_particles *plotted = cloud; plotted < cloud + frame_count; plotted++)
+        for (int q = 0; q < plotted->rigids << plotted->dim; q++) {
+            const struct plotted_rigid_body *r = &plotted->rigid[q >> plotted->dim];
+            for (int a = 0; a < 2 && !misses_section(r, plotted); a++) {
+                const double x = corner_along(r, plotted->dim, q % (1 << plotted->dim),
+                                              a ? plotted->camera.up : plotted->camera.right);
                 v->from[a] = fmin(v->from[a], fmax(x, from[a] - BESIDE * longest));
                 v->to[a] = fmax(v->to[a], fmin(x, to[a] + BESIDE * longest));
             }
@@ -140,39 +142,40 @@ void view_extend_to_rigid_bodies(struct view *v, const struct plotted_particles 
 /* Computes the position x[3] [m] of pixel q of a picture of size[0] x size[1] pixels that shows the rectangle of view v
  * through the camera of c. Pixels are counted row by row from the lower left corner. depth: distance of x from the
  * picture plane towards the viewer [m]. */
-static void pixel_position(const struct plotted_particles *c, const struct view *v, const int *size, int64_t q,
+static void pixel_position(const struct plotted_particles *plotted, const struct view *v, const int *size, int64_t q,
                            double depth, double *x)
 {
     const double a = v->from[0] + (v->to[0] - v->from[0]) * ((double)(q % size[0]) + 0.5) / size[0];
     const double b = v->from[1] + (v->to[1] - v->from[1]) * ((double)(q / size[0]) + 0.5) / size[1];
-    for (int d = 0; d < 3; d++) x[d] = a * c->camera.right[d] + b * c->camera.up[d] + depth * c->camera.towards[d];
+    for (int d = 0; d < 3; d++)
+        x[d] = a * plotted->camera.right[d] + b * plotted->camera.up[d] + depth * plotted->camera.towards[d];
 }
 
-bool view_shows_any_rigid_body(const struct view *v, const struct plotted_particles *c)
+bool view_shows_any_rigid_body(const struct view *v, const struct plotted_particles *plotted)
 {
     enum { SAMPLES = 300 };
     const int size[2] = {SAMPLES, SAMPLES};
-    const double depth = c->normal < 0 ? 0 : c->layer * c->camera.towards[c->normal];
-    bool visible = c->rigids > 0 && c->position[2];
-    for (int b = 0; b < c->rigids && !visible; b++)
+    const double depth = plotted->normal < 0 ? 0 : plotted->layer * plotted->camera.towards[plotted->normal];
+    bool visible = plotted->rigids > 0 && plotted->position[2];
+    for (int b = 0; b < plotted->rigids && !visible; b++)
         for (int64_t q = 0; q < (int64_t)SAMPLES * SAMPLES && !visible; q++) {
             double x[3];
-            pixel_position(c, v, size, q, depth, x);
-            visible = level_at(&c->rigid[b], c->dim, x, false) <= 0;
+            pixel_position(plotted, v, size, q, depth, x);
+            visible = level_at(&plotted->rigid[b], plotted->dim, x, false) <= 0;
         }
     return visible;
 }
 
 void image_paint_rigid_bodies_in_plane(struct colour *pixel, int width, int height, const struct view *v,
-                                       const struct plotted_particles *c)
+                                       const struct plotted_particles *plotted)
 {
     const int size[2] = {width, height};
-    const double depth = c->normal < 0 ? 0 : c->layer * c->camera.towards[c->normal];
-    for (int b = 0; b < c->rigids; b++)
+    const double depth = plotted->normal < 0 ? 0 : plotted->layer * plotted->camera.towards[plotted->normal];
+    for (int b = 0; b < plotted->rigids; b++)
         for (int64_t q = 0; q < (int64_t)width * height; q++) {
             double x[3];
-            pixel_position(c, v, size, q, depth, x);
-            if (level_at(&c->rigid[b], c->dim, x, false) <= 0) pixel[q] = RIGID;
+            pixel_position(plotted, v, size, q, depth, x);
+            if (level_at(&plotted->rigid[b], plotted->dim, x, false) <= 0) pixel[q] = RIGID;
         }
 }
 
@@ -194,14 +197,14 @@ static double brightness_at(const struct plotted_rigid_body *r, const double *x,
 }
 
 void image_paint_rigid_bodies_from_outside(struct colour *pixel, float *depth, int width, int height,
-                                           const struct view *v, const struct plotted_particles *c, enum map map)
+                                           const struct view *v, const struct plotted_particles *plotted, enum map map)
 {
     const int size[2] = {width, height};
-    for (int b = 0; b < c->rigids; b++) {
-        const struct plotted_rigid_body *r = &c->rigid[b];
+    for (int b = 0; b < plotted->rigids; b++) {
+        const struct plotted_rigid_body *r = &plotted->rigid[b];
         double near = -INFINITY, far = INFINITY;
         for (int k = 0; k < 8; k++) {
-            const double z = corner_along(r, 3, k, c->camera.towards);
+            const double z = corner_along(r, 3, k, plotted->camera.towards);
             near = fmax(near, z), far = fmin(far, z);
         }
         const double small = 1e-3 * (near - far);
@@ -209,16 +212,16 @@ void image_paint_rigid_bodies_from_outside(struct colour *pixel, float *depth, i
         for (int64_t q = 0; q < (int64_t)width * height; q++) {
             double z = near + small, level = INFINITY, x[3];
             for (int k = 0; k < MARCH_MOST && z > fmax(far, (double)depth[q]); k++) {
-                pixel_position(c, v, size, q, z, x);
+                pixel_position(plotted, v, size, q, z, x);
                 level = level_at(r, 3, x, true);
                 if (level <= small) break;
                 z -= level;
             }
             if (!(level <= small) || z <= depth[q]) continue;
             depth[q] = (float)z;
-            pixel[q] =
-                colour_mixed_with_white(colour_mixed_with_black(RIGID, brightness_at(r, x, c->camera.towards, small)),
-                                        map == MAP_CRACKS ? GHOST : 1);
+            pixel[q] = colour_mixed_with_white(
+                colour_mixed_with_black(RIGID, brightness_at(r, x, plotted->camera.towards, small)),
+                map == MAP_CRACKS ? GHOST : 1);
         }
     }
 }

@@ -80,12 +80,13 @@ static struct span span_along(const struct plotted_particles *cloud, int clouds,
 }
 
 /* Returns the number of particles of c that are outside the rectangle of the view v. */
-static int64_t count_outside(const struct view *v, const struct plotted_particles *c)
+static int64_t count_outside(const struct view *v, const struct plotted_particles *plotted)
 {
     int64_t outside = 0;
-    for (int64_t i = 0; i < c->n; i++) {
+    for (int64_t i = 0; i < plotted->n; i++) {
         bool in = true;
-        for (int k = 0; k < 2; k++) in = in && c->position[k][i] >= v->from[k] && c->position[k][i] <= v->to[k];
+        for (int k = 0; k < 2; k++)
+            in = in && plotted->position[k][i] >= v->from[k] && plotted->position[k][i] <= v->to[k];
         outside += !in;
     }
     return outside;
@@ -145,12 +146,12 @@ enum { EXTREMES_LEAST = 3 };
  * count, because most of a body can be at rest or elastic. The share EXTREME of the largest ones, or EXTREMES_LEAST of
  * them (at most a twentieth), is omitted as outliers, and the result is limited to HOT_TIMES the magnitude that the
  * share HOT of them exceeds. Returns 0 if none is above 0. sample[SAMPLE_MOST]: work array. */
-static double magnitude_of(double *sample, const struct plotted_particles *c, enum field_scale scale, double low)
+static double magnitude_of(double *sample, const struct plotted_particles *plotted, enum field_scale scale, double low)
 {
-    const int64_t stride = c->n / SAMPLE_MOST + 1;
+    const int64_t stride = plotted->n / SAMPLE_MOST + 1;
     int64_t n = 0;
-    for (int64_t i = 0; i < c->n; i += stride) {
-        const double w = scale == BOTH_SIGNS ? fabs(c->value[i]) : c->value[i] - low;
+    for (int64_t i = 0; i < plotted->n; i += stride) {
+        const double w = scale == BOTH_SIGNS ? fabs(plotted->value[i]) : plotted->value[i] - low;
         if (isfinite(w) && w > 0) sample[n++] = w;
     }
     if (n == 0) return 0;
@@ -308,13 +309,14 @@ struct colour view_colour_at_scale_position(const struct view *v, enum map map, 
     return colour_on_damage_scale(a);
 }
 
-struct colour plotted_particle_colour(const struct view *v, const struct plotted_particles *c, int64_t i, enum map map)
+struct colour plotted_particle_colour(const struct view *v, const struct plotted_particles *plotted, int64_t i,
+                                      enum map map)
 {
-    if (c->colour) return c->colour[i];
-    if (map == MAP_FRAGMENT && c->fragment) return fragment_colour(c->fragment[i]);
-    if (map == MAP_CATEGORY && c->value) return category_colour(v->field, c->value[i]);
-    if (map == MAP_KIND && c->kind[i] == KIND_MPM) return colour_of_material_points();
-    if (map == MAP_FIELD && c->value)
-        return view_colour_at_scale_position(v, map, (c->value[i] - v->low) / (v->high - v->low));
-    return view_colour_at_scale_position(v, map, (c->damage[i] - v->bottom) / (v->top - v->bottom));
+    if (plotted->colour) return plotted->colour[i];
+    if (map == MAP_FRAGMENT && plotted->fragment) return fragment_colour(plotted->fragment[i]);
+    if (map == MAP_CATEGORY && plotted->value) return category_colour(v->field, plotted->value[i]);
+    if (map == MAP_KIND && plotted->kind[i] == KIND_MPM) return colour_of_material_points();
+    if (map == MAP_FIELD && plotted->value)
+        return view_colour_at_scale_position(v, map, (plotted->value[i] - v->low) / (v->high - v->low));
+    return view_colour_at_scale_position(v, map, (plotted->damage[i] - v->bottom) / (v->top - v->bottom));
 }

@@ -64,28 +64,28 @@ struct acting {
     bool varies;
 };
 
-/* Returns the boundary condition of the scene of run e from which the load l was made. It is not always l->boundary,
+/* Returns the boundary condition of the scene of run from which the load l was made. It is not always l->boundary,
  * since static solvers replace prescribed displacements in it by velocities. */
-static const struct boundary *boundary_of(const struct run *e, const struct load *l)
+static const struct boundary *boundary_of(const struct run *run, const struct load *l)
 {
-    const int64_t number = l - e->loads.load;
-    return number < e->scene->boundaries ? &e->scene->boundary[number] : l->boundary;
+    const int64_t number = l - run->loads.load;
+    return number < run->scene->boundaries ? &run->scene->boundary[number] : l->boundary;
 }
 
-/* Computes vector[dim], the force density, displacement or velocity that the load l of run e prescribes for its
+/* Computes vector[dim], the force density, displacement or velocity that the load l of run prescribes for its
  * particle number k at time t [s], in the SI unit of this kind of load (such as Pa). Returns its magnitude in this
  * unit. For a pressure the vector has the direction of the force. */
-static double vector_at(const struct run *e, const struct load *l, int64_t k, double t, real *vector)
+static double vector_at(const struct run *run, const struct load *l, int64_t k, double t, real *vector)
 {
-    const struct particles *p = &e->part;
-    const struct boundary *b = boundary_of(e, l);
+    const struct particles *p = &run->part;
+    const struct boundary *b = boundary_of(run, l);
     const int32_t i = l->particle[k];
     if (b->displaces) {
         load_displacement_of_particle(&(struct load){.boundary = b, .particle = l->particle}, p, k, t, vector);
     } else if (b->kind == BOUNDARY_VELOCITY) {
         real X[DIM_MAX];
         particle_reference_position(p, i, X);
-        const struct prescribed_motion driving = prescribed_motion_make(b, p->dim, t, e->clock.dt);
+        const struct prescribed_motion driving = prescribed_motion_make(b, p->dim, t, run->clock.dt);
         for (int d = 0; d < p->dim; d++)
             vector[d] = b->components >> d & 1 ? prescribed_velocity_at(&driving, X, d, true) : 0;
     } else if (b->kind == BOUNDARY_BODY_FORCE) {
@@ -102,17 +102,17 @@ static double vector_at(const struct run *e, const struct load *l, int64_t k, do
     return force > 0 ? pressure : 0;
 }
 
-/* Returns the largest magnitude of load l of run e at time t [s] and the number of particles on which it is not 0. Only
+/* Returns the largest magnitude of load l of run at time t [s] and the number of particles on which it is not 0. Only
  * every `every`-th particle of the load is evaluated. on[i]: 1 if particle i is included, else 0; if `on` is NULL, all
  * particles are included. */
-static struct acting acting_at(const struct run *e, const struct load *l, const uint8_t *on, double t, int64_t every)
+static struct acting acting_at(const struct run *run, const struct load *l, const uint8_t *on, double t, int64_t every)
 {
     struct acting a = {.t = t};
     double least = INFINITY;
     for (int64_t k = 0; k < l->n; k += every) {
         real vector[DIM_MAX] = {0};
         if (on && !on[l->particle[k]]) continue;
-        const double size = vector_at(e, l, k, t, vector);
+        const double size = vector_at(run, l, k, t, vector);
         if (!isfinite(size)) continue;
         a.particles += size > 0;
         a.most = fmax(a.most, size);
@@ -131,43 +131,43 @@ static void face_on(void *context, int32_t particle, int axis, int side, real ar
     ((uint8_t *)context)[particle] |= area > 0;
 }
 
-/* Returns an allocated array with 1 for each particle of run e that has a face under the pressure load l, else 0. A
+/* Returns an allocated array with 1 for each particle of run that has a face under the pressure load l, else 0. A
  * pressure is distributed over two layers of particles, of which only the outer layer has a face. The caller releases
  * the array with memory_free. */
-static uint8_t *faces_of_pressure(const struct run *e, const struct load *l)
+static uint8_t *faces_of_pressure(const struct run *run, const struct load *l)
 {
-    const struct particles *p = &e->part;
+    const struct particles *p = &run->part;
     uint8_t *selected = NEW("plot.selected", p->n, uint8_t), *on = NEW("plot.on", p->n, uint8_t);
-    boundary_select_particles_in_region(l->boundary, p, e->scene->spacing, selected);
-    const struct boundary *all = e->boundary ? e->boundary : e->scene->boundary;
-    pressure_boundary_visit_free_faces(all, e->scene->boundaries, (int)(l - e->loads.load), p, e->scene->spacing,
+    boundary_select_particles_in_region(l->boundary, p, run->scene->spacing, selected);
+    const struct boundary *all = run->boundary ? run->boundary : run->scene->boundary;
+    pressure_boundary_visit_free_faces(all, run->scene->boundaries, (int)(l - run->loads.load), p, run->scene->spacing,
                                        selected, face_on, on);
     memory_free(selected);
     return on;
 }
 
-/* Returns the state of load l of run e at the time at which its magnitude is largest, among evenly spaced times and the
+/* Returns the state of load l of run at the time at which its magnitude is largest, among evenly spaced times and the
  * characteristic times of its time function. on[i]: 1 if particle i is included, else 0; if `on` is NULL, all particles
  * are included. */
-static struct acting acting_of(const struct run *e, const struct load *l, const uint8_t *on)
+static struct acting acting_of(const struct run *run, const struct load *l, const uint8_t *on)
 {
     enum { MOMENTS = 32, LOOKED_AT = 400 };
-    const struct time_function *f = &boundary_of(e, l)->time;
+    const struct time_function *f = &boundary_of(run, l)->time;
     const bool fixed = l->boundary->frozen && boundary_applies_force(l->boundary);
     const int64_t every = 1 + l->n / LOOKED_AT;
-    struct acting most = acting_at(e, l, on, fixed ? e->scene->duration : 0, every);
+    struct acting most = acting_at(run, l, on, fixed ? run->scene->duration : 0, every);
     bool changes = false;
     for (int k = 0; k < MOMENTS + f->n + 3 && !fixed; k++) {
         const double own[] = {f->from, 0.5 * (f->from + f->until), f->until};
-        const double t = k < MOMENTS          ? (k + 1) * e->scene->duration / MOMENTS
+        const double t = k < MOMENTS          ? (k + 1) * run->scene->duration / MOMENTS
                          : k < MOMENTS + f->n ? f->t[k - MOMENTS]
                                               : own[k - MOMENTS - f->n];
-        if (!(t >= 0 && t <= e->scene->duration)) continue;
-        const struct acting now = acting_at(e, l, on, t, every);
+        if (!(t >= 0 && t <= run->scene->duration)) continue;
+        const struct acting now = acting_at(run, l, on, t, every);
         changes = changes || fabs(now.most - most.most) > 1e-6 * most.most;
         if (now.most > (1 + 1e-6) * most.most) most = now;
     }
-    most = acting_at(e, l, on, most.t, 1);
+    most = acting_at(run, l, on, most.t, 1);
     most.varies = most.varies || changes;
     return most;
 }
@@ -241,10 +241,10 @@ static int64_t chosen_count(const struct chosen *c, const struct particles *p, c
 
 /* Selects the particles of load l whose arrows are drawn in the picture m. Along each axis they are on every n-th layer
  * of the lattice, with the smallest n for which at most `most` particles are selected. Returns the selection. */
-static struct chosen choose_particles(const struct scene_overlay *m, const struct load *l, int64_t most)
+static struct chosen choose_particles(const struct scene_overlay *overlay, const struct load *l, int64_t most)
 {
-    const struct particles *p = &m->engine->part;
-    struct chosen c = {.spacing = m->engine->scene->spacing, .every = 1};
+    const struct particles *p = &overlay->engine->part;
+    struct chosen c = {.spacing = overlay->engine->scene->spacing, .every = 1};
     for (int d = 0; d < p->dim && l->n > 0; d++) {
         double from = INFINITY, to = -INFINITY;
         for (int64_t k = 0; k < l->n; k++) {
@@ -264,42 +264,43 @@ static struct chosen choose_particles(const struct scene_overlay *m, const struc
  * compression ends at it. on[i]: 1 if particle i is included, else 0; if `on` is NULL, all particles are included.
  * acting: time for which the arrows are drawn, and largest magnitude of the load at this time, which is drawn with full
  * length. */
-static void arrows_of_load(struct scene_overlay *m, const struct load *l, const uint8_t *on,
+static void arrows_of_load(struct scene_overlay *overlay, const struct load *l, const uint8_t *on,
                            const struct acting *acting)
 {
-    const struct particles *p = &m->engine->part;
+    const struct particles *p = &overlay->engine->part;
     const struct boundary *b = l->boundary;
-    const struct chosen chosen = choose_particles(m, l, b->kind == BOUNDARY_BODY_FORCE ? ARROWS_FIELD : ARROWS_MOST);
+    const struct chosen chosen =
+        choose_particles(overlay, l, b->kind == BOUNDARY_BODY_FORCE ? ARROWS_FIELD : ARROWS_MOST);
     for (int64_t k = 0; k < l->n; k++) {
         real X[DIM_MAX], acts[DIM_MAX] = {0};
         double vector[DIM_MAX] = {0};
         if (!chosen_has(&chosen, p, l->particle[k]) || (on && !on[l->particle[k]])) continue;
-        const double size = vector_at(m->engine, l, k, acting->t, acts);
+        const double size = vector_at(overlay->engine, l, k, acting->t, acts);
         if (!(size > 0 && isfinite(size))) continue;
         const bool inward = b->kind != BOUNDARY_TRACTION || acts[b->face] * b->side <= 0;
         particle_reference_position(p, l->particle[k], X);
-        for (int d = 0; d < p->dim; d++) vector[d] = m->arrow * acts[d] / acting->most;
+        for (int d = 0; d < p->dim; d++) vector[d] = overlay->arrow * acts[d] / acting->most;
         for (int d = 0; d < p->dim && inward; d++) X[d] -= vector[d];
-        scene_overlay_add_point(m, X, vector);
+        scene_overlay_add_point(overlay, X, vector);
     }
 }
 
-static void points_of_load(struct scene_overlay *m, const struct load *l)
+static void points_of_load(struct scene_overlay *overlay, const struct load *l)
 {
-    const struct chosen chosen = choose_particles(m, l, 3 * ARROWS_MOST);
+    const struct chosen chosen = choose_particles(overlay, l, 3 * ARROWS_MOST);
     for (int64_t k = 0; k < l->n; k++) {
         real X[DIM_MAX];
-        if (!chosen_has(&chosen, &m->engine->part, l->particle[k])) continue;
-        particle_reference_position(&m->engine->part, l->particle[k], X);
-        scene_overlay_add_point(m, X, NULL);
+        if (!chosen_has(&chosen, &overlay->engine->part, l->particle[k])) continue;
+        particle_reference_position(&overlay->engine->part, l->particle[k], X);
+        scene_overlay_add_point(overlay, X, NULL);
     }
 }
 
-/* Draws the plane of symmetry of boundary b in the picture m: a line across it in 2D, in 3D a rectangle a little larger
- * than the body. */
-static void mirror_plane_mark(struct scene_overlay *m, const struct boundary *b)
+/* Draws the plane of symmetry of boundary b in the picture overlay: a line across it in 2D, in 3D a rectangle a little
+ * larger than the body. */
+static void mirror_plane_mark(struct scene_overlay *overlay, const struct boundary *b)
 {
-    const struct particles *p = &m->engine->part;
+    const struct particles *p = &overlay->engine->part;
     real low[DIM_MAX] = {0}, high[DIM_MAX] = {0}, X[DIM_MAX];
     for (int d = 0; d < p->dim; d++) particles_coordinate_range(p, p->n, d, &low[d], &high[d]);
     const int a = b->axis == 0 ? 1 : 0, c = b->axis == 2 ? 1 : 2;
@@ -307,9 +308,9 @@ static void mirror_plane_mark(struct scene_overlay *m, const struct boundary *b)
         const bool up = k == 1 || k == 2, far = k == 2 || k == 3;
         for (int d = 0; d < DIM_MAX; d++) X[d] = low[d];
         X[b->axis] = b->at;
-        if (p->dim > 1) X[a] = up ? high[a] + m->arrow : low[a] - m->arrow;
-        if (p->dim == 3) X[c] = far ? high[c] + m->arrow : low[c] - m->arrow;
-        scene_overlay_add_point(m, X, NULL);
+        if (p->dim > 1) X[a] = up ? high[a] + overlay->arrow : low[a] - overlay->arrow;
+        if (p->dim == 3) X[c] = far ? high[c] + overlay->arrow : low[c] - overlay->arrow;
+        scene_overlay_add_point(overlay, X, NULL);
     }
 }
 
@@ -324,42 +325,42 @@ static const char *colour_of_load(int number)
 
 /* Draws the boundary condition with the index `number` in the picture m in a colour of its own, as arrows, points or a
  * plane of symmetry, and adds its description to the key (legend). */
-static void boundary_mark(struct scene_overlay *m, int number)
+static void boundary_mark(struct scene_overlay *overlay, int number)
 {
-    const struct scene *s = m->engine->scene;
-    const struct load *l = &m->engine->loads.load[number];
-    const struct boundary *b = boundary_of(m->engine, l);
+    const struct scene *s = overlay->engine->scene;
+    const struct load *l = &overlay->engine->loads.load[number];
+    const struct boundary *b = boundary_of(overlay->engine, l);
     const char *colour = colour_of_load(number);
     char text[TEXT], how[HOW];
     struct acting acting = {.particles = l->n};
-    uint8_t *on = b->kind == BOUNDARY_PRESSURE ? faces_of_pressure(m->engine, l) : NULL;
-    if (*unit_of_value(b) && !is_support(b, s->dim)) acting = acting_of(m->engine, l, on);
-    describe_boundary(text, b, s->dim, &acting, m->plain);
-    scene_overlay_begin_data_block(m);
+    uint8_t *on = b->kind == BOUNDARY_PRESSURE ? faces_of_pressure(overlay->engine, l) : NULL;
+    if (*unit_of_value(b) && !is_support(b, s->dim)) acting = acting_of(overlay->engine, l, on);
+    describe_boundary(text, b, s->dim, &acting, overlay->plain);
+    scene_overlay_begin_data_block(overlay);
     if (b->kind == BOUNDARY_MIRROR) {
-        mirror_plane_mark(m, b);
+        mirror_plane_mark(overlay, b);
         snprintf(how, sizeof how, "with lines lw 2 dt (12,4,3,4) lc rgb '%s'", colour);
     } else if (is_support(b, s->dim) || b->kind == BOUNDARY_ABSORBING) {
-        points_of_load(m, l);
+        points_of_load(overlay, l);
         const int point = b->kind == BOUNDARY_ABSORBING ? 6 : 9;
         snprintf(how, sizeof how, "with points pt %d ps 1.1 lc rgb '%s'", point, colour);
     } else {
-        arrows_of_load(m, l, on, &acting);
+        arrows_of_load(overlay, l, on, &acting);
         snprintf(how, sizeof how, "using 1:2:3:4 with vectors %s size screen 0.012,22 lw 1.8 lc rgb '%s'",
                  b->kind == BOUNDARY_VELOCITY ? "head empty" : "head filled", colour);
     }
-    scene_overlay_end_data_block(m, how, text);
+    scene_overlay_end_data_block(overlay, how, text);
     memory_free(on);
 }
 
 /* Draws all loads and supports in the picture m, first those with arrows and then supports drawn as points, since
  * arrows would hide points. */
-void scene_overlay_draw_load_symbols(struct scene_overlay *m)
+void scene_overlay_draw_load_symbols(struct scene_overlay *overlay)
 {
-    const struct run *e = m->engine;
+    const struct run *run = overlay->engine;
     for (int pass = 0; pass < 2; pass++)
-        for (int b = 0; b < e->loads.n; b++)
-            if (is_support(e->loads.load[b].boundary, e->scene->dim) == pass) boundary_mark(m, b);
+        for (int b = 0; b < run->loads.n; b++)
+            if (is_support(run->loads.load[b].boundary, run->scene->dim) == pass) boundary_mark(overlay, b);
 }
 
 /* ---- motion at the start ----------------------------------------------------------------------------------------- */
@@ -373,22 +374,22 @@ static double speed_at_start(const struct particles *p, int64_t i)
 }
 
 /* Draws an arrow from the centre of each moving rigid body along its velocity: adds it to the current line of marks m.
- * Its length is m->arrow times its speed divided by `fastest` [m/s]. */
-static void rigid_arrows(struct scene_overlay *m, double fastest)
+ * Its length is overlay->arrow times its speed divided by `fastest` [m/s]. */
+static void rigid_arrows(struct scene_overlay *overlay, double fastest)
 {
-    const struct scene *s = m->engine->scene;
+    const struct scene *s = overlay->engine->scene;
     for (int k = 0; k < s->rigids; k++) {
         const real *v = s->body[s->bodies + k].velocity;
         double vector[DIM_MAX] = {0};
-        for (int d = 0; d < s->dim; d++) vector[d] = m->arrow * v[d] / fastest;
-        if (value_size(v, s->dim) > 0) scene_overlay_add_point(m, m->engine->rigid->body[k].x, vector);
+        for (int d = 0; d < s->dim; d++) vector[d] = overlay->arrow * v[d] / fastest;
+        if (value_size(v, s->dim) > 0) scene_overlay_add_point(overlay, overlay->engine->rigid->body[k].x, vector);
     }
 }
 
-void scene_overlay_draw_velocity_arrows(struct scene_overlay *m)
+void scene_overlay_draw_velocity_arrows(struct scene_overlay *overlay)
 {
-    const struct particles *p = &m->engine->part;
-    const struct scene *s = m->engine->scene;
+    const struct particles *p = &overlay->engine->part;
+    const struct scene *s = overlay->engine->scene;
     double fastest = 0;
     int64_t moving = 0;
     char text[TEXT];
@@ -399,17 +400,17 @@ void scene_overlay_draw_velocity_arrows(struct scene_overlay *m)
         moving += v > 0;
     }
     if (fastest == 0) return;
-    scene_overlay_begin_data_block(m);
+    scene_overlay_begin_data_block(overlay);
     const int64_t stride = stride_for(moving, p->dim == 1 ? ARROWS_BAR : ARROWS_FIELD);
     for (int64_t i = 0, k = 0; i < p->n; i++) {
         double vector[DIM_MAX];
         real X[DIM_MAX];
         if (speed_at_start(p, i) == 0 || k++ % stride != 0) continue;
-        for (int d = 0; d < p->dim; d++) X[d] = p->x[d][i], vector[d] = m->arrow * p->v[d][i] / fastest;
-        scene_overlay_add_point(m, X, vector);
+        for (int d = 0; d < p->dim; d++) X[d] = p->x[d][i], vector[d] = overlay->arrow * p->v[d][i] / fastest;
+        scene_overlay_add_point(overlay, X, vector);
     }
-    rigid_arrows(m, fastest);
+    rigid_arrows(overlay, fastest);
     add_value(text, snprintf(text, sizeof text, "velocity, at most"), fastest, "m/s");
     scene_overlay_end_data_block(
-        m, "using 1:2:3:4 with vectors head filled size screen 0.009,20 lw 1.3 lc rgb '#222222'", text);
+        overlay, "using 1:2:3:4 with vectors head filled size screen 0.009,20 lw 1.3 lc rgb '#222222'", text);
 }

@@ -26,38 +26,38 @@ struct scene_overlay {
 /* Begins a gnuplot data block in m, the symbols over the picture of an input file. The block contains the points or
  * arrows of one kind of symbol. Add its lines with scene_overlay_add_point and end the block with
  * scene_overlay_end_data_block. */
-void scene_overlay_begin_data_block(struct scene_overlay *m);
+void scene_overlay_begin_data_block(struct scene_overlay *overlay);
 
 /* Adds a line to the current data block of m (symbols over a picture): the point with the coordinates `position` [m],
  * projected onto the picture, and the projection of the arrow `arrow` [m]. arrow: NULL for a point without an arrow. */
-void scene_overlay_add_point(struct scene_overlay *m, const real *position, const double *arrow);
+void scene_overlay_add_point(struct scene_overlay *overlay, const real *position, const double *arrow);
 
 /* Ends the current data block of m and adds the element that draws it to the plot command. plot_style: text of this
  * element after the name of the block, such as "using 1:2 with points"; key_entry: text of its entry in the key
  * (legend), "" for no entry. */
-void scene_overlay_end_data_block(struct scene_overlay *m, const char *plot_style, const char *key_entry);
+void scene_overlay_end_data_block(struct scene_overlay *overlay, const char *plot_style, const char *key_entry);
 
 /* Adds symbols for loads, supports, mirrors and absorbing faces of the input file to its picture m. */
-void scene_overlay_draw_load_symbols(struct scene_overlay *m);
+void scene_overlay_draw_load_symbols(struct scene_overlay *overlay);
 
 /* Draws arrows in the picture m for the initial velocities of bodies and rigid bodies. Draws nothing if all are 0. */
-void scene_overlay_draw_velocity_arrows(struct scene_overlay *m);
+void scene_overlay_draw_velocity_arrows(struct scene_overlay *overlay);
 
 /* Draws the pre-cracks of the input file in the picture m as lines, and an arrow where each crack with prescribed
  * growth starts. */
-void scene_overlay_draw_precracks(struct scene_overlay *m);
+void scene_overlay_draw_precracks(struct scene_overlay *overlay);
 
 /* Adds symbols at the positions of the probes (measurements during the run) of the input file to its picture m. */
-void scene_overlay_draw_probe_symbols(struct scene_overlay *m);
+void scene_overlay_draw_probe_symbols(struct scene_overlay *overlay);
 
 /* Draws in the picture m the outlines of the coarse mesh cells of a plane body, in one shade of grey for each size of
  * cells. */
-void scene_overlay_draw_coarse_cell_outlines(struct scene_overlay *m);
+void scene_overlay_draw_coarse_cell_outlines(struct scene_overlay *overlay);
 
 /* Adds boxes around the named regions of the input file to its picture m. */
-void scene_overlay_draw_region_boxes(struct scene_overlay *m);
+void scene_overlay_draw_region_boxes(struct scene_overlay *overlay);
 
-/* Adds an entry to the key (legend) of the picture m: a square in the colour `colour` and the text `text`. */
-void scene_overlay_add_colour_to_key(struct scene_overlay *m, struct colour colour, const char *text);
+/* Adds an entry to the key (legend) of the picture overlay: a square in the colour `colour` and the text `text`. */
+void scene_overlay_add_colour_to_key(struct scene_overlay *overlay, struct colour colour, const char *text);
 
 #endif

@@ -47,17 +47,17 @@ static int part_number(const struct scene *s, const struct particles *p, int64_t
 
 /* Appends a square to c, the particles of the picture, at the position x[dim] [m] projected on the picture plane.
  * size: edge of the square [m]; colour: its colour. */
-static void cloud_add(struct plotted_particles *c, const real *x, int dim, double size, struct colour colour)
+static void cloud_add(struct plotted_particles *plotted, const real *x, int dim, double size, struct colour colour)
 {
-    const double *axis[3] = {c->camera.right, c->camera.up, c->camera.towards};
+    const double *axis[3] = {plotted->camera.right, plotted->camera.up, plotted->camera.towards};
     for (int a = 0; a < 3; a++) {
         double sum = 0;
         for (int d = 0; d < dim; d++) sum += axis[a][d] * x[d];
-        if (c->position[a]) c->position[a][c->n] = sum;
-        if (a < 2) c->from[a] = fmin(c->from[a], sum), c->to[a] = fmax(c->to[a], sum);
+        if (plotted->position[a]) plotted->position[a][plotted->n] = sum;
+        if (a < 2) plotted->from[a] = fmin(plotted->from[a], sum), plotted->to[a] = fmax(plotted->to[a], sum);
     }
-    c->size[c->n] = (float)size;
-    c->colour[c->n++] = colour;
+    plotted->size[plotted->n] = (float)size;
+    plotted->colour[plotted->n++] = colour;
 }
 
 /* Returns the edge of the square or cube by which particle i of p is drawn [m]. For a particle that was read from a
@@ -73,7 +73,7 @@ static real particle_size(const struct scene *s, const struct particles *p, int6
  * `spacing` NULL, p are the particles of the run, with sizes by particle_size; if the run has material points and
  * peridynamic particles, the latter are darker. Otherwise p are points that represent coarse cells, and spacing[n] are
  * the edges of their squares [m]. part: all particles of the run. */
-static void cloud_add_particles(struct plotted_particles *c, const struct scene *s, const struct particles *part,
+static void cloud_add_particles(struct plotted_particles *plotted, const struct scene *s, const struct particles *part,
                                 const struct particles *p, const real *spacing)
 {
     const bool both = part->n_of[KIND_PD] > 0 && part->n_of[KIND_MPM] > 0;
@@ -82,51 +82,52 @@ static void cloud_add_particles(struct plotted_particles *c, const struct scene 
         real x[DIM_MAX];
         for (int d = 0; d < p->dim; d++) x[d] = spacing ? p->X[d][i] : p->x[d][i];
         if (both && !spacing && p->kind[i] == KIND_PD) colour = colour_mixed_with_black(colour, PERIDYNAMIC);
-        cloud_add(c, x, p->dim, spacing ? spacing[i] : particle_size(s, p, i), colour);
+        cloud_add(plotted, x, p->dim, spacing ? spacing[i] : particle_size(s, p, i), colour);
     }
 }
 
 /* Adds the rigid bodies of the scene s in their initial positions to c, the particles of the picture. In 1D each rigid
  * body is drawn as one particle of the length of the body. part: particles of the run. */
-static void cloud_add_rigids(struct plotted_particles *c, const struct scene *s, const struct particles *part)
+static void cloud_add_rigids(struct plotted_particles *plotted, const struct scene *s, const struct particles *part)
 {
     struct rigid_placement *at = NEW("plot.rigid", s->rigids, struct rigid_placement);
     real low[DIM_MAX], high[DIM_MAX];
     for (int d = 0; d < s->dim; d++) particles_coordinate_range(part, part->n, d, &low[d], &high[d]);
     for (int b = 0; b < s->rigids; b++)
         for (int d = 0; d < DIM_MAX; d++) at[b].turn[d][d] = 1;
-    plotted_particles_add_placed_rigid_bodies(c, s, at, low, high);
-    for (int b = 0; b < c->rigids && s->dim == 1; b++) {
-        const struct plotted_rigid_body *r = &c->rigid[b];
+    plotted_particles_add_placed_rigid_bodies(plotted, s, at, low, high);
+    for (int b = 0; b < plotted->rigids && s->dim == 1; b++) {
+        const struct plotted_rigid_body *r = &plotted->rigid[b];
         const real middle[DIM_MAX] = {0.5 * (r->low[0] + r->high[0])};
-        cloud_add(c, middle, 1, r->high[0] - r->low[0], rigid_body_colour(MAP_CATEGORY));
+        cloud_add(plotted, middle, 1, r->high[0] - r->low[0], rigid_body_colour(MAP_CATEGORY));
     }
     memory_free(at);
 }
 
-/* Collects everything in the run e that the picture shows as squares, cubes or bodies in c, the particles of the
+/* Collects everything in the run that the picture shows as squares, cubes or bodies in c, the particles of the
  * picture: the particles, the points of coarse mesh cells, and the rigid bodies. camera: direction of the view of a
  * body in 3D. Release c with plotted_particles_free. */
-static void scene_cloud(struct plotted_particles *c, struct run *e, const struct camera *camera)
+static void scene_cloud(struct plotted_particles *plotted, struct run *run, const struct camera *camera)
 {
-    const struct scene *s = e->scene;
-    const bool hollow = coarse_cell_points_interpolate_for_output(e->frame, &e->part, s->material, false);
-    const int64_t room = e->part.n + (hollow ? e->frame->shown.part.n : 0) + s->rigids;
-    *c = (struct plotted_particles){.axis = {0, 1},
-                                    .normal = -1,
-                                    .spacing = s->spacing,
-                                    .aligned = true,
-                                    .camera = s->dim == 3 ? *camera : camera_along_axis(2, 1),
-                                    .from = {INFINITY, INFINITY},
-                                    .to = {-INFINITY, -INFINITY}};
-    for (int a = 0; a < (s->dim == 3 ? 3 : 2); a++) c->position[a] = NEW("plot.position", room, double);
-    c->damage = NEW("plot.damage", room, float);
-    c->size = NEW("plot.size", room, float);
-    c->colour = NEW("plot.colour", room, struct colour);
-    cloud_add_particles(c, e->scene, &e->part, &e->part, NULL);
-    if (hollow) cloud_add_particles(c, e->scene, &e->part, &e->frame->shown.part, e->frame->shown.spacing);
-    cloud_add_rigids(c, s, &e->part);
-    if (s->dim == 1) c->tall = BAR_HALF * (c->to[0] - c->from[0]);
+    const struct scene *s = run->scene;
+    const bool hollow = coarse_cell_points_interpolate_for_output(run->frame, &run->part, s->material, false);
+    const int64_t room = run->part.n + (hollow ? run->frame->shown.part.n : 0) + s->rigids;
+    *plotted = (struct plotted_particles){.axis = {0, 1},
+                                          .normal = -1,
+                                          .spacing = s->spacing,
+                                          .aligned = true,
+                                          .camera = s->dim == 3 ? *camera : camera_along_axis(2, 1),
+                                          .from = {INFINITY, INFINITY},
+                                          .to = {-INFINITY, -INFINITY}};
+    for (int a = 0; a < (s->dim == 3 ? 3 : 2); a++) plotted->position[a] = NEW("plot.position", room, double);
+    plotted->damage = NEW("plot.damage", room, float);
+    plotted->size = NEW("plot.size", room, float);
+    plotted->colour = NEW("plot.colour", room, struct colour);
+    cloud_add_particles(plotted, run->scene, &run->part, &run->part, NULL);
+    if (hollow)
+        cloud_add_particles(plotted, run->scene, &run->part, &run->frame->shown.part, run->frame->shown.spacing);
+    cloud_add_rigids(plotted, s, &run->part);
+    if (s->dim == 1) plotted->tall = BAR_HALF * (plotted->to[0] - plotted->from[0]);
 }
 
 /* ---- key --------------------------------------------------------------------------------------------------------- */
@@ -156,35 +157,36 @@ static void rigid_words(char *text, const struct scene_body *b, int dim)
         snprintf(text + length, (size_t)(TEXT_ROOM - length), ", %.3g %s", sqrt(speed) / fast.factor, fast.name);
 }
 
-static void key_of_parts(struct scene_overlay *m)
+static void key_of_parts(struct scene_overlay *overlay)
 {
-    const struct run *e = m->engine;
-    const struct scene *s = e->scene;
+    const struct run *run = overlay->engine;
+    const struct scene *s = run->scene;
     const int parts = s->materials > 1 ? s->materials + s->unused_materials : s->bodies;
     char text[TEXT_ROOM];
     for (int k = 0; k < parts; k++) {
-        const int64_t n = count_part(&e->part, e->scene, k);
+        const int64_t n = count_part(&run->part, run->scene, k);
         const char *name = s->materials > 1 ? scene_find_material_by_number(s, k)->name
                            : s->bodies > 1  ? s->body[k].name
                                             : s->material->name;
         if (n == 0) continue;
-        if (m->plain)
+        if (overlay->plain)
             snprintf(text, sizeof text, "%.48s", name);
         else
             snprintf(text, sizeof text, "%.48s: %lld particles%s", name, (long long)n,
-                     e->part.n < e->part.n_body ? " are made" : "");
-        scene_overlay_add_colour_to_key(m, colour_of_material_or_body(k), text);
+                     run->part.n < run->part.n_body ? " are made" : "");
+        scene_overlay_add_colour_to_key(overlay, colour_of_material_or_body(k), text);
     }
-    if (e->part.n_of[KIND_PD] > 0 && e->part.n_of[KIND_MPM] > 0) {
-        if (m->plain)
+    if (run->part.n_of[KIND_PD] > 0 && run->part.n_of[KIND_MPM] > 0) {
+        if (overlay->plain)
             snprintf(text, sizeof text, "darker: peridynamic");
         else
-            snprintf(text, sizeof text, "darker: %lld peridynamic", (long long)e->part.n_of[KIND_PD]);
-        scene_overlay_add_colour_to_key(m, colour_mixed_with_black(colour_of_material_or_body(0), PERIDYNAMIC), text);
+            snprintf(text, sizeof text, "darker: %lld peridynamic", (long long)run->part.n_of[KIND_PD]);
+        scene_overlay_add_colour_to_key(overlay, colour_mixed_with_black(colour_of_material_or_body(0), PERIDYNAMIC),
+                                        text);
     }
     for (int b = s->bodies; b < s->bodies + s->rigids; b++) {
         rigid_words(text, &s->body[b], s->dim);
-        scene_overlay_add_colour_to_key(m, rigid_body_colour(MAP_CATEGORY), text);
+        scene_overlay_add_colour_to_key(overlay, rigid_body_colour(MAP_CATEGORY), text);
     }
 }
 
@@ -192,32 +194,33 @@ static void key_of_parts(struct scene_overlay *m)
 
 /* Returns a view of the particles c of a scene whose rectangle has a margin of `arrow` [m], the length of the longest
  * arrow of a load, around the body. */
-static struct view scene_view(const struct plotted_particles *c, double arrow)
+static struct view scene_view(const struct plotted_particles *plotted, double arrow)
 {
-    struct view v = view_make_around_particles(c, 1);
+    struct view v = view_make_around_particles(plotted, 1);
     for (int a = 0; a < 2; a++) v.from[a] -= arrow, v.to[a] += arrow;
     v.outside = 0;
     return v;
 }
 
-static double arrow_length(const struct plotted_particles *c)
+static double arrow_length(const struct plotted_particles *plotted)
 {
-    return 0.07 * fmax(c->to[0] - c->from[0], c->to[1] - c->from[1]);
+    return 0.07 * fmax(plotted->to[0] - plotted->from[0], plotted->to[1] - plotted->from[1]);
 }
 
 /* Returns how many entries of the key (legend) of m fit into one row below a panel of the width `wide` [pixel], at
  * least 1, from the length of the longest entry. (In several columns, gnuplot makes the key no wider than the panel.)
  */
-static int key_columns(const struct scene_overlay *m, double wide)
+static int key_columns(const struct scene_overlay *overlay, double wide)
 {
-    return (int)fmax(floor(wide / (SAMPLE_NARROW + KEY_LETTERS * m->widest)), 1);
+    return (int)fmax(floor(wide / (SAMPLE_NARROW + KEY_LETTERS * overlay->widest)), 1);
 }
 
 /* Returns the layout of a picture that shows the view v in one panel, and the key (legend) of m. untitled: the picture
  * has no title; outside: the view is of a body in 3D from outside, so that no axis needs space on the left. If panel
  * and key do not fit into the size that the user chose (picture_size_set_process_wide), the layout is of a larger
  * picture with the same ratio of width and height. */
-static struct maps_layout scene_layout(const struct view *v, const struct scene_overlay *m, bool untitled, bool outside)
+static struct maps_layout scene_layout(const struct view *v, const struct scene_overlay *overlay, bool untitled,
+                                       bool outside)
 {
     const bool narrow = picture_size_is_too_narrow_for_side_legend();
     const struct picture_size given = picture_size_get_process_wide();
@@ -229,8 +232,8 @@ static struct maps_layout scene_layout(const struct view *v, const struct scene_
     if (!outside)
         l.left = (int)fmax(
             l.left, panel_vertical_axis_labels_width(v, aspect * (narrow ? given.width - l.left : PANEL_WIDEST)));
-    l.key_columns = narrow ? key_columns(m, given.width - l.left - l.right) : 1;
-    const int lines = (m->keys + l.key_columns - 1) / l.key_columns;
+    l.key_columns = narrow ? key_columns(overlay, given.width - l.left - l.right) : 1;
+    const int lines = (overlay->keys + l.key_columns - 1) / l.key_columns;
     if (narrow) l.below = BELOW_NARROW + KEY_LINE_NARROW * lines;
     if (untitled) l.above = ABOVE_UNTITLED;
     const double widest = given.width ? given.width - l.left - l.right : PANEL_WIDEST;
@@ -252,19 +255,19 @@ static struct maps_layout scene_layout(const struct view *v, const struct scene_
 
 /* Writes to gnuplot the command that places the key (legend) of a scene: beside the panel, or below it in a narrow
  * picture. Letters are made smaller if the longest line of the key in m requires it. l: layout of the picture. */
-static void set_scene_key(FILE *to, const struct maps_layout *l, const struct scene_overlay *m)
+static void set_scene_key(FILE *to, const struct maps_layout *l, const struct scene_overlay *overlay)
 {
     const bool narrow = picture_size_is_too_narrow_for_side_legend();
     const double x = narrow ? KEY_BESIDE : l->left + l->panel_width + 14,
                  room = (l->width - x) / l->key_columns - SAMPLE;
-    const double size = l->key_columns > 1 ? KEY_LETTERS : fmin(KEY_LETTERS, room / m->widest);
+    const double size = l->key_columns > 1 ? KEY_LETTERS : fmin(KEY_LETTERS, room / overlay->widest);
     fprintf(to,
             "set key at screen %.6g,%.6g left top Left reverse horizontal maxcols %d maxrows %d samplen 2 spacing 1.15 "
             "width %.3g "
             "font ',%.3g'\n",
             x / l->width, 1 - (narrow ? l->above + l->panel_height + BELOW_NARROW - 4.0 : l->above - 8.0) / l->height,
-            l->key_columns, (m->keys + l->key_columns - 1) / l->key_columns,
-            l->key_columns > 1 ? KEY_LETTERS * m->widest / GNUPLOT_LETTER - m->letters : 0.0, size);
+            l->key_columns, (overlay->keys + l->key_columns - 1) / l->key_columns,
+            l->key_columns > 1 ? KEY_LETTERS * overlay->widest / GNUPLOT_LETTER - overlay->letters : 0.0, size);
 }
 
 /* Writes the title of the picture of scene s to gnuplot g: `title`, or if it is NULL the name of the scene and the
@@ -279,24 +282,25 @@ static void draw_scene_title(struct gnuplot *g, const struct scene *s, const str
                         picture_size_is_too_narrow_for_side_legend() ? LEFT_NARROW : PICTURE_LEFT);
 }
 
-static void set_panel(FILE *to, const struct maps_layout *l, const struct view *v, const struct plotted_particles *c,
-                      const struct unit *metre)
+static void set_panel(FILE *to, const struct maps_layout *l, const struct view *v,
+                      const struct plotted_particles *plotted, const struct unit *metre)
 {
     panel_write_margins(to, l, l->left, l->above);
     for (int a = 0; a < 2; a++)
         fprintf(to, "set %crange [%.12g:%.12g]\n", 'x' + a, v->from[a] / metre->factor, v->to[a] / metre->factor);
-    if (c->position[2]) {
+    if (plotted->position[2]) {
         fputs("unset xtics\nunset ytics\nunset xlabel\nunset ylabel\nset border 0\n", to);
-        panel_write_axis_arrows(to, l, v, c, metre, l->left, l->above);
+        panel_write_axis_arrows(to, l, v, plotted, metre, l->left, l->above);
     } else
-        panel_write_axes(to, l, v, c, metre, 0, true);
-    if (c->tall > 0) fputs("unset ytics\nset ylabel ''\nset border 1\n", to);
+        panel_write_axes(to, l, v, plotted, metre, 0, true);
+    if (plotted->tall > 0) fputs("unset ytics\nset ylabel ''\nset border 1\n", to);
 }
 
 /* Writes to gnuplot one plot command that draws the image of the particles c in the view v, and the marks over it. l:
  * layout; metre: unit of the axes; marks: elements of the plot command for the marks; format: format of the picture. */
-static void plot_scene(FILE *to, const struct maps_layout *l, const struct view *v, const struct plotted_particles *c,
-                       const struct unit *metre, const char *marks, enum picture_format format)
+static void plot_scene(FILE *to, const struct maps_layout *l, const struct view *v,
+                       const struct plotted_particles *plotted, const struct unit *metre, const char *marks,
+                       enum picture_format format)
 {
     double step[2], from[2];
     const int size[2] = {gnuplot_image_pixel_count_along_edge(format, l->panel_width),
@@ -304,58 +308,60 @@ static void plot_scene(FILE *to, const struct maps_layout *l, const struct view 
     struct colour *pixel = NEW("plot.pixel", (int64_t)size[0] * size[1], struct colour);
     for (int a = 0; a < 2; a++)
         from[a] = v->from[a] / metre->factor, step[a] = (v->to[a] - v->from[a]) / metre->factor / size[a];
-    image_paint_particles_as_cubes(pixel, size[0], size[1], v, c, MAP_DAMAGE);
-    if (!c->position[2] && c->dim > 1) image_paint_rigid_bodies_in_plane(pixel, size[0], size[1], v, c);
+    image_paint_particles_as_cubes(pixel, size[0], size[1], v, plotted, MAP_DAMAGE);
+    if (!plotted->position[2] && plotted->dim > 1)
+        image_paint_rigid_bodies_in_plane(pixel, size[0], size[1], v, plotted);
     panel_write_image(to, pixel, size[0], size[1], from, step, marks);
     memory_free(pixel);
 }
 
 /* Collects all marks of a scene (loads, supports, velocities, pre-cracks, probes, cells, regions) and their entries in
  * the key (legend) in *m. */
-static void draw_marks(struct scene_overlay *m)
+static void draw_marks(struct scene_overlay *overlay)
 {
-    key_of_parts(m);
-    scene_overlay_draw_coarse_cell_outlines(m);
-    scene_overlay_draw_region_boxes(m);
-    scene_overlay_draw_precracks(m);
-    scene_overlay_draw_load_symbols(m);
-    scene_overlay_draw_velocity_arrows(m);
-    scene_overlay_draw_probe_symbols(m);
+    key_of_parts(overlay);
+    scene_overlay_draw_coarse_cell_outlines(overlay);
+    scene_overlay_draw_region_boxes(overlay);
+    scene_overlay_draw_precracks(overlay);
+    scene_overlay_draw_load_symbols(overlay);
+    scene_overlay_draw_velocity_arrows(overlay);
+    scene_overlay_draw_probe_symbols(overlay);
 }
 
 /* Draws the particles c and the marks m of a scene in the view v to the picture `sheet` (file and size). metre: unit of
  * the axes; data: gnuplot commands with the data of the marks; elements: arguments of the plot command for the marks.
  * Returns FAILED, with a message, if gnuplot fails. */
-static status draw_collected(struct output_picture sheet, const struct scene_overlay *m, const struct view *v,
-                             const struct plotted_particles *c, const struct unit *metre, const char *data,
+static status draw_collected(struct output_picture sheet, const struct scene_overlay *overlay, const struct view *v,
+                             const struct plotted_particles *plotted, const struct unit *metre, const char *data,
                              const char *elements)
 {
     struct gnuplot g;
-    const struct maps_layout l = scene_layout(v, m, m->title && !m->title[0], c->position[2]);
+    const struct maps_layout l = scene_layout(v, overlay, overlay->title && !overlay->title[0], plotted->position[2]);
     TRY(gnuplot_open_scaled(&g, sheet.path, sheet.format, l.width, l.height));
     fputs("unset grid\n", g.to);
-    draw_scene_title(&g, m->engine->scene, &m->engine->part, m->title);
+    draw_scene_title(&g, overlay->engine->scene, &overlay->engine->part, overlay->title);
     fputs(data, g.to);
-    set_panel(g.to, &l, v, c, metre);
-    set_scene_key(g.to, &l, m);
-    plot_scene(g.to, &l, v, c, metre, elements, sheet.format);
+    set_panel(g.to, &l, v, plotted, metre);
+    set_scene_key(g.to, &l, overlay);
+    plot_scene(g.to, &l, v, plotted, metre, elements, sheet.format);
     return gnuplot_close(&g);
 }
 
-/* Draws the run e, whose particles are in c, the particles of the picture, to the picture `sheet` (file and size).
+/* Draws the run, whose particles are in c, the particles of the picture, to the picture `sheet` (file and size).
  * title: title of the picture, or NULL for the name of the scene with the number of particles. Returns FAILED, with a
  * message, if gnuplot fails. */
-static status draw_scene(struct output_picture sheet, struct run *e, struct plotted_particles *c, const char *title)
+static status draw_scene(struct output_picture sheet, struct run *run, struct plotted_particles *plotted,
+                         const char *title)
 {
     char *elements = NULL, *data = NULL;
     size_t length = 0, bytes = 0;
-    const double arrow = arrow_length(c);
-    const struct view v = scene_view(c, arrow);
+    const double arrow = arrow_length(plotted);
+    const struct view v = scene_view(plotted, arrow);
     const struct unit metre = panel_axis_unit(&v);
     struct scene_overlay m = {.to = memory_stream_open(&data, &bytes),
                               .plot = memory_stream_open(&elements, &length),
-                              .engine = e,
-                              .camera = c->camera,
+                              .engine = run,
+                              .camera = plotted->camera,
                               .metre = metre.factor,
                               .arrow = arrow,
                               .title = title,
@@ -363,7 +369,7 @@ static status draw_scene(struct output_picture sheet, struct run *e, struct plot
     if (m.to && m.plot) draw_marks(&m);
     bool whole = m.to && fclose(m.to) == 0;
     whole = m.plot && fclose(m.plot) == 0 && whole;
-    const status drawn = whole ? draw_collected(sheet, &m, &v, c, &metre, data, elements)
+    const status drawn = whole ? draw_collected(sheet, &m, &v, plotted, &metre, data, elements)
                                : status_set(FAILED, "%s: out of memory", sheet.path);
     free(data);
     free(elements);
@@ -381,10 +387,10 @@ static status scene_sheet(struct path *path, const struct scene *s, const struct
     return picture_choose_path_by_output_option(path, r->out ? r->out : "results/", name, r->overwrite);
 }
 
-/* Creates the run e of scene s, draws it as the request r says and prints what was drawn. Returns REFUSED for an
+/* Creates the run of scene s, draws it as the request r says and prints what was drawn. Returns REFUSED for an
  * outside view of a scene that is not three-dimensional; FAILED if the run cannot be created or gnuplot fails, with a
  * message. */
-static status draw_made(struct run *e, const struct scene *s, const struct plot_request *r)
+static status draw_made(struct run *run, const struct scene *s, const struct plot_request *r)
 {
     struct path path;
     struct plotted_particles c;
@@ -392,11 +398,11 @@ static status draw_made(struct run *e, const struct scene *s, const struct plot_
         return status_set(
             REFUSED, "plot: --view needs a scene with space: solid, but this one has %d dimension%s; remove --view",
             s->dim, s->dim > 1 ? "s" : "");
-    TRY(run_set_up_from_scene(e, s, NULL));
+    TRY(run_set_up_from_scene(run, s, NULL));
     TRY(scene_sheet(&path, s, r));
-    scene_cloud(&c, e, &r->projection.camera);
-    const int64_t drawn = e->part.n;
-    const status drew = draw_scene((struct output_picture){path.text, r->format}, e, &c, r->title);
+    scene_cloud(&c, run, &r->projection.camera);
+    const int64_t drawn = run->part.n;
+    const status drew = draw_scene((struct output_picture){path.text, r->format}, run, &c, r->title);
     plotted_particles_free(&c);
     TRY(drew);
     if (r->quiet) return OK;

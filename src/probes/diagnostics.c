@@ -10,59 +10,65 @@
 #include "kernels/mpm/stress.h"
 #include "base/team.h"
 
-void diagnostics_initialise(struct diagnostics *w)
+void diagnostics_initialise(struct diagnostics *diagnostics)
 {
-    *w = (struct diagnostics){
+    *diagnostics = (struct diagnostics){
         .break_time = NAN, .break_position = {NAN, NAN, NAN}, .driven_time = NAN, .now.spin_error = NAN};
 }
 
 /* ---- the energy balance ------------------------------------------------------------------------------------------ */
 
-/* Computes w->now.momentum, the momentum of all particles p and of the nodes of the grids nodes[grid_count], and raises
- * w->now.momentum_error to |momentum - initial momentum - impulse| divided by the largest momentum so far.
- * impulse[dim]: impulse of loads and supports since the start [N s]. */
-void diagnostics_update_momentum(struct diagnostics *w, const struct particles *p, const struct grid *const *nodes,
-                                 int grid_count, const real *impulse)
+/* Computes diagnostics->now.momentum, the momentum of all particles p and of the nodes of the grids nodes[grid_count],
+ * and raises diagnostics->now.momentum_error to |momentum - initial momentum - impulse| divided by the largest momentum
+ * so far. impulse[dim]: impulse of loads and supports since the start [N s]. */
+void diagnostics_update_momentum(struct diagnostics *diagnostics, const struct particles *p,
+                                 const struct grid *const *nodes, int grid_count, const real *impulse)
 {
     real size, missing2 = 0;
-    particles_linear_momentum(p, nodes, grid_count, w->now.momentum, &size);
+    particles_linear_momentum(p, nodes, grid_count, diagnostics->now.momentum, &size);
     for (int d = 0; d < p->dim; d++) {
-        if (!w->started) w->momentum_start[d] = w->now.momentum[d] - impulse[d];
-        missing2 += square(w->now.momentum[d] - w->momentum_start[d] - impulse[d]);
+        if (!diagnostics->started) diagnostics->momentum_start[d] = diagnostics->now.momentum[d] - impulse[d];
+        missing2 += square(diagnostics->now.momentum[d] - diagnostics->momentum_start[d] - impulse[d]);
     }
-    w->momentum_scale = real_max(w->momentum_scale, size);
-    if (w->momentum_scale > 0)
-        w->now.momentum_error = real_max(w->now.momentum_error, sqrt(missing2) / w->momentum_scale);
+    diagnostics->momentum_scale = real_max(diagnostics->momentum_scale, size);
+    if (diagnostics->momentum_scale > 0)
+        diagnostics->now.momentum_error =
+            real_max(diagnostics->now.momentum_error, sqrt(missing2) / diagnostics->momentum_scale);
 }
 
-real diagnostics_relative_energy_balance_error(const struct diagnostics *w)
+real diagnostics_relative_energy_balance_error(const struct diagnostics *diagnostics)
 {
-    if (!(w->energy_start > 0)) return NAN;
-    return (energy_sum(&w->now.energy) - w->now.energy.damped - w->now.external_work) / w->energy_start - 1;
+    if (!(diagnostics->energy_start > 0)) return NAN;
+    return (energy_sum(&diagnostics->now.energy) - diagnostics->now.energy.damped - diagnostics->now.external_work) /
+               diagnostics->energy_start -
+           1;
 }
 
-/* Computes the relative error of the energy balance: w->now.balance_error = (energy - initial energy - external
- * work)/(largest energy or work so far); 0 if the denominator is 0. Also updates the largest internal energy so far. */
-static void balance_of(struct diagnostics *w)
+/* Computes the relative error of the energy balance: diagnostics->now.balance_error = (energy - initial energy -
+ * external work)/(largest energy or work so far); 0 if the denominator is 0. Also updates the largest internal energy
+ * so far. */
+static void balance_of(struct diagnostics *diagnostics)
 {
-    const real *momentum = w->now.momentum;
-    struct energy_balance *l = &w->now;
+    const real *momentum = diagnostics->now.momentum;
+    struct energy_balance *l = &diagnostics->now;
     real energy = energy_sum(&l->energy);
-    if (!w->started) w->energy_start = energy - l->external_work;
+    if (!diagnostics->started) diagnostics->energy_start = energy - l->external_work;
     const real size = energy_sum_of_magnitudes(&l->energy);
-    const real flight = w->mass > 0 ? 0.5 * dot(momentum, momentum, DIM_MAX) / w->mass : 0;
-    w->energy_scale = real_max(w->energy_scale, real_max(size, fabs(l->external_work)));
-    w->internal_scale = real_max(w->internal_scale, size - flight);
-    l->balance_error = w->energy_scale > 0 ? (energy - w->energy_start - l->external_work) / w->energy_scale : 0;
+    const real flight = diagnostics->mass > 0 ? 0.5 * dot(momentum, momentum, DIM_MAX) / diagnostics->mass : 0;
+    diagnostics->energy_scale = real_max(diagnostics->energy_scale, real_max(size, fabs(l->external_work)));
+    diagnostics->internal_scale = real_max(diagnostics->internal_scale, size - flight);
+    l->balance_error = diagnostics->energy_scale > 0
+                           ? (energy - diagnostics->energy_start - l->external_work) / diagnostics->energy_scale
+                           : 0;
 }
 
-void diagnostics_update_energy_balance(struct diagnostics *w, real t, const struct energy *energy, real work)
+void diagnostics_update_energy_balance(struct diagnostics *diagnostics, real t, const struct energy *energy, real work)
 {
-    w->now.time = t;
-    w->now.energy = *energy;
-    w->now.external_work = work;
-    balance_of(w);
-    w->started = true;
+    diagnostics->now.time = t;
+    diagnostics->now.energy = *energy;
+    diagnostics->now.external_work = work;
+    balance_of(diagnostics);
+    diagnostics->started = true;
 }
 
 /* ---- the first break --------------------------------------------------------------------------------------------- */
@@ -101,17 +107,18 @@ static bool driven_breaks(const struct particles *p)
     return any != 0;
 }
 
-bool diagnostics_count_broken_bonds_and_record_first(struct diagnostics *w, const struct particles *p, real horizon,
-                                                     int64_t broken_bond_count, real t)
+bool diagnostics_count_broken_bonds_and_record_first(struct diagnostics *diagnostics, const struct particles *p,
+                                                     real horizon, int64_t broken_bond_count, real t)
 {
-    w->bonds_broken += broken_bond_count;
+    diagnostics->bonds_broken += broken_bond_count;
     if (broken_bond_count == 0) return false;
-    if (isnan(w->break_time)) {
-        w->break_ends = diagnostics_count_clusters_of_new_bond_breaks(p, NULL, p->n, horizon, w->break_position);
-        if (w->break_ends > 0) w->break_time = t;
+    if (isnan(diagnostics->break_time)) {
+        diagnostics->break_ends =
+            diagnostics_count_clusters_of_new_bond_breaks(p, NULL, p->n, horizon, diagnostics->break_position);
+        if (diagnostics->break_ends > 0) diagnostics->break_time = t;
     }
-    const bool tears = isnan(w->driven_time) && driven_breaks(p);
-    if (tears) w->driven_time = t;
+    const bool tears = isnan(diagnostics->driven_time) && driven_breaks(p);
+    if (tears) diagnostics->driven_time = t;
     return tears;
 }
 
@@ -161,23 +168,23 @@ status diagnostics_check_particles_for_divergence(const struct particles *p, boo
     return first < p->n ? divergence_report(p, first, max_speed, step, t) : OK;
 }
 
-status diagnostics_save_or_load(struct diagnostics *w, struct archive *a)
+status diagnostics_save_or_load(struct diagnostics *diagnostics, struct archive *a)
 {
-    ARCHIVE_VALUE(a, "diagnostics/now", w->now);
-    ARCHIVE_VALUE(a, "diagnostics/energy_start", w->energy_start);
-    ARCHIVE_VALUE(a, "diagnostics/energy_scale", w->energy_scale);
-    ARCHIVE_VALUE(a, "diagnostics/internal_scale", w->internal_scale);
-    ARCHIVE_VALUE(a, "diagnostics/momentum_start", w->momentum_start);
-    ARCHIVE_VALUE(a, "diagnostics/momentum_scale", w->momentum_scale);
-    ARCHIVE_VALUE(a, "diagnostics/spin_start", w->spin_start);
-    ARCHIVE_VALUE(a, "diagnostics/spin_scale", w->spin_scale);
-    ARCHIVE_VALUE(a, "diagnostics/turns", w->turns);
-    ARCHIVE_VALUE(a, "diagnostics/started", w->started);
-    ARCHIVE_VALUE(a, "diagnostics/break_time", w->break_time);
-    ARCHIVE_VALUE(a, "diagnostics/break_place", w->break_position);
-    ARCHIVE_VALUE(a, "diagnostics/break_ends", w->break_ends);
-    ARCHIVE_VALUE(a, "diagnostics/driven_time", w->driven_time);
-    ARCHIVE_VALUE(a, "diagnostics/bonds_broken", w->bonds_broken);
+    ARCHIVE_VALUE(a, "diagnostics/now", diagnostics->now);
+    ARCHIVE_VALUE(a, "diagnostics/energy_start", diagnostics->energy_start);
+    ARCHIVE_VALUE(a, "diagnostics/energy_scale", diagnostics->energy_scale);
+    ARCHIVE_VALUE(a, "diagnostics/internal_scale", diagnostics->internal_scale);
+    ARCHIVE_VALUE(a, "diagnostics/momentum_start", diagnostics->momentum_start);
+    ARCHIVE_VALUE(a, "diagnostics/momentum_scale", diagnostics->momentum_scale);
+    ARCHIVE_VALUE(a, "diagnostics/spin_start", diagnostics->spin_start);
+    ARCHIVE_VALUE(a, "diagnostics/spin_scale", diagnostics->spin_scale);
+    ARCHIVE_VALUE(a, "diagnostics/turns", diagnostics->turns);
+    ARCHIVE_VALUE(a, "diagnostics/started", diagnostics->started);
+    ARCHIVE_VALUE(a, "diagnostics/break_time", diagnostics->break_time);
+    ARCHIVE_VALUE(a, "diagnostics/break_place", diagnostics->break_position);
+    ARCHIVE_VALUE(a, "diagnostics/break_ends", diagnostics->break_ends);
+    ARCHIVE_VALUE(a, "diagnostics/driven_time", diagnostics->driven_time);
+    ARCHIVE_VALUE(a, "diagnostics/bonds_broken", diagnostics->bonds_broken);
     return OK;
 }
 
@@ -185,12 +192,12 @@ status diagnostics_save_or_load(struct diagnostics *w, struct archive *a)
  * speed [1]. */
 #define ENERGY_OF_ROUND_OFF 1e-24
 
-bool diagnostics_energy_is_round_off(const struct diagnostics *w, real mass, real wave_speed)
+bool diagnostics_energy_is_round_off(const struct diagnostics *diagnostics, real mass, real wave_speed)
 {
-    return w->energy_scale < ENERGY_OF_ROUND_OFF * 0.5 * mass * square(wave_speed);
+    return diagnostics->energy_scale < ENERGY_OF_ROUND_OFF * 0.5 * mass * square(wave_speed);
 }
 
-real diagnostics_excess_energy_released_by_bonds(const struct diagnostics *w)
+real diagnostics_excess_energy_released_by_bonds(const struct diagnostics *diagnostics)
 {
-    return real_max(0, -w->now.energy.fracture);
+    return real_max(0, -diagnostics->now.energy.fracture);
 }

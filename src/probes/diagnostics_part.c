@@ -61,42 +61,43 @@ static int64_t driven_bonds(const struct bonds *b, const struct particles *p)
     return broken;
 }
 
-/* Writes the JSON object "crack" of run e to j: time and position of the first breaks, growth, angle and speeds of the
+/* Writes the JSON object "crack" of run to j: time and position of the first breaks, growth, angle and speeds of the
  * longest crack, and the list of all crack tips. */
-static void put_crack(struct json *j, const struct run *e)
+static void put_crack(struct json *j, const struct run *run)
 {
-    const struct crack_tip *longest = tips_find_tip_with_largest_growth(&e->fracture->tips);
-    int dim = e->part.dim;
+    const struct crack_tip *longest = tips_find_tip_with_largest_growth(&run->fracture->tips);
+    int dim = run->part.dim;
     json_begin_object_or_list(j, "crack", '{');
-    put_when(j, e->scene, &e->clock, "start", e->diagnostics->break_time);
-    put_when(j, e->scene, &e->clock, "driven_start", e->diagnostics->driven_time);
-    if (!isnan(e->diagnostics->driven_time)) json_write_integer(j, "driven_bonds", driven_bonds(&e->bonds, &e->part));
+    put_when(j, run->scene, &run->clock, "start", run->diagnostics->break_time);
+    put_when(j, run->scene, &run->clock, "driven_start", run->diagnostics->driven_time);
+    if (!isnan(run->diagnostics->driven_time))
+        json_write_integer(j, "driven_bonds", driven_bonds(&run->bonds, &run->part));
     if (longest) {
-        put_when(j, e->scene, &e->clock, "tip_start", longest->start_time);
-        put_when(j, e->scene, &e->clock, "arrest", longest->arrest_time);
+        put_when(j, run->scene, &run->clock, "tip_start", longest->start_time);
+        put_when(j, run->scene, &run->clock, "arrest", longest->arrest_time);
         json_write_real(j, "length_end", longest->growth);
         json_write_real(j, "angle_deg", dim > 1 ? tip_deflection_angle(longest, dim) : NAN);
-        json_write_integer(j, "tied", tips_count_crack_ends_with_largest_growth(&e->fracture->tips));
+        json_write_integer(j, "tied", tips_count_crack_ends_with_largest_growth(&run->fracture->tips));
     }
-    if (longest && !scene_has_load_steps(e->scene)) {
+    if (longest && !scene_has_load_steps(run->scene)) {
         json_write_real(j, "tip_speed_max", longest->speed_max);
         json_write_real(j, "tip_speed_mean", longest->speed_mean);
     }
     json_begin_object_or_list(j, "tips", '[');
-    for (int k = 0; k < e->fracture->tips.n; k++) put_tip(j, e->scene, &e->clock, &e->fracture->tips.tip[k]);
+    for (int k = 0; k < run->fracture->tips.n; k++) put_tip(j, run->scene, &run->clock, &run->fracture->tips.tip[k]);
     json_end_object_or_list(j, ']');
     json_end_object_or_list(j, '}');
 }
 
-static void put_balance_and_crack(const struct run *e, struct json *j)
+static void put_balance_and_crack(const struct run *run, struct json *j)
 {
-    put_energy_balance(j, &e->diagnostics->now);
-    put_crack(j, e);
+    put_energy_balance(j, &run->diagnostics->now);
+    put_crack(j, run);
 }
 
-static status diagnostics_state(struct run *e, struct archive *a)
+static status diagnostics_state(struct run *run, struct archive *a)
 {
-    return diagnostics_save_or_load(e->diagnostics, a);
+    return diagnostics_save_or_load(run->diagnostics, a);
 }
 
 const struct part part_diagnostics = {PART(diagnostics, diagnostics), .state = diagnostics_state,

@@ -9,11 +9,11 @@
 
 static const char *const form_names[EXACT_FORMS] = {"step bar", "plastic bar", "pulse", "manufactured"};
 
-/* Returns REFUSED, with a message that consists of the name of probe q (a requested measurement), its closed form, and
+/* Returns REFUSED, with a message that consists of the name of probe (a requested measurement), its closed form, and
  * the reason `what`. */
-static status refuse(const struct probe *q, const char *what)
+static status refuse(const struct probe *probe, const char *what)
 {
-    return status_set(REFUSED, "probe \"%s\": %s: %s", q->request.name, form_names[q->request.form], what);
+    return status_set(REFUSED, "probe \"%s\": %s: %s", probe->request.name, form_names[probe->request.form], what);
 }
 
 /* ---- particles --------------------------------------------------------------------------------------------------- */
@@ -43,19 +43,21 @@ static void find_order(struct bar *b, const struct particles *p)
     memory_free(sorted);
 }
 
-/* Finds the particles of run o that form the bar of probe q (kind EXACT: comparison with a closed-form solution),
+/* Finds the particles of run o that form the bar of probe (kind EXACT: comparison with a closed-form solution),
  * allocates its arrays, and stores its ends and material constants. Returns REFUSED, with a message, unless the scene
  * is one row of at least three particles in 1D, of one material, and without a gap above 2.5 spacings. */
-static status find_bar(struct probe *q, const struct observed_run *o)
+static status find_bar(struct probe *probe, const struct observed_run *o)
 {
     const struct particles *p = o->part;
-    struct bar *b = q->bar;
+    struct bar *b = probe->bar;
     if (p->dim != 1)
-        return refuse(q, "compares with the solution of a bar in one dimension; set space: line, or remove this probe");
-    if (p->n < 3) return refuse(q, "the bar has fewer than three particles; use a smaller particles.spacing");
+        return refuse(probe,
+                      "compares with the solution of a bar in one dimension; set space: line, or remove this probe");
+    if (p->n < 3) return refuse(probe, "the bar has fewer than three particles; use a smaller particles.spacing");
     for (int64_t i = 1; i < p->n; i++)
         if (p->material[i] != p->material[0])
-            return refuse(q, "the bar has several materials, but the analytical solution is for one; use one material");
+            return refuse(probe,
+                          "the bar has several materials, but the analytical solution is for one; use one material");
     b->n = p->n;
     b->order = NEW("probes.order", b->n, int32_t), b->rank = NEW("probes.rank", b->n, int32_t);
     b->displacement = NEW("probes.displacement", b->n, real), b->velocity = NEW("probes.velocity", b->n, real);
@@ -65,7 +67,7 @@ static status find_bar(struct probe *q, const struct observed_run *o)
         real step = p->X[0][b->order[k]] - p->X[0][b->order[k - 1]];
         if (step <= 0 || step > 2.5 * o->spacing)
             return refuse(
-                q,
+                probe,
                 step <= 0
                     ? "two particles are at the same position, so bodies overlap; use a single bar, or move them apart"
                     : "the bodies do not touch; use a single bar");
@@ -88,12 +90,12 @@ static bool acts_on(const struct load *l, int32_t particle)
     return false;
 }
 
-/* Stores the reflection factor of both ends of the bar of probe q (a requested measurement): 1 (fixed) at a plane of
+/* Stores the reflection factor of both ends of the bar of probe (a requested measurement): 1 (fixed) at a plane of
  * symmetry or where a support of run o holds the outermost particle, else -1 (free). Returns REFUSED, with a message,
  * if a boundary drives the bar with a velocity. */
-static status find_ends(struct probe *q, const struct observed_run *o)
+static status find_ends(struct probe *probe, const struct observed_run *o)
 {
-    struct bar *b = q->bar;
+    struct bar *b = probe->bar;
     const real position[2] = {b->exact.left, b->exact.right};
     for (int end = 0; end < 2; end++) {
         int32_t outermost = b->order[end == 0 ? 0 : b->n - 1];
@@ -104,7 +106,8 @@ static status find_ends(struct probe *q, const struct observed_run *o)
             bool mirror = c->kind == BOUNDARY_MIRROR && fabs(c->at - position[end]) < o->spacing;
             bool held = c->kind == BOUNDARY_VELOCITY && acts_on(l, outermost);
             if (c->kind == BOUNDARY_VELOCITY && c->value[0] != 0)
-                return refuse(q, "a boundary drives the bar with a velocity; use fixed, mirror or no boundary instead");
+                return refuse(probe,
+                              "a boundary drives the bar with a velocity; use fixed, mirror or no boundary instead");
             if (mirror || held) b->exact.reflection[end] = 1;
         }
     }
@@ -141,76 +144,79 @@ static int probes_bar_make_count_of(const struct observed_run *o, enum boundary_
     return n;
 }
 
-/* Finds the traction of run o on one end of the bar of probe q (a requested measurement) and stores the end in
+/* Finds the traction of run o on one end of the bar of probe (a requested measurement) and stores the end in
  * exact.loaded and the stress in exact.load, positive in tension [Pa]. Returns REFUSED, with a message, unless there
  * is exactly one traction, on a free end, constant in time and not 0. */
-static status find_traction(struct probe *q, const struct observed_run *o)
+static status find_traction(struct probe *probe, const struct observed_run *o)
 {
-    struct bar *b = q->bar;
+    struct bar *b = probe->bar;
     const struct load *l = NULL;
     int n = probes_bar_make_count_of(o, BOUNDARY_TRACTION, &l);
-    if (n == 0) return refuse(q, "no boundary is a traction; add one on an end of the bar");
-    if (n > 1) return refuse(q, "more than one boundary is a traction; keep one, on an end of the bar");
+    if (n == 0) return refuse(probe, "no boundary is a traction; add one on an end of the bar");
+    if (n > 1) return refuse(probe, "more than one boundary is a traction; keep one, on an end of the bar");
     const struct boundary *c = l->boundary;
     int end = c->side > 0 ? 1 : 0;
     if (!acts_on(l, b->order[end == 1 ? b->n - 1 : 0]))
-        return refuse(q, "the traction does not act on the end of the bar; remove its region, or extend it to the end");
+        return refuse(probe,
+                      "the traction does not act on the end of the bar; remove its region, or extend it to the end");
     if (c->time.kind != TIME_CONSTANT || c->formula[0].n > 0)
-        return refuse(q, "the traction changes with time; set time: constant");
-    if (b->exact.reflection[end] > 0) return refuse(q, "the loaded end is held; hold the other one");
+        return refuse(probe, "the traction changes with time; set time: constant");
+    if (b->exact.reflection[end] > 0) return refuse(probe, "the loaded end is held; hold the other one");
     b->exact.loaded = c->side, b->exact.load = c->side * c->value[0];
-    if (b->exact.load == 0) return refuse(q, "the traction is 0; give it a value");
+    if (b->exact.load == 0) return refuse(probe, "the traction is 0; give it a value");
     return OK;
 }
 
-/* Stores the ends of the bar of probe q (a requested measurement), and the traction or the initial pulses that its
+/* Stores the ends of the bar of probe (a requested measurement), and the traction or the initial pulses that its
  * closed form requires. Returns REFUSED, with a message, for loads, initial motion or materials of run o that the
  * closed form does not describe. */
-static status find_load(struct probe *q, const struct observed_run *o)
+static status find_load(struct probe *probe, const struct observed_run *o)
 {
     const struct load *other = NULL;
     const struct material *m = &o->material[o->part->material[0]];
     if (probes_bar_make_count_of(o, BOUNDARY_BODY_FORCE, &other) > 0)
-        return refuse(q, "a body_force acts on the bar; remove it");
+        return refuse(probe, "a body_force acts on the bar; remove it");
     if (probes_bar_make_count_of(o, BOUNDARY_PRESSURE, &other) > 0)
-        return refuse(q, "a pressure acts on the bar; use a traction on one end instead");
+        return refuse(probe, "a pressure acts on the bar; use a traction on one end instead");
     if (probes_bar_make_count_of(o, BOUNDARY_ABSORBING, &other) > 0)
-        return refuse(q, "an end of the bar is absorbing, for which there is no analytical solution; use fixed, mirror "
-                         "or no boundary there");
-    TRY(find_ends(q, o));
-    if (q->request.form == EXACT_PULSE) {
+        return refuse(probe,
+                      "an end of the bar is absorbing, for which there is no analytical solution; use fixed, mirror "
+                      "or no boundary there");
+    TRY(find_ends(probe, o));
+    if (probe->request.form == EXACT_PULSE) {
         if (o->pulses == 0)
-            return refuse(q, "needs a pulse, but the scene starts none; add a pulse under the key initial");
+            return refuse(probe, "needs a pulse, but the scene starts none; add a pulse under the key initial");
         if (probes_bar_make_count_of(o, BOUNDARY_TRACTION, &other) > 0)
-            return refuse(q, "a traction acts on the bar; remove it");
-        q->bar->exact.pulse = o->pulse, q->bar->exact.pulses = o->pulses;
-        return starts_with_pulses(&q->bar->exact, o->part)
+            return refuse(probe, "a traction acts on the bar; remove it");
+        probe->bar->exact.pulse = o->pulse, probe->bar->exact.pulses = o->pulses;
+        return starts_with_pulses(&probe->bar->exact, o->part)
                    ? OK
-                   : refuse(q, "the initial state must be pulses alone, away from the ends; remove other initial "
-                               "states, or move the pulses");
+                   : refuse(probe, "the initial state must be pulses alone, away from the ends; remove other initial "
+                                   "states, or move the pulses");
     }
     if (!probes_bar_make_at_rest(o->part))
-        return refuse(q, "the bar moves or is strained at the start; let it start at rest");
-    TRY(find_traction(q, o));
-    if (q->request.form == EXACT_STEP_BAR) return OK;
-    if (!material_yields(m)) return refuse(q, "the material does not yield; add material.yield_stress");
+        return refuse(probe, "the bar moves or is strained at the start; let it start at rest");
+    TRY(find_traction(probe, o));
+    if (probe->request.form == EXACT_STEP_BAR) return OK;
+    if (!material_yields(m)) return refuse(probe, "the material does not yield; add material.yield_stress");
     if (m->law.given && (m->law.flow != FLOW_LINEAR || m->law.kinematic.modulus > 0))
-        return refuse(q, "the analytical solution is for a material with yield_stress and yield_tangent; give these "
-                         "keys in place of another law");
-    if (fabs(q->bar->exact.load) > m->yield_stress && !(m->yield_tangent > 0))
-        return refuse(q, "without hardening there is no plastic front; add material.yield_tangent");
+        return refuse(probe,
+                      "the analytical solution is for a material with yield_stress and yield_tangent; give these "
+                      "keys in place of another law");
+    if (fabs(probe->bar->exact.load) > m->yield_stress && !(m->yield_tangent > 0))
+        return refuse(probe, "without hardening there is no plastic front; add material.yield_tangent");
     return OK;
 }
 
-status bar_probe_find_bar_and_load(struct probe *q, const struct observed_run *o)
+status bar_probe_find_bar_and_load(struct probe *probe, const struct observed_run *o)
 {
-    const struct probe_request *r = &q->request;
-    q->bar = NEW("probes.bar", 1, struct bar);
-    q->bar->exact.form = r->form;
-    TRY(find_bar(q, o));
-    if (r->form != EXACT_MANUFACTURED) return find_load(q, o);
-    q->bar->exact.amplitude = r->amplitude, q->bar->exact.period = r->period;
-    q->bar->exact.wavelength = r->wavelength, q->bar->exact.origin = r->origin;
+    const struct probe_request *r = &probe->request;
+    probe->bar = NEW("probes.bar", 1, struct bar);
+    probe->bar->exact.form = r->form;
+    TRY(find_bar(probe, o));
+    if (r->form != EXACT_MANUFACTURED) return find_load(probe, o);
+    probe->bar->exact.amplitude = r->amplitude, probe->bar->exact.period = r->period;
+    probe->bar->exact.wavelength = r->wavelength, probe->bar->exact.origin = r->origin;
     return OK;
 }
 

@@ -95,28 +95,28 @@ void growing_crack_compute_probe_values(const struct growing_crack *g, real *val
 /* Returns the crack tip that probe q of kind TIP (crack tip) currently follows: the tip of *tips whose origin is
  * nearest to the position `at` of the probe. Without `at` it is the tip of the longest crack, or the first tip if no
  * crack has grown. Returns NULL if there are no tips. The result points into *tips. */
-const struct crack_tip *probe_find_followed_crack_tip(const struct probe *q, const struct crack_tips *tips)
+const struct crack_tip *probe_find_followed_crack_tip(const struct probe *probe, const struct crack_tips *tips)
 {
     if (tips->n == 0) return NULL;
-    const struct crack_tip *chosen = q->request.has_at ? NULL : tips_find_tip_with_largest_growth(tips);
-    if (chosen || !q->request.has_at) return chosen ? chosen : &tips->tip[0];
+    const struct crack_tip *chosen = probe->request.has_at ? NULL : tips_find_tip_with_largest_growth(tips);
+    if (chosen || !probe->request.has_at) return chosen ? chosen : &tips->tip[0];
     real least = INFINITY;
     for (int k = 0; k < tips->n; k++) {
         real distance2 = 0;
-        for (int d = 0; d < tips->dim; d++) distance2 += square(tips->tip[k].origin[d] - q->request.at[d]);
+        for (int d = 0; d < tips->dim; d++) distance2 += square(tips->tip[k].origin[d] - probe->request.at[d]);
         if (distance2 < least) chosen = &tips->tip[k], least = distance2;
     }
     return chosen;
 }
 
-void probe_compute_reaction_of_supports(const struct probe *q, const struct loads *l, int dim, real *force,
+void probe_compute_reaction_of_supports(const struct probe *probe, const struct loads *l, int dim, real *force,
                                         real *mean_displacement)
 {
     real held = 0;
     for (int d = 0; d < dim; d++) force[d] = mean_displacement[d] = 0;
     for (int k = 0; k < l->n; k++) {
         const struct load *load = &l->load[k];
-        if (strcmp(load->boundary->name, q->request.boundary) != 0) continue;
+        if (strcmp(load->boundary->name, probe->request.boundary) != 0) continue;
         real before = held, weight = load->n > 0 ? (real)load->n : 1;
         held += weight;
         for (int d = 0; d < dim; d++) {
@@ -193,33 +193,35 @@ static real broken_term(const void *context, int64_t k)
     return row >= 0 && !driven ? s->o->bonds->broken[row] : 0;
 }
 
-real probe_kinetic_energy(const struct probe *q, const struct particles *p)
+real probe_kinetic_energy(const struct probe *probe, const struct particles *p)
 {
-    return reproducible_sum(q->n, kinetic_term, &(struct region_sum){.q = q, .o = &(struct observed_run){.part = p}});
+    return reproducible_sum(probe->n, kinetic_term,
+                            &(struct region_sum){.q = probe, .o = &(struct observed_run){.part = p}});
 }
 
-struct energies probe_compute_energies_of_particles(const struct probe *q, const struct observed_run *o)
+struct energies probe_compute_energies_of_particles(const struct probe *probe, const struct observed_run *o)
 {
     const struct bonds *b = o->bonds;
     const bool bonded = b && b->rows > 0;
     real *row_energy = bonded ? NEW("probes.row_energy", b->rows, real) : NULL;
     if (bonded) o->kernels->bond_energy(b, o->part, row_energy);
-    struct region_sum s = {.q = q, .o = o, .row_energy = row_energy};
+    struct region_sum s = {.q = probe, .o = o, .row_energy = row_energy};
     const struct energies sums = {
-        .kinetic = probe_kinetic_energy(q, o->part),
-        .strain = reproducible_sum(q->n, bond_term, &s) +
-                  points_strain_energy_of_list(o->part, o->material, o->partial, q->list, q->n),
-        .fracture = reproducible_sum(q->n, fracture_term, &s),
+        .kinetic = probe_kinetic_energy(probe, o->part),
+        .strain = reproducible_sum(probe->n, bond_term, &s) +
+                  points_strain_energy_of_list(o->part, o->material, o->partial, probe->list, probe->n),
+        .fracture = reproducible_sum(probe->n, fracture_term, &s),
     };
     memory_free(row_energy);
     return sums;
 }
 
-void probe_compute_momentum_of_particles(const struct probe *q, const struct particles *p, real *momentum)
+void probe_compute_momentum_of_particles(const struct probe *probe, const struct particles *p, real *momentum)
 {
     const struct observed_run o = {.part = p};
     for (int d = 0; d < p->dim; d++)
-        momentum[d] = reproducible_sum(q->n, momentum_term, &(struct region_sum){.q = q, .o = &o, .component = d});
+        momentum[d] =
+            reproducible_sum(probe->n, momentum_term, &(struct region_sum){.q = probe, .o = &o, .component = d});
 }
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
@@ -412,7 +414,7 @@ static void figures_rigid(const struct emitter *e)
     for (int k = 0; k < RIGID_FIGURES; k++) probes_figures_put(e, rigid_figure[k].name, e->q->memory.rigid.most[k]);
 }
 
-void probes_visit_results(const struct probes *s, const struct observed_run *o,
+void probes_visit_results(const struct probes *probes, const struct observed_run *o,
                           void (*emit)(void *context, const char *probe, const char *quantity, real value),
                           void *context)
 {
@@ -423,9 +425,9 @@ void probes_visit_results(const struct probes *s, const struct observed_run *o,
         [PROBE_PULSE] = figures_pulse,   [PROBE_EXACT] = figures_exact,   [PROBE_SIF] = figures_sif,
         [PROBE_GROWTH] = figures_growth, [PROBE_RIGID] = figures_rigid,
     };
-    for (int k = 0; k < s->n; k++) {
-        if (s->probe[k].of_history) continue;
-        const real *sampled = s->sampled == o->t ? s->value + s->probe[k].first : NULL;
-        figures[s->probe[k].request.kind](&(struct emitter){emit, context, &s->probe[k], o, sampled});
+    for (int k = 0; k < probes->n; k++) {
+        if (probes->probe[k].of_history) continue;
+        const real *sampled = probes->sampled == o->t ? probes->value + probes->probe[k].first : NULL;
+        figures[probes->probe[k].request.kind](&(struct emitter){emit, context, &probes->probe[k], o, sampled});
     }
 }

@@ -5,22 +5,23 @@
 #include "fracture/fracture_part.h"
 #include "run/part.h"
 
-static void probing_free_all(struct run *e)
+static void probing_free_all(struct run *run)
 {
-    struct probing *q = e->probing;
-    probes_free(&q->probes);
-    for (int d = 0; d < DIM_MAX; d++) memory_free(q->baseline.v[d]);
-    memory_free(q->pulse);
+    struct probing *probing = run->probing;
+    probes_free(&probing->probes);
+    for (int d = 0; d < DIM_MAX; d++) memory_free(probing->baseline.v[d]);
+    memory_free(probing->pulse);
 }
 
-int64_t cracks_grow_one_step_and_count_cut_bonds(struct run *e)
+int64_t cracks_grow_one_step_and_count_cut_bonds(struct run *run)
 {
     int64_t released = 0;
-    for (int k = 0; k < e->scene->growths; k++) {
+    for (int k = 0; k < run->scene->growths; k++) {
         struct growth_control r;
-        const bool known = probes_copy_sif_to_growth_control(&e->probing->probes, e->scene->growth[k].probe, &r);
-        released += growing_crack_advance_and_count_cut_bonds(&e->fracture->growth[k], &e->bonds, &e->part, &e->source,
-                                                              known ? &r : NULL, e->clock.t, e->clock.dt);
+        const bool known = probes_copy_sif_to_growth_control(&run->probing->probes, run->scene->growth[k].probe, &r);
+        released +=
+            growing_crack_advance_and_count_cut_bonds(&run->fracture->growth[k], &run->bonds, &run->part, &run->source,
+                                                      known ? &r : NULL, run->clock.t, run->clock.dt);
     }
     return released;
 }
@@ -40,10 +41,10 @@ void scene_list_initial_wave_pulses(const struct scene *s, struct probing *probi
         if (s->initial[k].sets_pulse) probing->pulse[probing->pulses++] = s->initial[k].pulse;
 }
 
-static status probing_state(struct run *e, struct archive *a)
+static status probing_state(struct run *run, struct archive *a)
 {
-    ARCHIVE_VALUE(a, "engine/residual_step0", e->probing->residual_step0);
-    return probes_save_or_load(&e->probing->probes, a);
+    ARCHIVE_VALUE(a, "engine/residual_step0", run->probing->residual_step0);
+    return probes_save_or_load(&run->probing->probes, a);
 }
 
 const struct part part_probing = {PART(probing, probing), .free = probing_free_all, .state = probing_state};

@@ -93,40 +93,40 @@ void particle_compute_probe_values(const struct observed_run *o, int64_t particl
 /* ---- motion at the time of a sample (probes_motion.c) ------------------------------------------------------------ */
 
 /* Copies the positions (at time o->t) and velocities (at time o->t_velocity) of the particles that probe q observes in
- * run o to q->motion. Must be called before the time step. */
-void probe_motion_store_before_step(struct probe *q, const struct observed_run *o);
+ * run o to probe->motion. Must be called before the time step. */
+void probe_motion_store_before_step(struct probe *probe, const struct observed_run *o);
 
-/* Computes the velocities of the particles of probe q in run o at the time of the sample (line of history.csv). Call it
+/* Computes the velocities of the particles of probe in run o at the time of the sample (line of history.csv). Call it
  * after the time step. Interpolates between the velocities that probe_motion_store_before_step has copied and the
  * present ones; after the last step, extrapolates them and uses the present positions. present_velocity_time: time of
  * the present velocities, and a factor on the result that removes half a step of damping. Does nothing if no velocities
  * were copied, as for equilibria; probe_particle_velocity_component then returns the present velocities. */
-void probe_motion_interpolate_to_sample_time(struct probe *q, const struct observed_run *o,
+void probe_motion_interpolate_to_sample_time(struct probe *probe, const struct observed_run *o,
                                              const struct velocity_time *present_velocity_time);
 
-/* Discards the positions and velocities of probe q that are interpolated to the time of a sample (line of history.csv),
+/* Discards the positions and velocities of probe that are interpolated to the time of a sample (line of history.csv),
  * so that probe_particle_position_component and probe_particle_velocity_component return the present values again. */
-void probe_motion_discard_interpolation(struct probe *q);
+void probe_motion_discard_interpolation(struct probe *probe);
 
-/* Frees the copies of positions and velocities that probe_motion_store_before_step has made in the probe q. */
-void probe_motion_free(struct probe *q);
+/* Frees the copies of positions and velocities that probe_motion_store_before_step has made in the probe. */
+void probe_motion_free(struct probe *probe);
 
-/* Returns component `axis` of the position of particle q->list[list_index] of p, which the probe q observes [m]. After
- * probe_motion_interpolate_to_sample_time it is the position at the time of the sample (line of history.csv), until
- * probe_motion_discard_interpolation; otherwise it is the present position. */
-static inline real probe_particle_position_component(const struct probe *q, const struct particles *p, int axis,
+/* Returns component `axis` of the position of particle probe->list[list_index] of p, which the probe observes [m].
+ * After probe_motion_interpolate_to_sample_time it is the position at the time of the sample (line of history.csv),
+ * until probe_motion_discard_interpolation; otherwise it is the present position. */
+static inline real probe_particle_position_component(const struct probe *probe, const struct particles *p, int axis,
                                                      int64_t list_index)
 {
-    return q->motion.complete ? q->motion.x[axis][list_index] : p->x[axis][q->list[list_index]];
+    return probe->motion.complete ? probe->motion.x[axis][list_index] : p->x[axis][probe->list[list_index]];
 }
 
-/* Returns component `axis` of the velocity of particle q->list[list_index] of p, which the probe q observes [m/s].
+/* Returns component `axis` of the velocity of particle probe->list[list_index] of p, which the probe observes [m/s].
  * After probe_motion_interpolate_to_sample_time it is the velocity at the time of the sample (line of history.csv),
  * until probe_motion_discard_interpolation; otherwise it is the present velocity. */
-static inline real probe_particle_velocity_component(const struct probe *q, const struct particles *p, int axis,
+static inline real probe_particle_velocity_component(const struct probe *probe, const struct particles *p, int axis,
                                                      int64_t list_index)
 {
-    return q->motion.complete ? q->motion.v[axis][list_index] : p->v[axis][q->list[list_index]];
+    return probe->motion.complete ? probe->motion.v[axis][list_index] : p->v[axis][probe->list[list_index]];
 }
 
 /* ---- other kinds ------------------------------------------------------------------------------------------------- */
@@ -139,19 +139,19 @@ extern const char *const axis_name[DIM_MAX];
  * probes see it (particles, bonds, time). */
 int32_t probe_find_nearest_particle(const struct observed_run *o, const real *position);
 
-/* Computes the reference position, position[dim] [m], of measuring point number `station` (0 .. q->request.points - 1)
- * of a LINE probe. These points are equidistant from one end of the line to the other. */
-void line_probe_compute_station_position(const struct probe *q, int dim, int station, real *position);
+/* Computes the reference position, position[dim] [m], of measuring point number `station` (0 .. probe->request.points -
+ * 1) of a LINE probe. These points are equidistant from one end of the line to the other. */
+void line_probe_compute_station_position(const struct probe *probe, int dim, int station, real *position);
 
 /* Returns the crack tip that the TIP probe q (position and growth of a crack tip) follows at present, or NULL if there
  * is none. The tip belongs to *tips. */
-const struct crack_tip *probe_find_followed_crack_tip(const struct probe *q, const struct crack_tips *tips);
+const struct crack_tip *probe_find_followed_crack_tip(const struct probe *probe, const struct crack_tips *tips);
 
 /* Computes the reaction at the boundary that probe q (a measurement during the run) observes, force[dim] [N]: the sum
  * of the members `reaction` of all entries of `loads` with the name of this boundary, i.e. of its supports, in load
  * steps (static equilibria) also of its forces. mean_displacement[dim]: receives the mean displacement of the particles
  * that they act on, each counted alike [m]. */
-void probe_compute_reaction_of_supports(const struct probe *q, const struct loads *loads, int dim, real *force,
+void probe_compute_reaction_of_supports(const struct probe *probe, const struct loads *loads, int dim, real *force,
                                         real *mean_displacement);
 
 /* Energies of the particles of an ENERGY probe. */
@@ -159,17 +159,17 @@ struct energies {
     real kinetic, strain, fracture; /* [J] */
 };
 
-/* Returns the kinetic, strain and fracture energy [J] of the particles of probe q (a measurement during the run). o:
+/* Returns the kinetic, strain and fracture energy [J] of the particles of probe (a measurement during the run). o:
  * the current state of the run. */
-struct energies probe_compute_energies_of_particles(const struct probe *q, const struct observed_run *o);
+struct energies probe_compute_energies_of_particles(const struct probe *probe, const struct observed_run *o);
 
 /* Returns the kinetic energy [J] of those particles of p that probe q (a measurement during the run) observes, with the
  * velocities of probe_particle_velocity_component. */
-real probe_kinetic_energy(const struct probe *q, const struct particles *p);
+real probe_kinetic_energy(const struct probe *probe, const struct particles *p);
 
 /* Computes the momentum, momentum[dim] [kg m/s], of those particles of p that probe q (a measurement during the run)
  * observes, with the velocities of probe_particle_velocity_component. */
-void probe_compute_momentum_of_particles(const struct probe *q, const struct particles *p, real *momentum);
+void probe_compute_momentum_of_particles(const struct probe *probe, const struct particles *p, real *momentum);
 
 /* Results of a PULSE probe [1]: amplitudes of the reflected packet (difference from the baseline, a run on material
  * points alone) and of the transmitted packet, both divided by the incident amplitude; relative energy change in excess
@@ -180,22 +180,22 @@ struct pulse_amplitudes {
 
 /* Stores the largest initial speed of the body of run o as the incident amplitude of the PULSE probe q (amplitudes of a
  * wave packet). Returns REFUSED, with a message, if nothing moves at the start. */
-status pulse_probe_store_incident_amplitude(struct probe *q, const struct observed_run *o);
+status pulse_probe_store_incident_amplitude(struct probe *probe, const struct observed_run *o);
 
 /* Returns the results of the PULSE probe q (amplitudes of a wave packet): the amplitudes of the reflected and the
  * transmitted wave divided by the incident amplitude, and the relative energy change of run o minus that of the
  * baseline, the same run with material points alone (subtracted only if o->baseline is not NULL). */
-struct pulse_amplitudes pulse_probe_compute_amplitudes(const struct probe *q, const struct observed_run *o);
+struct pulse_amplitudes pulse_probe_compute_amplitudes(const struct probe *probe, const struct observed_run *o);
 
 /* Tests whether broken bonds separate the bar of the SPALL probe q (place and time at which a bar spalls) into two
- * parts along x. If so, stores the position of the plane of separation and the time in q->memory; else changes nothing.
- * o: the run as probes see it (particles, bonds, time). */
-void spall_probe_detect_separation(struct probe *q, const struct observed_run *o);
+ * parts along x. If so, stores the position of the plane of separation and the time in probe->memory; else changes
+ * nothing. o: the run as probes see it (particles, bonds, time). */
+void spall_probe_detect_separation(struct probe *probe, const struct observed_run *o);
 
 /* Computes the mean velocities along x of the two parts of the bar of the SPALL probe q (place and time at which a bar
  * spalls), which broken bonds have separated: *lighter_part_speed and *remaining_part_speed [m/s]. p: particles. NAN
  * for a part without particles. */
-void spall_probe_compute_part_speeds(const struct probe *q, const struct particles *p, real *lighter_part_speed,
+void spall_probe_compute_part_speeds(const struct probe *probe, const struct particles *p, real *lighter_part_speed,
                                      real *remaining_part_speed);
 
 /* Number of quantities that a GROWTH probe reports of a growing crack: tip position, length, speed, equivalent
@@ -220,36 +220,36 @@ enum { SIF_FIGURES = 4, SIF_CONTOURS_MAX = 16 };
 extern const struct column sif_figure[SIF_FIGURES];
 
 /* Finds in run o the crack tip of the SIF probe q (stress-intensity factors), its integration contours, and the
- * material around the tip, and stores them in q->sif. Release with sif_probe_free. Returns REFUSED, with a message, if
- * the body is not plane, no pre-crack ends inside a body, or the contours are too narrow, leave the body, or contain
+ * material around the tip, and stores them in probe->sif. Release with sif_probe_free. Returns REFUSED, with a message,
+ * if the body is not plane, no pre-crack ends inside a body, or the contours are too narrow, leave the body, or contain
  * another crack tip or material. */
-status sif_probe_find_tip_and_contours(struct probe *q, const struct observed_run *o);
+status sif_probe_find_tip_and_contours(struct probe *probe, const struct observed_run *o);
 
 /* Frees w, the crack tip and the contours of a SIF probe (stress-intensity factors), which
  * sif_probe_find_tip_and_contours has made; w may be NULL. */
-void sif_probe_free(struct sif_tracked *w);
+void sif_probe_free(struct sif_tracked *tracked);
 
 /* Copies positions (at time o->t) and velocities (at time o->t_velocity) near the crack tip of the SIF probe q
  * (stress-intensity factors), before the time step. */
-void sif_probe_store_motion_before_step(struct probe *q, const struct observed_run *o);
+void sif_probe_store_motion_before_step(struct probe *probe, const struct observed_run *o);
 
 /* Computes K_I, K_II and J of the SIF probe q (stress-intensity factors) and their relative differences between its
  * integration contours. The values are those of run o at the time of the sample (line of history.csv) and are stored in
- * q->memory.factors. velocity_time: time of the present velocities [s]. */
-void sif_probe_compute_intensity_factors(struct probe *q, const struct observed_run *o, real velocity_time);
+ * probe->memory.factors. velocity_time: time of the present velocities [s]. */
+void sif_probe_compute_intensity_factors(struct probe *probe, const struct observed_run *o, real velocity_time);
 
 /* Returns true if the stress-intensity factors of SIF probe q at its last sample (line of history.csv) are reliable:
  * they were computed, and contour_spread, their relative difference between the integration contours, is at most 0.2.
  */
-bool sif_probe_factors_are_meaningful(const struct probe *q);
+bool sif_probe_factors_are_meaningful(const struct probe *probe);
 
 /* Returns quantity number `quantity_number` (0 to 3: K_I, K_II, J, contour_spread) of SIF probe q (stress-intensity
  * factors) at its last sample (line of history.csv). Returns NAN for K_I, K_II and J if they are not reliable
  * (sif_probe_factors_are_meaningful). */
-static inline real sif_probe_last_sample_value_or_nan(const struct probe *q, int quantity_number)
+static inline real sif_probe_last_sample_value_or_nan(const struct probe *probe, int quantity_number)
 {
-    const bool valid = quantity_number == SIF_FIGURES - 1 || sif_probe_factors_are_meaningful(q);
-    return valid ? q->memory.factors[quantity_number] : NAN;
+    const bool valid = quantity_number == SIF_FIGURES - 1 || sif_probe_factors_are_meaningful(probe);
+    return valid ? probe->memory.factors[quantity_number] : NAN;
 }
 
 /* ---- rotating body: RIGID ---------------------------------------------------------------------------------------- */
@@ -260,18 +260,18 @@ extern const struct column rigid_figure[RIGID_FIGURES];
 
 /* Stores in q the angular momentum and the kinetic energy of the particles of the RIGID probe q (conservation in a body
  * that moves rigidly) at the start of run o. Returns REFUSED, with a message, if the run is not in a plane. */
-status rigid_probe_store_initial_motion(struct probe *q, const struct observed_run *o);
+status rigid_probe_store_initial_motion(struct probe *probe, const struct observed_run *o);
 
 /* Computes the rotation angle value[0] of the body of a RIGID probe (conservation in a body that moves rigidly) [rad],
  * its largest absolute principal stress value[1] and its largest in-plane shear stress value[2] [Pa] at the present
- * positions, and updates q->memory.rigid. o: the run as probes see it (particles, bonds, time). */
-void rigid_probe_compute_angle_and_stresses(struct probe *q, const struct observed_run *o, real *value);
+ * positions, and updates probe->memory.rigid. o: the run as probes see it (particles, bonds, time). */
+void rigid_probe_compute_angle_and_stresses(struct probe *probe, const struct observed_run *o, real *value);
 
 /* Computes the change of the angular momentum, value[3], and of the kinetic energy, value[4], of the body of the RIGID
  * probe q (conservation in a body that moves rigidly), from the particles p, relative to the values at the start [1];
  * both should be conserved. NAN if the value at the start is 0. Call this function when the velocities at the time of
  * the sample (line of history.csv) are known. */
-void rigid_probe_compute_conservation_errors(struct probe *q, const struct particles *p, real *value);
+void rigid_probe_compute_conservation_errors(struct probe *probe, const struct particles *p, real *value);
 
 /* ---- a bar against a closed form: EXACT -------------------------------------------------------------------------- */
 
@@ -285,10 +285,10 @@ struct bar {
 };
 
 /* Finds the particles, ends, material and load of the bar of an EXACT probe (comparison of a bar with a closed-form
- * solution) and allocates q->bar for them. Release with bar_probe_free_bar. Returns REFUSED, with a message, if the bar
- * or its loads differ from what the closed-form solution describes. o: the run as probes see it (particles, bonds,
+ * solution) and allocates probe->bar for them. Release with bar_probe_free_bar. Returns REFUSED, with a message, if the
+ * bar or its loads differ from what the closed-form solution describes. o: the run as probes see it (particles, bonds,
  * time). */
-status bar_probe_find_bar_and_load(struct probe *q, const struct observed_run *o);
+status bar_probe_find_bar_and_load(struct probe *probe, const struct observed_run *o);
 
 /* Frees the bar of an EXACT probe (comparison of a bar with a closed-form solution), which bar_probe_find_bar_and_load
  * has made, with its arrays; `bar` may be NULL. */

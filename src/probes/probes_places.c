@@ -27,9 +27,9 @@ int32_t probe_find_nearest_particle(const struct observed_run *o, const real *po
     return nearest;
 }
 
-void line_probe_compute_station_position(const struct probe *q, int dim, int k, real *position)
+void line_probe_compute_station_position(const struct probe *probe, int dim, int k, real *position)
 {
-    const struct probe_request *r = &q->request;
+    const struct probe_request *r = &probe->request;
     real s = r->points > 1 ? (real)k / (r->points - 1) : 0;
     for (int d = 0; d < dim; d++) position[d] = r->from[d] + s * (r->to[d] - r->from[d]);
 }

@@ -19,37 +19,37 @@ static void profile_header(FILE *file, const struct particles *p)
     fputc('\n', file);
 }
 
-/* Writes to file a CSV row for each station of probe q of kind LINE (equidistant points of the line) that is inside a
+/* Writes to file a CSV row for each station of probe of kind LINE (equidistant points of the line) that is inside a
  * body of run o: distance from the first station [m], position, and the values of the nearest particle. */
-static void profile_rows(FILE *file, const struct probe *q, const struct observed_run *o)
+static void profile_rows(FILE *file, const struct probe *probe, const struct observed_run *o)
 {
     const struct particles *p = o->part;
     real X[DIM_MAX], start[DIM_MAX], value[READINGS_MAX];
-    line_probe_compute_station_position(q, p->dim, 0, start);
-    for (int64_t k = 0; k < q->n; k++) {
-        if (q->list[k] < 0) continue;
+    line_probe_compute_station_position(probe, p->dim, 0, start);
+    for (int64_t k = 0; k < probe->n; k++) {
+        if (probe->list[k] < 0) continue;
         real s2 = 0;
-        line_probe_compute_station_position(q, p->dim, (int)k, X);
+        line_probe_compute_station_position(probe, p->dim, (int)k, X);
         for (int d = 0; d < p->dim; d++) s2 += square(X[d] - start[d]);
         fprintf(file, "%.9g", sqrt(s2));
         for (int d = 0; d < p->dim; d++) fprintf(file, ",%.9g", X[d]);
-        particle_compute_probe_values(o, q->list[k], value);
+        particle_compute_probe_values(o, probe->list[k], value);
         for (int m = 0; m < particle_probe_value_count(p); m++) fprintf(file, ",%.9g", value[m]);
         fputc('\n', file);
     }
 }
 
-/* Writes the profile of probe q of kind EXACT (closed-form solution of a bar) to file as CSV, with a header: computed
+/* Writes the profile of probe of kind EXACT (closed-form solution of a bar) to file as CSV, with a header: computed
  * and exact values of all particles of run o from left to right. */
-static void bar_rows(FILE *file, const struct probe *q, const struct observed_run *o)
+static void bar_rows(FILE *file, const struct probe *probe, const struct observed_run *o)
 {
     real value[BAR_READINGS];
     for (int m = 0; m < BAR_READINGS; m++)
         fprintf(file, "%s%s [%s]%s", m > 0 ? "," : "", bar_reading[m].name, bar_reading[m].unit,
                 m + 1 < BAR_READINGS ? "" : "\n");
-    bar_probe_measure_fields(q->bar, o);
-    for (int64_t k = 0; k < q->bar->n; k++) {
-        bar_probe_compute_profile_line(q->bar, o, k, value);
+    bar_probe_measure_fields(probe->bar, o);
+    for (int64_t k = 0; k < probe->bar->n; k++) {
+        bar_probe_compute_profile_line(probe->bar, o, k, value);
         for (int m = 0; m < BAR_READINGS; m++)
             fprintf(file, "%s%.9g%s", m > 0 ? "," : "", value[m], m + 1 < BAR_READINGS ? "" : "\n");
     }
@@ -57,70 +57,70 @@ static void bar_rows(FILE *file, const struct probe *q, const struct observed_ru
 
 /* Writes the profile of the LINE or EXACT probe q (a requested measurement) of run o to file as CSV, with a header
  * line. */
-static void profile_text(FILE *file, const struct probe *q, const struct observed_run *o)
+static void profile_text(FILE *file, const struct probe *probe, const struct observed_run *o)
 {
-    if (q->request.kind == PROBE_EXACT) {
-        bar_rows(file, q, o);
+    if (probe->request.kind == PROBE_EXACT) {
+        bar_rows(file, probe, o);
         return;
     }
     profile_header(file, o->part);
-    profile_rows(file, q, o);
+    profile_rows(file, probe, o);
 }
 
-/* Writes the file name `<probe>_NNNNNN.csv` of the profile of probe q (a requested measurement) to name[PROFILE_NAME],
+/* Writes the file name `<probe>_NNNNNN.csv` of the profile of probe (a requested measurement) to name[PROFILE_NAME],
  * with the number `frame`. A slash in the name of the probe becomes an underscore. */
-static void profile_name(char *name, const struct probe *q, int frame)
+static void profile_name(char *name, const struct probe *probe, int frame)
 {
-    snprintf(name, PROFILE_NAME, "%.*s_%06d.csv", NAME_MAX_LENGTH, q->request.name, frame);
+    snprintf(name, PROFILE_NAME, "%.*s_%06d.csv", NAME_MAX_LENGTH, probe->request.name, frame);
     for (char *c = name; *c; c++)
         if (*c == '/') *c = '_';
 }
 
 /* Returns true if probe q (a requested measurement) has profiles: it is a LINE or an EXACT probe. */
-static bool has_profile(const struct probe *q)
+static bool has_profile(const struct probe *probe)
 {
-    return q->request.kind == PROBE_LINE || q->request.kind == PROBE_EXACT;
+    return probe->request.kind == PROBE_LINE || probe->request.kind == PROBE_EXACT;
 }
 
-bool probes_compose_profile_file_name(const struct probes *s, int which, int frame_number, char *file_name)
+bool probes_compose_profile_file_name(const struct probes *probes, int which, int frame_number, char *file_name)
 {
-    for (int k = 0; k < s->n; k++) {
-        if (!has_profile(&s->probe[k]) || which-- > 0) continue;
-        profile_name(file_name, &s->probe[k], frame_number);
+    for (int k = 0; k < probes->n; k++) {
+        if (!has_profile(&probes->probe[k]) || which-- > 0) continue;
+        profile_name(file_name, &probes->probe[k], frame_number);
         return true;
     }
     return false;
 }
 
-/* Composes the profile of probe q (a requested measurement) of run o at frame number `frame` and passes file name and
+/* Composes the profile of probe (a requested measurement) of run o at frame number `frame` and passes file name and
  * text to put(context, name, text, length), which writes them. Returns FAILED, with a message, if memory is exhausted;
  * else the status of put. */
-static status profile_put(const struct probe *q, const struct observed_run *o, probe_file_fn *put, void *context,
+static status profile_put(const struct probe *probe, const struct observed_run *o, probe_file_fn *put, void *context,
                           int frame)
 {
     char name[PROFILE_NAME], *text = NULL;
     size_t length = 0;
     FILE *file = memory_stream_open(&text, &length);
-    if (file) profile_text(file, q, o);
+    if (file) profile_text(file, probe, o);
     const bool whole = file && fclose(file) == 0;
-    profile_name(name, q, frame);
+    profile_name(name, probe, frame);
     const status s =
         whole ? put(context, name, text, length) : status_set(FAILED, "cannot write %s: out of memory", name);
     free(text);
     return s;
 }
 
-int64_t probes_count_profiles(const struct probes *s)
+int64_t probes_count_profiles(const struct probes *probes)
 {
     int64_t n = 0;
-    for (int k = 0; k < s->n; k++) n += has_profile(&s->probe[k]);
+    for (int k = 0; k < probes->n; k++) n += has_profile(&probes->probe[k]);
     return n;
 }
 
-status probes_write_profiles(const struct probes *s, const struct observed_run *o, probe_file_fn *write_file,
+status probes_write_profiles(const struct probes *probes, const struct observed_run *o, probe_file_fn *write_file,
                              void *context, int frame_number)
 {
-    for (int k = 0; k < s->n; k++)
-        if (has_profile(&s->probe[k])) TRY(profile_put(&s->probe[k], o, write_file, context, frame_number));
+    for (int k = 0; k < probes->n; k++)
+        if (has_profile(&probes->probe[k])) TRY(profile_put(&probes->probe[k], o, write_file, context, frame_number));
     return OK;
 }

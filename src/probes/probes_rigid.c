@@ -61,40 +61,40 @@ static void turn_block(const void *context, int64_t first, int64_t end, real *su
     }
 }
 
-/* Returns the angle [rad] of the best-fit rotation R of the particles of probe q (indices in p), which minimises sum m
+/* Returns the angle [rad] of the best-fit rotation R of the particles of probe (indices in p), which minimises sum m
  * |x - R X|^2 (Kabsch 1976, in the plane), with reference positions X and current positions x relative to the centres
  * of mass. Also computes the angular momentum *spin and its scale *spin_scale = sum |m x x v| [kg m^2/s], and the
  * kinetic energy *kinetic [J]. */
-static real probes_rigid_turn(const struct probe *q, const struct particles *p, real *spin, real *spin_scale,
+static real probes_rigid_turn(const struct probe *probe, const struct particles *p, real *spin, real *spin_scale,
                               real *kinetic)
 {
-    struct rigid_sum s = {.q = q, .p = p};
+    struct rigid_sum s = {.q = probe, .p = p};
     real sum[5];
-    reproducible_sums(q->n, 5, centre_block, &s, sum);
+    reproducible_sums(probe->n, 5, centre_block, &s, sum);
     for (int d = 0; d < 2; d++) s.centre[d] = sum[1 + d] / sum[0], s.centre_reference[d] = sum[3 + d] / sum[0];
-    reproducible_sums(q->n, 5, turn_block, &s, sum);
+    reproducible_sums(probe->n, 5, turn_block, &s, sum);
     *spin = sum[2], *spin_scale = sum[3], *kinetic = sum[4];
     return atan2(sum[1], sum[0]);
 }
 
-status rigid_probe_store_initial_motion(struct probe *q, const struct observed_run *o)
+status rigid_probe_store_initial_motion(struct probe *probe, const struct observed_run *o)
 {
-    struct rigid_memory *m = &q->memory.rigid;
+    struct rigid_memory *m = &probe->memory.rigid;
     if (o->part->dim != 2)
         return status_set(
             REFUSED, "probe \"%s\" needs space: plane stress or plane strain; set one of these, or remove the probe",
-            q->request.name);
-    probes_rigid_turn(q, o->part, &m->spin, &m->spin_scale, &m->kinetic);
+            probe->request.name);
+    probes_rigid_turn(probe, o->part, &m->spin, &m->spin_scale, &m->kinetic);
     return OK;
 }
 
 /* Computes the largest absolute principal stress, *stress, and the largest in-plane shear stress, *shear, of the
- * particles of probe q (indices in p) [Pa]. */
-static void stresses(const struct probe *q, const struct particles *p, real *stress, real *shear)
+ * particles of probe (indices in p) [Pa]. */
+static void stresses(const struct probe *probe, const struct particles *p, real *stress, real *shear)
 {
     *stress = *shear = 0;
-    for (int64_t k = 0; k < q->n; k++) {
-        const int32_t i = q->list[k];
+    for (int64_t k = 0; k < probe->n; k++) {
+        const int32_t i = probe->list[k];
         const real mean = 0.5 * (p->stress[0][i] + p->stress[1][i]);
         const real radius = hypot(0.5 * (p->stress[0][i] - p->stress[1][i]), p->stress[2][i]);
         *stress = real_max(*stress, real_max(fabs(mean) + radius, fabs(particle_out_of_plane_stress(p, i))));
@@ -111,26 +111,26 @@ static void rigid_most(struct rigid_memory *m, const real *value, int first, int
     for (int k = first; k < end; k++) m->most[k] = isnan(value[k]) ? NAN : real_max(m->most[k], fabs(value[k]));
 }
 
-/* Computes the results of probe q of kind RIGID (rigid-body motion) of run o from the positions of its particles:
+/* Computes the results of probe of kind RIGID (rigid-body motion) of run o from the positions of its particles:
  * value[0], the rotation angle of the body [rad]; value[1], the largest absolute principal stress of any of its
  * particles [Pa]; value[2], the largest in-plane shear stress [Pa]. The angle continues beyond half a turn if the body
  * rotates by less than half a turn between samples. */
-void rigid_probe_compute_angle_and_stresses(struct probe *q, const struct observed_run *o, real *value)
+void rigid_probe_compute_angle_and_stresses(struct probe *probe, const struct observed_run *o, real *value)
 {
-    struct rigid_memory *m = &q->memory.rigid;
+    struct rigid_memory *m = &probe->memory.rigid;
     real spin, scale, kinetic;
-    const real angle = probes_rigid_turn(q, o->part, &spin, &scale, &kinetic);
+    const real angle = probes_rigid_turn(probe, o->part, &spin, &scale, &kinetic);
     m->angle += remainder(angle - m->angle, 2 * pi);
     m->most[0] = value[0] = m->angle;
-    stresses(q, o->part, &value[1], &value[2]);
+    stresses(probe, o->part, &value[1], &value[2]);
     rigid_most(m, value, 1, RIGID_PLACES);
 }
 
-void rigid_probe_compute_conservation_errors(struct probe *q, const struct particles *p, real *value)
+void rigid_probe_compute_conservation_errors(struct probe *probe, const struct particles *p, real *value)
 {
-    struct rigid_memory *m = &q->memory.rigid;
+    struct rigid_memory *m = &probe->memory.rigid;
     real spin, scale, kinetic;
-    probes_rigid_turn(q, p, &spin, &scale, &kinetic);
+    probes_rigid_turn(probe, p, &spin, &scale, &kinetic);
     value[3] = m->spin_scale > 0 ? (spin - m->spin) / m->spin_scale : NAN;
     value[4] = m->kinetic > 0 ? (kinetic - m->kinetic) / m->kinetic : NAN;
     rigid_most(m, value, RIGID_PLACES, RIGID_FIGURES);

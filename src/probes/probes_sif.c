@@ -64,26 +64,26 @@ static int tip_meant(const struct probe_request *r, const struct observed_run *o
 
 /* Returns the index of the growing crack of run o that starts at most SAME_TIP spacings from the tip of the probe w (a
  * requested measurement), or -1 if there is none. */
-static int growth_meant(const struct sif_tracked *w, const struct observed_run *o)
+static int growth_meant(const struct sif_tracked *tracked, const struct observed_run *o)
 {
     for (int k = 0; k < o->growths; k++) {
         const real *at = o->growth[k].rule->at;
-        if (hypot(at[0] - w->tip.place[0], at[1] - w->tip.place[1]) <= SAME_TIP * o->spacing) return k;
+        if (hypot(at[0] - tracked->tip.place[0], at[1] - tracked->tip.place[1]) <= SAME_TIP * o->spacing) return k;
     }
     return -1;
 }
 
 /* Returns REFUSED, with a message, if the probe with request r controls the growth of a crack of run o but measures
  * (w) the tip of another one. The input file (scene) must then give the key `at`, which selects the tip. */
-static status own_growth(const struct sif_tracked *w, const struct probe_request *r, const struct observed_run *o)
+static status own_growth(const struct sif_tracked *tracked, const struct probe_request *r, const struct observed_run *o)
 {
     for (int k = 0; k < o->growths; k++) {
         const struct growth_rule *g = o->growth[k].rule;
-        if (strcmp(g->probe, r->name) == 0 && k != w->growth)
+        if (strcmp(g->probe, r->name) == 0 && k != tracked->growth)
             return status_set(REFUSED,
                               "probe \"%s\" controls the growth rule %s, but measures another tip, at (%.6g, %.6g) m; "
                               "set at: [%.6g m, %.6g m]",
-                              r->name, g->name, w->tip.place[0], w->tip.place[1], g->at[0], g->at[1]);
+                              r->name, g->name, tracked->tip.place[0], tracked->tip.place[1], g->at[0], g->at[1]);
     }
     return OK;
 }
@@ -91,10 +91,10 @@ static status own_growth(const struct sif_tracked *w, const struct probe_request
 /* Finds for w position and direction of the crack tip of a probe of kind SIF (stress-intensity factors), from the
  * request r or from a pre-crack of run o, and the growing crack that starts there. Returns REFUSED, with a message, if
  * position or direction is unknown, or if the probe controls the growth of a crack at another tip. */
-static status find_tip(struct sif_tracked *w, const struct probe_request *r, const struct observed_run *o)
+static status find_tip(struct sif_tracked *tracked, const struct probe_request *r, const struct observed_run *o)
 {
-    w->follows = tip_meant(r, o);
-    const struct crack_tip *tip = w->follows >= 0 ? &o->tips->tip[w->follows] : NULL;
+    tracked->follows = tip_meant(r, o);
+    const struct crack_tip *tip = tracked->follows >= 0 ? &o->tips->tip[tracked->follows] : NULL;
     if (!tip && !r->has_at)
         return status_set(
             REFUSED,
@@ -107,36 +107,36 @@ static status find_tip(struct sif_tracked *w, const struct probe_request *r, con
             r->name, r->at[0], r->at[1]);
     const real *position = r->has_at ? r->at : tip->origin, *along = r->has_direction ? r->direction : tip->along;
     const real length = hypot(along[0], along[1]);
-    for (int d = 0; d < 2; d++) w->tip.place[d] = position[d], w->tip.along[d] = along[d] / length;
-    w->growth = growth_meant(w, o);
-    return own_growth(w, r, o);
+    for (int d = 0; d < 2; d++) tracked->tip.place[d] = position[d], tracked->tip.along[d] = along[d] / length;
+    tracked->growth = growth_meant(tracked, o);
+    return own_growth(tracked, r, o);
 }
 
-/* Lists in w->crack the cracks across which particles must not contribute to each other's gradients: the pre-cracks of
- * run o and, unless one of them ends at the tip, a straight crack behind the tip. Sets w->tip.face, the crack face to
- * which particles exactly on the crack belong. sif_probe_free releases the list. */
-static void make_cracks(struct sif_tracked *w, const struct observed_run *o)
+/* Lists in tracked->crack the cracks across which particles must not contribute to each other's gradients: the
+ * pre-cracks of run o and, unless one of them ends at the tip, a straight crack behind the tip. Sets tracked->tip.face,
+ * the crack face to which particles exactly on the crack belong. sif_probe_free releases the list. */
+static void make_cracks(struct sif_tracked *tracked, const struct observed_run *o)
 {
-    const struct sif_tip *t = &w->tip;
+    const struct sif_tip *t = &tracked->tip;
     bool ends = false;
-    w->tip.face = 1;
-    w->crack = NEW("sif.crack", o->cracks + 1, struct crack);
+    tracked->tip.face = 1;
+    tracked->crack = NEW("sif.crack", o->cracks + 1, struct crack);
     for (int k = 0; k < o->cracks; k++) {
-        w->crack[k] = o->crack[k];
+        tracked->crack[k] = o->crack[k];
         for (int e = 0; e < 2; e++) {
             const real *here = o->crack[k].corner[e], *there = o->crack[k].corner[1 - e];
             if (hypot(here[0] - t->place[0], here[1] - t->place[1]) > SAME_TIP * o->spacing) continue;
             const real onward = (here[0] - there[0]) * t->along[0] + (here[1] - there[1]) * t->along[1];
-            w->tip.face = (onward > 0) == (e == 1) ? 1 : -1;
+            tracked->tip.face = (onward > 0) == (e == 1) ? 1 : -1;
             ends = true;
         }
     }
     for (int d = 0; d < 2; d++) {
-        w->behind[0][d] = t->place[d] - 2 * w->reach * t->along[d];
-        w->behind[1][d] = t->place[d];
+        tracked->behind[0][d] = t->place[d] - 2 * tracked->reach * t->along[d];
+        tracked->behind[1][d] = t->place[d];
     }
-    w->crack[o->cracks] = (struct crack){.n = 2, .corner = w->behind};
-    w->rule.sight = (struct sight){.crack = w->crack, .cracks = o->cracks + !ends, .bonds = o->bonds};
+    tracked->crack[o->cracks] = (struct crack){.n = 2, .corner = tracked->behind};
+    tracked->rule.sight = (struct sight){.crack = tracked->crack, .cracks = o->cracks + !ends, .bonds = o->bonds};
 }
 
 /* Returns true if a circle of radius `radius` [m] around tip t is not completely inside the body of run o. The part
@@ -156,11 +156,12 @@ static bool ring_leaves(const struct sif_tip *t, real radius, const struct obser
 
 /* Returns a crack tip of run o, other than that of the probe w (a requested measurement), whose distance from it is
  * less than `radius` [m], or NULL if there is none. */
-static const struct crack_tip *other_tip_within(const struct sif_tracked *w, real radius, const struct observed_run *o)
+static const struct crack_tip *other_tip_within(const struct sif_tracked *tracked, real radius,
+                                                const struct observed_run *o)
 {
     for (int k = 0; o->tips && k < o->tips->n; k++) {
         const real *other = o->tips->tip[k].origin;
-        if (k != w->follows && hypot(other[0] - w->tip.place[0], other[1] - w->tip.place[1]) < radius)
+        if (k != tracked->follows && hypot(other[0] - tracked->tip.place[0], other[1] - tracked->tip.place[1]) < radius)
             return &o->tips->tip[k];
     }
     return NULL;
@@ -169,162 +170,168 @@ static const struct crack_tip *other_tip_within(const struct sif_tracked *w, rea
 /* Returns the outer radius of the contour of the probe w of kind SIF (stress-intensity factors) of run o whose request
  * r gives none: OUTER spacings or, if r gives no other radius either, the first of 0.9, 0.8 .. 0.5 times this value
  * that stays in the body and contains no other tip [m]. */
-static real default_outer_radius(const struct sif_tracked *w, const struct probe_request *r,
+static real default_outer_radius(const struct sif_tracked *tracked, const struct probe_request *r,
                                  const struct observed_run *o)
 {
     const real most = OUTER * o->spacing;
     real beyond[2];
     if (given(r->inner) || r->contours.n > 0) return most;
     for (real radius = most; radius >= (OUTER_LEAST - 1e-9) * o->spacing; radius -= 0.1 * most)
-        if (!ring_leaves(&w->tip, radius, o, beyond) && !other_tip_within(w, radius, o)) return radius;
+        if (!ring_leaves(&tracked->tip, radius, o, beyond) && !other_tip_within(tracked, radius, o)) return radius;
     return most;
 }
 
 /* Sets the integration contours of the probe w of kind SIF (stress-intensity factors) of run o: contour[0], from which
  * the results are computed, then further ones for comparison, which have the radii of request r, or 0.6, 0.8 and 1
- * times the outer radius of contour[0]. Sets w->reach to the largest outer radius. */
-static void make_contours(struct sif_tracked *w, const struct probe_request *r, const struct observed_run *o)
+ * times the outer radius of contour[0]. Sets tracked->reach to the largest outer radius. */
+static void make_contours(struct sif_tracked *tracked, const struct probe_request *r, const struct observed_run *o)
 {
-    const real outer = given(r->outer) ? r->outer : default_outer_radius(w, r, o),
+    const real outer = given(r->outer) ? r->outer : default_outer_radius(tracked, r, o),
                inner = given(r->inner) ? r->inner : 0.5 * outer;
     const struct number_list *list = &r->contours;
-    w->contour[w->contours++] = (struct contour){inner, outer};
+    tracked->contour[tracked->contours++] = (struct contour){inner, outer};
     for (int k = 0; k < (list->n > 0 ? list->n : 3); k++) {
         const real radius = list->n > 0 ? list->value[k] : (0.6 + 0.2 * k) * outer;
-        w->contour[w->contours++] = (struct contour){radius * inner / outer, radius};
+        tracked->contour[tracked->contours++] = (struct contour){radius * inner / outer, radius};
     }
-    for (int k = 0; k < w->contours; k++) w->reach = real_max(w->reach, w->contour[k].outer);
+    for (int k = 0; k < tracked->contours; k++) tracked->reach = real_max(tracked->reach, tracked->contour[k].outer);
 }
 
 /* Returns REFUSED with a message: the largest contour of w leaves the body of run o at position[2] [m]. The message
  * proposes an outer radius that fits: the largest of 0.9, 0.8 .. 0.1 times the present one. name: name of the probe. */
-static status refuse_leaving(const struct sif_tracked *w, const char *name, const struct observed_run *o,
+static status refuse_leaving(const struct sif_tracked *tracked, const char *name, const struct observed_run *o,
                              const real position[2])
 {
     char fits[80] = "a smaller probes.sif.outer or particles.spacing";
     real beyond[2];
-    for (int tenths = 1; tenths < 10 && !ring_leaves(&w->tip, 0.1 * tenths * w->reach, o, beyond); tenths++)
-        snprintf(fits, sizeof fits, "sif: {outer: %.3g m}, or less", 0.1 * tenths * w->reach);
+    for (int tenths = 1; tenths < 10 && !ring_leaves(&tracked->tip, 0.1 * tenths * tracked->reach, o, beyond); tenths++)
+        snprintf(fits, sizeof fits, "sif: {outer: %.3g m}, or less", 0.1 * tenths * tracked->reach);
     return status_set(REFUSED,
                       "probe \"%s\": the ring of radius %.6g m around the tip (%.6g, %.6g) m leaves the body at (%.6g, "
                       "%.6g) m; use %s",
-                      name, w->reach, w->tip.place[0], w->tip.place[1], position[0], position[1], fits);
+                      name, tracked->reach, tracked->tip.place[0], tracked->tip.place[1], position[0], position[1],
+                      fits);
 }
 
 /* Returns REFUSED, with a message, if a contour of w is narrower than NARROWEST spacings, leaves the body, or contains
  * another crack tip. r: request of the probe. o: view of the run. */
-static status check_ring(const struct sif_tracked *w, const struct probe_request *r, const struct observed_run *o)
+static status check_ring(const struct sif_tracked *tracked, const struct probe_request *r, const struct observed_run *o)
 {
     real position[2], narrowest = INFINITY;
-    for (int k = 0; k < w->contours; k++) narrowest = real_min(narrowest, w->contour[k].outer - w->contour[k].inner);
-    for (int k = 0; k < w->contours; k++) {
-        const struct contour *c = &w->contour[k];
+    for (int k = 0; k < tracked->contours; k++)
+        narrowest = real_min(narrowest, tracked->contour[k].outer - tracked->contour[k].inner);
+    for (int k = 0; k < tracked->contours; k++) {
+        const struct contour *c = &tracked->contour[k];
         if (c->outer - c->inner < NARROWEST * o->spacing * (1 - 1e-9))
             return status_set(REFUSED,
                               "probe \"%s\": the ring from %.6g to %.6g m is narrower than %.0f spacings; use sif: "
                               "{outer: %.3g m}, or more",
-                              r->name, c->inner, c->outer, NARROWEST, w->reach * NARROWEST * o->spacing / narrowest);
+                              r->name, c->inner, c->outer, NARROWEST,
+                              tracked->reach * NARROWEST * o->spacing / narrowest);
     }
-    if (ring_leaves(&w->tip, w->reach, o, position)) return refuse_leaving(w, r->name, o, position);
-    const struct crack_tip *tip = other_tip_within(w, w->reach, o);
+    if (ring_leaves(&tracked->tip, tracked->reach, o, position)) return refuse_leaving(tracked, r->name, o, position);
+    const struct crack_tip *tip = other_tip_within(tracked, tracked->reach, o);
     if (!tip) return OK;
-    const real *other = tip->origin, distance = hypot(other[0] - w->tip.place[0], other[1] - w->tip.place[1]);
+    const real *other = tip->origin,
+               distance = hypot(other[0] - tracked->tip.place[0], other[1] - tracked->tip.place[1]);
     return status_set(REFUSED,
                       "probe \"%s\": another crack's tip at (%.6g, %.6g) m is within its radius %.6g m; use "
                       "sif: {outer: %.3g m}, or less",
-                      r->name, other[0], other[1], w->reach, 0.99 * distance);
+                      r->name, other[0], other[1], tracked->reach, 0.99 * distance);
 }
 
 /* Stores in w the body number and the elastic constants of the material around the tip. r: request, for messages; o:
  * run. Returns REFUSED, with a message, if no particle is one spacing ahead of the tip, or if another material or body
  * is within the contours. */
-static status find_medium(struct sif_tracked *w, const struct probe_request *r, const struct observed_run *o)
+static status find_medium(struct sif_tracked *tracked, const struct probe_request *r, const struct observed_run *o)
 {
     const struct particles *p = o->part;
-    const real *e = w->tip.along, *at = w->tip.place;
+    const real *e = tracked->tip.along, *at = tracked->tip.place;
     const int32_t ahead =
         probe_find_nearest_particle(o, (real[DIM_MAX]){at[0] + o->spacing * e[0], at[1] + o->spacing * e[1]});
     if (ahead < 0)
         return status_set(REFUSED,
                           "probe \"%s\": no particle is ahead of its tip (%.6g, %.6g) m; check `at` and `direction`",
                           r->name, at[0], at[1]);
-    w->tip.body = p->body[ahead];
-    w->tip.medium = crack_medium_of_material(&o->material[p->material[ahead]], o->space);
+    tracked->tip.body = p->body[ahead];
+    tracked->tip.medium = crack_medium_of_material(&o->material[p->material[ahead]], o->space);
     for (int64_t i = 0; i < p->n; i++) {
         const real distance = hypot(p->X[0][i] - at[0], p->X[1][i] - at[1]);
-        if (distance > w->reach) continue;
-        if (p->material[i] != p->material[ahead] || p->body[i] != w->tip.body)
+        if (distance > tracked->reach) continue;
+        if (p->material[i] != p->material[ahead] || p->body[i] != tracked->tip.body)
             return status_set(REFUSED,
                               "probe \"%s\": another material or body is within its radius %.6g m, at (%.6g, %.6g) m; "
                               "use sif: {outer: %.3g m}, or less",
-                              r->name, w->reach, p->X[0][i], p->X[1][i], 0.99 * distance);
+                              r->name, tracked->reach, p->X[0][i], p->X[1][i], 0.99 * distance);
     }
     return OK;
 }
 
-status sif_probe_find_tip_and_contours(struct probe *q, const struct observed_run *o)
+status sif_probe_find_tip_and_contours(struct probe *probe, const struct observed_run *o)
 {
-    const struct probe_request *r = &q->request;
+    const struct probe_request *r = &probe->request;
     if (o->part->dim != 2)
         return status_set(
             REFUSED, "probe \"%s\" needs space: plane stress or plane strain; set one of these, or remove the probe",
             r->name);
-    struct sif_tracked *w = q->sif = NEW("sif", 1, struct sif_tracked);
-    TRY(find_tip(w, r, o));
-    make_contours(w, r, o);
-    TRY(find_medium(w, r, o));
-    TRY(check_ring(w, r, o));
-    make_cracks(w, o);
-    w->tip.weight = r->weight, w->tip.stress = r->stress, w->tip.thickness = o->thickness;
-    w->tip.core = isnan(r->core) ? CORE * o->horizon : r->core;
-    w->rule.method = r->gradient, w->rule.diffraction = r->diffraction;
-    w->rule.reach = (given(r->reach) ? r->reach : 1.5) * o->spacing;
+    struct sif_tracked *tracked = probe->sif = NEW("sif", 1, struct sif_tracked);
+    TRY(find_tip(tracked, r, o));
+    make_contours(tracked, r, o);
+    TRY(find_medium(tracked, r, o));
+    TRY(check_ring(tracked, r, o));
+    make_cracks(tracked, o);
+    tracked->tip.weight = r->weight, tracked->tip.stress = r->stress, tracked->tip.thickness = o->thickness;
+    tracked->tip.core = isnan(r->core) ? CORE * o->horizon : r->core;
+    tracked->rule.method = r->gradient, tracked->rule.diffraction = r->diffraction;
+    tracked->rule.reach = (given(r->reach) ? r->reach : 1.5) * o->spacing;
     for (int d = 0; d < 2; d++) {
-        q->memory.trail[0][d] = w->tip.place[d] - STEP_BACK * o->spacing * w->tip.along[d];
-        q->memory.trail[1][d] = w->tip.place[d];
+        probe->memory.trail[0][d] = tracked->tip.place[d] - STEP_BACK * o->spacing * tracked->tip.along[d];
+        probe->memory.trail[1][d] = tracked->tip.place[d];
     }
     return OK;
 }
 
-void sif_probe_free(struct sif_tracked *w)
+void sif_probe_free(struct sif_tracked *tracked)
 {
-    if (!w) return;
+    if (!tracked) return;
     for (int d = 0; d < 2; d++) {
-        memory_free(w->u[d]), memory_free(w->v[d]);
-        memory_free(w->mean[d]), memory_free(w->acceleration[d]), memory_free(w->body[d]);
+        memory_free(tracked->u[d]), memory_free(tracked->v[d]);
+        memory_free(tracked->mean[d]), memory_free(tracked->acceleration[d]), memory_free(tracked->body[d]);
     }
-    for (int k = 0; k < 3; k++) memory_free(w->stress[k]);
-    memory_free(w->crack);
-    memory_free(w);
+    for (int k = 0; k < 3; k++) memory_free(tracked->stress[k]);
+    memory_free(tracked->crack);
+    memory_free(tracked);
 }
 
 /* ---- present tip ------------------------------------------------------------------------------------------------- */
 
-/* Updates position, speed and direction of the tip of probe q of kind SIF (stress-intensity factors) from run o.
+/* Updates position, speed and direction of the tip of probe of kind SIF (stress-intensity factors) from run o.
  * Returns true if the tip belongs to a crack that grows because bonds break. Returns false for tips at rest, and for
  * cracks that grow at a prescribed or controlled speed, since the position of their tip is known exactly. */
-static bool probes_sif_follow(struct probe *q, const struct observed_run *o)
+static bool probes_sif_follow(struct probe *probe, const struct observed_run *o)
 {
-    struct sif_tracked *w = q->sif;
-    const struct crack_tip *tip = w->follows >= 0 && w->follows < o->tips->n ? &o->tips->tip[w->follows] : NULL;
-    real(*trail)[2] = q->memory.trail;
-    w->tip.speed = 0;
-    if (w->growth >= 0) { /* the tip of a growth is known exactly */
-        const struct growing_crack *g = &o->growth[w->growth];
-        for (int d = 0; d < 2; d++) w->tip.place[d] = g->place[d], w->tip.along[d] = g->along[d];
-        w->tip.speed = real_min(g->speed, FASTEST * w->tip.medium.rayleigh);
+    struct sif_tracked *tracked = probe->sif;
+    const struct crack_tip *tip =
+        tracked->follows >= 0 && tracked->follows < o->tips->n ? &o->tips->tip[tracked->follows] : NULL;
+    real(*trail)[2] = probe->memory.trail;
+    tracked->tip.speed = 0;
+    if (tracked->growth >= 0) { /* the tip of a growth is known exactly */
+        const struct growing_crack *g = &o->growth[tracked->growth];
+        for (int d = 0; d < 2; d++) tracked->tip.place[d] = g->place[d], tracked->tip.along[d] = g->along[d];
+        tracked->tip.speed = real_min(g->speed, FASTEST * tracked->tip.medium.rayleigh);
         return false;
     }
     if (!tip || !(tip->growth > 0)) return false;
-    for (int d = 0; d < 2; d++) w->tip.place[d] = tip->place[d];
-    const real speed = given(q->request.speed) ? q->request.speed : tips_average_speed(o->tips, w->follows);
-    w->tip.speed = real_max(0, real_min(speed, FASTEST * w->tip.medium.rayleigh));
-    if (hypot(w->tip.place[0] - trail[1][0], w->tip.place[1] - trail[1][1]) >= STEP_BACK * o->spacing)
-        for (int d = 0; d < 2; d++) trail[0][d] = trail[1][d], trail[1][d] = w->tip.place[d];
-    if (q->request.has_direction) return true;
-    const real path[2] = {w->tip.place[0] - trail[0][0], w->tip.place[1] - trail[0][1]},
+    for (int d = 0; d < 2; d++) tracked->tip.place[d] = tip->place[d];
+    const real speed =
+        given(probe->request.speed) ? probe->request.speed : tips_average_speed(o->tips, tracked->follows);
+    tracked->tip.speed = real_max(0, real_min(speed, FASTEST * tracked->tip.medium.rayleigh));
+    if (hypot(tracked->tip.place[0] - trail[1][0], tracked->tip.place[1] - trail[1][1]) >= STEP_BACK * o->spacing)
+        for (int d = 0; d < 2; d++) trail[0][d] = trail[1][d], trail[1][d] = tracked->tip.place[d];
+    if (probe->request.has_direction) return true;
+    const real path[2] = {tracked->tip.place[0] - trail[0][0], tracked->tip.place[1] - trail[0][1]},
                length = hypot(path[0], path[1]);
-    for (int d = 0; d < 2; d++) w->tip.along[d] = path[d] / length;
+    for (int d = 0; d < 2; d++) tracked->tip.along[d] = path[d] / length;
     return true;
 }
 
@@ -336,158 +343,167 @@ static void room(real **array, int64_t n)
     if (!*array) *array = NEW("sif.motion", n, real);
 }
 
-/* Copies the in-plane displacements of all particles to w->u and, if the factors are computed from stresses of
- * particles (SIF_PARTICLE), the in-plane stresses xx yy xy to w->stress. p: all particles. */
-static void keep_displacement(struct sif_tracked *w, const struct particles *p)
+/* Copies the in-plane displacements of all particles to tracked->u and, if the factors are computed from stresses of
+ * particles (SIF_PARTICLE), the in-plane stresses xx yy xy to tracked->stress. p: all particles. */
+static void keep_displacement(struct sif_tracked *tracked, const struct particles *p)
 {
     for (int d = 0; d < 2; d++) {
-        room(&w->u[d], p->n_all);
-        for (int64_t i = 0; i < p->n_all; i++) w->u[d][i] = p->x[d][i] - p->X[d][i];
+        room(&tracked->u[d], p->n_all);
+        for (int64_t i = 0; i < p->n_all; i++) tracked->u[d][i] = p->x[d][i] - p->X[d][i];
     }
-    for (int k = 0; k < 3 && w->tip.stress == SIF_PARTICLE; k++) {
-        room(&w->stress[k], p->n_all);
-        array_copy(w->stress[k], p->stress[k], p->n_all, sizeof(real));
+    for (int k = 0; k < 3 && tracked->tip.stress == SIF_PARTICLE; k++) {
+        room(&tracked->stress[k], p->n_all);
+        array_copy(tracked->stress[k], p->stress[k], p->n_all, sizeof(real));
     }
 }
 
-void sif_probe_store_motion_before_step(struct probe *q, const struct observed_run *o)
+void sif_probe_store_motion_before_step(struct probe *probe, const struct observed_run *o)
 {
-    struct sif_tracked *w = q->sif;
+    struct sif_tracked *tracked = probe->sif;
     const struct particles *p = o->part;
-    w->kept = true, w->t = o->t, w->t_velocity = o->t_velocity;
-    keep_displacement(w, p);
+    tracked->kept = true, tracked->t = o->t, tracked->t_velocity = o->t_velocity;
+    keep_displacement(tracked, p);
     for (int d = 0; d < 2; d++) {
-        room(&w->v[d], p->n_all), room(&w->mean[d], p->n_all), room(&w->acceleration[d], p->n_all);
-        array_copy(w->v[d], p->v[d], p->n_all, sizeof(real));
+        room(&tracked->v[d], p->n_all), room(&tracked->mean[d], p->n_all), room(&tracked->acceleration[d], p->n_all);
+        array_copy(tracked->v[d], p->v[d], p->n_all, sizeof(real));
     }
 }
 
-/* Computes w->mean and w->acceleration, velocity and acceleration of all particles at the time of the sample from the
- * velocities half a step before and after it. t_velocity: time of the current velocities [s]. After the last sample no
- * step follows, and the velocities of one step earlier are used instead. p: all particles. */
-static void find_inertia(struct sif_tracked *w, const struct particles *p, real t_velocity)
+/* Computes tracked->mean and tracked->acceleration, velocity and acceleration of all particles at the time of the
+ * sample from the velocities half a step before and after it. t_velocity: time of the current velocities [s]. After the
+ * last sample no step follows, and the velocities of one step earlier are used instead. p: all particles. */
+static void find_inertia(struct sif_tracked *tracked, const struct particles *p, real t_velocity)
 {
     for (int d = 0; d < 2; d++)
         for (int64_t i = 0; i < p->n_all; i++) {
-            w->acceleration[d][i] = (p->v[d][i] - w->v[d][i]) / (t_velocity - w->t_velocity);
-            w->mean[d][i] = p->v[d][i] + (w->t - t_velocity) * w->acceleration[d][i];
+            tracked->acceleration[d][i] = (p->v[d][i] - tracked->v[d][i]) / (t_velocity - tracked->t_velocity);
+            tracked->mean[d][i] = p->v[d][i] + (tracked->t - t_velocity) * tracked->acceleration[d][i];
         }
 }
 
-/* Computes the accelerations that the loads of run o cause, force over mass of each particle, in w->body [m/s^2]. In
- * static problems this includes the inertia relief, the inertia forces by which a free body is in equilibrium. Returns
- * true if such forces act within the largest contour. */
-static bool find_body_force(struct sif_tracked *w, const struct observed_run *o)
+/* Computes the accelerations that the loads of run o cause, force over mass of each particle, in tracked->body [m/s^2].
+ * In static problems this includes the inertia relief, the inertia forces by which a free body is in equilibrium.
+ * Returns true if such forces act within the largest contour. */
+static bool find_body_force(struct sif_tracked *tracked, const struct observed_run *o)
 {
     const struct particles *p = o->part;
     const struct loads *l = o->loads;
-    const real t = w->kept ? w->t : o->t;
+    const real t = tracked->kept ? tracked->t : o->t;
     bool any = false;
     if (!l) return false;
     for (int d = 0; d < 2; d++) {
-        room(&w->body[d], p->n_all);
+        room(&tracked->body[d], p->n_all);
         for (int64_t i = 0; i < p->n; i++) /* inertia relief of a static body: the mean acceleration is subtracted */
-            w->body[d][i] = l->turn * (d == 0 ? p->X[1][i] - l->centre[1] : l->centre[0] - p->X[0][i]);
+            tracked->body[d][i] = l->turn * (d == 0 ? p->X[1][i] - l->centre[1] : l->centre[0] - p->X[0][i]);
     }
     for (int b = 0; b < l->n; b++)
         for (int64_t k = 0; k < l->load[b].n && boundary_applies_force(l->load[b].boundary); k++) {
             const int32_t i = l->load[b].particle[k];
             real force[DIM_MAX];
             load_force_on_particle(&l->load[b], p, k, t, force);
-            for (int d = 0; d < 2; d++) w->body[d][i] += force[d] / p->mass[i];
+            for (int d = 0; d < 2; d++) tracked->body[d][i] += force[d] / p->mass[i];
         }
     for (int64_t i = 0; i < p->n; i++) {
-        const bool within = hypot(p->X[0][i] - w->tip.place[0], p->X[1][i] - w->tip.place[1]) < w->reach;
-        any |= within && (w->body[0][i] != 0 || w->body[1][i] != 0);
+        const bool within =
+            hypot(p->X[0][i] - tracked->tip.place[0], p->X[1][i] - tracked->tip.place[1]) < tracked->reach;
+        any |= within && (tracked->body[0][i] != 0 || tracked->body[1][i] != 0);
     }
     return any;
 }
 
-void sif_probe_compute_intensity_factors(struct probe *q, const struct observed_run *o, real velocity_time)
+void sif_probe_compute_intensity_factors(struct probe *probe, const struct observed_run *o, real velocity_time)
 {
-    struct sif_tracked *w = q->sif;
+    struct sif_tracked *tracked = probe->sif;
     const struct particles *p = o->part;
-    const bool moves = w->kept && velocity_time > w->t_velocity;
+    const bool moves = tracked->kept && velocity_time > tracked->t_velocity;
     struct sif found[SIF_CONTOURS_MAX + 1];
     real position[2];
-    const bool grew = probes_sif_follow(q, o);
-    q->memory.grew = grew;
-    const bool loaded = find_body_force(w, o);
-    if (!moves) keep_displacement(w, p), w->tip.speed = 0;
-    if (moves) find_inertia(w, p, velocity_time);
-    w->kept = false;
-    for (int k = 0; k < SIF_FIGURES; k++) q->memory.factors[k] = NAN;
-    if ((w->tip.speed > 0 || grew) && ring_leaves(&w->tip, w->reach, o, position)) return;
-    for (int d = 0; d < 2; d++) w->rule.tip[d] = w->tip.place[d];
-    struct sif_motion m = {.displacement = {w->u[0], w->u[1]}, .stress = {w->stress[0], w->stress[1], w->stress[2]}};
-    for (int d = 0; d < 2 && loaded; d++) m.body[d] = w->body[d];
-    for (int d = 0; d < 2 && moves; d++) m.velocity[d] = w->mean[d], m.acceleration[d] = w->acceleration[d];
-    sif_compute_by_interaction_integral(&w->tip, w->contour, w->contours, &m, &w->rule, p, o->cells, found);
+    const bool grew = probes_sif_follow(probe, o);
+    probe->memory.grew = grew;
+    const bool loaded = find_body_force(tracked, o);
+    if (!moves) keep_displacement(tracked, p), tracked->tip.speed = 0;
+    if (moves) find_inertia(tracked, p, velocity_time);
+    tracked->kept = false;
+    for (int k = 0; k < SIF_FIGURES; k++) probe->memory.factors[k] = NAN;
+    if ((tracked->tip.speed > 0 || grew) && ring_leaves(&tracked->tip, tracked->reach, o, position)) return;
+    for (int d = 0; d < 2; d++) tracked->rule.tip[d] = tracked->tip.place[d];
+    struct sif_motion m = {.displacement = {tracked->u[0], tracked->u[1]},
+                           .stress = {tracked->stress[0], tracked->stress[1], tracked->stress[2]}};
+    for (int d = 0; d < 2 && loaded; d++) m.body[d] = tracked->body[d];
+    for (int d = 0; d < 2 && moves; d++) m.velocity[d] = tracked->mean[d], m.acceleration[d] = tracked->acceleration[d];
+    sif_compute_by_interaction_integral(&tracked->tip, tracked->contour, tracked->contours, &m, &tracked->rule, p,
+                                        o->cells, found);
     const real factors[SIF_FIGURES] = {found[0].K[MODE_I], found[0].K[MODE_II], found[0].J,
-                                       sif_relative_spread_over_contours(found + 1, w->contours - 1)};
-    memcpy(q->memory.factors, factors, sizeof factors);
-    memcpy(q->memory.along, w->tip.along, sizeof q->memory.along);
-    q->memory.time = o->t;
+                                       sif_relative_spread_over_contours(found + 1, tracked->contours - 1)};
+    memcpy(probe->memory.factors, factors, sizeof factors);
+    memcpy(probe->memory.along, tracked->tip.along, sizeof probe->memory.along);
+    probe->memory.time = o->t;
 }
 
-bool sif_probe_factors_are_meaningful(const struct probe *q)
+bool sif_probe_factors_are_meaningful(const struct probe *probe)
 {
-    const real *factors = q->memory.factors;
+    const real *factors = probe->memory.factors;
     return !isnan(factors[0]) && !(factors[SIF_FIGURES - 1] > SPREAD_MOST);
 }
 
 /* Writes to text[size] the warning that probe q (a requested measurement) has no stress-intensity factors at its last
  * sample, and why. t: time of the sample [s]. */
-static void describe_meaningless_factors(const struct probe *q, real t, char *text, size_t size)
+static void describe_meaningless_factors(const struct probe *probe, real t, char *text, size_t size)
 {
     char why[200] = "its ring leaves the body";
-    if (!isnan(q->memory.factors[0]))
+    if (!isnan(probe->memory.factors[0]))
         snprintf(why, sizeof why,
                  "values on its contours differ by %.3g %% (contour_spread, at most %.3g %%), as happens if the crack "
                  "branches or kinks within them or K is near 0",
-                 100 * q->memory.factors[SIF_FIGURES - 1], 100 * SPREAD_MOST);
+                 100 * probe->memory.factors[SIF_FIGURES - 1], 100 * SPREAD_MOST);
     snprintf(text, size,
              "probe %s: K_I, K_II and J have no value at t = %.4g s, nor whenever this recurs: %s; use a smaller "
              "probes.sif.outer (now %.3g m)",
-             q->request.name, t, why, q->sif->contour[0].outer);
+             probe->request.name, t, why, probe->sif->contour[0].outer);
 }
 
-void probes_warn_of_meaningless_sif(struct probes *s, bool single_equilibrium, real t, struct warnings *warning_list)
+void probes_warn_of_meaningless_sif(struct probes *probes, bool single_equilibrium, real t,
+                                    struct warnings *warning_list)
 {
-    for (int k = 0; k < s->n; k++) {
-        struct probe *q = &s->probe[k];
+    for (int k = 0; k < probes->n; k++) {
+        struct probe *probe = &probes->probe[k];
         char text[480];
-        if (q->request.kind != PROBE_SIF || q->memory.said || sif_probe_factors_are_meaningful(q)) continue;
-        if (!q->memory.grew && !single_equilibrium) continue;
-        q->memory.said = 1;
-        describe_meaningless_factors(q, t, text, sizeof text);
+        if (probe->request.kind != PROBE_SIF || probe->memory.said || sif_probe_factors_are_meaningful(probe)) continue;
+        if (!probe->memory.grew && !single_equilibrium) continue;
+        probe->memory.said = 1;
+        describe_meaningless_factors(probe, t, text, sizeof text);
         warnings_add_and_print(warning_list, text);
     }
 }
 
-bool probes_locate_sif_contour(const struct probes *s, int k, const struct observed_run *o, real tip_position[2],
+bool probes_locate_sif_contour(const struct probes *probes, int k, const struct observed_run *o, real tip_position[2],
                                real *outer_radius)
 {
-    const struct sif_tracked *w = s->probe[k].sif;
-    if (s->probe[k].request.kind != PROBE_SIF || !w) return false;
-    const struct crack_tip *tip = w->follows >= 0 && w->follows < o->tips->n ? &o->tips->tip[w->follows] : NULL;
-    const real *at = w->growth >= 0 ? o->growth[w->growth].place : tip && tip->growth > 0 ? tip->place : w->tip.place;
+    const struct sif_tracked *tracked = probes->probe[k].sif;
+    if (probes->probe[k].request.kind != PROBE_SIF || !tracked) return false;
+    const struct crack_tip *tip =
+        tracked->follows >= 0 && tracked->follows < o->tips->n ? &o->tips->tip[tracked->follows] : NULL;
+    const real *at = tracked->growth >= 0     ? o->growth[tracked->growth].place
+                     : tip && tip->growth > 0 ? tip->place
+                                              : tracked->tip.place;
     for (int d = 0; d < 2; d++) tip_position[d] = at[d];
-    *outer_radius = w->reach;
+    *outer_radius = tracked->reach;
     return true;
 }
 
-bool probes_copy_sif_to_growth_control(const struct probes *s, const char *probe_name, struct growth_control *control)
+bool probes_copy_sif_to_growth_control(const struct probes *probes, const char *probe_name,
+                                       struct growth_control *control)
 {
-    for (int k = 0; k < s->n; k++) {
-        const struct probe *q = &s->probe[k];
-        if (q->request.kind != PROBE_SIF || strcmp(q->request.name, probe_name) != 0 || isnan(q->memory.factors[0]))
+    for (int k = 0; k < probes->n; k++) {
+        const struct probe *probe = &probes->probe[k];
+        if (probe->request.kind != PROBE_SIF || strcmp(probe->request.name, probe_name) != 0 ||
+            isnan(probe->memory.factors[0]))
             continue;
-        *control =
-            (struct growth_control){.factors = {{q->memory.factors[0], q->memory.factors[1]}, q->memory.factors[2]},
-                                    .along = {q->memory.along[0], q->memory.along[1]},
-                                    .time = q->memory.time,
-                                    .medium = q->sif->tip.medium};
+        *control = (struct growth_control){
+            .factors = {{probe->memory.factors[0], probe->memory.factors[1]}, probe->memory.factors[2]},
+            .along = {probe->memory.along[0], probe->memory.along[1]},
+            .time = probe->memory.time,
+            .medium = probe->sif->tip.medium};
         return true;
     }
     return false;

@@ -122,35 +122,35 @@ static bool columns_apart(const struct columns *c, real *position)
     return false;
 }
 
-void spall_probe_detect_separation(struct probe *q, const struct observed_run *o)
+void spall_probe_detect_separation(struct probe *probe, const struct observed_run *o)
 {
     int bodies = 0;
     if (!o->bonds || o->bonds->rows == 0) return;
     for (int64_t i = 0; i < o->part->n; i++)
         if (o->part->body[i] >= bodies) bodies = o->part->body[i] + 1;
-    for (int body = 0; body < bodies && isnan(q->memory.first_time); body++) {
+    for (int body = 0; body < bodies && isnan(probe->memory.first_time); body++) {
         struct columns c;
         if (probes_spall_columns_make(&c, o, body)) {
             columns_bonds(&c, o, body);
             columns_points(&c, o->part, body);
             real position;
             if (columns_apart(&c, &position)) {
-                q->memory.first_time = o->t;
-                q->memory.position[0] = position;
-                q->memory.body = body;
+                probe->memory.first_time = o->t;
+                probe->memory.position[0] = position;
+                probe->memory.body = body;
             }
         }
         probes_spall_columns_free(&c);
     }
 }
 
-void spall_probe_compute_part_speeds(const struct probe *q, const struct particles *p, real *lighter_part_speed,
+void spall_probe_compute_part_speeds(const struct probe *probe, const struct particles *p, real *lighter_part_speed,
                                      real *remaining_part_speed)
 {
     real mass[2] = {0}, momentum[2] = {0};
     for (int64_t i = 0; i < p->n; i++) {
-        if (p->body[i] != q->memory.body) continue;
-        int side = p->X[0][i] > q->memory.position[0];
+        if (p->body[i] != probe->memory.body) continue;
+        int side = p->X[0][i] > probe->memory.position[0];
         mass[side] += p->mass[i];
         momentum[side] += p->mass[i] * p->v[0][i];
     }

@@ -20,19 +20,20 @@ static status profiles_put(void *folder, const char *name, const char *text, siz
     return file_write_whole_unsynced(path.text, text, length);
 }
 
-status profiles_write_csv_files(const struct probes *s, const struct output *out, const struct observed_run *o)
+status profiles_write_csv_files(const struct probes *probes, const struct output *out, const struct observed_run *o)
 {
-    if (probes_count_profiles(s) == 0) return OK;
-    TRY(probes_write_profiles(s, o, profiles_put, out->folder, out->series[0].frames - 1));
+    if (probes_count_profiles(probes) == 0) return OK;
+    TRY(probes_write_profiles(probes, o, profiles_put, out->folder, out->series[0].frames - 1));
     return file_sync_parent_folder(path_join(out->folder, "history.csv").text);
 }
 
-void profiles_warn_of_missing_files(const struct probes *s, const struct output *out, struct warnings *warning_list)
+void profiles_warn_of_missing_files(const struct probes *probes, const struct output *out,
+                                    struct warnings *warning_list)
 {
     char text[PATH_NAME_ROOM + 120], name[PROFILE_NAME], first[PROFILE_NAME] = "";
     int64_t lost = 0;
     for (int frame = 0; frame < out->series[0].frames; frame++)
-        for (int k = 0; probes_compose_profile_file_name(s, k, frame, name); k++) {
+        for (int k = 0; probes_compose_profile_file_name(probes, k, frame, name); k++) {
             if (path_is_file(path_join(out->folder, name).text)) continue;
             if (lost++ == 0) snprintf(first, sizeof first, "%s", name);
         }
@@ -52,10 +53,10 @@ static bool profile_remove(const char *path)
     return file_check_is_from_cleave(path, profile_begin, COUNT_OF(profile_begin)) != OK || unlink(path) == 0;
 }
 
-void profiles_remove_files_of_earlier_run(const struct probes *s, const struct output *out)
+void profiles_remove_files_of_earlier_run(const struct probes *probes, const struct output *out)
 {
     char name[PROFILE_NAME];
-    for (int k = 0; probes_compose_profile_file_name(s, k, 0, name); k++)
-        for (int frame = 0; probes_compose_profile_file_name(s, k, frame, name); frame++)
+    for (int k = 0; probes_compose_profile_file_name(probes, k, 0, name); k++)
+        for (int frame = 0; probes_compose_profile_file_name(probes, k, frame, name); frame++)
             if (!profile_remove(path_join(out->folder, name).text)) break;
 }

@@ -23,16 +23,16 @@ static void node_keep(const struct scene *s, const struct grid *g, int64_t I, in
         if (in_patch(s, x)) *most = real_max(*most, fabs(g->force[d][I]));
 }
 
-void patch_test_include_mesh_residual_force(struct probing *q, const struct scene *s, const struct mesh *mesh)
+void patch_test_include_mesh_residual_force(struct probing *probing, const struct scene *s, const struct mesh *mesh)
 {
     for (int64_t I = 0; I < mesh->grid.n; I++)
-        node_keep(s, &mesh->grid, I, mesh_original_node_of_doubled_node(mesh, I), &q->residual_step0);
+        node_keep(s, &mesh->grid, I, mesh_original_node_of_doubled_node(mesh, I), &probing->residual_step0);
 }
 
-void patch_test_store_largest_residual_force(struct probing *q, const struct scene *s, const struct particles *p,
+void patch_test_store_largest_residual_force(struct probing *probing, const struct scene *s, const struct particles *p,
                                              const struct grid_method *grid)
 {
-    real x[DIM_MAX], *most = &q->residual_step0;
+    real x[DIM_MAX], *most = &probing->residual_step0;
     for (int k = 0; k < grid->fields; k++) {
         const struct grid *g = &grid->field[k].grid;
         for (int64_t I = 0; I < g->n; I++) node_keep(s, g, I, I, most);

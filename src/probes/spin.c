@@ -86,18 +86,19 @@ static real diagnostics_spin_of(const struct particles *p, const struct mesh *me
     return real_max(size, LEAST_TURN * sqrt(real_max(0, inertia) * real_max(0, kinetic)));
 }
 
-void diagnostics_update_angular_momentum(struct diagnostics *w, const struct particles *p, const struct mesh *mesh,
-                                         int body_count)
+void diagnostics_update_angular_momentum(struct diagnostics *diagnostics, const struct particles *p,
+                                         const struct mesh *mesh, int body_count)
 {
     real spin[DIM_MAX], missing2 = 0;
     const real size = diagnostics_spin_of(p, mesh, body_count, spin);
     for (int d = 0; d < DIM_MAX; d++) {
-        if (!w->turns) w->spin_start[d] = spin[d];
-        w->now.spin[d] = spin[d];
-        missing2 += square(spin[d] - w->spin_start[d]);
+        if (!diagnostics->turns) diagnostics->spin_start[d] = spin[d];
+        diagnostics->now.spin[d] = spin[d];
+        missing2 += square(spin[d] - diagnostics->spin_start[d]);
     }
-    if (!w->turns) w->now.spin_error = 0;
-    w->turns = true;
-    w->spin_scale = real_max(w->spin_scale, size);
-    if (w->spin_scale > 0) w->now.spin_error = real_max(w->now.spin_error, sqrt(missing2) / w->spin_scale);
+    if (!diagnostics->turns) diagnostics->now.spin_error = 0;
+    diagnostics->turns = true;
+    diagnostics->spin_scale = real_max(diagnostics->spin_scale, size);
+    if (diagnostics->spin_scale > 0)
+        diagnostics->now.spin_error = real_max(diagnostics->now.spin_error, sqrt(missing2) / diagnostics->spin_scale);
 }

@@ -86,20 +86,20 @@ static real round_off_force(const struct bonds *bonds, const struct particles *p
 
 /* ---- losses ------------------------------------------------------------------------------------------------------ */
 
-/* Corrects q->lost [J], the energy that the solver q has lost in all solutions so far, after one more solution. `lost`
- * [J] is its value before that solution. If points yield or faces come into contact, forces do not change linearly
- * over the increment, and the work of loads is known only up to +-`range` [J]. A loss within this range is taken for
- * an error of the work and subtracted from loads->work. in_contact: true if anything is in contact at the start or the
- * end of the increment; yields: true if points or bonds may yield; round_off: energy that round-off of the forces may
- * create [J]. Returns true if faces have passed through each other: if, in contact, the solution has gained more
- * energy than GAIN_MOST times `range` plus `round_off`. */
-static bool losses_store(struct newton_solver *q, struct loads *loads, real lost, real range, real round_off,
+/* Corrects newton->lost [J], the energy that the solver q has lost in all solutions so far, after one more solution.
+ * `lost` [J] is its value before that solution. If points yield or faces come into contact, forces do not change
+ * linearly over the increment, and the work of loads is known only up to +-`range` [J]. A loss within this range is
+ * taken for an error of the work and subtracted from loads->work. in_contact: true if anything is in contact at the
+ * start or the end of the increment; yields: true if points or bonds may yield; round_off: energy that round-off of the
+ * forces may create [J]. Returns true if faces have passed through each other: if, in contact, the solution has gained
+ * more energy than GAIN_MOST times `range` plus `round_off`. */
+static bool losses_store(struct newton_solver *newton, struct loads *loads, real lost, real range, real round_off,
                          bool in_contact, bool yields)
 {
-    real uneven = yields || in_contact ? real_min(q->lost - lost, range) : 0;
+    real uneven = yields || in_contact ? real_min(newton->lost - lost, range) : 0;
     if (in_contact && !yields) uneven = real_max(uneven, -range);
-    loads->work -= uneven, q->lost -= uneven;
-    return in_contact && !yields && lost - q->lost > GAIN_MOST * range + round_off;
+    loads->work -= uneven, newton->lost -= uneven;
+    return in_contact && !yields && lost - newton->lost > GAIN_MOST * range + round_off;
 }
 
 /* ---- equilibrium ------------------------------------------------------------------------------------------------- */
@@ -130,112 +130,112 @@ static status check_stop(const struct run_report *report, const struct run_clock
                       (long long)clock->step + 1, (long long)clock->steps);
 }
 
-status equilibrium_solve_without_work_account(struct run *e, real pseudo_time, real *const *present_applied_forces)
+status equilibrium_solve_without_work_account(struct run *run, real pseudo_time, real *const *present_applied_forces)
 {
-    struct statics *s = e->statics;
-    TRY(check_stop(e->report, &e->clock));
-    TRY(loads_check_formulas_are_finite(&e->loads, &e->part, pseudo_time));
-    applied_forces_compute(s, &e->part, &e->loads, pseudo_time);
-    if (s->fragments_stale) unconstrained_fragments_find(e);
-    increment_predict(s, &e->part, &e->frame->mesh, &e->loads, pseudo_time, present_applied_forces);
-    s->balance.applied = applied_forces_norm(s, &e->part, &e->loads, e->contact);
-    if (!s->precondition) s->balance.noise = round_off_force(&e->bonds, &e->part);
+    struct statics *s = run->statics;
+    TRY(check_stop(run->report, &run->clock));
+    TRY(loads_check_formulas_are_finite(&run->loads, &run->part, pseudo_time));
+    applied_forces_compute(s, &run->part, &run->loads, pseudo_time);
+    if (s->fragments_stale) unconstrained_fragments_find(run);
+    increment_predict(s, &run->part, &run->frame->mesh, &run->loads, pseudo_time, present_applied_forces);
+    s->balance.applied = applied_forces_norm(s, &run->part, &run->loads, run->contact);
+    if (!s->precondition) s->balance.noise = round_off_force(&run->bonds, &run->part);
     const status found = newton_solver_find_equilibrium(&s->balance, &s->increment, pseudo_time != s->t);
     s->t = pseudo_time;
-    return found == OK ? OK : equilibrium_failed(s, &e->part, &e->frame->mesh, e->clock.step + 1);
+    return found == OK ? OK : equilibrium_failed(s, &run->part, &run->frame->mesh, run->clock.step + 1);
 }
 
-/* Finds the equilibrium of run e at pseudo-time t [s] in a single solution, and updates work and energies of loads,
+/* Finds the equilibrium of run at pseudo-time t [s] in a single solution, and updates work and energies of loads,
  * supports and solver. *crossed: set to true if faces have passed through each other, else to false. Returns FAILED,
  * with a message, if no equilibrium is found or a formula of a load is not finite. */
-static status solve_at(struct run *e, real t, bool *crossed)
+static status solve_at(struct run *run, real t, bool *crossed)
 {
-    struct statics *s = e->statics;
+    struct statics *s = run->statics;
     struct work_account account;
     const int64_t asked = s->balance.directions;
     const real lost = s->balance.lost;
-    TRY(loads_check_formulas_are_finite(&e->loads, &e->part, t));
-    statics_move_rigid_bodies_and_search_contacts(e, t);
-    work_account_store_initial_equilibrium(&account, s, &e->part);
-    const status found = equilibrium_solve_without_work_account(e, t, account.applied);
-    run_move_to_solution_and_update_plastic_state(e);
-    lagrangian_mesh_update_point_motion_and_stress(e->frame, &e->part, &e->loads);
-    loads_update_mirror_images(&e->loads, &e->part);
-    const bool touched = statics_contact_existed_before_or_exists_now(s, e->contact);
-    const real worked = e->loads.work + e->loads.constraint_work,
-               range = work_account_add_work_and_estimate_error(&account, s, &e->part, &e->loads,
+    TRY(loads_check_formulas_are_finite(&run->loads, &run->part, t));
+    statics_move_rigid_bodies_and_search_contacts(run, t);
+    work_account_store_initial_equilibrium(&account, s, &run->part);
+    const status found = equilibrium_solve_without_work_account(run, t, account.applied);
+    run_move_to_solution_and_update_plastic_state(run);
+    lagrangian_mesh_update_point_motion_and_stress(run->frame, &run->part, &run->loads);
+    loads_update_mirror_images(&run->loads, &run->part);
+    const bool touched = statics_contact_existed_before_or_exists_now(s, run->contact);
+    const real worked = run->loads.work + run->loads.constraint_work,
+               range = work_account_add_work_and_estimate_error(&account, s, &run->part, &run->loads,
                                                                 touched ? 0 : s->balance.bent);
     const real rigids =
-        rigid_body_work_add_and_estimate_error(e, e->loads.work + e->loads.constraint_work - worked, lost);
-    *crossed = losses_store(&s->balance, &e->loads, lost, range + rigids, s->balance.noise * e->scene->spacing,
-                            touched || s->in_contact, e->part.plastic_correction[0] != NULL);
-    e->damped += s->balance.lost - lost;
-    reactions_compute_and_store(s, &e->part, &e->loads);
+        rigid_body_work_add_and_estimate_error(run, run->loads.work + run->loads.constraint_work - worked, lost);
+    *crossed = losses_store(&s->balance, &run->loads, lost, range + rigids, s->balance.noise * run->scene->spacing,
+                            touched || s->in_contact, run->part.plastic_correction[0] != NULL);
+    run->damped += s->balance.lost - lost;
+    reactions_compute_and_store(s, &run->part, &run->loads);
     s->solutions++;
     statics_preconditioner_free_if_inefficient(s, s->balance.directions - asked);
     return found;
 }
 
-/* Finds the equilibria of run e after each of `substeps` equal increments up to pseudo-time t [s]. Stops, and sets
+/* Finds the equilibria of run after each of `substeps` equal increments up to pseudo-time t [s]. Stops, and sets
  * *crossed to true, as soon as faces have passed through each other; else sets *crossed to false. Returns FAILED, with
  * a message, if an equilibrium is not found. */
-static status solve_substeps(struct run *e, real t, int substeps, bool *crossed)
+static status solve_substeps(struct run *run, real t, int substeps, bool *crossed)
 {
-    const real from = e->statics->t;
+    const real from = run->statics->t;
     *crossed = false;
     for (int k = 1; k <= substeps && !*crossed; k++)
-        TRY(solve_at(e, k == substeps ? t : from + (t - from) * k / substeps, crossed));
+        TRY(solve_at(run, k == substeps ? t : from + (t - from) * k / substeps, crossed));
     return OK;
 }
 
-/* Finds the equilibrium of run e at pseudo-time t [s]. If faces pass through each other, restores the initial state and
+/* Finds the equilibrium of run at pseudo-time t [s]. If faces pass through each other, restores the initial state and
  * tries again with SUBSTEPS_FACTOR times as many substeps of the increment, at most TRIES_MOST attempts in all. Makes
  * only one attempt without contact, and for bodies that yield, because yielding cannot be undone. Returns FAILED, with
  * a message, if faces pass through each other in the last attempt, or if an equilibrium is not found. */
-static status solve_whole(struct run *e, real t)
+static status solve_whole(struct run *run, real t)
 {
-    const real from = e->statics->t;
-    int substeps = statics_rigid_motion_substep_count(e->scene, e->rigid, t);
+    const real from = run->statics->t;
+    int substeps = statics_rigid_motion_substep_count(run->scene, run->rigid, t);
     bool crossed = false;
-    if (!e->statics->has_contact || e->part.plastic_correction[0] || e->bonds.plastic_stretch)
-        return solve_substeps(e, t, substeps, &crossed);
+    if (!run->statics->has_contact || run->part.plastic_correction[0] || run->bonds.plastic_stretch)
+        return solve_substeps(run, t, substeps, &crossed);
     for (int k = 0; k < TRIES_MOST; k++, substeps *= SUBSTEPS_FACTOR) {
         struct memory_archive saved;
-        trial_equilibrium_begin(e, &saved);
-        const status solved = solve_substeps(e, t, substeps, &crossed);
+        trial_equilibrium_begin(run, &saved);
+        const status solved = solve_substeps(run, t, substeps, &crossed);
         if (solved != OK || !crossed || t == from) {
             memory_archive_free(&saved);
             return solved;
         }
-        trial_equilibrium_end(e, &saved, false, NULL);
+        trial_equilibrium_end(run, &saved, false, NULL);
     }
     return status_set(FAILED,
                       "load step %lld, t = %.6g s: crack faces pass through each other before equilibrium is reached; "
                       "use more load steps (steps.number) or a larger particles.spacing",
-                      (long long)e->clock.step + 1, t);
+                      (long long)run->clock.step + 1, t);
 }
 
-/* Finds the equilibrium of run e at `pseudo_time` [s] and stores the largest stretch ratio (stretch of a bond divided
- * by its critical stretch) in e->statics. Returns FAILED, with a message, if there is no equilibrium; INTERRUPTED,
+/* Finds the equilibrium of run at `pseudo_time` [s] and stores the largest stretch ratio (stretch of a bond divided
+ * by its critical stretch) in run->statics. Returns FAILED, with a message, if there is no equilibrium; INTERRUPTED,
  * before the solution, if the user has stopped the run, so that the checkpoint of the previous load step stays
  * valid. */
-status equilibrium_find_at_time(struct run *e, real pseudo_time)
+status equilibrium_find_at_time(struct run *run, real pseudo_time)
 {
-    TRY(check_stop(e->report, &e->clock));
-    TRY(solve_whole(e, pseudo_time));
-    e->statics->stretch_ratio = bonds_largest_stretch_ratio(&e->bonds, &e->part, &e->source.limit);
+    TRY(check_stop(run->report, &run->clock));
+    TRY(solve_whole(run, pseudo_time));
+    run->statics->stretch_ratio = bonds_largest_stretch_ratio(&run->bonds, &run->part, &run->source.limit);
     return OK;
 }
 
-status equilibrium_convert_points_to_pd_and_solve_again(struct run *e, int64_t broken_bonds)
+status equilibrium_convert_points_to_pd_and_solve_again(struct run *run, int64_t broken_bonds)
 {
-    while (load_step_convert_points_near_breaks_to_pd(e, broken_bonds)) {
+    while (load_step_convert_points_near_breaks_to_pd(run, broken_bonds)) {
         broken_bonds = 0;
-        statics_preconditioner_free(e->statics);
-        statics_equation_system_free(e->statics);
-        statics_equation_system_make(e);
-        e->statics->next.n = 0;
-        TRY(equilibrium_find_at_time(e, e->statics->t));
+        statics_preconditioner_free(run->statics);
+        statics_equation_system_free(run->statics);
+        statics_equation_system_make(run);
+        run->statics->next.n = 0;
+        TRY(equilibrium_find_at_time(run, run->statics->t));
     }
     return OK;
 }

@@ -35,29 +35,29 @@ static int free_motions(const struct statics *s)
     return n;
 }
 
-/* Finds the unconstrained fragments of run e (pieces of the body that can move rigidly without resistance) again after
+/* Finds the unconstrained fragments of run (pieces of the body that can move rigidly without resistance) again after
  * contact has changed. Discards the preconditioner if the total number of their free motions has changed. */
-static void unconstrained_update(struct run *e)
+static void unconstrained_update(struct run *run)
 {
-    const int before = free_motions(e->statics);
-    unconstrained_fragments_find(e);
-    if (free_motions(e->statics) != before) statics_preconditioner_free(e->statics);
+    const int before = free_motions(run->statics);
+    unconstrained_fragments_find(run);
+    if (free_motions(run->statics) != before) statics_preconditioner_free(run->statics);
 }
 
 /* Searches run e for contact pairs and selects the active contacts (pairs that carry forces). close: largest gap at
  * which a pair becomes active [spacings]. Returns the number of changes of the set of active contacts. */
-static int64_t statics_contact_search(struct run *e, real close)
+static int64_t statics_contact_search(struct run *run, real close)
 {
-    return contact_search_and_select_linear_springs(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family,
-                                                    close);
+    return contact_search_and_select_linear_springs(run->contact, &run->part, &run->bonds, &run->loads,
+                                                    &run->source.family, close);
 }
 
-void statics_contact_search_before_first_solution(struct run *e)
+void statics_contact_search_before_first_solution(struct run *run)
 {
-    if (!e->statics->has_contact) return;
-    e->contact->marked = true;
-    loads_update_mirror_images(&e->loads, &e->part);
-    if (!e->contact->made || !e->contact->touch) statics_contact_search(e, CARRIED);
+    if (!run->statics->has_contact) return;
+    run->contact->marked = true;
+    loads_update_mirror_images(&run->loads, &run->part);
+    if (!run->contact->made || !run->contact->touch) statics_contact_search(run, CARRIED);
 }
 
 int statics_rigid_motion_substep_count(const struct scene *s, const struct rigid_set *rigid, real pseudo_time)
@@ -72,11 +72,12 @@ int statics_rigid_motion_substep_count(const struct scene *s, const struct rigid
     return (int)real_min(SUBSTEPS_MOST, real_max(1, ceil(most / (SUBSTEP_MOST * s->spacing))));
 }
 
-/* Returns the sum of strain energy, contact energy and plastic work of bonds of run e at the positions at which forces
+/* Returns the sum of strain energy, contact energy and plastic work of bonds of run at the positions at which forces
  * were last computed [J]. */
-static real energy_present(struct run *e)
+static real energy_present(struct run *run)
 {
-    return run_compute_elastic_energy(e) + contact_elastic_energy(e->contact, &e->part) + bond_plastic_work(&e->bonds);
+    return run_compute_elastic_energy(run) + contact_elastic_energy(run->contact, &run->part) +
+           bond_plastic_work(&run->bonds);
 }
 
 bool statics_contact_existed_before_or_exists_now(const struct statics *s, const struct contact *c)
@@ -84,27 +85,27 @@ bool statics_contact_existed_before_or_exists_now(const struct statics *s, const
     return s->in_contact || c->touching > 0;
 }
 
-/* Prepares contact of run e for the solution at `pseudo_time` [s]: stores the energy before the solution, moves rigid
+/* Prepares contact of run for the solution at `pseudo_time` [s]: stores the energy before the solution, moves rigid
  * bodies and searches for contacts. The stored energy includes contact energy only if anything was in contact before.
  * If anything is in contact now, finds the unconstrained fragments (pieces of the body that can move rigidly without
  * resistance) again, since contact may constrain them. */
-void statics_move_rigid_bodies_and_search_contacts(struct run *e, real pseudo_time)
+void statics_move_rigid_bodies_and_search_contacts(struct run *run, real pseudo_time)
 {
-    struct statics *s = e->statics;
-    struct newton_solver *q = &s->balance;
+    struct statics *s = run->statics;
+    struct newton_solver *newton = &s->balance;
     const bool touched = s->in_contact;
-    s->in_contact = false, q->reach = 0;
-    if (!e->statics->has_contact) return;
-    statics_contact_search_before_first_solution(e);
-    q->force(e, &q->u, &q->f);
-    s->energy = energy_present(e) - (touched ? 0 : contact_elastic_energy(e->contact, &e->part));
-    rigids_move_to_prescribed_positions(e->rigid, pseudo_time);
-    s->in_contact = statics_contact_search(e, CARRIED) > 0 || touched;
-    s->largest = q->largest;
+    s->in_contact = false, newton->reach = 0;
+    if (!run->statics->has_contact) return;
+    statics_contact_search_before_first_solution(run);
+    newton->force(run, &newton->u, &newton->f);
+    s->energy = energy_present(run) - (touched ? 0 : contact_elastic_energy(run->contact, &run->part));
+    rigids_move_to_prescribed_positions(run->rigid, pseudo_time);
+    s->in_contact = statics_contact_search(run, CARRIED) > 0 || touched;
+    s->largest = newton->largest;
     if (!s->in_contact) return;
-    unconstrained_update(e);
-    q->force(e, &q->u, &q->f);
-    q->reach = contact_pair_list_safe_displacement(e->contact);
+    unconstrained_update(run);
+    newton->force(run, &newton->u, &newton->f);
+    newton->reach = contact_pair_list_safe_displacement(run->contact);
 }
 
 /* Updates the set of active contacts at the end of a solution, by a new search for pairs if one is needed
@@ -134,24 +135,24 @@ void statics_contact_fix_active_set_or_use_overlaps(void *run, bool set_is_fixed
     if (e->statics->has_contact) contact_restrict_forces_to_linear_springs(e->contact, set_is_fixed);
 }
 
-real rigid_body_work_add_and_estimate_error(struct run *e, real load_work, real solver_loss)
+real rigid_body_work_add_and_estimate_error(struct run *run, real load_work, real solver_loss)
 {
-    struct statics *s = e->statics;
-    struct newton_solver *q = &s->balance;
+    struct statics *s = run->statics;
+    struct newton_solver *newton = &s->balance;
     real range = 0;
-    if (!e->statics->has_contact) return 0;
-    if (s->in_contact || e->contact->touching > 0) q->force(e, &q->u, &q->f);
-    for (int k = 0; k < e->scene->rigids; k++) {
-        const real before = e->rigid->body[k].work;
-        for (int d = 0; d < e->part.dim; d++)
-            range += 0.5 * fabs((e->rigid->body[k].force[d] - e->rigid->body[k].force_previous[d]) *
-                                e->rigid->body[k].increment[d]);
-        rigid_add_work_of_prescribed_motion(&e->rigid->body[k]);
-        load_work += e->rigid->body[k].work - before;
+    if (!run->statics->has_contact) return 0;
+    if (s->in_contact || run->contact->touching > 0) newton->force(run, &newton->u, &newton->f);
+    for (int k = 0; k < run->scene->rigids; k++) {
+        const real before = run->rigid->body[k].work;
+        for (int d = 0; d < run->part.dim; d++)
+            range += 0.5 * fabs((run->rigid->body[k].force[d] - run->rigid->body[k].force_previous[d]) *
+                                run->rigid->body[k].increment[d]);
+        rigid_add_work_of_prescribed_motion(&run->rigid->body[k]);
+        load_work += run->rigid->body[k].work - before;
     }
-    if (statics_contact_existed_before_or_exists_now(s, e->contact))
-        q->lost = solver_loss + load_work - (energy_present(e) - s->energy);
-    s->in_contact = e->contact->touching > 0;
+    if (statics_contact_existed_before_or_exists_now(s, run->contact))
+        newton->lost = solver_loss + load_work - (energy_present(run) - s->energy);
+    s->in_contact = run->contact->touching > 0;
     return range;
 }
 

@@ -16,18 +16,18 @@ bool crack_faces_are_in_contact(const struct contact *c);
  * steps, i.e. successive equilibria) or are in contact now. */
 bool statics_contact_existed_before_or_exists_now(const struct statics *s, const struct contact *contact);
 
-/* Searches for pairs in contact of run e before its first solution. Does nothing in runs without contact and rigid
+/* Searches for pairs in contact of run before its first solution. Does nothing in runs without contact and rigid
  * bodies, or if the search has been made. */
-void statics_contact_search_before_first_solution(struct run *e);
+void statics_contact_search_before_first_solution(struct run *run);
 
 /* Returns the number of substeps into which the load increment from the present positions of rigid bodies to those at
  * the pseudo-time `pseudo_time` [s] is divided, so that no rigid body moves by more than 0.2 particle spacings in a
  * substep; from 1 to 10000. */
 int statics_rigid_motion_substep_count(const struct scene *s, const struct rigid_set *rigid, real pseudo_time);
 
-/* Prepares the solution of run e at the pseudo-time `pseudo_time` [s]: computes the energy stored before the solution,
+/* Prepares the solution of run at the pseudo-time `pseudo_time` [s]: computes the energy stored before the solution,
  * moves rigid bodies to their positions at that time, and searches for contacts there. */
-void statics_move_rigid_bodies_and_search_contacts(struct run *e, real pseudo_time);
+void statics_move_rigid_bodies_and_search_contacts(struct run *run, real pseudo_time);
 
 /* Moves particles and nodes of the run to the displacements of the present solution and updates the set of active
  * contacts (callback `settle` of solver/equilibrium.h). run: a struct run. Returns true if no contact was added or
@@ -38,12 +38,12 @@ bool statics_update_contacts_and_test_unchanged(void *run);
  * if `set_is_fixed` is true, else all pairs that overlap. run: a struct run. */
 void statics_contact_fix_active_set_or_use_overlaps(void *run, bool set_is_fixed);
 
-/* Completes the solution for an equilibrium of run e: adds the work done on rigid bodies in this solution to their
+/* Completes the solution for an equilibrium of run run: adds the work done on rigid bodies in this solution to their
  * total work and, if anything is or was in contact, computes the energy that the solution has lost. load_work: work of
  * loads and supports in this solution [J]; solver_loss: energy lost in earlier solutions [J]. Returns the uncertainty
  * of the work of the rigid bodies [J]: the difference between the work with the mean of the initial and final contact
  * force and the work with one of these forces. */
-real rigid_body_work_add_and_estimate_error(struct run *e, real load_work, real solver_loss);
+real rigid_body_work_add_and_estimate_error(struct run *run, real load_work, real solver_loss);
 
 /* Raises the largest contact force so far [N], which `rigid` stores for each of its `rigid_body_count` rigid bodies, to
  * the contact force of the present equilibrium if that is larger. */

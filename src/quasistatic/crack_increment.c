@@ -86,11 +86,11 @@ static real increment_area(const struct scene *s, const struct crack_tips *t, co
            front;
 }
 
-real crack_area_of_growth_by_one_spacing(const struct run *e)
+real crack_area_of_growth_by_one_spacing(const struct run *run)
 {
-    const struct crack_tips *t = &e->fracture->tips;
-    if (e->part.dim == 1) return scene_cross_section_or_thickness(e->scene) / SPACINGS_OF_BAR;
-    return increment_area(e->scene, t, &e->source, front_length(t, &e->source, &e->part)) / INCREMENT_SPACINGS;
+    const struct crack_tips *t = &run->fracture->tips;
+    if (run->part.dim == 1) return scene_cross_section_or_thickness(run->scene) / SPACINGS_OF_BAR;
+    return increment_area(run->scene, t, &run->source, front_length(t, &run->source, &run->part)) / INCREMENT_SPACINGS;
 }
 
 /* Returns how many pairs of bonds may break before the next equilibrium is found: the key `steps.breaks` of scene s for
@@ -103,35 +103,35 @@ static int64_t breaks_most(const struct scene *s, real front)
 
 /* ---- increments -------------------------------------------------------------------------------------------------- */
 
-/* Makes one crack increment of run e (a short growth of the crack) as a trial at the present pseudo-time: breaks the
+/* Makes one crack increment of run (a short growth of the crack) as a trial at the present pseudo-time: breaks the
  * bonds with the largest stretch ratios in batches, finds the equilibrium after each batch, and appends the bonds to
- * e->statics->next. a->cost: receives the energy that the bonds cost [J]; a->release: the energy that the body
+ * run->statics->next. a->cost: receives the energy that the bonds cost [J]; a->release: the energy that the body
  * releases, divided by the square of the load size (norm of prescribed displacements or forces). In 3D, bonds that the
  * fronts of SIF-driven cracks (directed by stress-intensity factors) have not reached break in larger batches, because
  * no load depends on the path there. Returns FAILED, with a message, if an equilibrium is not found. */
-static status increment_break_try(struct run *e, struct crack_increment *a)
+static status increment_break_try(struct run *run, struct crack_increment *a)
 {
-    struct statics *s = e->statics;
-    const struct crack_tips *t = &e->fracture->tips;
-    const real before = statics_energy_released_since_start(s, &e->bonds), given = e->scene->steps.energy;
-    const real cost = given > 0 ? given * (1 - 1e-3) : INFINITY, front = front_length(t, &e->source, &e->part);
-    const real wide = increment_area(e->scene, t, &e->source, front) * (1 - 1e-3);
-    const int64_t most = breaks_most(e->scene, front);
-    const bool remnant = e->part.dim == 3 && s->sif.segments > 0;
-    const real within = remnant ? real_max(REMNANT, e->scene->steps.within) : e->scene->steps.within;
+    struct statics *s = run->statics;
+    const struct crack_tips *t = &run->fracture->tips;
+    const real before = statics_energy_released_since_start(s, &run->bonds), given = run->scene->steps.energy;
+    const real cost = given > 0 ? given * (1 - 1e-3) : INFINITY, front = front_length(t, &run->source, &run->part);
+    const real wide = increment_area(run->scene, t, &run->source, front) * (1 - 1e-3);
+    const int64_t most = breaks_most(run->scene, front);
+    const bool remnant = run->part.dim == 3 && s->sif.segments > 0;
+    const real within = remnant ? real_max(REMNANT, run->scene->steps.within) : run->scene->steps.within;
     real area = 0;
     *a = (struct crack_increment){0};
     while ((given > 0 ? a->cost < cost : area < wide) && s->stretch_ratio > LEFT) {
-        if (bonds_break_overstretched(e, within, most, &a->cost, &area) == 0) break;
-        if (e->scene->steps.control == CONTROL_ENERGY) {
-            unconstrained_fragments_find(e);
-            s->severs = unconstrained_fragments_check_force_balance(s, &e->part, false, e->clock.step + 1) != OK;
+        if (bonds_break_overstretched(run, within, most, &a->cost, &area) == 0) break;
+        if (run->scene->steps.control == CONTROL_ENERGY) {
+            unconstrained_fragments_find(run);
+            s->severs = unconstrained_fragments_check_force_balance(s, &run->part, false, run->clock.step + 1) != OK;
             if (s->severs) break;
         }
-        TRY(equilibrium_find_at_time(e, s->t));
+        TRY(equilibrium_find_at_time(run, s->t));
     }
-    a->release = (statics_energy_released_since_start(s, &e->bonds) - before) /
-                 square(statics_norm_of_prescribed_loads(e, s->t));
+    a->release = (statics_energy_released_since_start(s, &run->bonds) - before) /
+                 square(statics_norm_of_prescribed_loads(run, s->t));
     return OK;
 }
 
@@ -144,30 +144,30 @@ static bool pre_crack_unbroken(const struct crack_tips *t, const struct statics 
     return any && statics->behind.cost == 0;
 }
 
-/* Determines the next crack increment of run e under the present loads. SIF-driven tips (growth direction from
+/* Determines the next crack increment of run under the present loads. SIF-driven tips (growth direction from
  * stress-intensity factors) determine it, if there are any. Otherwise, or if bonds elsewhere exceed their critical
  * stretch, it is found by a trial in which bonds break and which is undone. stressed: smallest stretch ratio (stretch
  * divided by critical stretch) for which the trial is made. Returns FAILED, with a message, if a trial equilibrium is
  * not found. */
-static status increment_find_now(struct run *e, real stressed)
+static status increment_find_now(struct run *run, real stressed)
 {
-    struct statics *s = e->statics;
+    struct statics *s = run->statics;
     struct memory_archive saved;
     struct crack_increment second;
-    if (sif_cracks_find_tips_and_test_can_grow(e)) {
-        TRY(sif_cracks_find_increment_by_trial_equilibria(e));
+    if (sif_cracks_find_tips_and_test_can_grow(run)) {
+        TRY(sif_cracks_find_increment_by_trial_equilibria(run));
         if (s->next.n > 0 || s->stretch_ratio <= 1) return OK; /* else bonds break away from the tips */
     }
     if (s->next.n > 0 || s->stretch_ratio < stressed) return OK;
-    trial_equilibrium_begin(e, &saved);
+    trial_equilibrium_begin(run, &saved);
     s->next.n = 0;
-    status tried = increment_break_try(e, &s->ahead);
+    status tried = increment_break_try(run, &s->ahead);
     const int64_t bonds = s->next.n;
-    if (tried == OK && bonds > 0 && pre_crack_unbroken(&e->fracture->tips, s)) {
-        tried = increment_break_try(e, &second);
+    if (tried == OK && bonds > 0 && pre_crack_unbroken(&run->fracture->tips, s)) {
+        tried = increment_break_try(run, &second);
         if (second.cost > 0) s->behind = crack_increment_extrapolate_before_first(&s->ahead, &second);
     }
-    trial_equilibrium_end(e, &saved, false, &s->next);
+    trial_equilibrium_end(run, &saved, false, &s->next);
     s->next.n = bonds;
     s->due = crack_increments_load_size_at_joint_balance(&s->ahead, &s->behind);
     return tried;
@@ -178,68 +178,68 @@ static status increment_find_now(struct run *e, real stressed)
  * made (s->behind), else STRESSED. */
 static real stretch_ratio_of_trial(const struct statics *s) { return s->behind.cost > 0 ? STRESSED_FURTHER : STRESSED; }
 
-/* Determines the next crack increment of run e at the load size (norm of prescribed displacements or forces) at which
+/* Determines the next crack increment of run at the load size (norm of prescribed displacements or forces) at which
  * it will be made, by the secant method. Needed where the strain is not proportional to the load size, as supports or
  * rigid bodies move before anything is in contact: the energy release grows with the square of the strain. The bonds
  * may be stretched less at that load size than a trial under the present loads requires. Afterwards restores the
  * present equilibrium or, if material points have been converted, finds the equilibrium of the initial pseudo-time
  * again. If the load size is so small that no bond would break, the increment is that of the present loads. Returns
  * FAILED, with a message, if an equilibrium is not found. */
-static status increment_find_at_due(struct run *e)
+static status increment_find_at_due(struct run *run)
 {
-    struct statics *s = e->statics;
+    struct statics *s = run->statics;
     struct memory_archive saved;
     const real from = s->t;
     const int64_t particles = s->particles;
-    trial_equilibrium_begin(e, &saved);
+    trial_equilibrium_begin(run, &saved);
     status found = OK;
     real previous = 0, previous_share = NAN;
     for (int k = 0; k < SECANTS_MOST && found == OK && s->next.n > 0; k++) {
-        const real size = statics_norm_of_prescribed_loads(e, s->t), share = size / s->due;
+        const real size = statics_norm_of_prescribed_loads(run, s->t), share = size / s->due;
         if (fabs(share - 1) <= DUE_ERROR || !isfinite(s->due)) break;
         const real secant = size + (1 - share) * (size - previous) / (share - previous_share);
-        found = equilibrium_find_at_time(e, statics_find_pseudo_time_at_load_size(e, secant > 0 ? secant : s->due));
+        found = equilibrium_find_at_time(run, statics_find_pseudo_time_at_load_size(run, secant > 0 ? secant : s->due));
         previous = size, previous_share = share;
         s->next.n = 0;
-        if (found == OK) found = increment_find_now(e, 0);
+        if (found == OK) found = increment_find_now(run, 0);
     }
     const bool converted = s->particles != particles; /* points that converted cannot be restored */
-    trial_equilibrium_end(e, &saved, converted, NULL);
-    if (converted && found == OK) found = equilibrium_find_at_time(e, from);
-    return found == OK && s->next.n == 0 ? increment_find_now(e, stretch_ratio_of_trial(s)) : found;
+    trial_equilibrium_end(run, &saved, converted, NULL);
+    if (converted && found == OK) found = equilibrium_find_at_time(run, from);
+    return found == OK && s->next.n == 0 ? increment_find_now(run, stretch_ratio_of_trial(s)) : found;
 }
 
-/* Finds the bonds of the next crack increment of run e (e->statics->next) and the load size (norm of prescribed
+/* Finds the bonds of the next crack increment of run (run->statics->next) and the load size (norm of prescribed
  * displacements or forces) at which it is made. If anything is in contact, evaluates the increment again at that load
  * size, because the energy release is then not proportional to the square of the load size. Returns FAILED, with a
  * message, if a trial equilibrium is not found. */
-status crack_increment_find_by_trial_equilibria(struct run *e)
+status crack_increment_find_by_trial_equilibria(struct run *run)
 {
-    TRY(increment_find_now(e, stretch_ratio_of_trial(e->statics)));
-    return e->statics->in_contact && e->statics->next.n > 0 ? increment_find_at_due(e) : OK;
+    TRY(increment_find_now(run, stretch_ratio_of_trial(run->statics)));
+    return run->statics->in_contact && run->statics->next.n > 0 ? increment_find_at_due(run) : OK;
 }
 
-status crack_increment_apply_at_energy_balance(struct run *e)
+status crack_increment_apply_at_energy_balance(struct run *run)
 {
-    const real size = crack_increment_load_size_at_energy_balance(&e->statics->ahead);
-    if (isfinite(size)) TRY(equilibrium_find_at_time(e, statics_find_pseudo_time_at_load_size(e, size)));
-    return crack_increment_find_new_equilibrium(e, crack_increment_break_bonds_and_move_tips(e));
+    const real size = crack_increment_load_size_at_energy_balance(&run->statics->ahead);
+    if (isfinite(size)) TRY(equilibrium_find_at_time(run, statics_find_pseudo_time_at_load_size(run, size)));
+    return crack_increment_find_new_equilibrium(run, crack_increment_break_bonds_and_move_tips(run));
 }
 
-int64_t crack_increment_break_bonds_and_move_tips(struct run *e)
+int64_t crack_increment_break_bonds_and_move_tips(struct run *run)
 {
-    struct statics *s = e->statics;
+    struct statics *s = run->statics;
     const int64_t broken = s->next.n;
-    bonds_break_listed(e, &s->next);
-    sif_tips_move_those_in_crack_increment(&s->sif, &e->part);
+    bonds_break_listed(run, &s->next);
+    sif_tips_move_those_in_crack_increment(&s->sif, &run->part);
     s->behind = s->ahead, s->ahead = (struct crack_increment){0};
     s->next.n = 0;
     return broken;
 }
 
-status crack_increment_find_new_equilibrium(struct run *e, int64_t broken_bonds)
+status crack_increment_find_new_equilibrium(struct run *run, int64_t broken_bonds)
 {
-    TRY(equilibrium_find_at_time(e, e->statics->t));
-    plastic_state_save(&e->statics->plastic, &e->bonds, &e->part, e->optional);
-    return equilibrium_convert_points_to_pd_and_solve_again(e, broken_bonds);
+    TRY(equilibrium_find_at_time(run, run->statics->t));
+    plastic_state_save(&run->statics->plastic, &run->bonds, &run->part, run->optional);
+    return equilibrium_convert_points_to_pd_and_solve_again(run, broken_bonds);
 }

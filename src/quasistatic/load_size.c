@@ -17,36 +17,36 @@ static real rigid_displacement2(const struct rigid_set *r, int n, real t)
     return sum;
 }
 
-/* Returns the load size of run e at pseudo-time t [s], a measure proportional to the loads: the norm of the prescribed
+/* Returns the load size of run at pseudo-time t [s], a measure proportional to the loads: the norm of the prescribed
  * displacements of supports and rigid bodies [m], or, if these do not move, the norm of the applied forces [N]. */
-real statics_norm_of_prescribed_loads(const struct run *e, real t)
+real statics_norm_of_prescribed_loads(const struct run *run, real t)
 {
     real sum = 0, forces = 0;
-    for (int b = 0; b < e->loads.n; b++) {
-        const struct load *l = &e->loads.load[b];
-        const struct prescribed_displacement by = prescribed_displacement_make(l->boundary, e->part.dim, t);
+    for (int b = 0; b < run->loads.n; b++) {
+        const struct load *l = &run->loads.load[b];
+        const struct prescribed_displacement by = prescribed_displacement_make(l->boundary, run->part.dim, t);
         for (int64_t k = 0; k < l->n; k++) {
             real X[DIM_MAX], f[DIM_MAX];
-            particle_reference_position(&e->part, l->particle[k], X);
-            for (int d = 0; d < e->part.dim && l->boundary->kind == BOUNDARY_VELOCITY; d++)
+            particle_reference_position(&run->part, l->particle[k], X);
+            for (int d = 0; d < run->part.dim && l->boundary->kind == BOUNDARY_VELOCITY; d++)
                 if (l->prescribes[k] >> d & 1) sum += square(prescribed_displacement_at(&by, X, d));
             if (!boundary_applies_force(l->boundary)) continue;
-            load_force_on_particle(l, &e->part, k, t, f);
-            forces += dot(f, f, e->part.dim);
+            load_force_on_particle(l, &run->part, k, t, f);
+            forces += dot(f, f, run->part.dim);
         }
     }
-    sum += rigid_displacement2(e->rigid, e->scene->rigids, t);
+    sum += rigid_displacement2(run->rigid, run->scene->rigids, t);
     return sqrt(sum > 0 ? sum : forces);
 }
 
 enum { SECANTS_MOST = 30 }; /* largest number of secant steps */
 
-real statics_find_pseudo_time_at_load_size(const struct run *e, real load_size)
+real statics_find_pseudo_time_at_load_size(const struct run *run, real load_size)
 {
-    real from = e->statics->t, at_from = statics_norm_of_prescribed_loads(e, from);
+    real from = run->statics->t, at_from = statics_norm_of_prescribed_loads(run, from);
     real t = at_from > 0 ? from * load_size / at_from : from;
     for (int k = 0; k < SECANTS_MOST; k++) {
-        const real at = statics_norm_of_prescribed_loads(e, t), slope = (at - at_from) / (t - from);
+        const real at = statics_norm_of_prescribed_loads(run, t), slope = (at - at_from) / (t - from);
         if (fabs(at - load_size) <= 1e-9 * load_size || !(slope != 0) || t == from) return t;
         from = t, at_from = at;
         t = real_max(0, from + (load_size - at) / slope);

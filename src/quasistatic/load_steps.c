@@ -48,113 +48,114 @@ static real increment_load(const struct statics *s, const struct diagnostics *di
                                          : s->due;
 }
 
-/* Updates the probes and the largest forces on rigid bodies of run e for the present equilibrium. Call for states that
+/* Updates the probes and the largest forces on rigid bodies of run for the present equilibrium. Call for states that
  * the loads have reached, not for trials. */
-static void state_sample(struct run *e)
+static void state_sample(struct run *run)
 {
-    run_update_break_and_reaction_probes(e);
-    rigid_bodies_update_largest_contact_forces(e->rigid, e->scene->rigids);
+    run_update_break_and_reaction_probes(run);
+    rigid_bodies_update_largest_contact_forces(run->rigid, run->scene->rigids);
 }
 
-/* Finds the equilibrium of run e at the load size `size` (norm of prescribed displacements [m] or of applied forces
+/* Finds the equilibrium of run at the load size `size` (norm of prescribed displacements [m] or of applied forces
  * [N]). The corresponding pseudo-time is limited to the range least .. most [s]. Returns FAILED, with a message, if
  * there is no equilibrium. */
-static status go_to_size(struct run *e, real size, real least, real most)
+static status go_to_size(struct run *run, real size, real least, real most)
 {
-    return equilibrium_find_at_time(e, real_min(real_max(statics_find_pseudo_time_at_load_size(e, size), least), most));
+    return equilibrium_find_at_time(run,
+                                    real_min(real_max(statics_find_pseudo_time_at_load_size(run, size), least), most));
 }
 
-/* Finds the equilibrium of run e at pseudo-time t [s], then determines the next crack increment. If the largest stretch
+/* Finds the equilibrium of run at pseudo-time t [s], then determines the next crack increment. If the largest stretch
  * ratio (stretch divided by critical stretch) at t exceeds FAR_BEYOND, uses an earlier pseudo-time at which it is about
  * NEAR_LIMIT, because the body would have broken before t: at t, bonds would yield that otherwise do not, and large
  * energies would hide the energy that an increment releases. Returns FAILED, with a message, if an equilibrium is not
  * found. */
-static status approach_loads(struct run *e, real t)
+static status approach_loads(struct run *run, real t)
 {
-    struct statics *s = e->statics;
-    const real from = s->t, low = statics_norm_of_prescribed_loads(e, from), at_low = s->stretch_ratio;
+    struct statics *s = run->statics;
+    const real from = s->t, low = statics_norm_of_prescribed_loads(run, from), at_low = s->stretch_ratio;
     bool far = true;
     for (int k = 0; k < APPROACHES_MOST && far; k++) {
         struct memory_archive saved;
-        trial_equilibrium_begin(e, &saved);
-        const status gone = equilibrium_find_at_time(e, t);
+        trial_equilibrium_begin(run, &saved);
+        const status gone = equilibrium_find_at_time(run, t);
         far = gone == OK && s->stretch_ratio > FAR_BEYOND && at_low < NEAR_LEAST;
         if (far) {
             const real share = (NEAR_LIMIT - at_low) / (s->stretch_ratio - at_low);
             t = real_max(from, statics_find_pseudo_time_at_load_size(
-                                   e, low + share * (statics_norm_of_prescribed_loads(e, t) - low)));
+                                   run, low + share * (statics_norm_of_prescribed_loads(run, t) - low)));
         }
-        trial_equilibrium_end(e, &saved, !far, NULL);
+        trial_equilibrium_end(run, &saved, !far, NULL);
         TRY(gone);
     }
-    if (far) TRY(equilibrium_find_at_time(e, t));
-    TRY(equilibrium_convert_points_to_pd_and_solve_again(e, 0));
-    return crack_increment_find_by_trial_equilibria(e);
+    if (far) TRY(equilibrium_find_at_time(run, t));
+    TRY(equilibrium_convert_points_to_pd_and_solve_again(run, 0));
+    return crack_increment_find_by_trial_equilibria(run);
 }
 
-/* Makes the next crack increment of run e while loads can only grow, and determines the increment after it. The load
+/* Makes the next crack increment of run while loads can only grow, and determines the increment after it. The load
  * size (norm of prescribed displacements [m] or of applied forces [N]) of the increment is the larger of
  * increment_load and *size, the load size of the previous increment; *size receives it. Updates the probes and the
  * largest forces on the rigid bodies there. from, t: range of the pseudo-time [s]. Returns FAILED, with a message, if
  * an equilibrium is not found. */
-static status increment_under_loads(struct run *e, real *size, real from, real t)
+static status increment_under_loads(struct run *run, real *size, real from, real t)
 {
-    struct statics *s = e->statics;
-    const bool follows = increment_load(e->statics, e->diagnostics) <= *size;
-    *size = real_max(*size, increment_load(e->statics, e->diagnostics));
-    const real loads = statics_norm_of_prescribed_loads(e, t);
+    struct statics *s = run->statics;
+    const bool follows = increment_load(run->statics, run->diagnostics) <= *size;
+    *size = real_max(*size, increment_load(run->statics, run->diagnostics));
+    const real loads = statics_norm_of_prescribed_loads(run, t);
     const bool pays = crack_increment_load_size_at_energy_balance(&s->ahead) <= *size, within = *size < loads;
     if (within)
-        TRY(go_to_size(e, *size, from, t));
+        TRY(go_to_size(run, *size, from, t));
     else if (s->t < t && loads >= *size * (1 - ROUND_OFF))
-        TRY(equilibrium_find_at_time(e, t));
-    state_sample(e);
-    if (follows && e->scene->steps.then == THEN_EXPLICIT)
-        TRY(crack_increment_apply_by_dynamic_release(e));
+        TRY(equilibrium_find_at_time(run, t));
+    state_sample(run);
+    if (follows && run->scene->steps.then == THEN_EXPLICIT)
+        TRY(crack_increment_apply_by_dynamic_release(run));
     else
-        TRY(pays ? crack_increment_find_new_equilibrium(e, crack_increment_break_bonds_and_move_tips(e))
-                 : crack_increment_apply_at_energy_balance(e));
-    if (!pays) TRY(within ? go_to_size(e, *size, from, t) : equilibrium_find_at_time(e, t));
-    return crack_increment_find_by_trial_equilibria(e);
+        TRY(pays ? crack_increment_find_new_equilibrium(run, crack_increment_break_bonds_and_move_tips(run))
+                 : crack_increment_apply_at_energy_balance(run));
+    if (!pays) TRY(within ? go_to_size(run, *size, from, t) : equilibrium_find_at_time(run, t));
+    return crack_increment_find_by_trial_equilibria(run);
 }
 
-/* Makes a load step of run e under load control: increases the loads to those of pseudo-time t [s], and makes all
+/* Makes a load step of run under load control: increases the loads to those of pseudo-time t [s], and makes all
  * crack increments whose load sizes are smaller. The pseudo-time never decreases. Returns FAILED, with a message, if
  * an equilibrium is not found. */
-static status step_by_load(struct run *e, real t)
+static status step_by_load(struct run *run, real t)
 {
-    struct statics *s = e->statics;
-    const real from = s->t, loads = statics_norm_of_prescribed_loads(e, t);
-    real size = statics_norm_of_prescribed_loads(e, from);
+    struct statics *s = run->statics;
+    const real from = s->t, loads = statics_norm_of_prescribed_loads(run, t);
+    real size = statics_norm_of_prescribed_loads(run, from);
     for (;;) {
-        const bool due = s->next.n > 0 && increment_load(e->statics, e->diagnostics) <=
+        const bool due = s->next.n > 0 && increment_load(run->statics, run->diagnostics) <=
                                               real_max(loads, s->t >= t ? 0 : size) * (1 + 1e-9);
         if (due)
-            TRY(increment_under_loads(e, &size, from, t));
+            TRY(increment_under_loads(run, &size, from, t));
         else if (s->t < t)
-            TRY(approach_loads(e, t));
+            TRY(approach_loads(run, t));
         else
             return OK;
     }
 }
 
-/* Makes a load step of run e under energy control, where loads may fall: makes one crack increment, then finds the
+/* Makes a load step of run under energy control, where loads may fall: makes one crack increment, then finds the
  * equilibrium at the pseudo-time at which the loads suffice for the next increment. If this is more than `most` [s]
  * from now, the step ends after `most`, without a further increment. Returns FAILED, with a message, if an equilibrium
  * is not found. */
-static status step_by_energy(struct run *e, real most)
+static status step_by_energy(struct run *run, real most)
 {
-    struct statics *s = e->statics;
-    const real t = real_min(s->t + most, e->scene->duration);
-    if (s->increment_due) TRY(crack_increment_apply_at_energy_balance(e));
-    TRY(crack_increment_find_by_trial_equilibria(e));
+    struct statics *s = run->statics;
+    const real t = real_min(s->t + most, run->scene->duration);
+    if (s->increment_due) TRY(crack_increment_apply_at_energy_balance(run));
+    TRY(crack_increment_find_by_trial_equilibria(run));
     if (s->severs) return OK;
-    if (s->next.n == 0) TRY(approach_loads(e, t));
+    if (s->next.n == 0) TRY(approach_loads(run, t));
     if (s->severs) return OK;
-    s->increment_due = s->next.n > 0 && statics_norm_of_prescribed_loads(e, t) >= s->due;
+    s->increment_due = s->next.n > 0 && statics_norm_of_prescribed_loads(run, t) >= s->due;
     if (s->next.n > 0)
-        TRY(equilibrium_find_at_time(e, s->increment_due ? statics_find_pseudo_time_at_load_size(e, s->due) : t));
-    s->record.load_most = real_max(s->record.load_most, statics_norm_of_prescribed_loads(e, s->t));
+        TRY(equilibrium_find_at_time(run, s->increment_due ? statics_find_pseudo_time_at_load_size(run, s->due) : t));
+    s->record.load_most = real_max(s->record.load_most, statics_norm_of_prescribed_loads(run, s->t));
     s->severs = s->increment_due && s->due < THROUGH * s->record.load_most;
     return OK;
 }
@@ -178,45 +179,46 @@ static real time_of_opening(const struct particles *p, const struct statics *s, 
     return now > 0 ? s->t * wanted / now : otherwise;
 }
 
-/* Makes a load step of run e under control of the opening: increases the opening (change of distance between two gauge
+/* Makes a load step of run under control of the opening: increases the opening (change of distance between two gauge
  * particles) by one step, and makes all crack increments for which the loads suffice until then. Returns FAILED, with
  * a message, if an equilibrium is not found. */
-static status step_by_opening(struct run *e)
+static status step_by_opening(struct run *run)
 {
-    const struct scene_steps *s = &e->scene->steps;
-    const real wanted = s->opening * (real)(e->clock.step + 1) / (real)s->number;
-    const real first = e->statics->t + e->scene->duration / (real)s->number;
-    real t = time_of_opening(&e->part, e->statics, wanted, first);
-    if (e->statics->next.n == 0 && body_may_yield(&e->part, &e->bonds)) {
+    const struct scene_steps *s = &run->scene->steps;
+    const real wanted = s->opening * (real)(run->clock.step + 1) / (real)s->number;
+    const real first = run->statics->t + run->scene->duration / (real)s->number;
+    real t = time_of_opening(&run->part, run->statics, wanted, first);
+    if (run->statics->next.n == 0 && body_may_yield(&run->part, &run->bonds)) {
         struct memory_archive saved;
-        trial_equilibrium_begin(e, &saved);
-        const status found = equilibrium_find_at_crack_opening(e, wanted, t);
-        t = e->statics->t;
-        trial_equilibrium_end(e, &saved, found != OK, NULL);
+        trial_equilibrium_begin(run, &saved);
+        const status found = equilibrium_find_at_crack_opening(run, wanted, t);
+        t = run->statics->t;
+        trial_equilibrium_end(run, &saved, found != OK, NULL);
         TRY(found);
     }
-    if (e->statics->next.n == 0) TRY(approach_loads(e, t));
+    if (run->statics->next.n == 0) TRY(approach_loads(run, t));
     for (bool open = false;;) {
         const bool before =
-            increment_before_opening(&e->part, e->statics, statics_norm_of_prescribed_loads(e, e->statics->t),
-                                     increment_load(e->statics, e->diagnostics), wanted);
+            increment_before_opening(&run->part, run->statics, statics_norm_of_prescribed_loads(run, run->statics->t),
+                                     increment_load(run->statics, run->diagnostics), wanted);
         if (open && !before) return OK;
         open = !before;
         if (open) {
-            TRY(equilibrium_find_at_crack_opening(e, wanted, time_of_opening(&e->part, e->statics, wanted, first)));
-            TRY(equilibrium_convert_points_to_pd_and_solve_again(e, 0));
+            TRY(equilibrium_find_at_crack_opening(run, wanted,
+                                                  time_of_opening(&run->part, run->statics, wanted, first)));
+            TRY(equilibrium_convert_points_to_pd_and_solve_again(run, 0));
         } else {
-            TRY(go_to_size(e, increment_load(e->statics, e->diagnostics), 0, INFINITY));
-            state_sample(e);
-            TRY(crack_increment_apply_at_energy_balance(e));
+            TRY(go_to_size(run, increment_load(run->statics, run->diagnostics), 0, INFINITY));
+            state_sample(run);
+            TRY(crack_increment_apply_at_energy_balance(run));
         }
-        TRY(crack_increment_find_by_trial_equilibria(e));
+        TRY(crack_increment_find_by_trial_equilibria(run));
     }
 }
 
 /* ---- the loop ---------------------------------------------------------------------------------------------------- */
 
-/* Prepares a load step of run e, such that its results depend only on data of the checkpoint and a resumed run is
+/* Prepares a load step of run, such that its results depend only on data of the checkpoint and a resumed run is
  * bitwise equal. Recomputes the free rigid motions of the unconstrained fragments from their present positions.
  * Discards a preconditioner that a resumed run could not rebuild: one made before bonds broke, or one with the
  * stiffness of contact, which depends on the positions at that time.
@@ -225,38 +227,38 @@ static status step_by_opening(struct run *e)
  * rigid bodies act on particles only and would pass through points without work. If points were converted, finds the
  * equilibrium at the present pseudo-time again, and the next crack increment if there was one. Returns FAILED, with a
  * message, if an equilibrium is not found. */
-static status load_step_begin(struct run *e, real t)
+static status load_step_begin(struct run *run, real t)
 {
-    struct statics *s = e->statics;
+    struct statics *s = run->statics;
     const int64_t solutions = s->solutions;
     const bool increment = s->next.n > 0;
-    unconstrained_fragments_find(e);
+    unconstrained_fragments_find(run);
     if (s->precondition_stale || s->has_contact)
         statics_preconditioner_free(s);
     else if (s->kept && !s->precondition)
-        statics_preconditioner_make(e);
+        statics_preconditioner_make(run);
     s->kept = false;
     s->directions = 0;
-    if (!load_step_flag_points_near_rigid_bodies(e, s->t, t)) return OK;
-    TRY(equilibrium_convert_points_to_pd_and_solve_again(e, 0));
-    return increment && s->solutions > solutions ? crack_increment_find_by_trial_equilibria(e) : OK;
+    if (!load_step_flag_points_near_rigid_bodies(run, s->t, t)) return OK;
+    TRY(equilibrium_convert_points_to_pd_and_solve_again(run, 0));
+    return increment && s->solutions > solutions ? crack_increment_find_by_trial_equilibria(run) : OK;
 }
 
-/* Makes the next load step of run e: if bonds soften, by load_step_solve_with_softening_bonds, else under the control
+/* Makes the next load step of run run: if bonds soften, by load_step_solve_with_softening_bonds, else under the control
  * (load, energy or opening) of the scene. Returns FAILED, with a message, if an equilibrium is not found. */
-static status load_step(struct run *e)
+static status load_step(struct run *run)
 {
-    const struct scene *s = e->scene;
+    const struct scene *s = run->scene;
     const real most = s->duration / (real)s->steps.number;
-    TRY(load_step_begin(e, e->statics->t + most));
-    if (e->bonds.soft.curve) return load_step_solve_with_softening_bonds(e, most * (real)(e->clock.step + 1));
+    TRY(load_step_begin(run, run->statics->t + most));
+    if (run->bonds.soft.curve) return load_step_solve_with_softening_bonds(run, most * (real)(run->clock.step + 1));
     switch (s->steps.control) {
     case CONTROL_LOAD:
-        return step_by_load(e, most * (real)(e->clock.step + 1));
+        return step_by_load(run, most * (real)(run->clock.step + 1));
     case CONTROL_ENERGY:
-        return step_by_energy(e, most);
+        return step_by_energy(run, most);
     case CONTROL_OPENING:
-        return step_by_opening(e);
+        return step_by_opening(run);
     }
     return OK;
 }
@@ -290,21 +292,21 @@ static const char *remedy_without_reference_frame(const struct scene *s)
     return s->bodies > 1 ? "join the bodies to one with parts, or set solver: explicit" : "set solver: explicit";
 }
 
-status load_steps_check_scene_is_supported(const struct run *e)
+status load_steps_check_scene_is_supported(const struct run *run)
 {
-    const struct scene *s = e->scene;
+    const struct scene *s = run->scene;
     if (!scene_has_load_steps(s)) return OK;
-    if (s->steps.control == CONTROL_OPENING) TRY(crack_gauge_check_positions(e->scene, &e->part));
-    TRY(check_loads_grow(s, statics_norm_of_prescribed_loads(e, 0.25 * s->duration),
-                         statics_norm_of_prescribed_loads(e, 0.5 * s->duration),
-                         statics_norm_of_prescribed_loads(e, s->duration)));
+    if (s->steps.control == CONTROL_OPENING) TRY(crack_gauge_check_positions(run->scene, &run->part));
+    TRY(check_loads_grow(s, statics_norm_of_prescribed_loads(run, 0.25 * s->duration),
+                         statics_norm_of_prescribed_loads(run, 0.5 * s->duration),
+                         statics_norm_of_prescribed_loads(run, s->duration)));
     for (int b = 0; b < s->bodies && s->method != METHOD_PD; b++)
-        if (!e->frame->choice[b].reference)
+        if (!run->frame->choice[b].reference)
             return status_set(REFUSED,
                               "solver: load steps need material points in the reference frame, but body %s is in the "
                               "current frame%s%s; %s",
-                              s->body[b].name, e->frame->choice[b].reason ? ": " : "",
-                              e->frame->choice[b].reason ? e->frame->choice[b].reason : "",
+                              s->body[b].name, run->frame->choice[b].reason ? ": " : "",
+                              run->frame->choice[b].reason ? run->frame->choice[b].reason : "",
                               remedy_without_reference_frame(s));
     return OK;
 }
@@ -364,70 +366,73 @@ static void warn_of_sliding(struct warnings *to, const real *slid, real spacing)
     }
 }
 
-/* Adds to e->warnings, and prints, the warnings about the final state of run e: closed crack faces, plastic flow,
+/* Adds to run->warnings, and prints, the warnings about the final state of run run: closed crack faces, plastic flow,
  * sliding, and rigid bodies without contact. */
-static void warn_at_end(struct run *e)
+static void warn_at_end(struct run *run)
 {
     real K[MODES];
-    sif_leading_tip_compute_intensity_factors(&e->statics->sif, &e->part, crack_faces_are_in_contact(e->contact), K);
-    warn_closed_faces(&e->warnings, K[MODE_I], e->contact);
-    warn_large_flow(&e->warnings, &e->part);
-    warn_of_flow_in_one_cell(&e->warnings, &e->part, e->scene->material);
-    warn_of_sliding(&e->warnings, e->statics->slid, e->scene->spacing);
-    plastic_flow_warn_of_inexact_stress(&e->statics->turn, e->part.dim, &e->warnings);
-    plastic_flow_warn_of_thermal_softening(&e->statics->softening, e->part.dim, &e->warnings);
-    rigid_bodies_warn_of_no_contact(&e->warnings, e->rigid, e->scene->rigids, ROUND_OFF * e->statics->balance.largest);
+    sif_leading_tip_compute_intensity_factors(&run->statics->sif, &run->part, crack_faces_are_in_contact(run->contact),
+                                              K);
+    warn_closed_faces(&run->warnings, K[MODE_I], run->contact);
+    warn_large_flow(&run->warnings, &run->part);
+    warn_of_flow_in_one_cell(&run->warnings, &run->part, run->scene->material);
+    warn_of_sliding(&run->warnings, run->statics->slid, run->scene->spacing);
+    plastic_flow_warn_of_inexact_stress(&run->statics->turn, run->part.dim, &run->warnings);
+    plastic_flow_warn_of_thermal_softening(&run->statics->softening, run->part.dim, &run->warnings);
+    rigid_bodies_warn_of_no_contact(&run->warnings, run->rigid, run->scene->rigids,
+                                    ROUND_OFF * run->statics->balance.largest);
 }
 
-/* Checks the loads on fragments of run e that nothing constrains. Returns FAILED, with a message, if they are not in
+/* Checks the loads on fragments of run that nothing constrains. Returns FAILED, with a message, if they are not in
  * balance. Under energy control, once bonds have broken, such a fragment means that the crack has severed the body:
  * then sets *apart to true, prints a warning, and returns OK. */
-static status check_constrained(struct run *e, bool *apart)
+static status check_constrained(struct run *run, bool *apart)
 {
-    const bool parts = e->scene->steps.control == CONTROL_ENERGY && e->diagnostics->bonds_broken > 0;
-    const status held = unconstrained_fragments_check_force_balance(e->statics, &e->part, true, e->clock.step + 1);
-    *apart = parts && (held != OK || e->statics->severs);
+    const bool parts = run->scene->steps.control == CONTROL_ENERGY && run->diagnostics->bonds_broken > 0;
+    const status held =
+        unconstrained_fragments_check_force_balance(run->statics, &run->part, true, run->clock.step + 1);
+    *apart = parts && (held != OK || run->statics->severs);
     if (*apart)
         warnings_add_and_print(
-            &e->warnings,
+            &run->warnings,
             "the crack cuts the body in two: after its next increment a fragment would carry loads almost without "
             "support, so the run ends before that increment; to continue, hold the fragment by a boundary");
     return parts ? OK : held;
 }
 
-status run_solve_load_steps(struct run *e)
+status run_solve_load_steps(struct run *run)
 {
-    TRY(report_open_history_and_write_first_frame(e));
-    timers_start(&e->timers);
-    if (!e->statics->node) statics_equation_system_make(e); /* a resumed run has them */
-    statics_contact_search_before_first_solution(e);
-    e->statics->gauge[0] = particles_index_nearest_to_position(&e->part, e->scene->steps.from);
-    e->statics->gauge[1] = particles_index_nearest_to_position(&e->part, e->scene->steps.to);
-    sif_cracks_find_tips_and_test_can_grow(e); /* for the plane of the tips, which a resumed run lacks */
-    if (e->clock.step == 0) history_sample_write_in_equilibrium(e);
-    plastic_flow_measure_direction_change(e->statics, &e->part, e->tables.elastic, 0);
-    while (e->clock.step < e->clock.steps) {
-        e->clock.load_step = e->statics->record.step = e->clock.step + 1;
+    TRY(report_open_history_and_write_first_frame(run));
+    timers_start(&run->timers);
+    if (!run->statics->node) statics_equation_system_make(run); /* a resumed run has them */
+    statics_contact_search_before_first_solution(run);
+    run->statics->gauge[0] = particles_index_nearest_to_position(&run->part, run->scene->steps.from);
+    run->statics->gauge[1] = particles_index_nearest_to_position(&run->part, run->scene->steps.to);
+    sif_cracks_find_tips_and_test_can_grow(run); /* for the plane of the tips, which a resumed run lacks */
+    if (run->clock.step == 0) history_sample_write_in_equilibrium(run);
+    plastic_flow_measure_direction_change(run->statics, &run->part, run->tables.elastic, 0);
+    while (run->clock.step < run->clock.steps) {
+        run->clock.load_step = run->statics->record.step = run->clock.step + 1;
         bool apart;
-        const status solved = load_step(e);
-        timer_add_elapsed_to_section(&e->timers, TIMER_BONDS);
+        const status solved = load_step(run);
+        timer_add_elapsed_to_section(&run->timers, TIMER_BONDS);
         TRY(solved);
-        TRY(check_constrained(e, &apart));
-        plastic_flow_measure_direction_change(e->statics, &e->part, e->tables.elastic, e->clock.load_step);
-        plastic_state_save(&e->statics->plastic, &e->bonds, &e->part, e->optional);
-        e->clock.step++;
-        if (apart) e->clock.steps = e->clock.step;
-        e->clock.t = e->clock.dt * (real)e->clock.step;
-        state_sample(e);
-        history_sample_write_in_equilibrium(e);
-        statics_reset_solver_counts_for_history(e->statics);
-        if (e->statics->t >= e->scene->duration * (1 - 1e-12)) e->clock.steps = e->clock.step;
-        timer_add_elapsed_to_section(&e->timers, TIMER_BONDS);
-        if (e->clock.step == e->clock.steps) warn_at_end(e);
-        snprintf(e->report->note, sizeof e->report->note, "load time %.4g s  %lld equilibria", e->statics->t,
-                 (long long)e->statics->solutions);
-        TRY(report_write_outputs_due_after_step(e));
+        TRY(check_constrained(run, &apart));
+        plastic_flow_measure_direction_change(run->statics, &run->part, run->tables.elastic, run->clock.load_step);
+        plastic_state_save(&run->statics->plastic, &run->bonds, &run->part, run->optional);
+        run->clock.step++;
+        if (apart) run->clock.steps = run->clock.step;
+        run->clock.t = run->clock.dt * (real)run->clock.step;
+        state_sample(run);
+        history_sample_write_in_equilibrium(run);
+        statics_reset_solver_counts_for_history(run->statics);
+        if (run->statics->t >= run->scene->duration * (1 - 1e-12)) run->clock.steps = run->clock.step;
+        timer_add_elapsed_to_section(&run->timers, TIMER_BONDS);
+        if (run->clock.step == run->clock.steps) warn_at_end(run);
+        snprintf(run->report->note, sizeof run->report->note, "load time %.4g s  %lld equilibria", run->statics->t,
+                 (long long)run->statics->solutions);
+        TRY(report_write_outputs_due_after_step(run));
     }
-    statics_free(e->statics);
-    return report_write_last_checkpoint_and_finish(e);
+    statics_free(run->statics);
+    return report_write_last_checkpoint_and_finish(run);
 }

@@ -91,50 +91,50 @@ static real opening_search_next(struct opening_search *r, real t, real differ)
 /* Returns true if the opening `at` equals the opening `wanted` (both [m]) within the relative error `error`. */
 static bool opening_is_near(real at, real wanted, real error) { return fabs(at - wanted) <= error * fabs(wanted); }
 
-/* Finds the equilibrium of run e, whose body yields, at which the opening (change of distance between two gauge
+/* Finds the equilibrium of run, whose body yields, at which the opening (change of distance between two gauge
  * particles) equals `wanted` [m]. Each attempt starts from the state at the call, since plastic strains depend on the
  * path; that state is restored after an attempt that fails. t: first pseudo-time tried [s]. *at: receives the opening
  * of the last attempt [m], which the caller compares. Returns FAILED, with a message, if an equilibrium is not found.
  */
-static status find_opening_of_yielding_body(struct run *e, real wanted, real t, real *at)
+static status find_opening_of_yielding_body(struct run *run, real wanted, real t, real *at)
 {
-    const struct statics *s = e->statics;
-    *at = crack_gauge_opening(&e->part, s);
+    const struct statics *s = run->statics;
+    *at = crack_gauge_opening(&run->part, s);
     struct opening_search search = {.t = {s->t}, .differ = {*at - wanted}};
     bool ends = opening_is_near(*at, wanted, OPENING_ERROR);
     for (int k = 0; k < BRACKETS_MOST && !ends; k++) {
         struct memory_archive saved;
-        trial_equilibrium_begin(e, &saved);
-        const status found = equilibrium_find_at_time(e, real_max(t, 0));
-        *at = crack_gauge_opening(&e->part, s);
+        trial_equilibrium_begin(run, &saved);
+        const status found = equilibrium_find_at_time(run, real_max(t, 0));
+        *at = crack_gauge_opening(&run->part, s);
         const real tried = s->t;
         t = found == OK ? opening_search_next(&search, tried, *at - wanted) : tried;
         ends = k + 1 == BRACKETS_MOST || t == tried;
         const bool kept = opening_is_near(*at, wanted, ends ? OPENING_FAR : OPENING_ERROR);
-        trial_equilibrium_end(e, &saved, found != OK || kept, NULL);
+        trial_equilibrium_end(run, &saved, found != OK || kept, NULL);
         TRY(found);
         ends |= kept;
     }
     return OK;
 }
 
-status equilibrium_find_at_crack_opening(struct run *e, real wanted_opening, real t)
+status equilibrium_find_at_crack_opening(struct run *run, real wanted_opening, real t)
 {
-    const bool yields = body_may_yield(&e->part, &e->bonds);
-    real at = crack_gauge_opening(&e->part, e->statics);
-    if (yields) TRY(find_opening_of_yielding_body(e, wanted_opening, t, &at));
+    const bool yields = body_may_yield(&run->part, &run->bonds);
+    real at = crack_gauge_opening(&run->part, run->statics);
+    if (yields) TRY(find_opening_of_yielding_body(run, wanted_opening, t, &at));
     for (int k = 0; k < SECANTS_MOST && !yields; k++) { /* secant method */
-        const real from = e->statics->t, before = at;
-        TRY(equilibrium_find_at_time(e, real_max(t, 0)));
-        at = crack_gauge_opening(&e->part, e->statics);
-        const real change = e->statics->t - from, slope = (at - before) / change;
+        const real from = run->statics->t, before = at;
+        TRY(equilibrium_find_at_time(run, real_max(t, 0)));
+        at = crack_gauge_opening(&run->part, run->statics);
+        const real change = run->statics->t - from, slope = (at - before) / change;
         if (opening_is_near(at, wanted_opening, OPENING_ERROR) || change == 0 || !(slope != 0)) break;
-        t = e->statics->t + (wanted_opening - at) / slope;
+        t = run->statics->t + (wanted_opening - at) / slope;
     }
     if (opening_is_near(at, wanted_opening, OPENING_FAR)) return OK;
     return status_set(
         FAILED,
         "load step %lld: no load opens the gauge (steps.from to steps.to) by %.6g m, and the last one tried opens it "
         "by %.6g m; use larger loads or more steps, or a displacement with steps.control: load",
-        (long long)e->clock.step + 1, wanted_opening, at);
+        (long long)run->clock.step + 1, wanted_opening, at);
 }

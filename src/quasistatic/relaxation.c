@@ -66,22 +66,22 @@ static real reactions_norm(const struct loads *loads, int dim)
     return sqrt(sum);
 }
 
-/* Updates damping and residual of the dynamic relaxation of run e. The damping rate is the critical one, 2 omega, of
+/* Updates damping and residual of the dynamic relaxation of run. The damping rate is the critical one, 2 omega, of
  * the lowest mode. This mode resembles the displacement u, so that omega^2 = 2 U/sum m u^2 (Rayleigh quotient) with the
  * strain energy U; per time step it is at most 1. *done: set to true at equilibrium, else to false. */
-static void estimate(struct run *e, bool *done)
+static void estimate(struct run *run, bool *done)
 {
-    struct static_solver *s = e->solver;
+    struct static_solver *s = run->solver;
     real nodes = 0, particles, motion[2];
-    const real strain = e->kernels.bond_energy(&e->bonds, &e->part, NULL) +
-                        points_strain_energy(&e->part, e->scene->material, &e->coupling->partial);
-    reproducible_sums(e->part.n, 2, motion_block, &e->part, motion);
-    s->damping = motion[0] > 0 ? real_min(2 * sqrt(2 * strain / motion[0]) * e->clock.dt, 1) : 0;
-    if (e->part.n_of[KIND_MPM] + e->part.n_grid_coupled > 0)
-        reproducible_sums(e->grid->field[0].grid.n, 1, node_block, e->grid, &nodes);
-    reproducible_sums(e->part.n, 1, particle_block, &e->part, &particles);
-    static_solver_compute_relative_residual(s, reactions_norm(&e->loads, e->part.dim), sqrt(nodes + particles));
-    *done = e->clock.t > s->ramp_time * (1 + 1e-9) && s->residual <= e->scene->solver_tolerance &&
+    const real strain = run->kernels.bond_energy(&run->bonds, &run->part, NULL) +
+                        points_strain_energy(&run->part, run->scene->material, &run->coupling->partial);
+    reproducible_sums(run->part.n, 2, motion_block, &run->part, motion);
+    s->damping = motion[0] > 0 ? real_min(2 * sqrt(2 * strain / motion[0]) * run->clock.dt, 1) : 0;
+    if (run->part.n_of[KIND_MPM] + run->part.n_grid_coupled > 0)
+        reproducible_sums(run->grid->field[0].grid.n, 1, node_block, run->grid, &nodes);
+    reproducible_sums(run->part.n, 1, particle_block, &run->part, &particles);
+    static_solver_compute_relative_residual(s, reactions_norm(&run->loads, run->part.dim), sqrt(nodes + particles));
+    *done = run->clock.t > s->ramp_time * (1 + 1e-9) && s->residual <= run->scene->solver_tolerance &&
             0.5 * motion[1] <= MOTION_SMALL * strain;
 }
 
@@ -102,12 +102,12 @@ static void damp_velocities(struct particles *p, const struct loads *loads, int 
     loads_update_mirror_images(loads, p);
 }
 
-status grid_relaxation_step(struct run *e, bool *is_in_equilibrium)
+status grid_relaxation_step(struct run *run, bool *is_in_equilibrium)
 {
-    TRY(step(e));
-    TRY(run_check_stability_after_step(e));
-    if (e->clock.step % ESTIMATE_STEPS == 0) estimate(e, is_in_equilibrium);
-    damp_velocities(&e->part, &e->loads, e->optional & WITH_GRADIENT ? e->part.dim * e->part.dim : 0,
-                    e->solver->damping);
+    TRY(step(run));
+    TRY(run_check_stability_after_step(run));
+    if (run->clock.step % ESTIMATE_STEPS == 0) estimate(run, is_in_equilibrium);
+    damp_velocities(&run->part, &run->loads, run->optional & WITH_GRADIENT ? run->part.dim * run->part.dim : 0,
+                    run->solver->damping);
     return OK;
 }

@@ -87,69 +87,69 @@ static real kinetic_present(const struct particles *part, const struct lagrangia
     return particles_kinetic_energy(part) + lagrangian_mesh_kinetic_energy(frame);
 }
 
-/* Computes the motion of run e after bonds have broken (dynamic release) in explicit time steps: undamped until no bond
+/* Computes the motion of run after bonds have broken (dynamic release) in explicit time steps: undamped until no bond
  * has broken for CROSSINGS_QUIET times the time in which a wave crosses the body, then damped until the kinetic energy
  * is at most MOTION_SMALL times the elastic energy. Stops at the latest after CROSSINGS_MOST such times,
  * CROSSINGS_DAMPED of them damped. *broken: receives the number of directed bonds that break (each bond counts twice).
  * Returns FAILED, with a message, if the motion diverges. */
-static status steps_in_time(struct run *e, int64_t *broken)
+static status steps_in_time(struct run *run, int64_t *broken)
 {
-    const real crossing = (particles_bounding_box_longest_edge(&e->part) + e->scene->spacing) /
-                          e->tables.wave_speed; /* time in which a wave crosses the body [s] */
+    const real crossing = (particles_bounding_box_longest_edge(&run->part) + run->scene->spacing) /
+                          run->tables.wave_speed; /* time in which a wave crosses the body [s] */
     const real quiet = CROSSINGS_QUIET * crossing, damping = 2 / crossing;
-    const int64_t most = (int64_t)ceil(CROSSINGS_MOST * crossing / e->clock.dt);
-    const int64_t damped_most = (int64_t)ceil(CROSSINGS_DAMPED * crossing / e->clock.dt);
-    int64_t last = 0, damped = 0, had = e->diagnostics->bonds_broken;
+    const int64_t most = (int64_t)ceil(CROSSINGS_MOST * crossing / run->clock.dt);
+    const int64_t damped_most = (int64_t)ceil(CROSSINGS_DAMPED * crossing / run->clock.dt);
+    int64_t last = 0, damped = 0, had = run->diagnostics->bonds_broken;
     *broken = 0;
     for (int64_t k = 0; k < most && damped < damped_most; k++) {
-        TRY(step(e));
-        TRY(run_check_particles_for_divergence(e, true, true));
-        if (e->diagnostics->bonds_broken > had) *broken += e->diagnostics->bonds_broken - had, last = k, damped = 0;
-        had = e->diagnostics->bonds_broken;
-        if ((real)(k - last) * e->clock.dt < quiet) continue;
-        velocities_scale(&e->part, &e->frame->mesh, &e->loads, 1 - damping * e->clock.dt);
+        TRY(step(run));
+        TRY(run_check_particles_for_divergence(run, true, true));
+        if (run->diagnostics->bonds_broken > had) *broken += run->diagnostics->bonds_broken - had, last = k, damped = 0;
+        had = run->diagnostics->bonds_broken;
+        if ((real)(k - last) * run->clock.dt < quiet) continue;
+        velocities_scale(&run->part, &run->frame->mesh, &run->loads, 1 - damping * run->clock.dt);
         damped++;
         if (k % ENERGY_STEPS == 0 &&
-            kinetic_present(&e->part, e->frame) <= MOTION_SMALL * run_compute_elastic_energy(e))
+            kinetic_present(&run->part, run->frame) <= MOTION_SMALL * run_compute_elastic_energy(run))
             break;
     }
     return OK;
 }
 
-/* Returns the strain, contact and fracture energy of run e minus the work of loads and supports [J]. */
-static real energy_budget(struct run *e)
+/* Returns the strain, contact and fracture energy of run minus the work of loads and supports [J]. */
+static real energy_budget(struct run *run)
 {
-    const real held =
-        run_compute_elastic_energy(e) + contact_elastic_energy(e->contact, &e->part) + bonds_fracture_energy(&e->bonds);
-    return held - e->loads.work - e->loads.constraint_work;
+    const real held = run_compute_elastic_energy(run) + contact_elastic_energy(run->contact, &run->part) +
+                      bonds_fracture_energy(&run->bonds);
+    return held - run->loads.work - run->loads.constraint_work;
 }
 
-status crack_increment_apply_by_dynamic_release(struct run *e)
+status crack_increment_apply_by_dynamic_release(struct run *run)
 {
-    struct statics *s = e->statics;
-    const struct run_clock clock = e->clock;
-    const real before = energy_budget(e), damped = e->damped;
-    const int64_t broken = crack_increment_break_bonds_and_move_tips(e);
+    struct statics *s = run->statics;
+    const struct run_clock clock = run->clock;
+    const real before = energy_budget(run), damped = run->damped;
+    const int64_t broken = crack_increment_break_bonds_and_move_tips(run);
     int64_t more;
-    velocities_scale(&e->part, &e->frame->mesh, &e->loads, 0);
-    boundaries_freeze(e->scene, e->boundary, s->t);
-    rigids_freeze(e->scene, e->rigid, true);
-    contact_discard_linear_springs(e->contact);
+    velocities_scale(&run->part, &run->frame->mesh, &run->loads, 0);
+    boundaries_freeze(run->scene, run->boundary, s->t);
+    rigids_freeze(run->scene, run->rigid, true);
+    contact_discard_linear_springs(run->contact);
     const real dt = clock.dt_bears;
-    e->clock.dt = e->grid->transfer.dt = dt;
-    e->clock.step = 1, e->clock.steps = RELEASE_STEPS_MOST, e->clock.stride = 1;
-    const status moved = steps_in_time(e, &more);
-    s->released_time += (real)(e->clock.step - 1) * dt;
-    e->clock = clock;
-    boundaries_restore(e->boundary, e->scene);
-    rigids_freeze(e->scene, e->rigid, false);
-    velocities_scale(&e->part, &e->frame->mesh, &e->loads, 0);
+    run->clock.dt = run->grid->transfer.dt = dt;
+    run->clock.step = 1, run->clock.steps = RELEASE_STEPS_MOST, run->clock.stride = 1;
+    const status moved = steps_in_time(run, &more);
+    s->released_time += (real)(run->clock.step - 1) * dt;
+    run->clock = clock;
+    boundaries_restore(run->boundary, run->scene);
+    rigids_freeze(run->scene, run->rigid, false);
+    velocities_scale(&run->part, &run->frame->mesh, &run->loads, 0);
     TRY(moved);
     if (more > 0) sif_tips_stop_all(&s->sif);
-    const real lost = before - energy_budget(e);
-    s->balance.lost += lost, e->damped = damped + lost;
+    const real lost = before - energy_budget(run);
+    s->balance.lost += lost, run->damped = damped + lost;
     statics_preconditioner_free(s);
     statics_equation_system_free(s);
-    statics_equation_system_make(e);
-    return crack_increment_find_new_equilibrium(e, broken + more);
+    statics_equation_system_make(run);
+    return crack_increment_find_new_equilibrium(run, broken + more);
 }

@@ -38,35 +38,36 @@ bool sif_tip_path_end_is_on_symmetry_plane(const struct crack_tip_plane *plane, 
 /* ---- factors ----------------------------------------------------------------------------------------------------- */
 
 /* Returns the material (not to be freed) of the particle of p nearest to `tip`, among the particles of the body that
- * contains the tip. l: SIF-driven cracks, with the materials. */
-static const struct material *material_at(const struct sif_cracks *l, const struct particles *p,
+ * contains the tip. cracks: SIF-driven cracks, with the materials. */
+static const struct material *material_at(const struct sif_cracks *cracks, const struct particles *p,
                                           const struct sif_crack_tip *tip)
 {
     int64_t nearest = 0;
     real least = INFINITY, X[2];
     for (int64_t i = 0; i < p->n; i++) {
         if (p->body[i] != tip->body) continue;
-        crack_tip_plane_project_particle(&l->plane, p, i, X);
+        crack_tip_plane_project_particle(&cracks->plane, p, i, X);
         if (crack_tip_plane_point_distance(X, tip->position) < least)
             least = crack_tip_plane_point_distance(X, tip->position), nearest = i;
     }
-    return &l->scene->material[p->material[nearest]];
+    return &cracks->scene->material[p->material[nearest]];
 }
 
 /* Returns a list of all crack segments of l in the plane in which the tips move: the pre-cracks and the path of the
  * tips. *n: receives their number. The list refers to the stored path, which must not change while the list is used.
  * Release it with crack_segments_free. */
-static struct crack *crack_segments(const struct sif_cracks *l, int *n)
+static struct crack *crack_segments(const struct sif_cracks *cracks, int *n)
 {
-    const int given = l->source->cracks;
-    struct crack *crack = NEW("led.cracks", given + l->segments + 1, struct crack);
+    const int given = cracks->source->cracks;
+    struct crack *crack = NEW("led.cracks", given + cracks->segments + 1, struct crack);
     real(*corner)[DIM_MAX] = memory_new("led.corners", 2 * (given + 1), sizeof *corner);
     for (int k = 0; k < given; k++) {
-        crack_tip_plane_intersect_crack(&l->plane, &l->source->crack[k], corner + 2 * k);
+        crack_tip_plane_intersect_crack(&cracks->plane, &cracks->source->crack[k], corner + 2 * k);
         crack[k] = (struct crack){.n = 2, .corner = corner + 2 * k};
     }
-    for (int64_t k = 0; k < l->segments; k++) crack[given + k] = (struct crack){.n = 2, .corner = l->path[k].at};
-    *n = given + (int)l->segments;
+    for (int64_t k = 0; k < cracks->segments; k++)
+        crack[given + k] = (struct crack){.n = 2, .corner = cracks->path[k].at};
+    *n = given + (int)cracks->segments;
     crack[*n].corner = corner;
     return crack;
 }
@@ -82,17 +83,17 @@ static void crack_segments_free(struct crack *crack, int n)
  * In 3D they are those of plane stress if the fit is at a distance of half the thickness or more from the front
  * (Nakamura & Parks 1988), else those of plane strain. p: particles, which give material and thickness; radius: mean
  * radius of the ring of particles used for the fit [m]. */
-static struct crack_medium medium_at(const struct sif_cracks *l, const struct particles *p,
+static struct crack_medium medium_at(const struct sif_cracks *cracks, const struct particles *p,
                                      const struct sif_crack_tip *tip, real radius)
 {
-    enum space space = l->scene->space;
+    enum space space = cracks->scene->space;
     if (p->dim == 3) {
         real ahead[2];
-        crack_tip_plane_compute_point_ahead(tip->position, l->plane.spacing, tip->last, ahead);
-        const bool thin = crack_tip_plane_body_width_along_front(&l->plane, p, tip->position, ahead) < 2 * radius;
+        crack_tip_plane_compute_point_ahead(tip->position, cracks->plane.spacing, tip->last, ahead);
+        const bool thin = crack_tip_plane_body_width_along_front(&cracks->plane, p, tip->position, ahead) < 2 * radius;
         space = thin ? SPACE_PLANE_STRESS : SPACE_PLANE_STRAIN;
     }
-    return crack_medium_of_material(material_at(l, p, tip), space);
+    return crack_medium_of_material(material_at(cracks, p, tip), space);
 }
 
 bool sif_tip_compute_intensity_factors(const struct sif_cracks *cracks, const struct particles *p,
@@ -128,11 +129,11 @@ void sif_tip_choose_direction(const struct sif_cracks *cracks, const struct part
 
 /* Returns the tip of l with the largest growth, the first of several with equal growth; NULL if none qualifies. on:
  * true to consider only tips that can grow further, false for all tips. */
-static const struct sif_crack_tip *tip_longest(const struct sif_cracks *l, bool on)
+static const struct sif_crack_tip *tip_longest(const struct sif_cracks *cracks, bool on)
 {
     const struct sif_crack_tip *first = NULL;
-    for (int k = 0; k < l->n; k++) {
-        const struct sif_crack_tip *tip = &l->tip[k];
+    for (int k = 0; k < cracks->n; k++) {
+        const struct sif_crack_tip *tip = &cracks->tip[k];
         if (!(on && tip->ended) && (!first || tip->grown > first->grown * (1 + ON_SURFACE))) first = tip;
     }
     return first;
@@ -206,30 +207,32 @@ real sif_tip_toughness(const struct sif_cracks *cracks, const struct particles *
 
 /* Returns true if the body of p continues ahead of `tip`: if at least n particles of the body, without those whose
  * motion is prescribed, are within REACH spacings of the point one spacing ahead of the tip. n is 2 in 2D; in 3D it is
- * 2 for each whole spacing of the width of the body along the crack front. l: cracks, with the plane of the tips. */
-static bool body_continues(const struct sif_cracks *l, const struct particles *p, const struct sif_crack_tip *tip)
+ * 2 for each whole spacing of the width of the body along the crack front. cracks: cracks, with the plane of the tips.
+ */
+static bool body_continues(const struct sif_cracks *cracks, const struct particles *p, const struct sif_crack_tip *tip)
 {
-    const real h = l->plane.spacing;
+    const real h = cracks->plane.spacing;
     real ahead[2];
     crack_tip_plane_compute_point_ahead(tip->position, h, tip->heading, ahead);
-    const real wide = p->dim == 2 ? 1 : crack_tip_plane_body_width_along_front(&l->plane, p, tip->position, ahead) / h;
+    const real wide =
+        p->dim == 2 ? 1 : crack_tip_plane_body_width_along_front(&cracks->plane, p, tip->position, ahead) / h;
     int free_ones = 0;
     for (int64_t i = 0; i < p->n_all; i++) {
         real X[2];
-        crack_tip_plane_project_particle(&l->plane, p, i, X);
+        crack_tip_plane_project_particle(&cracks->plane, p, i, X);
         free_ones += p->body[i] == tip->body && !(p->flag[i] & FLAG_DRIVEN) &&
                      crack_tip_plane_point_distance(X, ahead) <= REACH * h;
     }
     return wide > 0 && free_ones >= 2 * floor(wide);
 }
 
-/* Appends the segment from the position of tip number k to the point to[2] to the path of the cracks, l->path.
+/* Appends the segment from the position of tip number k to the point to[2] to the path of the cracks, cracks->path.
  * Coordinates are those in the plane in which the tips move [m]. */
-static void sif_path_add(struct sif_cracks *l, int k, const real *to)
+static void sif_path_add(struct sif_cracks *cracks, int k, const real *to)
 {
-    GROW("led.path", l->path, l->segments + 1);
-    struct path_segment *s = &l->path[l->segments++];
-    const struct sif_crack_tip *tip = &l->tip[k];
+    GROW("led.path", cracks->path, cracks->segments + 1);
+    struct path_segment *s = &cracks->path[cracks->segments++];
+    const struct sif_crack_tip *tip = &cracks->tip[k];
     *s = (struct path_segment){.tip = k};
     for (int d = 0; d < 2; d++) s->at[tip->reversed][d] = tip->position[d], s->at[!tip->reversed][d] = to[d];
 }

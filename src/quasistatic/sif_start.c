@@ -19,12 +19,12 @@ enum { ROW_LEAST = 4 }; /* particles of a row along the crack */
 /* Compares the tip with both ends of every pre-crack of the scene of l; an end within HERE spacings of the tip
  * coincides with it. Stores in tip->length_behind the largest length of the pre-cracks that end there [m], and sets
  * tip->reversed to true if such an end is the first corner of its pre-crack. */
-static void crack_behind_tip(const struct sif_cracks *l, struct sif_crack_tip *tip)
+static void crack_behind_tip(const struct sif_cracks *cracks, struct sif_crack_tip *tip)
 {
-    const struct scene *s = l->scene;
+    const struct scene *s = cracks->scene;
     for (int k = 0; k < s->cracks; k++) {
         real at[2][DIM_MAX] = {{0}};
-        crack_tip_plane_intersect_crack(&l->plane, &s->crack[k], at);
+        crack_tip_plane_intersect_crack(&cracks->plane, &s->crack[k], at);
         for (int end = 0; end < 2; end++) {
             if (crack_tip_plane_point_distance(at[end], tip->position) > HERE * s->spacing) continue;
             tip->length_behind = real_max(tip->length_behind, crack_tip_plane_point_distance(at[0], at[1]));
@@ -58,52 +58,52 @@ static bool tip_off_row(const struct crack_tip_plane *plane, const struct partic
     return true;
 }
 
-/* Creates in e->statics->sif the SIF-driven tips (directed by stress-intensity factors) of the pre-cracks of run e that
+/* Creates in run->statics->sif the SIF-driven tips (directed by stress-intensity factors) of the pre-cracks of run that
  * end in the body. */
-static void sif_tips_start(struct run *e)
+static void sif_tips_start(struct run *run)
 {
-    struct sif_cracks *l = &e->statics->sif;
-    const struct crack_tips *t = &e->fracture->tips;
-    l->known = true;
+    struct sif_cracks *cracks = &run->statics->sif;
+    const struct crack_tips *t = &run->fracture->tips;
+    cracks->known = true;
     for (int k = 0; k < t->n; k++) {
         const struct crack_tip *from = &t->tip[k];
         real position[2], along[2];
         if (!from->from_crack) continue;
-        struct sif_crack_tip *tip = &l->tip[l->n++];
+        struct sif_crack_tip *tip = &cracks->tip[cracks->n++];
         *tip = (struct sif_crack_tip){.body = from->body};
-        crack_tip_plane_project_point(&l->plane, from->origin, position);
-        crack_tip_plane_project_point(&l->plane, from->along, along);
+        crack_tip_plane_project_point(&cracks->plane, from->origin, position);
+        crack_tip_plane_project_point(&cracks->plane, from->along, along);
         for (int d = 0; d < 2; d++) {
             tip->start[d] = tip->position[d] = position[d];
             tip->along[d] = tip->heading[d] = tip->last[d] = along[d];
         }
-        crack_behind_tip(l, tip);
-        if (tip_off_row(&l->plane, &e->part, tip)) sif_tip_break_bonds_across_precrack_behind(e, tip);
+        crack_behind_tip(cracks, tip);
+        if (tip_off_row(&cracks->plane, &run->part, tip)) sif_tip_break_bonds_across_precrack_behind(run, tip);
     }
 }
 
-const char *sif_growth_reason_direction_undetermined(const struct run *e, struct crack_tip_plane *plane)
+const char *sif_growth_reason_direction_undetermined(const struct run *run, struct crack_tip_plane *plane)
 {
-    const struct scene *s = e->scene;
+    const struct scene *s = run->scene;
     struct crack_tip_plane unused;
     const bool one =
         s->bodies == 1 && s->materials == 1; /* the hoop-stress criterion ignores differences in toughness */
     if (!plane) plane = &unused;
     *plane = (struct crack_tip_plane){.made = true,
-                                      .dim = e->part.dim,
+                                      .dim = run->part.dim,
                                       .spacing = s->spacing,
                                       .section = scene_cross_section_or_thickness(s),
-                                      .body_mirrors = e->source.mirrors,
-                                      .body_mirror = e->source.mirror};
+                                      .body_mirrors = run->source.mirrors,
+                                      .body_mirror = run->source.mirror};
     if (s->steps.path == PATH_BONDS) return "steps.path is bonds";
     if (s->steps.path == PATH_AUTO && !one) return "the scene has several bodies or materials";
-    return crack_tip_plane_find_or_return_reason(plane, &e->fracture->tips, &e->tables.cracks, &e->part);
+    return crack_tip_plane_find_or_return_reason(plane, &run->fracture->tips, &run->tables.cracks, &run->part);
 }
 
-status sif_growth_check_direction_is_determinable(const struct run *e)
+status sif_growth_check_direction_is_determinable(const struct run *run)
 {
-    if (!scene_has_load_steps(e->scene) || e->scene->steps.path != PATH_HOOP || e->scene->dim != 3) return OK;
-    const char *fault = sif_growth_reason_direction_undetermined(e, NULL);
+    if (!scene_has_load_steps(run->scene) || run->scene->steps.path != PATH_HOOP || run->scene->dim != 3) return OK;
+    const char *fault = sif_growth_reason_direction_undetermined(run, NULL);
     return fault ? status_set(REFUSED,
                               "steps.path: hoop (crack growth by the hoop stress) needs straight, parallel crack "
                               "fronts through the whole body, but %s; set steps.path: bonds or auto",
@@ -111,14 +111,14 @@ status sif_growth_check_direction_is_determinable(const struct run *e)
                  : OK;
 }
 
-bool sif_cracks_find_tips_and_test_can_grow(struct run *e)
+bool sif_cracks_find_tips_and_test_can_grow(struct run *run)
 {
-    struct sif_cracks *l = &e->statics->sif;
-    l->scene = e->scene, l->source = &e->source;
-    if (!l->plane.made) l->fault = sif_growth_reason_direction_undetermined(e, &l->plane);
-    if (l->fault) return false;
-    if (!l->known) sif_tips_start(e);
-    for (int k = 0; k < l->n; k++)
-        if (!l->tip[k].ended) return true;
+    struct sif_cracks *cracks = &run->statics->sif;
+    cracks->scene = run->scene, cracks->source = &run->source;
+    if (!cracks->plane.made) cracks->fault = sif_growth_reason_direction_undetermined(run, &cracks->plane);
+    if (cracks->fault) return false;
+    if (!cracks->known) sif_tips_start(run);
+    for (int k = 0; k < cracks->n; k++)
+        if (!cracks->tip[k].ended) return true;
     return false;
 }

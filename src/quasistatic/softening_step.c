@@ -71,10 +71,10 @@ struct search {
  * the force function of the solver for this, which moves the particles; the forces are not used. */
 static void body_scale(const struct search *f, real factor)
 {
-    struct newton_solver *q = f->q;
-    for (int d = 0; d < q->dim; d++)
-        for (int64_t k = 0; k < q->n; k++) q->at.of[d][k] = factor * q->u.of[d][k];
-    q->force(q->context, &q->at, &q->z);
+    struct newton_solver *newton = f->q;
+    for (int d = 0; d < newton->dim; d++)
+        for (int64_t k = 0; k < newton->n; k++) newton->at.of[d][k] = factor * newton->u.of[d][k];
+    newton->force(newton->context, &newton->at, &newton->z);
 }
 
 /* Returns the factor on the present displacements [1] at which the next particle of the search f reaches its strength
@@ -114,24 +114,24 @@ static real secants_choose(struct search *f, real most, real least)
     return factor;
 }
 
-/* Returns the relative residual of solver q: the norm of the unbalanced forces at the displacements q->u of the last
- * solution, divided by q->scale, the force scale of the solver; 0 if the forces are round-off. Stores the forces in
- * q->f. Components that boundaries prescribe are left out. */
-static real residual_now(struct newton_solver *q)
+/* Returns the relative residual of solver newton: the norm of the unbalanced forces at the displacements newton->u of
+ * the last solution, divided by newton->scale, the force scale of the solver; 0 if the forces are round-off. Stores the
+ * forces in newton->f. Components that boundaries prescribe are left out. */
+static real residual_now(struct newton_solver *newton)
 {
     real sum = 0;
-    q->force(q->context, &q->u, &q->f);
-    for (int d = 0; d < q->dim; d++)
-        for (int64_t k = 0; k < q->n; k++) sum += q->held[k] >> d & 1 ? 0 : square(q->f.of[d][k]);
-    return sqrt(sum) > q->noise ? sqrt(sum) / q->scale : 0;
+    newton->force(newton->context, &newton->u, &newton->f);
+    for (int d = 0; d < newton->dim; d++)
+        for (int64_t k = 0; k < newton->n; k++) sum += newton->held[k] >> d & 1 ? 0 : square(newton->f.of[d][k]);
+    return sqrt(sum) > newton->noise ? sqrt(sum) / newton->scale : 0;
 }
 
 /* Sets the displacements of solver q to 0, those of bonds that soften, or press at a closed crack, without loads. They
  * need no iteration, in which all bonds would change between tension and compression at once. */
-static void body_unload(struct newton_solver *q)
+static void body_unload(struct newton_solver *newton)
 {
-    for (int d = 0; d < q->dim; d++)
-        for (int64_t k = 0; k < q->n; k++) q->u.of[d][k] = 0;
+    for (int d = 0; d < newton->dim; d++)
+        for (int64_t k = 0; k < newton->n; k++) newton->u.of[d][k] = 0;
 }
 
 /* Updates which ended bonds of the search f press at the present positions (bonds/closing.h), and discards what the
@@ -143,21 +143,22 @@ static void cracks_close_and_open(struct statics *s, const struct search *f)
     s->fragments_stale = true;
 }
 
-/* Finds the equilibrium that ends a load step of run e with softening bonds, by the search f. Repeats two parts: a
+/* Finds the equilibrium that ends a load step of run with softening bonds, by the search f. Repeats two parts: a
  * solution with fixed largest stretches of the bonds, which fix their stiffnesses, and a new choice of these stretches
  * from the solution (secants_choose). The tolerance of the solutions is reduced as the stretches converge. Returns
  * FAILED, with a message, if no equilibrium is found. */
-static status search_run(struct run *e, struct search *f)
+static status search_run(struct run *run, struct search *f)
 {
-    struct statics *s = e->statics;
+    struct statics *s = run->statics;
     const real lost = s->balance.lost, tolerance = s->balance.tolerance, enough = real_max(RESIDUAL_MOST, tolerance),
-               before = statics_norm_of_prescribed_loads(e, s->t);
+               before = statics_norm_of_prescribed_loads(run, s->t);
     real halved = 1;
     status found = OK;
     for (int k = 0, idle = 0; idle < ITERATIONS_MOST && found == OK; k++, idle++) {
-        const real size = statics_norm_of_prescribed_loads(e, s->t), last = statics_norm_of_prescribed_loads(e, f->end);
-        real *applied[DIM_MAX] = {0}, t = isfinite(f->spent) ? f->end / (real)e->clock.steps : f->end;
-        while (t < f->end && statics_norm_of_prescribed_loads(e, t) == 0)
+        const real size = statics_norm_of_prescribed_loads(run, s->t),
+                   last = statics_norm_of_prescribed_loads(run, f->end);
+        real *applied[DIM_MAX] = {0}, t = isfinite(f->spent) ? f->end / (real)run->clock.steps : f->end;
+        while (t < f->end && statics_norm_of_prescribed_loads(run, t) == 0)
             t = real_min(f->end, 2 * t); /* a small part of the loads, from which displacements can be scaled */
         f->residual = 1;
         if ((size > 0 && last > 0) || k > 0) {
@@ -166,20 +167,20 @@ static status search_run(struct run *e, struct search *f)
             f->residual = k > 0 ? residual_now(f->q) : 1;
             if (f->residual < 0.5 * halved) halved = f->residual, idle = 0;
             if (f->residual <= enough && fabs(factor - 1) <= FACTOR_ERROR) return OK;
-            t = f->at_end ? f->end : statics_find_pseudo_time_at_load_size(e, factor * size);
+            t = f->at_end ? f->end : statics_find_pseudo_time_at_load_size(run, factor * size);
         }
         if (last == 0 && t == f->end) body_unload(f->q);
-        applied_forces_allocate_and_copy(applied, s, &e->part);
+        applied_forces_allocate_and_copy(applied, s, &run->part);
         s->balance.tolerance = real_max(tolerance, real_min(SOLVED_LEAST, SOLVED_TO * f->residual));
-        found = equilibrium_solve_without_work_account(e, t, applied);
+        found = equilibrium_solve_without_work_account(run, t, applied);
         s->balance.tolerance = tolerance, s->balance.lost = lost;
-        for (int d = 0; d < e->part.dim; d++) memory_free(applied[d]);
+        for (int d = 0; d < run->part.dim; d++) memory_free(applied[d]);
     }
     TRY(found);
     return status_set(FAILED,
                       "load step %lld, t = %.6g s: no equilibrium found while bonds soften (the out-of-balance force "
                       "stays at %.3g of the load); use %s",
-                      (long long)e->clock.step + 1, s->t, f->residual,
+                      (long long)run->clock.step + 1, s->t, f->residual,
                       isfinite(f->spent) ? "a smaller steps.energy"
                                          : "steps.control: energy, which can follow a falling load");
 }
@@ -218,36 +219,36 @@ static void family_losses_add(struct bonds *b, const struct particles *p, const 
     for (int d = 0; d < p->dim; d++) memory_free(midway.x[d]), memory_free(end.x[d]);
 }
 
-/* Searches for the equilibrium that ends a load step of run e. spent: energy that bonds shall dissipate in the step
+/* Searches for the equilibrium that ends a load step of run. spent: energy that bonds shall dissipate in the step
  * [J]; INFINITY if the loads are those of pseudo-time t [s]. With given loads, work that exceeds the growth of
  * energies counts as lost in motion, which is not resolved. If the search fails, restores the state before it and
  * returns the status of the search: FAILED, with a message, if there is no equilibrium. */
-static status step_try(struct run *e, real t, real spent)
+static status step_try(struct run *run, real t, real spent)
 {
-    struct statics *s = e->statics;
+    struct statics *s = run->statics;
     struct memory_archive saved;
     struct work_account account;
-    struct search f = {&s->balance, &e->bonds, &e->part, &e->source, .spent = spent, .end = t};
-    trial_equilibrium_begin(e, &saved);
-    work_account_store_initial_equilibrium(&account, s, &e->part);
-    const real worked = e->loads.work + e->loads.constraint_work,
-               stored = e->kernels.bond_energy(&e->bonds, &e->part, NULL) + bonds_fracture_energy(&e->bonds);
-    const status found = search_run(e, &f);
+    struct search f = {&s->balance, &run->bonds, &run->part, &run->source, .spent = spent, .end = t};
+    trial_equilibrium_begin(run, &saved);
+    work_account_store_initial_equilibrium(&account, s, &run->part);
+    const real worked = run->loads.work + run->loads.constraint_work,
+               stored = run->kernels.bond_energy(&run->bonds, &run->part, NULL) + bonds_fracture_energy(&run->bonds);
+    const status found = search_run(run, &f);
     memory_free(f.list.bond);
     if (found != OK) {
         work_account_free(&account);
-        bonds_restore_softening_stretches_of_equilibrium(&e->bonds);
-        trial_equilibrium_end(e, &saved, false, NULL);
+        bonds_restore_softening_stretches_of_equilibrium(&run->bonds);
+        trial_equilibrium_end(run, &saved, false, NULL);
         cracks_close_and_open(s, &f);
         return found;
     }
-    trial_equilibrium_end(e, &saved, true, NULL);
-    family_losses_add(&e->bonds, &e->part, &e->loads, account.x);
-    work_account_add_work_and_estimate_error(&account, s, &e->part, &e->loads, 0);
-    const real lost = e->loads.work + e->loads.constraint_work - worked + stored -
-                      e->kernels.bond_energy(&e->bonds, &e->part, NULL) - bonds_fracture_energy(&e->bonds);
-    if (!isfinite(spent)) s->balance.lost += real_max(0, lost), e->damped += real_max(0, lost);
-    bonds_store_softening_stretches_of_equilibrium(&e->bonds, &e->part, &e->source.limit);
+    trial_equilibrium_end(run, &saved, true, NULL);
+    family_losses_add(&run->bonds, &run->part, &run->loads, account.x);
+    work_account_add_work_and_estimate_error(&account, s, &run->part, &run->loads, 0);
+    const real lost = run->loads.work + run->loads.constraint_work - worked + stored -
+                      run->kernels.bond_energy(&run->bonds, &run->part, NULL) - bonds_fracture_energy(&run->bonds);
+    if (!isfinite(spent)) s->balance.lost += real_max(0, lost), run->damped += real_max(0, lost);
+    bonds_store_softening_stretches_of_equilibrium(&run->bonds, &run->part, &run->source.limit);
     return OK;
 }
 
@@ -260,39 +261,40 @@ real softening_materials_least_toughness(const struct scene *s, const struct bon
     return least;
 }
 
-/* Makes one load step of run e, whose bonds soften. Under energy control the bonds dissipate a given energy in each
+/* Makes one load step of run, whose bonds soften. Under energy control the bonds dissipate a given energy in each
  * step; if no equilibrium is found, the step is repeated with a half, a quarter .. of it, in at most TRIES_MOST
  * attempts. The first step dissipates only the fraction FIRST_SHARE, since on a coarse lattice the loads may be largest
  * where bonds begin to soften. pseudo_time: end of the step under other controls [s]. Returns FAILED, with a message,
  * if no equilibrium is found. */
-status load_step_solve_with_softening_bonds(struct run *e, real pseudo_time)
+status load_step_solve_with_softening_bonds(struct run *run, real pseudo_time)
 {
-    struct statics *s = e->statics;
-    const real toughness = softening_materials_least_toughness(e->scene, &e->source), given = e->scene->steps.energy;
-    const real before = bonds_fracture_energy(&e->bonds);
-    const bool by_energy = e->scene->steps.control == CONTROL_ENERGY;
+    struct statics *s = run->statics;
+    const real toughness = softening_materials_least_toughness(run->scene, &run->source),
+               given = run->scene->steps.energy;
+    const real before = bonds_fracture_energy(&run->bonds);
+    const bool by_energy = run->scene->steps.control == CONTROL_ENERGY;
     int64_t ended = 0;
-    if (by_energy) pseudo_time = e->scene->duration;
+    if (by_energy) pseudo_time = run->scene->duration;
     real spent = !by_energy  ? INFINITY
                  : given > 0 ? given
-                             : STEP_SPACINGS * toughness * crack_area_of_growth_by_one_spacing(e);
+                             : STEP_SPACINGS * toughness * crack_area_of_growth_by_one_spacing(run);
     if (before == 0) spent *= FIRST_SHARE;
     do {
-        bonds_start_softening_at_strength_surface(&e->bonds, &e->part, &e->source);
-        bonds_store_softening_stretches_of_equilibrium(&e->bonds, &e->part, &e->source.limit);
-        status tried = step_try(e, pseudo_time, spent);
+        bonds_start_softening_at_strength_surface(&run->bonds, &run->part, &run->source);
+        bonds_store_softening_stretches_of_equilibrium(&run->bonds, &run->part, &run->source.limit);
+        status tried = step_try(run, pseudo_time, spent);
         for (int k = 1; k < TRIES_MOST && tried == FAILED && by_energy; k++, spent *= 0.5)
-            tried = step_try(e, pseudo_time, 0.5 * spent);
+            tried = step_try(run, pseudo_time, 0.5 * spent);
         TRY(tried);
-        ended += bonds_end_softened(&e->bonds, &e->part);
+        ended += bonds_end_softened(&run->bonds, &run->part);
         s->precondition_stale = true, s->fragments_stale |= ended > 0;
-        reactions_compute_and_store(s, &e->part, &e->loads);
+        reactions_compute_and_store(s, &run->part, &run->loads);
         s->solutions++;
     } while (!by_energy && s->t < pseudo_time);
-    s->record.broken += (bonds_fracture_energy(&e->bonds) - before) / toughness;
-    s->stretch_ratio = bonds_largest_stretch_ratio(&e->bonds, &e->part, &e->source.limit);
-    const real size = statics_norm_of_prescribed_loads(e, s->t);
+    s->record.broken += (bonds_fracture_energy(&run->bonds) - before) / toughness;
+    s->stretch_ratio = bonds_largest_stretch_ratio(&run->bonds, &run->part, &run->source.limit);
+    const real size = statics_norm_of_prescribed_loads(run, s->t);
     s->record.load_most = real_max(s->record.load_most, size);
     s->severs = by_energy && size < THROUGH * s->record.load_most;
-    return equilibrium_convert_points_to_pd_and_solve_again(e, ended);
+    return equilibrium_convert_points_to_pd_and_solve_again(run, ended);
 }

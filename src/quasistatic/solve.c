@@ -14,35 +14,35 @@
 #include "step/sample.h"
 #include "loads/mirrors.h"
 
-/* Returns what the solvers of a static equilibrium need of run e: pointers to its particles, bonds and loads, which the
- * solvers change, and its force function, materials, spacing and tolerance. */
-static struct static_body static_body_of(struct run *e)
+/* Returns what the solvers of a static equilibrium need of run run: pointers to its particles, bonds and loads, which
+ * the solvers change, and its force function, materials, spacing and tolerance. */
+static struct static_body static_body_of(struct run *run)
 {
-    return (struct static_body){&e->part,
-                                &e->bonds,
-                                &e->loads,
-                                e->kernels.bond_force,
-                                e->scene->material,
-                                e->scene->spacing,
-                                e->scene->solver_tolerance,
-                                e->scene->bodies};
+    return (struct static_body){&run->part,
+                                &run->bonds,
+                                &run->loads,
+                                run->kernels.bond_force,
+                                run->scene->material,
+                                run->scene->spacing,
+                                run->scene->solver_tolerance,
+                                run->scene->bodies};
 }
 
-status run_make_single_equilibrium_solver(struct run *e)
+status run_make_single_equilibrium_solver(struct run *run)
 {
-    const struct scene *s = e->scene;
-    const struct static_body body = static_body_of(e);
+    const struct scene *s = run->scene;
+    const struct static_body body = static_body_of(run);
     const real ramp_time = s->method == METHOD_PD
                                ? 1
-                               : grid_relaxation_ramp_time(particles_bounding_box_longest_edge(&e->part) + s->spacing,
-                                                           e->tables.wave_speed, e->clock.dt);
-    static_boundaries_make_from_dynamic(e->boundary, s->boundary, s->boundaries, s->duration, ramp_time);
-    TRY(static_solver_make(e->solver, &body, ramp_time));
+                               : grid_relaxation_ramp_time(particles_bounding_box_longest_edge(&run->part) + s->spacing,
+                                                           run->tables.wave_speed, run->clock.dt);
+    static_boundaries_make_from_dynamic(run->boundary, s->boundary, s->boundaries, s->duration, ramp_time);
+    TRY(static_solver_make(run->solver, &body, ramp_time));
     if (s->method == METHOD_PD)
-        static_solver_make_iteration_vectors(e->solver, &body, s->solver == SOLVER_CG);
+        static_solver_make_iteration_vectors(run->solver, &body, s->solver == SOLVER_CG);
     else
-        for (int b = 0; b < e->loads.n; b++) /* the time steps on the grid add it up */
-            memset(e->loads.load[b].displacement, 0, sizeof e->loads.load[b].displacement);
+        for (int b = 0; b < run->loads.n; b++) /* the time steps on the grid add it up */
+            memset(run->loads.load[b].displacement, 0, sizeof run->loads.load[b].displacement);
     return OK;
 }
 
@@ -195,29 +195,29 @@ static void warn_of_closed_faces(const struct scene *s, const struct particles *
     warnings_add_and_print(to, text);
 }
 
-/* Completes the static solution of run e: sets velocities to 0 and the time to the end of the duration, and updates
+/* Completes the static solution of run run: sets velocities to 0 and the time to the end of the duration, and updates
  * work, stresses, probes and warnings. */
-static void solver_finish(struct run *e)
+static void solver_finish(struct run *run)
 {
-    struct particles *p = &e->part;
-    const struct bond_limit limit = {.critical_stretch = e->tables.pair_stretch, .materials = e->scene->materials};
+    struct particles *p = &run->part;
+    const struct bond_limit limit = {.critical_stretch = run->tables.pair_stretch, .materials = run->scene->materials};
     for (int d = 0; d < p->dim; d++) array_fill_bytes(p->v[d], 0, p->n_all, sizeof(real));
-    for (int k = 0; k < p->dim * p->dim && (e->optional & WITH_GRADIENT); k++)
+    for (int k = 0; k < p->dim * p->dim && (run->optional & WITH_GRADIENT); k++)
         array_fill_bytes(p->gradient[k], 0, p->n_all, sizeof(real));
-    loads_update_mirror_images(&e->loads, p);
-    loads_compute_static_work(&e->loads, p);
-    memset(e->loads.impulse, 0, sizeof e->loads.impulse);
-    e->clock.t = e->scene->duration;
-    e->clock.steps = e->clock.step;
-    e->report->sampling.due = false;
-    e->report->sampling.kinetic = 0, e->report->sampling.constraint_work = e->loads.constraint_work;
-    run_update_break_and_reaction_probes(e);
-    e->solver->past_limit = bonds_past_limit(&e->bonds, p, &limit);
-    warn_past_limit(&e->warnings, e->solver->past_limit);
-    bonds_compute_particle_stress(&e->bonds, &e->part, &e->source, &e->kernels);
-    warn_large_strain(&e->warnings, p, e->scene->material);
-    warn_of_closed_faces(e->scene, p, &e->source, &e->warnings);
-    if (e->scene->solver == SOLVER_CG) warn_large_rotation(&e->warnings, &e->bonds, p);
+    loads_update_mirror_images(&run->loads, p);
+    loads_compute_static_work(&run->loads, p);
+    memset(run->loads.impulse, 0, sizeof run->loads.impulse);
+    run->clock.t = run->scene->duration;
+    run->clock.steps = run->clock.step;
+    run->report->sampling.due = false;
+    run->report->sampling.kinetic = 0, run->report->sampling.constraint_work = run->loads.constraint_work;
+    run_update_break_and_reaction_probes(run);
+    run->solver->past_limit = bonds_past_limit(&run->bonds, p, &limit);
+    warn_past_limit(&run->warnings, run->solver->past_limit);
+    bonds_compute_particle_stress(&run->bonds, &run->part, &run->source, &run->kernels);
+    warn_large_strain(&run->warnings, p, run->scene->material);
+    warn_of_closed_faces(run->scene, p, &run->source, &run->warnings);
+    if (run->scene->solver == SOLVER_CG) warn_large_rotation(&run->warnings, &run->bonds, p);
 }
 
 /* Sets the error that the solver s found no equilibrium, with a message that contains the reason. tolerance: required
@@ -241,15 +241,15 @@ static status not_converged(const struct static_solver *s, real tolerance, int64
         (long long)step, s->residual, tolerance);
 }
 
-/* Makes one iteration of the solver of run e for bonds, or one damped time step on the grid. *done: set to true at
+/* Makes one iteration of the solver of run for bonds, or one damped time step on the grid. *done: set to true at
  * equilibrium. Returns FAILED, with a message, if the step fails. */
-static status solve_step(struct run *e, bool *done)
+static status solve_step(struct run *run, bool *done)
 {
-    const struct static_body body = static_body_of(e);
-    if (e->scene->method != METHOD_PD) return grid_relaxation_step(e, done);
-    TRY((e->scene->solver == SOLVER_CG ? cg_step : relaxation_step)(e->solver, &body, e->clock.step, done));
-    timer_add_elapsed_to_section(&e->timers, TIMER_BONDS);
-    e->clock.step++;
+    const struct static_body body = static_body_of(run);
+    if (run->scene->method != METHOD_PD) return grid_relaxation_step(run, done);
+    TRY((run->scene->solver == SOLVER_CG ? cg_step : relaxation_step)(run->solver, &body, run->clock.step, done));
+    timer_add_elapsed_to_section(&run->timers, TIMER_BONDS);
+    run->clock.step++;
     return OK;
 }
 
@@ -260,20 +260,20 @@ static void solve_start(struct static_solver *s, const struct particles *p)
     for (int d = 0; d < p->dim; d++) array_copy(s->before.of[d], p->f[d], p->n, sizeof(real));
 }
 
-status run_solve_single_equilibrium(struct run *e)
+status run_solve_single_equilibrium(struct run *run)
 {
-    TRY(report_open_history_and_write_first_frame(e));
-    timers_start(&e->timers);
-    if (e->scene->method == METHOD_PD && e->clock.step == 0) history_sample_write_in_equilibrium(e);
-    if (e->scene->method == METHOD_PD) solve_start(e->solver, &e->part);
-    while (e->clock.step < e->clock.steps) {
+    TRY(report_open_history_and_write_first_frame(run));
+    timers_start(&run->timers);
+    if (run->scene->method == METHOD_PD && run->clock.step == 0) history_sample_write_in_equilibrium(run);
+    if (run->scene->method == METHOD_PD) solve_start(run->solver, &run->part);
+    while (run->clock.step < run->clock.steps) {
         bool done = false;
-        TRY(solve_step(e, &done));
+        TRY(solve_step(run, &done));
         if (done)
-            solver_finish(e);
-        else if (e->clock.step >= e->clock.steps || isnan(e->solver->residual))
-            return not_converged(e->solver, e->scene->solver_tolerance, e->clock.step);
-        TRY(report_write_outputs_due_after_step(e));
+            solver_finish(run);
+        else if (run->clock.step >= run->clock.steps || isnan(run->solver->residual))
+            return not_converged(run->solver, run->scene->solver_tolerance, run->clock.step);
+        TRY(report_write_outputs_due_after_step(run));
     }
-    return report_write_last_checkpoint_and_finish(e);
+    return report_write_last_checkpoint_and_finish(run);
 }

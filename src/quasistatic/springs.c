@@ -246,20 +246,20 @@ static void matrix_scale(struct block_matrix *a)
     for (int64_t k = 0; k < n && most > 0; k++) a->block[k] /= most;
 }
 
-/* Returns the stiffness matrix of the present bonds, cells and contacts of run e, divided by its largest entry.
+/* Returns the stiffness matrix of the present bonds, cells and contacts of run, divided by its largest entry.
  * statics_preconditioner_free frees it. */
-static struct block_matrix *matrix_make(const struct run *e)
+static struct block_matrix *matrix_make(const struct run *run)
 {
-    const struct statics *s = e->statics;
-    const struct mesh *mesh = &e->frame->mesh;
+    const struct statics *s = run->statics;
+    const struct mesh *mesh = &run->frame->mesh;
     const int64_t nodes = mesh->points > 0 ? mesh->grid.n : 0;
-    int32_t *particle_at = BARE("springs.particle_at", e->part.n, int32_t);
+    int32_t *particle_at = BARE("springs.particle_at", run->part.n, int32_t);
     int32_t *node_at = BARE("springs.node_at", nodes, int32_t);
     int8_t(*sign)[DIM_MAX] =
         mesh->points > 0 && mesh->grid.mirror_nodes > 0 ? memory_new("springs.sign", nodes, sizeof *sign) : NULL;
     struct block_matrix *a = NEW("springs.matrix", 1, struct block_matrix);
-    a->dim = e->part.dim, a->n = s->balance.n;
-    array_fill_bytes(particle_at, -1, e->part.n, sizeof *particle_at);
+    a->dim = run->part.dim, a->n = s->balance.n;
+    array_fill_bytes(particle_at, -1, run->part.n, sizeof *particle_at);
     array_fill_bytes(node_at, -1, nodes, sizeof *node_at);
     for (int64_t k = 0; k < a->n; k++) (k < s->particles ? particle_at : node_at)[s->node[k]] = (int32_t)k;
     for (int64_t I = 0; sign && I < nodes; I++) memset(sign[I], 1, sizeof sign[I]);
@@ -268,7 +268,7 @@ static struct block_matrix *matrix_make(const struct run *e)
         node_at[m->node] = node_at[m->image];
         memcpy(sign[m->node], m->sign, sizeof m->sign);
     }
-    struct springs springs = {e, particle_at, node_at, (const int8_t(*)[DIM_MAX])sign, a, NULL};
+    struct springs springs = {run, particle_at, node_at, (const int8_t(*)[DIM_MAX])sign, a, NULL};
     matrix_fill(&springs);
     matrix_scale(a);
     memory_free(particle_at);
@@ -292,19 +292,19 @@ void statics_preconditioner_free(struct statics *s)
     s->matrix = NULL;
 }
 
-void statics_preconditioner_make(struct run *e)
+void statics_preconditioner_make(struct run *run)
 {
-    struct statics *s = e->statics;
+    struct statics *s = run->statics;
     real *place[DIM_MAX] = {0};
-    s->matrix = matrix_make(e);
-    for (int d = 0; d < e->part.dim; d++) place[d] = BARE("springs.place", s->balance.n, real);
+    s->matrix = matrix_make(run);
+    for (int d = 0; d < run->part.dim; d++) place[d] = BARE("springs.place", s->balance.n, real);
     for (int64_t k = 0; k < s->balance.n; k++) {
         real X[DIM_MAX];
-        unknown_compute_reference_position(s, &e->part, &e->frame->mesh, k, X);
-        for (int d = 0; d < e->part.dim; d++) place[d][k] = X[d];
+        unknown_compute_reference_position(s, &run->part, &run->frame->mesh, k, X);
+        for (int d = 0; d < run->part.dim; d++) place[d][k] = X[d];
     }
     multigrid_make(&s->precondition, s->matrix, place, s->balance.held);
-    for (int d = 0; d < e->part.dim; d++) memory_free(place[d]);
+    for (int d = 0; d < run->part.dim; d++) memory_free(place[d]);
     s->directions = 0, s->precondition_stale = false;
 }
 

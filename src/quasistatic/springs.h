@@ -13,8 +13,8 @@
 void statics_preconditioner_apply(void *run, const struct field *residual, struct field *result);
 
 /* Makes the multigrid preconditioner from the stiffness of the present bonds, cells and contacts, and stores it in
- * e->statics. */
-void statics_preconditioner_make(struct run *e);
+ * run->statics. */
+void statics_preconditioner_make(struct run *run);
 
 /* Frees the preconditioner of s, so that the next use makes a new one, if bonds that have broken since it was made have
  * made it inefficient. search_directions: number of search directions of the last solution; the limit is 1.5 times the

@@ -35,18 +35,20 @@ static status statics_list_archive(struct break_list *l, const struct bonds *bon
 /* Saves the tips of SIF-driven cracks (directed by stress-intensity factors) and the path of these cracks in l to the
  * archive a if a->saving is true, else restores them. Returns FAILED, with a message, if the archive cannot be written
  * or lacks them. */
-static status sif_archive(struct sif_cracks *l, struct archive *a)
+static status sif_archive(struct sif_cracks *cracks, struct archive *a)
 {
-    ARCHIVE_VALUE(a, "statics/led", l->known);
-    ARCHIVE_VALUE(a, "statics/led_n", l->n);
-    ARCHIVE_VALUE(a, "statics/led_tips", l->tip);
-    ARCHIVE_VALUE(a, "statics/led_tried", l->tried);
-    ARCHIVE_VALUE(a, "statics/led_stretches", l->segments);
-    if (!a->saving && l->segments > 0) {
-        memory_free(l->path);
-        l->path = NEW("led.path", l->segments, struct path_segment);
+    ARCHIVE_VALUE(a, "statics/led", cracks->known);
+    ARCHIVE_VALUE(a, "statics/led_n", cracks->n);
+    ARCHIVE_VALUE(a, "statics/led_tips", cracks->tip);
+    ARCHIVE_VALUE(a, "statics/led_tried", cracks->tried);
+    ARCHIVE_VALUE(a, "statics/led_stretches", cracks->segments);
+    if (!a->saving && cracks->segments > 0) {
+        memory_free(cracks->path);
+        cracks->path = NEW("led.path", cracks->segments, struct path_segment);
     }
-    return l->segments > 0 ? a->exchange(a, "statics/led_path", l->path, (size_t)l->segments * sizeof *l->path) : OK;
+    return cracks->segments > 0
+               ? a->exchange(a, "statics/led_path", cracks->path, (size_t)cracks->segments * sizeof *cracks->path)
+               : OK;
 }
 
 /* Saves the next crack increment of s and the tips of SIF-driven cracks (directed by stress-intensity factors) to the
@@ -69,14 +71,14 @@ static status increment_archive(struct statics *s, struct bonds *b, struct archi
  * lacks an entry. */
 static status search_archive(struct statics *s, struct run_clock *clock, struct archive *a)
 {
-    struct newton_solver *q = &s->balance;
-    ARCHIVE_VALUE(a, "statics/largest", q->largest);
-    ARCHIVE_VALUE(a, "statics/strain_ratio", q->strain_ratio);
-    ARCHIVE_VALUE(a, "statics/noise", q->noise);
+    struct newton_solver *newton = &s->balance;
+    ARCHIVE_VALUE(a, "statics/largest", newton->largest);
+    ARCHIVE_VALUE(a, "statics/strain_ratio", newton->strain_ratio);
+    ARCHIVE_VALUE(a, "statics/noise", newton->noise);
     s->kept = s->precondition && !s->precondition_stale;
     ARCHIVE_VALUE(a, "statics/kept", s->kept);
-    ARCHIVE_VALUE(a, "statics/forces", q->forces);
-    ARCHIVE_VALUE(a, "statics/directions", q->directions);
+    ARCHIVE_VALUE(a, "statics/forces", newton->forces);
+    ARCHIVE_VALUE(a, "statics/directions", newton->directions);
     ARCHIVE_VALUE(a, "statics/solutions", s->solutions);
     ARCHIVE_VALUE(a, "statics/record", s->record);
     ARCHIVE_VALUE(a, "statics/turn", s->turn);
@@ -85,29 +87,29 @@ static status search_archive(struct statics *s, struct run_clock *clock, struct 
     return OK;
 }
 
-status load_steps_save_or_load_state(struct run *e, struct archive *a)
+status load_steps_save_or_load_state(struct run *run, struct archive *a)
 {
-    struct statics *s = e->statics;
-    struct newton_solver *q = &s->balance;
+    struct statics *s = run->statics;
+    struct newton_solver *newton = &s->balance;
     const bool whole = a->scope == ARCHIVE_ALL;
-    if (!scene_has_load_steps(e->scene)) return OK;
-    if (whole && (!a->saving || !s->node)) statics_equation_system_free(s), statics_equation_system_make(e);
-    for (int d = 0; d < e->part.dim; d++) {
+    if (!scene_has_load_steps(run->scene)) return OK;
+    if (whole && (!a->saving || !s->node)) statics_equation_system_free(s), statics_equation_system_make(run);
+    for (int d = 0; d < run->part.dim; d++) {
         char name[48];
         snprintf(name, sizeof name, "statics/u%d", d);
-        TRY(a->exchange(a, name, q->u.of[d], (size_t)q->n * sizeof(real)));
+        TRY(a->exchange(a, name, newton->u.of[d], (size_t)newton->n * sizeof(real)));
         snprintf(name, sizeof name, "statics/f%d", d);
-        TRY(a->exchange(a, name, q->f.of[d], (size_t)q->n * sizeof(real)));
+        TRY(a->exchange(a, name, newton->f.of[d], (size_t)newton->n * sizeof(real)));
     }
     ARCHIVE_VALUE(a, "statics/t", s->t);
     ARCHIVE_VALUE(a, "statics/touches", s->in_contact);
     ARCHIVE_VALUE(a, "statics/overload", s->stretch_ratio);
-    if (whole) TRY(increment_archive(s, &e->bonds, a));
-    ARCHIVE_VALUE(a, "statics/lost", q->lost);
-    if (whole) TRY(search_archive(s, &e->clock, a));
-    if (!a->saving) applied_forces_compute(s, &e->part, &e->loads, s->t);
-    if (!a->saving && whole && e->bonds.soft.curve)
-        bonds_store_softening_stretches_of_equilibrium(&e->bonds, &e->part, &e->source.limit);
-    if (!a->saving && whole) plastic_state_save(&e->statics->plastic, &e->bonds, &e->part, e->optional);
+    if (whole) TRY(increment_archive(s, &run->bonds, a));
+    ARCHIVE_VALUE(a, "statics/lost", newton->lost);
+    if (whole) TRY(search_archive(s, &run->clock, a));
+    if (!a->saving) applied_forces_compute(s, &run->part, &run->loads, s->t);
+    if (!a->saving && whole && run->bonds.soft.curve)
+        bonds_store_softening_stretches_of_equilibrium(&run->bonds, &run->part, &run->source.limit);
+    if (!a->saving && whole) plastic_state_save(&run->statics->plastic, &run->bonds, &run->part, run->optional);
     return OK;
 }

@@ -13,8 +13,8 @@
 #include "probes/diagnostics.h"
 #include "solver/solver.h"
 
-/* Frees the state of load steps of run e. It is the callback `free` of struct part. */
-static void statics_free_all(struct run *e) { statics_free(e->statics), sif_cracks_free(&e->statics->sif); }
+/* Frees the state of load steps of run. It is the callback `free` of struct part. */
+static void statics_free_all(struct run *run) { statics_free(run->statics), sif_cracks_free(&run->statics->sif); }
 
 #define STEP_SPACINGS_MOST 0.5 /* growth of a crack in a load step without a warning [spacings] */
 #define ALIKE 1.05     /* ratio up to which two such growths count as equal: lattices spend 1 to 4 % less than G_c */
@@ -59,15 +59,15 @@ static void warn_of_large_steps(const struct scene *s, real of_spacing, struct w
 }
 
 /* Adds warnings to *to. In load steps it warns of bonds that yield, and of steps that dissipate too much energy; for a
- * single equilibrium, of keys of the input file (scene) of run e that the solution ignores or treats differently. It is
+ * single equilibrium, of keys of the input file (scene) of run that the solution ignores or treats differently. It is
  * the callback `warn` of struct part. */
-static void warn_of_solver(const struct run *e, struct warnings *to)
+static void warn_of_solver(const struct run *run, struct warnings *to)
 {
-    const struct scene *s = e->scene;
-    if (scene_has_load_steps(s)) warn_of_yielding_bonds(s, &e->source.family, to);
-    if (scene_has_load_steps(s) && e->bonds.soft.curve)
+    const struct scene *s = run->scene;
+    if (scene_has_load_steps(s)) warn_of_yielding_bonds(s, &run->source.family, to);
+    if (scene_has_load_steps(s) && run->bonds.soft.curve)
         warn_of_large_steps(
-            s, softening_materials_least_toughness(s, &e->source) * crack_area_of_growth_by_one_spacing(e), to);
+            s, softening_materials_least_toughness(s, &run->source) * crack_area_of_growth_by_one_spacing(run), to);
     if (!scene_is_single_equilibrium(s)) return;
     for (int k = 0; k < s->initials; k++)
         if (s->initial[k].sets_velocity || s->initial[k].sets_pulse)
@@ -83,7 +83,7 @@ static void warn_of_solver(const struct run *e, struct warnings *to)
         warnings_add_if_new(
             to, "bodies have no contact in a static equilibrium: they pass through each other where gaps close; for "
                 "contact use load steps (solver: static); if no gap closes, add accept: [contact]");
-    if (e->solver->applied == 0 && field_largest_absolute_component(&e->solver->driven, s->dim, e->part.n) == 0)
+    if (run->solver->applied == 0 && field_largest_absolute_component(&run->solver->driven, s->dim, run->part.n) == 0)
         warnings_add_if_new(
             to,
             "nothing loads the body at t = %.4g s, the end of the duration, and this solver applies the loads of that "
@@ -91,23 +91,23 @@ static void warn_of_solver(const struct run *e, struct warnings *to)
             s->duration);
 }
 
-/* Writes the results of load steps of run e to the summary j: control, steps, equilibria, energy released. Does nothing
+/* Writes the results of load steps of run to the summary j: control, steps, equilibria, energy released. Does nothing
  * for other runs. It is the callback `summary` of struct part. */
-static void put_load_steps(const struct run *e, struct json *j)
+static void put_load_steps(const struct run *run, struct json *j)
 {
     static const char *const control[] = {
         [CONTROL_LOAD] = "load", [CONTROL_ENERGY] = "energy", [CONTROL_OPENING] = "opening"};
-    const struct statics *s = e->statics;
-    if (!scene_has_load_steps(e->scene)) return;
+    const struct statics *s = run->statics;
+    if (!scene_has_load_steps(run->scene)) return;
     json_begin_object_or_list(j, "load_steps", '{');
-    json_write_text(j, "control", control[e->scene->steps.control]);
-    json_write_integer(j, "steps", e->clock.step);
+    json_write_text(j, "control", control[run->scene->steps.control]);
+    json_write_integer(j, "steps", run->clock.step);
     json_write_real(j, "load_time", s->t);
     json_write_integer(j, "equilibria", s->solutions);
     json_write_integer(j, "search_directions", s->balance.directions);
     json_write_real(j, "stretch_ratio", s->stretch_ratio);
-    if (e->part.plastic_correction[0]) json_write_real(j, "flow_turn", s->turn.angle);
-    json_write_integer(j, "bonds_broken", e->diagnostics->bonds_broken / 2);
+    if (run->part.plastic_correction[0]) json_write_real(j, "flow_turn", s->turn.angle);
+    json_write_integer(j, "bonds_broken", run->diagnostics->bonds_broken / 2);
     json_write_real(j, "released", s->record.released);
     json_write_real(j, "crack_area", s->record.face);
     json_write_real(j, "release_rate", s->record.area > 0 ? s->record.released / s->record.area : NAN);

@@ -18,7 +18,7 @@
 
 enum { STATICS_COLUMNS = 13 }; /* number of columns of load steps in history.csv; one less in 2D */
 
-int statics_list_history_columns(const struct run *e, struct column *column)
+int statics_list_history_columns(const struct run *run, struct column *column)
 {
     static const struct column own[STATICS_COLUMNS] = {{"load_time", "s"},
                                                        {"stretch_ratio", ""},
@@ -33,8 +33,8 @@ int statics_list_history_columns(const struct run *e, struct column *column)
                                                        {"path_x", "m"},
                                                        {"path_y", "m"},
                                                        {"path_z", "m"}};
-    if (!scene_has_load_steps(e->scene)) return 0;
-    const int n = STATICS_COLUMNS - (e->part.dim < 3);
+    if (!scene_has_load_steps(run->scene)) return 0;
+    const int n = STATICS_COLUMNS - (run->part.dim < 3);
     if (column) array_copy(column, own, n, sizeof *own);
     return n;
 }
@@ -70,42 +70,44 @@ static real damage_beside_cut(const struct scene *s)
 /* Returns the crack area along the paths of the SIF-driven tips l (directed by stress-intensity factors), summed over
  * the segments [m^2]. Of the result, `own` is the area in the modelled body, `face` the area of the whole crack faces,
  * twice as large for segments on planes of symmetry, which cut off half. p: particles, for the width of the body. */
-static struct crack_area sif_paths_area(const struct sif_cracks *l, const struct particles *p)
+static struct crack_area sif_paths_area(const struct sif_cracks *cracks, const struct particles *p)
 {
     struct crack_area area = {0};
-    for (int64_t k = 0; k < l->segments; k++) {
-        const real *from = l->path[k].at[0], *to = l->path[k].at[1];
-        const real own = crack_tip_plane_crack_area(&l->plane, p, from, to);
-        area.own += own, area.face += own * (crack_tip_plane_segment_is_on_symmetry_plane(&l->plane, from, to) ? 2 : 1);
+    for (int64_t k = 0; k < cracks->segments; k++) {
+        const real *from = cracks->path[k].at[0], *to = cracks->path[k].at[1];
+        const real own = crack_tip_plane_crack_area(&cracks->plane, p, from, to);
+        area.own += own,
+            area.face += own * (crack_tip_plane_segment_is_on_symmetry_plane(&cracks->plane, from, to) ? 2 : 1);
     }
     return area;
 }
 
-/* Updates in e->statics->record the crack area, the released energy and the energy release rate, a quotient of
+/* Updates in run->statics->record the crack area, the released energy and the energy release rate, a quotient of
  * differences over the last one to two growths of the crack. The area follows from the paths of SIF-driven tips
  * (directed by stress-intensity factors), unless damaged particles indicate more than 1.5 spacings of further growth.
  * Without such tips it follows from damaged particles, in 3D from broken bonds, in a bar from its cuts. Areas from
  * damaged particles change in steps of one spacing, so that a growth then has GROWTH spacings. A load step without
  * growth leaves the rate unchanged. */
-static void measure(struct run *e)
+static void measure(struct run *run)
 {
-    const struct statics *s = e->statics;
-    struct steps_record *r = &e->statics->record;
-    const real section = scene_cross_section_or_thickness(e->scene);
-    const struct tip_surroundings around = {e->source.mirror, e->source.mirrors, section,
-                                            0.5 * damage_beside_cut(e->scene)};
-    const struct crack_area path = sif_paths_area(&s->sif, &e->part);
-    const real spacing = growth_by_spacing(&e->fracture->tips, section);
-    const bool solid = e->part.dim == 3 && path.own == 0;
-    const struct crack_area bonds = {r->broken /
-                                         crack_area_fraction_inside_modelled_body(&e->fracture->tips, &e->source, -1),
+    const struct statics *s = run->statics;
+    struct steps_record *r = &run->statics->record;
+    const real section = scene_cross_section_or_thickness(run->scene);
+    const struct tip_surroundings around = {run->source.mirror, run->source.mirrors, section,
+                                            0.5 * damage_beside_cut(run->scene)};
+    const struct crack_area path = sif_paths_area(&s->sif, &run->part);
+    const real spacing = growth_by_spacing(&run->fracture->tips, section);
+    const bool solid = run->part.dim == 3 && path.own == 0;
+    const struct crack_area bonds = {r->broken / crack_area_fraction_inside_modelled_body(&run->fracture->tips,
+                                                                                          &run->source, -1),
                                      r->broken},
-                            damaged = solid              ? bonds
-                                      : e->part.dim == 1 ? bar_total_crack_area(&e->bonds, &e->part, section)
-                                                         : tips_total_crack_area(&e->fracture->tips, &e->part, &around);
+                            damaged = solid ? bonds
+                                      : run->part.dim == 1
+                                          ? bar_total_crack_area(&run->bonds, &run->part, section)
+                                          : tips_total_crack_area(&run->fracture->tips, &run->part, &around);
     const bool by_path = path.own > 0 && damaged.own <= path.own + 1.5 * spacing;
     const real area = by_path ? path.own : damaged.own, growth = by_path || solid ? 0 : GROWTH * spacing;
-    r->released = statics_energy_released_since_start(s, &e->bonds);
+    r->released = statics_energy_released_since_start(s, &run->bonds);
     if (!(area > r->area)) return;
     r->area = area, r->face = by_path ? path.face : damaged.face;
     r->rate = (r->released - r->mark[0].released) / (area - r->mark[0].area);
@@ -114,13 +116,13 @@ static void measure(struct run *e)
     r->mark[1] = (struct release_mark){area, r->released};
 }
 
-void statics_compute_history_values(struct run *e, real *record)
+void statics_compute_history_values(struct run *run, real *record)
 {
-    const struct statics *s = e->statics;
+    const struct statics *s = run->statics;
     real place[DIM_MAX];
-    if (!scene_has_load_steps(e->scene)) return;
-    measure(e);
-    const real rate = s->record.area > 0 ? s->record.rate : NAN, bonds = 0.5 * (real)e->diagnostics->bonds_broken;
+    if (!scene_has_load_steps(run->scene)) return;
+    measure(run);
+    const real rate = s->record.area > 0 ? s->record.rate : NAN, bonds = 0.5 * (real)run->diagnostics->bonds_broken;
     const real own[STATICS_COLUMNS - MODES - DIM_MAX] = {s->t,
                                                          s->stretch_ratio,
                                                          s->record.released,
@@ -130,10 +132,10 @@ void statics_compute_history_values(struct run *e, real *record)
                                                          (real)(s->balance.directions - s->record.directions),
                                                          (real)(s->solutions - s->record.solutions)};
     memcpy(record, own, sizeof own);
-    sif_leading_tip_compute_intensity_factors(&s->sif, &e->part, crack_faces_are_in_contact(e->contact),
+    sif_leading_tip_compute_intensity_factors(&s->sif, &run->part, crack_faces_are_in_contact(run->contact),
                                               record + COUNT_OF(own));
     sif_leading_tip_compute_position(&s->sif, place);
-    array_copy(record + COUNT_OF(own) + MODES, place, e->part.dim < 3 ? 2 : 3, sizeof *place);
+    array_copy(record + COUNT_OF(own) + MODES, place, run->part.dim < 3 ? 2 : 3, sizeof *place);
 }
 
 void statics_reset_solver_counts_for_history(struct statics *s)

@@ -169,33 +169,33 @@ static void bond_record_break(struct bonds *b, struct particles *p, struct bond_
     bond_break_entry(b, p, &limit, record->row, record->entry);
 }
 
-/* Breaks the bonds of run e with the largest ratios of stretch to critical stretch, and appends them to the list of the
+/* Breaks the bonds of run with the largest ratios of stretch to critical stretch, and appends them to the list of the
  * next crack increment: at most about max_pairs bonds, with ratios within the fraction `ratio_tolerance` of the largest
  * one. Adds their energy at the critical stretch to *added_energy [J] and their crack area to *added_crack_area [m^2].
  * The energy that state-based models lose is divided equally among the broken bonds, after division by the mean square
  * of their ratios, as in a linear body. Returns the number of directed bonds broken, two for each bond. */
-int64_t bonds_break_overstretched(struct run *e, real ratio_tolerance, int64_t max_pairs, real *added_energy,
+int64_t bonds_break_overstretched(struct run *run, real ratio_tolerance, int64_t max_pairs, real *added_energy,
                                   real *added_crack_area)
 {
-    struct break_list *l = &e->statics->next;
-    const real least = e->statics->stretch_ratio * (1 - real_max(ratio_tolerance, ALIKE)),
-               before = bonds_fracture_energy(&e->bonds);
-    const real weakest = critical_stretch_least(&e->source.limit, &e->part);
+    struct break_list *l = &run->statics->next;
+    const real least = run->statics->stretch_ratio * (1 - real_max(ratio_tolerance, ALIKE)),
+               before = bonds_fracture_energy(&run->bonds);
+    const real weakest = critical_stretch_least(&run->source.limit, &run->part);
     struct overstretched o = {0};
-    for (int64_t g = 0; g < e->bonds.row_blocks; g++)
-        if (bond_row_block_stretch(&e->bonds, &e->part, g) > least * weakest)
-            row_block_overstretched(&o, &e->bonds, &e->part, &e->source.limit, g, least);
+    for (int64_t g = 0; g < run->bonds.row_blocks; g++)
+        if (bond_row_block_stretch(&run->bonds, &run->part, g) > least * weakest)
+            row_block_overstretched(&o, &run->bonds, &run->part, &run->source.limit, g, least);
     const real down_to = stretch_ratio_to_break(o.ratio, o.n, least, max_pairs);
     const int64_t had = l->n;
     const real square_mean = break_list_add_above(l, o.ratio, o.record, o.n, down_to);
-    for (int64_t k = had; k < l->n; k++) bond_record_break(&e->bonds, &e->part, e->source.limit, &l->bond[k]);
-    e->statics->precondition_stale = e->statics->fragments_stale = true;
-    const real held = (bonds_fracture_energy(&e->bonds) - before) / square_mean;
-    for (int64_t k = had; k < l->n && e->scene->model != MODEL_BOND; k++) l->bond[k].held = held / (real)(l->n - had);
+    for (int64_t k = had; k < l->n; k++) bond_record_break(&run->bonds, &run->part, run->source.limit, &l->bond[k]);
+    run->statics->precondition_stale = run->statics->fragments_stale = true;
+    const real held = (bonds_fracture_energy(&run->bonds) - before) / square_mean;
+    for (int64_t k = had; k < l->n && run->scene->model != MODEL_BOND; k++) l->bond[k].held = held / (real)(l->n - had);
     for (int64_t k = had; k < l->n; k++) {
         *added_energy += l->bond[k].held;
-        *added_crack_area +=
-            l->bond[k].held / toughness_between_particles(e->scene, &e->source, &e->part, l->bond[k].i, l->bond[k].j);
+        *added_crack_area += l->bond[k].held / toughness_between_particles(run->scene, &run->source, &run->part,
+                                                                           l->bond[k].i, l->bond[k].j);
     }
     memory_free(o.ratio);
     memory_free(o.record);
@@ -205,22 +205,22 @@ int64_t bonds_break_overstretched(struct run *e, real ratio_tolerance, int64_t m
 /* Breaks all bonds of list l at once. The stretches of the last of these bonds may still be below their critical
  * stretch; each bond therefore adds its energy at the critical stretch, the member `held` of its record, to the
  * fracture energy. The difference from its present energy is counted as lost by the solver (s->balance.lost) and the
- * run (e->damped). */
-void bonds_break_listed(struct run *e, const struct break_list *l)
+ * run (run->damped). */
+void bonds_break_listed(struct run *run, const struct break_list *l)
 {
     real more = 0;
     for (int64_t k = 0; k < l->n; k++) {
         const struct broken_bond *record = &l->bond[k];
-        real *booked = &e->bonds.fracture_energy[record->row];
+        real *booked = &run->bonds.fracture_energy[record->row];
         const real before = *booked;
-        bond_record_break(&e->bonds, &e->part, e->source.limit, record);
+        bond_record_break(&run->bonds, &run->part, run->source.limit, record);
         more += *booked - before - record->held;
-        e->statics->record.broken +=
-            record->held / toughness_between_particles(e->scene, &e->source, &e->part, record->i, record->j);
+        run->statics->record.broken +=
+            record->held / toughness_between_particles(run->scene, &run->source, &run->part, record->i, record->j);
         *booked = before + record->held;
     }
-    e->statics->balance.lost += more, e->damped += more;
-    e->statics->precondition_stale = e->statics->fragments_stale = true;
+    run->statics->balance.lost += more, run->damped += more;
+    run->statics->precondition_stale = run->statics->fragments_stale = true;
 }
 
 void bonds_restore_broken(struct statics *s, struct bonds *b, struct particles *p, const struct break_list *l)

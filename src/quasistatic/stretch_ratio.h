@@ -11,19 +11,19 @@
  * break if it exceeds 1. limit: critical stretches. */
 real bonds_largest_stretch_ratio(const struct bonds *b, const struct particles *p, const struct bond_limit *limit);
 
-/* Breaks the intact bonds of run e with the largest ratios of stretch to critical stretch: those whose ratio differs
+/* Breaks the intact bonds of run with the largest ratios of stretch to critical stretch: those whose ratio differs
  * from the largest one by at most the fraction `ratio_tolerance` [1]. No more than `max_pairs` pairs of particles are
  * separated, plus pairs whose ratio equals that of the last one up to round-off. Appends the bonds to the list of the
  * next crack increment (statics.next). Adds their energy at the critical stretch to *added_energy [J], and the crack
  * area that corresponds to it to *added_crack_area [m^2]. Returns the number of directed bonds broken (a bond between
  * two particles counts twice). */
-int64_t bonds_break_overstretched(struct run *e, real ratio_tolerance, int64_t max_pairs, real *added_energy,
+int64_t bonds_break_overstretched(struct run *run, real ratio_tolerance, int64_t max_pairs, real *added_energy,
                                   real *added_crack_area);
 
-/* Breaks all bonds of the list l in run e. Each adds its energy at the critical stretch (member `held` of its record)
+/* Breaks all bonds of the list l in run. Each adds its energy at the critical stretch (member `held` of its record)
  * to the fracture energy, even if its present stretch differs. The difference from its present energy is added to the
  * energy lost by the solver and by the run. */
-void bonds_break_listed(struct run *e, const struct break_list *l);
+void bonds_break_listed(struct run *run, const struct break_list *l);
 
 /* Restores the broken bonds in the list l: the bonds in b, energies and damage of their rows (a row: all bonds of one
  * particle), the flags of the particles p, and the energies in s, the state of the load steps. The bonds in l must be

@@ -60,21 +60,23 @@ static void applied_add(const struct statics *s, const struct loads *loads, stru
         for (int64_t k = 0; k < loads->listed; k++) p->f[d][loads->list[k]] += s->applied[d][loads->list[k]];
 }
 
-/* Computes the forces on particles and mesh nodes of run e at their present positions: of bonds, contact, loads and
+/* Computes the forces on particles and mesh nodes of run at their present positions: of bonds, contact, loads and
  * cells, as in a time step (step.c) without motion. */
-static void forces_present(struct run *e)
+static void forces_present(struct run *run)
 {
-    const bool has_mesh = e->frame->mesh.points > 0;
-    if (has_mesh) lagrangian_mesh_move_bonded_or_loaded_points(e->frame, &e->part);
-    loads_update_mirror_images(&e->loads, &e->part);
-    loads_clear_forces_of_loaded_particles(&e->loads, &e->part);
-    plastic_state_restore(&e->statics->plastic, &e->bonds, &e->part,
-                          e->optional); /* that of the last equilibrium, whatever positions have been evaluated since */
-    bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &bond_limit_never, NULL);
-    contact_compute_forces(e->contact, &e->part, 0);
-    applied_add(e->statics, &e->loads, &e->part);
+    const bool has_mesh = run->frame->mesh.points > 0;
+    if (has_mesh) lagrangian_mesh_move_bonded_or_loaded_points(run->frame, &run->part);
+    loads_update_mirror_images(&run->loads, &run->part);
+    loads_clear_forces_of_loaded_particles(&run->loads, &run->part);
+    plastic_state_restore(
+        &run->statics->plastic, &run->bonds, &run->part,
+        run->optional); /* that of the last equilibrium, whatever positions have been evaluated since */
+    bond_forces(run->kernels.bond_force, &run->bonds, &run->part, &bond_limit_never, NULL);
+    contact_compute_forces(run->contact, &run->part, 0);
+    applied_add(run->statics, &run->loads, &run->part);
     if (has_mesh)
-        lagrangian_mesh_compute_nodal_forces(e->frame, &e->part, e->clock.step), mirror_forces_add(&e->frame->mesh);
+        lagrangian_mesh_compute_nodal_forces(run->frame, &run->part, run->clock.step),
+            mirror_forces_add(&run->frame->mesh);
 }
 
 /* Computes the forces f [N] on all unknowns at the displacements u [m], without the components along free rigid
@@ -82,12 +84,12 @@ static void forces_present(struct run *e)
  * solver/equilibrium.h; context: the run (struct run). */
 static void statics_forces(void *context, const struct field *u, struct field *f)
 {
-    struct run *e = context;
-    const struct statics *s = e->statics;
-    unknowns_apply_displacements(s, &e->part, &e->frame->mesh, u);
-    forces_present(e);
-    for (int d = 0; d < e->part.dim; d++) {
-        const real *part = e->part.f[d], *node = e->frame->mesh.grid.force[d];
+    struct run *run = context;
+    const struct statics *s = run->statics;
+    unknowns_apply_displacements(s, &run->part, &run->frame->mesh, u);
+    forces_present(run);
+    for (int d = 0; d < run->part.dim; d++) {
+        const real *part = run->part.f[d], *node = run->frame->mesh.grid.force[d];
 #pragma omp parallel for schedule(static)
         for (int64_t k = 0; k < s->balance.n; k++)
             f->of[d][k] = k < s->particles ? s->weight[k] * part[s->node[k]] : node[s->node[k]];
@@ -95,10 +97,10 @@ static void statics_forces(void *context, const struct field *u, struct field *f
     field_remove_free_rigid_motion(s, f);
 }
 
-void run_move_to_solution_and_update_plastic_state(struct run *e)
+void run_move_to_solution_and_update_plastic_state(struct run *run)
 {
-    unknowns_apply_displacements(e->statics, &e->part, &e->frame->mesh, &e->statics->balance.u);
-    if (e->statics->plastic.n > 0) forces_present(e);
+    unknowns_apply_displacements(run->statics, &run->part, &run->frame->mesh, &run->statics->balance.u);
+    if (run->statics->plastic.n > 0) forces_present(run);
 }
 
 /* ---- unknowns ---------------------------------------------------------------------------------------------------- */
@@ -112,27 +114,27 @@ static real energy_at_unit_strain(const struct particles *p, const struct materi
     return sum;
 }
 
-void statics_equation_system_make(struct run *e)
+void statics_equation_system_make(struct run *run)
 {
-    struct statics *s = e->statics;
+    struct statics *s = run->statics;
     const struct newton_solver kept = s->balance; /* its counters and losses are kept */
     s->balance = (struct newton_solver){.force = statics_forces,
                                         .precondition = statics_preconditioner_apply,
                                         .settle = statics_update_contacts_and_test_unchanged,
                                         .laws = statics_contact_fix_active_set_or_use_overlaps,
-                                        .context = e,
-                                        .tolerance = e->scene->solver_tolerance,
-                                        .length = e->scene->spacing,
-                                        .unit_energy = energy_at_unit_strain(&e->part, e->scene->material),
-                                        .kinked = e->part.plastic_correction[0] != NULL,
+                                        .context = run,
+                                        .tolerance = run->scene->solver_tolerance,
+                                        .length = run->scene->spacing,
+                                        .unit_energy = energy_at_unit_strain(&run->part, run->scene->material),
+                                        .kinked = run->part.plastic_correction[0] != NULL,
                                         .forces = kept.forces,
                                         .directions = kept.directions,
                                         .lost = kept.lost,
                                         .largest = kept.largest};
-    s->has_contact = e->contact->law.between != CONTACT_NONE || e->scene->rigids > 0;
-    unknowns_list_particles_and_nodes(s, &e->part, &e->frame->mesh, &e->loads);
-    unconstrained_fragments_find(e);
-    plastic_state_save(&e->statics->plastic, &e->bonds, &e->part, e->optional);
+    s->has_contact = run->contact->law.between != CONTACT_NONE || run->scene->rigids > 0;
+    unknowns_list_particles_and_nodes(s, &run->part, &run->frame->mesh, &run->loads);
+    unconstrained_fragments_find(run);
+    plastic_state_save(&run->statics->plastic, &run->bonds, &run->part, run->optional);
 }
 
 void statics_equation_system_free(struct statics *s)

@@ -7,16 +7,16 @@
 
 /* Makes the system of equations, one unknown displacement per present peridynamic particle and moving mesh node,
  * starting from the present displacements. Counters, energy losses and the largest force norm of an earlier system in
- * e->statics are kept. Release with statics_equation_system_free. */
-void statics_equation_system_make(struct run *e);
+ * run->statics are kept. Release with statics_equation_system_free. */
+void statics_equation_system_make(struct run *run);
 
 /* Frees the system of equations of the load steps (static equilibria) in *s. Counters, energy losses and the largest
  * force norm remain in *s, for the next system. */
 void statics_equation_system_free(struct statics *s);
 
-/* Moves particles and mesh nodes of run e to the displacements of the last solution. If the body can yield, also
+/* Moves particles and mesh nodes of run to the displacements of the last solution. If the body can yield, also
  * computes the forces at these positions, which updates the plastic state of bonds and material points. */
-void run_move_to_solution_and_update_plastic_state(struct run *e);
+void run_move_to_solution_and_update_plastic_state(struct run *run);
 
 /* Saves the plastic state of bonds b and particles p to the archive a if a->saving is set, else restores it from the
  * archive. optional_arrays: which optional arrays the particles have, a set of bits WITH_... Returns FAILED if an entry

@@ -186,16 +186,16 @@ static void resist(struct candidate *c, int m, const real *along)
  * they act. */
 static void supports_resist(const struct search *s)
 {
-    const struct newton_solver *q = &s->statics->balance;
+    const struct newton_solver *newton = &s->statics->balance;
     const int dim = s->part->dim, m = motions(dim);
-    for (int64_t k = 0; k < q->n; k++) {
+    for (int64_t k = 0; k < newton->n; k++) {
         real x[DIM_MAX], u[MODES_MOST][DIM_MAX], along[MODES_MOST];
         struct candidate *c = &s->candidate[s->fragment[k]];
-        if (!q->held[k]) continue;
+        if (!newton->held[k]) continue;
         node_now(s, k, x);
         for (int a = 0; a < m; a++) motion_at(c, dim, a, x, u[a]);
         for (int d = 0; d < dim; d++) {
-            if (!(q->held[k] >> d & 1)) continue;
+            if (!(newton->held[k] >> d & 1)) continue;
             for (int a = 0; a < m; a++) along[a] = u[a][d];
             resist(c, m, along);
         }
@@ -435,25 +435,25 @@ static void sliding_update(const struct candidate *c, int dim, real *slid)
         if (c->resistance[a][a] < SLIDES_MOST * most) slid[a] = real_max(slid[a], fabs(c->moved[a]));
 }
 
-void unconstrained_fragments_find(struct run *e)
+void unconstrained_fragments_find(struct run *run)
 {
-    struct statics *s = e->statics;
-    const int m = motions(e->part.dim);
-    struct search search = {.statics = s, .part = &e->part, .mesh = &e->frame->mesh, .loads = &e->loads};
+    struct statics *s = run->statics;
+    const int m = motions(run->part.dim);
+    struct search search = {.statics = s, .part = &run->part, .mesh = &run->frame->mesh, .loads = &run->loads};
     real free[MODES_MOST][MODES_MOST];
     unconstrained_fragments_free(s);
     s->fragments_stale = false, s->mesh = search.mesh;
     unconstrained_search_begin(&search);
     cells_join(&search);
-    bonded_join(&search, &e->bonds);
+    bonded_join(&search, &run->bonds);
     fragment_candidates_find(&search);
     supports_resist(&search);
-    images_resist(&search, &e->bonds);
+    images_resist(&search, &run->bonds);
     mirror_nodes_resist(&search);
-    contact_visit_linear_springs(e->contact, &e->part, contact_resists, &search);
+    contact_visit_linear_springs(run->contact, &run->part, contact_resists, &search);
     for (int64_t q = 0; q < search.n; q++) {
         s->fragments += motions_free(&search.candidate[q], m, free) > 0;
-        sliding_update(&search.candidate[q], e->part.dim, s->slid);
+        sliding_update(&search.candidate[q], run->part.dim, s->slid);
     }
     s->fragment = NEW("pieces.free", s->fragments, struct unconstrained_fragment);
     s->fragments = 0;

@@ -10,9 +10,9 @@
 enum { MODES_MOST = 6 };
 
 /* Finds the unconstrained fragments for the present bonds, supports and contacts, and stores them with their free rigid
- * motions in e->statics. A fragment is a connected part of the body; it is unconstrained if nothing resists some of its
- * rigid motions. The list found before is freed. */
-void unconstrained_fragments_find(struct run *e);
+ * motions in run->statics. A fragment is a connected part of the body; it is unconstrained if nothing resists some of
+ * its rigid motions. The list found before is freed. */
+void unconstrained_fragments_find(struct run *run);
 
 /* Frees the list of unconstrained fragments in *s (parts of the body that can move freely as rigid bodies). */
 void unconstrained_fragments_free(struct statics *s);

@@ -16,33 +16,33 @@ enum { LOAD_TIMES = 64, LOAD_PARTICLES = 1024 }; /* load times, and particles of
 /* The two sorts of loads: prescribed displacements of supports and rigid bodies [m], applied forces [N]. */
 enum { DISPLACEMENTS, FORCES, SORTS };
 
-/* Computes the scalar products of the loads of run e at time t with its loads at time u [s]: product[DISPLACEMENTS] for
+/* Computes the scalar products of the loads of run at time t with its loads at time u [s]: product[DISPLACEMENTS] for
  * the prescribed displacements [m^2], product[FORCES] for the applied forces [N^2]. Of each load about LOAD_PARTICLES
  * particles, evenly spaced, represent all. */
-static void products(const struct run *e, real t, real u, real *product)
+static void products(const struct run *run, real t, real u, real *product)
 {
-    const int dim = e->part.dim;
+    const int dim = run->part.dim;
     product[DISPLACEMENTS] = product[FORCES] = 0;
-    for (int b = 0; b < e->loads.n; b++) {
-        const struct load *l = &e->loads.load[b];
+    for (int b = 0; b < run->loads.n; b++) {
+        const struct load *l = &run->loads.load[b];
         const int64_t stride = 1 + l->n / LOAD_PARTICLES;
         for (int64_t k = 0; k < l->n && l->boundary->kind == BOUNDARY_VELOCITY; k += stride) {
             real x[DIM_MAX], y[DIM_MAX];
-            load_displacement_of_particle(l, &e->part, k, t, x);
-            load_displacement_of_particle(l, &e->part, k, u, y);
+            load_displacement_of_particle(l, &run->part, k, t, x);
+            load_displacement_of_particle(l, &run->part, k, u, y);
             product[DISPLACEMENTS] += (real)stride * dot(x, y, dim);
         }
         for (int64_t k = 0; k < l->n && boundary_applies_force(l->boundary); k += stride) {
             real f[DIM_MAX], g[DIM_MAX];
-            load_force_on_particle(l, &e->part, k, t, f);
-            load_force_on_particle(l, &e->part, k, u, g);
+            load_force_on_particle(l, &run->part, k, t, f);
+            load_force_on_particle(l, &run->part, k, u, g);
             product[FORCES] += (real)stride * dot(f, g, dim);
         }
     }
-    for (int k = 0; k < e->scene->rigids; k++) {
+    for (int k = 0; k < run->scene->rigids; k++) {
         real x[DIM_MAX], y[DIM_MAX];
-        rigid_compute_prescribed_displacement(&e->rigid->body[k], t, x);
-        rigid_compute_prescribed_displacement(&e->rigid->body[k], u, y);
+        rigid_compute_prescribed_displacement(&run->rigid->body[k], t, x);
+        rigid_compute_prescribed_displacement(&run->rigid->body[k], u, y);
         product[DISPLACEMENTS] += dot(x, y, dim);
     }
 }
@@ -97,66 +97,68 @@ static int64_t load_times(const struct loads *loads, real end, real *t)
     return n;
 }
 
-/* Finds the times at which the loads of run e are largest, point most against the largest loads, and are most
+/* Finds the times at which the loads of run are largest, point most against the largest loads, and are most
  * perpendicular to them. Stores the times [s] in worst[SORTS] and scalar products of the loads in found[SORTS],
  * separately for prescribed displacements and for applied forces. */
-static void worst_times_find(const struct run *e, struct worst *worst, struct found *found)
+static void worst_times_find(const struct run *run, struct worst *worst, struct found *found)
 {
-    const int64_t n = load_times(&e->loads, e->scene->duration, NULL);
+    const int64_t n = load_times(&run->loads, run->scene->duration, NULL);
     real *t = BARE("worst.times", n, real), own[SORTS], with[SORTS];
-    load_times(&e->loads, e->scene->duration, t);
+    load_times(&run->loads, run->scene->duration, t);
     for (int64_t k = 0; k < n; k++) {
-        products(e, t[k], t[k], own);
+        products(run, t[k], t[k], own);
         for (int c = 0; c < SORTS; c++) largest_update(t[k], own[c], &worst[c], &found[c]);
     }
     for (int64_t k = 0; k < n; k++) {
-        products(e, t[k], t[k], own);
+        products(run, t[k], t[k], own);
         for (int c = 0; c < SORTS; c++) {
             if (!(found[c].largest > 0)) continue;
-            products(e, t[k], worst[c].largest, with);
+            products(run, t[k], worst[c].largest, with);
             others_update(t[k], own[c], with[c], &worst[c], &found[c]);
         }
     }
     memory_free(t);
 }
 
-status run_find_equilibrium_for_cost_estimate(struct run *e, real t)
+status run_find_equilibrium_for_cost_estimate(struct run *run, real t)
 {
-    statics_equation_system_make(e);
-    TRY(equilibrium_find_at_time(e, t));
-    return unconstrained_fragments_check_force_balance(e->statics, &e->part, true, e->clock.step + 1);
+    statics_equation_system_make(run);
+    TRY(equilibrium_find_at_time(run, t));
+    return unconstrained_fragments_check_force_balance(run->statics, &run->part, true, run->clock.step + 1);
 }
 
-/* Finds the equilibrium of run e at time t [s]; does nothing if t is NAN. If the largest ratio of stretch to critical
+/* Finds the equilibrium of run at time t [s]; does nothing if t is NAN. If the largest ratio of stretch to critical
  * stretch there exceeds *ratio, stores it in *ratio and t in *at. Returns FAILED, with a message, if there is no
  * equilibrium. */
-static status worst_try(struct run *e, real t, real *at, real *ratio)
+static status worst_try(struct run *run, real t, real *at, real *ratio)
 {
     if (isnan(t)) return OK;
-    TRY(equilibrium_find_at_time(e, t));
-    if (e->statics->stretch_ratio > *ratio) *ratio = e->statics->stretch_ratio, *at = t;
+    TRY(equilibrium_find_at_time(run, t));
+    if (run->statics->stretch_ratio > *ratio) *ratio = run->statics->stretch_ratio, *at = t;
     return OK;
 }
 
-status run_predict_largest_stretch_to_critical_ratio(struct run *e, real first_load_time, real *load_time, real *ratio)
+status run_predict_largest_stretch_to_critical_ratio(struct run *run, real first_load_time, real *load_time,
+                                                     real *ratio)
 {
     struct worst worst[SORTS] = {{NAN, NAN, NAN}, {NAN, NAN, NAN}};
     struct found found[SORTS] = {{0}};
     real before[SORTS];
-    worst_times_find(e, worst, found);
-    products(e, first_load_time, first_load_time, before);
-    *ratio = 0, *load_time = e->scene->duration;
+    worst_times_find(run, worst, found);
+    products(run, first_load_time, first_load_time, before);
+    *ratio = 0, *load_time = run->scene->duration;
     const int sort = found[DISPLACEMENTS].largest > 0 ? DISPLACEMENTS : FORCES;
     const bool alone = !(found[DISPLACEMENTS].largest > 0 && found[FORCES].largest > 0);
     if (alone && isnan(worst[sort].back) && isnan(worst[sort].beside) &&
         before[sort] > 0) { /* loads only grow in proportion */
-        *ratio = e->statics->stretch_ratio * sqrt(found[sort].largest / before[sort]), *load_time = worst[sort].largest;
+        *ratio = run->statics->stretch_ratio * sqrt(found[sort].largest / before[sort]),
+        *load_time = worst[sort].largest;
         return OK;
     }
     for (int c = 0; c < SORTS; c++) {
-        TRY(worst_try(e, worst[c].largest, load_time, ratio));
-        TRY(worst_try(e, worst[c].back, load_time, ratio));
-        TRY(worst_try(e, worst[c].beside, load_time, ratio));
+        TRY(worst_try(run, worst[c].largest, load_time, ratio));
+        TRY(worst_try(run, worst[c].back, load_time, ratio));
+        TRY(worst_try(run, worst[c].beside, load_time, ratio));
     }
     return OK;
 }

@@ -83,128 +83,136 @@ static void set_mark(struct animation_particle_set *s, const struct output_frame
 /* Adds an output frame to the film f. Creates a new particle set if the frame does not have the particles of the last
  * set (the particles that consecutive frames have in common), and extends the ranges of displacements and fields by
  * the frame. shown: entry of the frame in the film, in which set and step are stored; path: file of the frame. */
-static void frame_scan(struct run_animation *f, struct animation_frame *shown, const struct output_frame *frame,
+static void frame_scan(struct run_animation *animation, struct animation_frame *shown, const struct output_frame *frame,
                        const char *path)
 {
-    if (f->sets == 0 || !set_is_of(&f->set[f->sets - 1], frame)) {
-        GROW("report.sets", f->set, f->sets + 1);
-        set_make(&f->set[f->sets++], frame);
+    if (animation->sets == 0 || !set_is_of(&animation->set[animation->sets - 1], frame)) {
+        GROW("report.sets", animation->set, animation->sets + 1);
+        set_make(&animation->set[animation->sets++], frame);
     }
-    f->dim = frame->dim;
-    shown->set = f->sets - 1;
+    animation->dim = frame->dim;
+    shown->set = animation->sets - 1;
     shown->step = frame->step;
-    set_mark(&f->set[shown->set], frame, path);
-    for (int d = 0; d < f->dim; d++)
+    set_mark(&animation->set[shown->set], frame, path);
+    for (int d = 0; d < animation->dim; d++)
         for (int64_t i = 0; i < frame->n; i++)
-            if (isfinite(frame->u[d][i])) f->reach[d] = fmax(f->reach[d], fabs((double)frame->u[d][i]));
-    animation_update_field_ranges_from_frame(f, frame, path);
+            if (isfinite(frame->u[d][i])) animation->reach[d] = fmax(animation->reach[d], fabs((double)frame->u[d][i]));
+    animation_update_field_ranges_from_frame(animation, frame, path);
 }
 
 /* Returns the k-th of at most `most` numbers that are evenly spread over 0..n-1, with 0 and n-1 included. If n <= most,
  * returns k. */
 static int spread(int k, int n, int most) { return n <= most ? k : (int)lround((double)k * (n - 1) / (most - 1)); }
 
-status animation_read_frames_of_run(struct run_animation *f, const char *folder, const struct scene *scene)
+status animation_read_frames_of_run(struct run_animation *animation, const char *folder, const struct scene *scene)
 {
     struct listed_frame *list = NULL;
-    *f = (struct run_animation){.folder = folder, .scene = scene};
-    TRY(run_list_frames(folder, &f->listed, &list));
-    f->frames = f->listed < FILM_FRAMES_MOST ? f->listed : FILM_FRAMES_MOST;
-    f->frame = NEW("report.frames", f->frames, struct animation_frame);
+    *animation = (struct run_animation){.folder = folder, .scene = scene};
+    TRY(run_list_frames(folder, &animation->listed, &list));
+    animation->frames = animation->listed < FILM_FRAMES_MOST ? animation->listed : FILM_FRAMES_MOST;
+    animation->frame = NEW("report.frames", animation->frames, struct animation_frame);
     status s = OK;
-    for (int k = 0; s == OK && k < f->frames; k++) {
+    for (int k = 0; s == OK && k < animation->frames; k++) {
         struct output_frame frame;
-        f->frame[k].listed = list[spread(k, f->listed, f->frames)];
-        s = run_read_frame(&frame, folder, f->frame[k].listed.number);
+        animation->frame[k].listed = list[spread(k, animation->listed, animation->frames)];
+        s = run_read_frame(&frame, folder, animation->frame[k].listed.number);
         if (s != OK) break;
-        if (k == 0) f->dim = frame.dim, f->spacing = frame_particle_spacing(&frame), animation_list_possible_fields(f);
-        frame_scan(f, &f->frame[k], &frame, run_frame_path(folder, f->frame[k].listed.number).text);
+        if (k == 0)
+            animation->dim = frame.dim, animation->spacing = frame_particle_spacing(&frame),
+            animation_list_possible_fields(animation);
+        frame_scan(animation, &animation->frame[k], &frame,
+                   run_frame_path(folder, animation->frame[k].listed.number).text);
         frame_free(&frame);
     }
     memory_free(list);
-    animation_choose_stored_field_ranges(f);
-    if (s != OK) animation_free(f);
+    animation_choose_stored_field_ranges(animation);
+    if (s != OK) animation_free(animation);
     return s;
 }
 
-void animation_free(struct run_animation *f)
+void animation_free(struct run_animation *animation)
 {
-    for (int k = 0; k < f->sets; k++) set_free(&f->set[k]);
-    for (int k = 0; k < f->fields; k++) memory_free(f->field[k].sample);
-    memory_free(f->set), memory_free(f->frame);
-    *f = (struct run_animation){0};
+    for (int k = 0; k < animation->sets; k++) set_free(&animation->set[k]);
+    for (int k = 0; k < animation->fields; k++) memory_free(animation->field[k].sample);
+    memory_free(animation->set), memory_free(animation->frame);
+    *animation = (struct run_animation){0};
 }
 
 /* ---- budget ------------------------------------------------------------------------------------------------------ */
 
-/* Selects at most `most` of the output frames of film f that were read, evenly spread, to be shown, and sets f->used
- * to their number. */
-static void frames_use(struct run_animation *f, int most)
+/* Selects at most `most` of the output frames of film f that were read, evenly spread, to be shown, and sets
+ * animation->used to their number. */
+static void frames_use(struct run_animation *animation, int most)
 {
-    for (int k = 0; k < f->frames; k++) f->frame[k].used = false;
-    f->used = f->frames < most ? f->frames : most;
-    for (int k = 0; k < f->used; k++) f->frame[spread(k, f->frames, f->used)].used = true;
+    for (int k = 0; k < animation->frames; k++) animation->frame[k].used = false;
+    animation->used = animation->frames < most ? animation->frames : most;
+    for (int k = 0; k < animation->used; k++)
+        animation->frame[spread(k, animation->frames, animation->used)].used = true;
 }
 
 /* Divides the particles of all particle sets of the film f (the frames of a run as the page shows them) into groups,
- * each of which is shown as one particle. A group is a single particle or a cubic cell of particles; f->levels,
- * f->levels_damaged and f->levels_all limit the size of the cells. */
-static void film_group(struct run_animation *f)
+ * each of which is shown as one particle. A group is a single particle or a cubic cell of particles; animation->levels,
+ * animation->levels_damaged and animation->levels_all limit the size of the cells. */
+static void film_group(struct run_animation *animation)
 {
-    for (int k = 0; k < f->sets; k++) animation_particle_set_merge_into_groups(&f->set[k], f);
+    for (int k = 0; k < animation->sets; k++) animation_particle_set_merge_into_groups(&animation->set[k], animation);
 }
 
 /* Returns true if the film f (the frames of a run as the page shows them), with the frames, fields and groups of
  * particles that are selected now, takes at most `budget` bytes on the page. */
-static bool fits(const struct run_animation *f, int64_t budget)
+static bool fits(const struct run_animation *animation, int64_t budget)
 {
-    const int64_t each = 2 * f->dim + animation_bytes_per_group_and_frame(f), once = 2 * f->dim + 6;
+    const int64_t each = 2 * animation->dim + animation_bytes_per_group_and_frame(animation),
+                  once = 2 * animation->dim + 6;
     int64_t bytes = 0;
-    for (int k = 0; k < f->sets; k++) bytes += once * f->set[k].groups;
-    for (int k = 0; k < f->frames; k++) bytes += f->frame[k].used ? each * f->set[f->frame[k].set].groups : 0;
+    for (int k = 0; k < animation->sets; k++) bytes += once * animation->set[k].groups;
+    for (int k = 0; k < animation->frames; k++)
+        bytes += animation->frame[k].used ? each * animation->set[animation->frame[k].set].groups : 0;
     return bytes <= budget;
 }
 
 /* Adds contents to the film f (the frames of a run as the page shows them) as far as the budget allows: first the
  * fields that are left out if the budget is short, then more frames. budget: largest size of the film on the page
  * [byte]. */
-static void film_fill(struct run_animation *f, int64_t budget)
+static void film_fill(struct run_animation *animation, int64_t budget)
 {
-    const int used = f->used;
-    f->lacks_extra = false;
-    f->lacks_extra = !fits(f, budget);
-    for (int most = f->frames; most > used; most--) {
-        frames_use(f, most);
-        if (fits(f, budget)) return;
+    const int used = animation->used;
+    animation->lacks_extra = false;
+    animation->lacks_extra = !fits(animation, budget);
+    for (int most = animation->frames; most > used; most--) {
+        frames_use(animation, most);
+        if (fits(animation, budget)) return;
     }
-    frames_use(f, used);
+    frames_use(animation, used);
 }
 
-void animation_select_content_within_byte_budget(struct run_animation *f, int64_t byte_budget)
+void animation_select_content_within_byte_budget(struct run_animation *animation, int64_t byte_budget)
 {
-    frames_use(f, FILM_FRAMES_MOST);
-    film_group(f);
-    f->lacks_extra = !fits(f, byte_budget);
-    if (fits(f, byte_budget)) return;
-    frames_use(f, FRAMES_FEWER);
-    while (!fits(f, byte_budget) && f->levels < FILM_LEVELS) f->levels++, film_group(f);
-    if (!fits(f, byte_budget)) frames_use(f, FRAMES_FEWEST);
-    while (!fits(f, byte_budget) && f->levels_damaged < FILM_LEVELS_DAMAGED) f->levels_damaged++, film_group(f);
-    while (!fits(f, byte_budget) && f->levels_all < FILM_LEVELS_ALL) f->levels_all++, film_group(f);
-    film_fill(f, byte_budget);
+    frames_use(animation, FILM_FRAMES_MOST);
+    film_group(animation);
+    animation->lacks_extra = !fits(animation, byte_budget);
+    if (fits(animation, byte_budget)) return;
+    frames_use(animation, FRAMES_FEWER);
+    while (!fits(animation, byte_budget) && animation->levels < FILM_LEVELS) animation->levels++, film_group(animation);
+    if (!fits(animation, byte_budget)) frames_use(animation, FRAMES_FEWEST);
+    while (!fits(animation, byte_budget) && animation->levels_damaged < FILM_LEVELS_DAMAGED)
+        animation->levels_damaged++, film_group(animation);
+    while (!fits(animation, byte_budget) && animation->levels_all < FILM_LEVELS_ALL)
+        animation->levels_all++, film_group(animation);
+    film_fill(animation, byte_budget);
 }
 
 /* ---- second reading ---------------------------------------------------------------------------------------------- */
 
 /* Writes the coordinate along axis d of the reference positions of all groups (particles shown as one) of the particle
  * set s of film f to the page p, as 16-bit numbers between the smallest and the largest one. */
-static void write_positions(struct html_page *p, const struct run_animation *f, const struct animation_particle_set *s,
-                            int d)
+static void write_positions(struct html_page *p, const struct run_animation *animation,
+                            const struct animation_particle_set *s, int d)
 {
     double *centre = BARE("report.centre", s->groups, double), low = INFINITY, high = -INFINITY;
     uint16_t *stored = BARE("report.stored", s->groups, uint16_t);
     for (int64_t g = 0; g < s->groups; g++) {
-        centre[g] = animation_group_centre_coordinate(s, f, g, d);
+        centre[g] = animation_group_centre_coordinate(s, animation, g, d);
         low = fmin(low, centre[g]), high = fmax(high, centre[g]);
     }
     for (int64_t g = 0; g < s->groups; g++)
@@ -219,74 +227,76 @@ static void write_positions(struct html_page *p, const struct run_animation *f, 
 
 /* Writes the displacements of an output frame of film f along axis d for all groups (particles shown as one) of
  * the particle set s to the page p: the mean of u over the particles of each group, divided by the largest
- * displacement f->reach[d], as a signed 16-bit number. u[s->n]: displacements of the particles [m]. */
-static void write_displacements(struct html_page *p, const struct run_animation *f,
+ * displacement animation->reach[d], as a signed 16-bit number. u[s->n]: displacements of the particles [m]. */
+static void write_displacements(struct html_page *p, const struct run_animation *animation,
                                 const struct animation_particle_set *s, const float *u, int d)
 {
     int16_t *stored = BARE("report.stored", s->groups, int16_t);
     for (int64_t g = 0; g < s->groups; g++) {
         double sum = 0;
         for (int32_t k = s->first[g]; k < s->first[g + 1]; k++) sum += (double)u[s->member[k]];
-        const double share = sum / (s->first[g + 1] - s->first[g]) / f->reach[d];
+        const double share = sum / (s->first[g + 1] - s->first[g]) / animation->reach[d];
         stored[g] = (int16_t)(isfinite(share) ? lround(I16_MOST * fmin(fmax(share, -1), 1)) : 0);
     }
     html_page_add_array(p, NULL, PAGE_I16, stored, s->groups);
     memory_free(stored);
 }
 
-static void write_sizes(struct html_page *p, const struct run_animation *f, const struct animation_particle_set *s)
+static void write_sizes(struct html_page *p, const struct run_animation *animation,
+                        const struct animation_particle_set *s)
 {
     float *size = BARE("report.size", s->groups, float);
-    for (int64_t g = 0; g < s->groups; g++) size[g] = (float)animation_group_drawn_edge_length(s, f, g);
-    if (s->size || f->levels > 0) html_page_add_array(p, "size", PAGE_F32, size, s->groups);
+    for (int64_t g = 0; g < s->groups; g++) size[g] = (float)animation_group_drawn_edge_length(s, animation, g);
+    if (s->size || animation->levels > 0) html_page_add_array(p, "size", PAGE_F32, size, s->groups);
     memory_free(size);
 }
 
 /* Writes the data that all output frames of the particle set s (the particles that these frames have in common) share
- * to the page p: numbers, reference positions, sizes, and fields that do not change. f: film; frame, path: the first
- * frame of the set and its file. */
-static void write_film_set(struct html_page *p, const struct run_animation *f, const struct animation_particle_set *s,
-                           const struct output_frame *frame, const char *path)
+ * to the page p: numbers, reference positions, sizes, and fields that do not change. animation: film; frame, path: the
+ * first frame of the set and its file. */
+static void write_film_set(struct html_page *p, const struct run_animation *animation,
+                           const struct animation_particle_set *s, const struct output_frame *frame, const char *path)
 {
     json_begin_object_or_list(&p->json, NULL, '{');
     json_write_integer(&p->json, "particles", s->n);
     json_write_integer(&p->json, "n", s->groups);
-    json_write_integer(&p->json, "scattered", f->dim == 2 && !particles_are_on_lattice(s->X, f->dim, s->n));
+    json_write_integer(&p->json, "scattered",
+                       animation->dim == 2 && !particles_are_on_lattice(s->X, animation->dim, s->n));
     json_begin_object_or_list(&p->json, "X", '[');
-    for (int d = 0; d < f->dim; d++) write_positions(p, f, s, d);
+    for (int d = 0; d < animation->dim; d++) write_positions(p, animation, s, d);
     json_end_object_or_list(&p->json, ']');
-    write_sizes(p, f, s);
+    write_sizes(p, animation, s);
     json_begin_object_or_list(&p->json, "fixed", '{');
-    for (int k = 0; k < f->fields; k++)
-        if (f->field[k].fixed && animation_field_is_shown(f, &f->field[k]))
-            animation_write_field_values_of_frame(p, &f->field[k], s, frame, path);
+    for (int k = 0; k < animation->fields; k++)
+        if (animation->field[k].fixed && animation_field_is_shown(animation, &animation->field[k]))
+            animation_write_field_values_of_frame(p, &animation->field[k], s, frame, path);
     json_end_object_or_list(&p->json, '}');
     json_end_object_or_list(&p->json, '}');
 }
 
-static status write_sets(struct html_page *p, const struct run_animation *f)
+static status write_sets(struct html_page *p, const struct run_animation *animation)
 {
     json_begin_object_or_list(&p->json, "sets", '[');
-    for (int k = 0; k < f->sets; k++) {
+    for (int k = 0; k < animation->sets; k++) {
         struct output_frame frame;
         int at = 0;
-        while (f->frame[at].set != k) at++;
-        const int number = f->frame[at].listed.number;
-        TRY(run_read_frame(&frame, f->folder, number));
-        write_film_set(p, f, &f->set[k], &frame, run_frame_path(f->folder, number).text);
+        while (animation->frame[at].set != k) at++;
+        const int number = animation->frame[at].listed.number;
+        TRY(run_read_frame(&frame, animation->folder, number));
+        write_film_set(p, animation, &animation->set[k], &frame, run_frame_path(animation->folder, number).text);
         frame_free(&frame);
     }
     json_end_object_or_list(&p->json, ']');
     return OK;
 }
 
-static void write_fields(struct html_page *p, const struct run_animation *f)
+static void write_fields(struct html_page *p, const struct run_animation *animation)
 {
     static const char *const scale[] = {"zero", "signs", "least", "category"};
     json_begin_object_or_list(&p->json, "fields", '[');
-    for (int k = 0; k < f->fields; k++) {
-        const struct animation_field *field = &f->field[k];
-        if (!animation_field_is_shown(f, field)) continue;
+    for (int k = 0; k < animation->fields; k++) {
+        const struct animation_field *field = &animation->field[k];
+        if (!animation_field_is_shown(animation, field)) continue;
         json_begin_object_or_list(&p->json, NULL, '{');
         json_write_text(&p->json, "name", field->of->name);
         json_write_text(&p->json, "unit", field->of->unit);
@@ -300,12 +310,13 @@ static void write_fields(struct html_page *p, const struct run_animation *f)
     json_end_object_or_list(&p->json, ']');
 }
 
-static status write_frame(struct html_page *p, const struct run_animation *f, const struct animation_frame *shown)
+static status write_frame(struct html_page *p, const struct run_animation *animation,
+                          const struct animation_frame *shown)
 {
     struct output_frame frame;
-    const struct animation_particle_set *s = &f->set[shown->set];
-    const struct path path = run_frame_path(f->folder, shown->listed.number);
-    TRY(run_read_frame(&frame, f->folder, shown->listed.number));
+    const struct animation_particle_set *s = &animation->set[shown->set];
+    const struct path path = run_frame_path(animation->folder, shown->listed.number);
+    TRY(run_read_frame(&frame, animation->folder, shown->listed.number));
     if (frame.n != s->n) {
         frame_free(&frame);
         return status_set(FAILED, "%s changed while it was read; repeat the command", path.text);
@@ -316,38 +327,38 @@ static status write_frame(struct html_page *p, const struct run_animation *f, co
     json_write_rounded(&p->json, "t", shown->listed.time, JSON_TIMING);
     json_write_integer(&p->json, "set", shown->set);
     json_begin_object_or_list(&p->json, "u", '[');
-    for (int d = 0; d < f->dim; d++) write_displacements(p, f, s, frame.u[d], d);
+    for (int d = 0; d < animation->dim; d++) write_displacements(p, animation, s, frame.u[d], d);
     json_end_object_or_list(&p->json, ']');
     json_begin_object_or_list(&p->json, "values", '{');
-    for (int k = 0; k < f->fields; k++)
-        if (animation_field_is_shown(f, &f->field[k]) && !f->field[k].fixed)
-            animation_write_field_values_of_frame(p, &f->field[k], s, &frame, path.text);
+    for (int k = 0; k < animation->fields; k++)
+        if (animation_field_is_shown(animation, &animation->field[k]) && !animation->field[k].fixed)
+            animation_write_field_values_of_frame(p, &animation->field[k], s, &frame, path.text);
     json_end_object_or_list(&p->json, '}');
-    animation_write_rigid_body_motion_of_frame(p, f, &frame, shown->listed.number);
+    animation_write_rigid_body_motion_of_frame(p, animation, &frame, shown->listed.number);
     json_end_object_or_list(&p->json, '}');
     frame_free(&frame);
     return OK;
 }
 
-status animation_write_to_page(struct html_page *page, const struct run_animation *f)
+status animation_write_to_page(struct html_page *page, const struct run_animation *animation)
 {
     json_begin_object_or_list(&page->json, "film", '{');
-    json_write_integer(&page->json, "dim", f->dim);
-    json_write_rounded(&page->json, "spacing", f->spacing, JSON_TIMING);
-    json_write_integer(&page->json, "listed", f->listed);
-    json_write_integer(&page->json, "levels", f->levels);
-    json_write_integer(&page->json, "levels_damaged", f->levels_damaged);
-    json_write_integer(&page->json, "levels_all", f->levels_all);
-    json_write_integer(&page->json, "lacks_extra", f->lacks_extra);
+    json_write_integer(&page->json, "dim", animation->dim);
+    json_write_rounded(&page->json, "spacing", animation->spacing, JSON_TIMING);
+    json_write_integer(&page->json, "listed", animation->listed);
+    json_write_integer(&page->json, "levels", animation->levels);
+    json_write_integer(&page->json, "levels_damaged", animation->levels_damaged);
+    json_write_integer(&page->json, "levels_all", animation->levels_all);
+    json_write_integer(&page->json, "lacks_extra", animation->lacks_extra);
     json_begin_object_or_list(&page->json, "reach", '[');
-    for (int d = 0; d < f->dim; d++) json_write_rounded(&page->json, NULL, f->reach[d], JSON_TIMING);
+    for (int d = 0; d < animation->dim; d++) json_write_rounded(&page->json, NULL, animation->reach[d], JSON_TIMING);
     json_end_object_or_list(&page->json, ']');
-    write_fields(page, f);
-    animation_write_rigid_body_surfaces(page, f);
-    TRY(write_sets(page, f));
+    write_fields(page, animation);
+    animation_write_rigid_body_surfaces(page, animation);
+    TRY(write_sets(page, animation));
     json_begin_object_or_list(&page->json, "frames", '[');
-    for (int k = 0; k < f->frames; k++)
-        if (f->frame[k].used) TRY(write_frame(page, f, &f->frame[k]));
+    for (int k = 0; k < animation->frames; k++)
+        if (animation->frame[k].used) TRY(write_frame(page, animation, &animation->frame[k]));
     json_end_object_or_list(&page->json, ']');
     json_end_object_or_list(&page->json, '}');
     return OK;

@@ -78,59 +78,59 @@ struct run_animation {
  * consecutive frames have in common, the largest displacements and the ranges of the fields. scene: contents of the
  * input file of the run, kept by reference; NULL if it is not known. Returns FAILED if a frame cannot be read. Release
  * f with animation_free. */
-status animation_read_frames_of_run(struct run_animation *f, const char *folder, const struct scene *scene);
+status animation_read_frames_of_run(struct run_animation *animation, const char *folder, const struct scene *scene);
 
 /* Selects in f the output frames, the fields and the groups of particles (each shown as one particle) that the page
  * (the HTML report of a run) shows, such that they take at most `byte_budget` bytes on the page. */
-void animation_select_content_within_byte_budget(struct run_animation *f, int64_t byte_budget);
+void animation_select_content_within_byte_budget(struct run_animation *animation, int64_t byte_budget);
 
 /* Writes the selected output frames of a run and their fields, f, to `page` as the entry `film` of the JSON text of the
  * page (the HTML report of the run). Returns FAILED if a frame cannot be read again. */
-status animation_write_to_page(struct html_page *page, const struct run_animation *f);
+status animation_write_to_page(struct html_page *page, const struct run_animation *animation);
 
 /* Releases the lists and values of *f, which animation_read_frames_of_run has allocated. */
-void animation_free(struct run_animation *f);
+void animation_free(struct run_animation *animation);
 
 /* Divides the particles of the set `particle_set` (particles that several output frames have in common) into groups,
  * each of which the page (the HTML report) shows as one particle. Particles of one material and body that fill a cubic
- * cell become one group. The cell has up to 2^f->levels particles along an edge if none of them is damaged or has
- * yielded in any frame and all have the same kind and fragment in every frame, and up to 2^f->levels_damaged if none is
- * part of a crack. If f->levels_all is above 0, all particles in a cell of this level become one group, whether they
- * fill the cell or not. Each other particle is a group. */
+ * cell become one group. The cell has up to 2^animation->levels particles along an edge if none of them is damaged or
+ * has yielded in any frame and all have the same kind and fragment in every frame, and up to
+ * 2^animation->levels_damaged if none is part of a crack. If animation->levels_all is above 0, all particles in a cell
+ * of this level become one group, whether they fill the cell or not. Each other particle is a group. */
 void animation_particle_set_merge_into_groups(struct animation_particle_set *particle_set,
-                                              const struct run_animation *f);
+                                              const struct run_animation *animation);
 
 /* Returns the edge [m] with which the page draws group number `group` of the set `particle_set`: the spacing of a
  * single particle or, for a group of merged particles, the edge of their cubic cell. */
 double animation_group_drawn_edge_length(const struct animation_particle_set *particle_set,
-                                         const struct run_animation *f, int64_t group);
+                                         const struct run_animation *animation, int64_t group);
 
 /* Returns the coordinate along `axis` [m] of the centre of group number `group` of the set `particle_set` in the
  * reference state: the mean of its particles, or the centre of a cell that they fill partly. */
 double animation_group_centre_coordinate(const struct animation_particle_set *particle_set,
-                                         const struct run_animation *f, int64_t group, int axis);
+                                         const struct run_animation *animation, int64_t group, int axis);
 
-/* Fills the table f->field with the fields (quantities stored for each particle) that a run in f->dim dimensions may
- * have, and sets f->fields, their number. */
-void animation_list_possible_fields(struct run_animation *f);
+/* Fills the table animation->field with the fields (quantities stored for each particle) that a run in animation->dim
+ * dimensions may have, and sets animation->fields, their number. */
+void animation_list_possible_fields(struct run_animation *animation);
 
 /* Updates the ranges and the sampled values of all fields of f, the output frames of a run that a report shows, from
  * one of these frames, `frame`, which was read from the file `path`. */
-void animation_update_field_ranges_from_frame(struct run_animation *f, const struct output_frame *frame,
+void animation_update_field_ranges_from_frame(struct run_animation *animation, const struct output_frame *frame,
                                               const char *path);
 
 /* Chooses for each field of f, the output frames of a run that a report shows, the range of values that its stored
  * numbers of 8 or 16 bits represent. Sets `used` to false for fields with the same value in all frames at all
  * particles. */
-void animation_choose_stored_field_ranges(struct run_animation *f);
+void animation_choose_stored_field_ranges(struct run_animation *animation);
 
 /* Returns the number of bytes that the page (HTML report) stores in each output frame of the run, f, for one group
  * (particles that are shown as one): the sum over all fields that are shown and change with time. */
-int animation_bytes_per_group_and_frame(const struct run_animation *f);
+int animation_bytes_per_group_and_frame(const struct run_animation *animation);
 
 /* Returns true if the field `field` (a quantity of the particles) of the run f is written to the page (HTML report):
  * its values differ between particles or frames, and it is not left out to save space. */
-bool animation_field_is_shown(const struct run_animation *f, const struct animation_field *field);
+bool animation_field_is_shown(const struct run_animation *animation, const struct animation_field *field);
 
 /* Writes the values of one field in the output frame `frame` to the page p (HTML report) as an array with one value for
  * each group of `particle_set` (particles that are shown as one): the mean over the particles of the group. path:
@@ -141,13 +141,13 @@ void animation_write_field_values_of_frame(struct html_page *p, const struct ani
 
 /* Writes the surfaces of the rigid bodies of the run f to the page p (HTML report) as the entry `rigid`: line segments
  * in 2D, quadrilaterals in 3D. */
-void animation_write_rigid_body_surfaces(struct html_page *p, const struct run_animation *f);
+void animation_write_rigid_body_surfaces(struct html_page *p, const struct run_animation *animation);
 
 /* Writes the positions and rotations of the rigid bodies in frame number `frame_number` of the run to the page p (HTML
- * report) as the entry `rigid` of that frame: for each body f->dim coordinates [m], the displacement of the nearest
- * particle of `frame`, with which the page moves the rigid body if displacements are magnified, and the rotation matrix
- * [dim][dim] by rows. Writes nothing if the run has no file of rigid bodies for this frame. */
-void animation_write_rigid_body_motion_of_frame(struct html_page *p, const struct run_animation *f,
+ * report) as the entry `rigid` of that frame: for each body animation->dim coordinates [m], the displacement of the
+ * nearest particle of `frame`, with which the page moves the rigid body if displacements are magnified, and the
+ * rotation matrix [dim][dim] by rows. Writes nothing if the run has no file of rigid bodies for this frame. */
+void animation_write_rigid_body_motion_of_frame(struct html_page *p, const struct run_animation *animation,
                                                 const struct output_frame *frame, int frame_number);
 
 #endif

@@ -30,14 +30,14 @@ static const struct {
     {"velocity_y", true, false}, {"velocity_z", true, false},
 };
 
-void animation_list_possible_fields(struct run_animation *f)
+void animation_list_possible_fields(struct run_animation *animation)
 {
-    f->fields = 0;
+    animation->fields = 0;
     for (size_t k = 0; k < COUNT_OF(wanted); k++) {
-        struct animation_field *field = &f->field[f->fields];
+        struct animation_field *field = &animation->field[animation->fields];
         *field = (struct animation_field){
             .extra = wanted[k].extra, .fixed = wanted[k].fixed, .least = INFINITY, .most = -INFINITY};
-        if (plot_field_find_by_name(&field->of, wanted[k].name, f->dim) == OK) f->fields++;
+        if (plot_field_find_by_name(&field->of, wanted[k].name, animation->dim) == OK) animation->fields++;
     }
 }
 
@@ -53,13 +53,13 @@ static void field_scan(struct animation_field *field, const float *value, int64_
     }
 }
 
-void animation_update_field_ranges_from_frame(struct run_animation *f, const struct output_frame *frame,
+void animation_update_field_ranges_from_frame(struct run_animation *animation, const struct output_frame *frame,
                                               const char *path)
 {
-    for (int k = 0; k < f->fields; k++) {
+    for (int k = 0; k < animation->fields; k++) {
         float *value;
-        if (plot_field_read(&value, f->field[k].of, frame, path) != OK) continue;
-        field_scan(&f->field[k], value, frame->n);
+        if (plot_field_read(&value, animation->field[k].of, frame, path) != OK) continue;
+        field_scan(&animation->field[k], value, frame->n);
         memory_free(value);
     }
 }
@@ -91,23 +91,24 @@ static void field_settle(struct animation_field *field)
     if (damage) field->low = 0, field->high = 1;
 }
 
-void animation_choose_stored_field_ranges(struct run_animation *f)
+void animation_choose_stored_field_ranges(struct run_animation *animation)
 {
-    for (int k = 0; k < f->fields; k++) field_settle(&f->field[k]);
+    for (int k = 0; k < animation->fields; k++) field_settle(&animation->field[k]);
 }
 
-bool animation_field_is_shown(const struct run_animation *f, const struct animation_field *field)
+bool animation_field_is_shown(const struct run_animation *animation, const struct animation_field *field)
 {
-    return field->used && !(field->extra && f->lacks_extra);
+    return field->used && !(field->extra && animation->lacks_extra);
 }
 
 static bool is_fragment(const struct animation_field *field) { return strcmp(field->of->name, "fragment") == 0; }
 
-int animation_bytes_per_group_and_frame(const struct run_animation *f)
+int animation_bytes_per_group_and_frame(const struct run_animation *animation)
 {
     int bytes = 0;
-    for (int k = 0; k < f->fields; k++)
-        if (animation_field_is_shown(f, &f->field[k]) && !f->field[k].fixed) bytes += is_fragment(&f->field[k]) ? 2 : 1;
+    for (int k = 0; k < animation->fields; k++)
+        if (animation_field_is_shown(animation, &animation->field[k]) && !animation->field[k].fixed)
+            bytes += is_fragment(&animation->field[k]) ? 2 : 1;
     return bytes;
 }
 

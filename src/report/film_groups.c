@@ -34,80 +34,87 @@ static bool are_in_one_cell(const struct member *x, const struct member *y)
     return x->key == y->key && x->part == y->part;
 }
 
-static double size_of_particle(const struct animation_particle_set *s, const struct run_animation *f, int64_t i)
+static double size_of_particle(const struct animation_particle_set *s, const struct run_animation *animation, int64_t i)
 {
-    return s->size ? s->size[i] : f->spacing;
+    return s->size ? s->size[i] : animation->spacing;
 }
 
-static double cell_edge_length(const struct run_animation *f, int level) { return ldexp(f->spacing, level); }
+static double cell_edge_length(const struct run_animation *animation, int level)
+{
+    return ldexp(animation->spacing, level);
+}
 
 /* Returns the index along axis d of the cubic cell of the lattice, with an edge of 2^level spacings of film f, that
  * contains particle i of the particle set s (the particles that consecutive output frames have in common). */
-static uint64_t cell_index(const struct animation_particle_set *s, const struct run_animation *f, int level, int64_t i,
-                           int d)
+static uint64_t cell_index(const struct animation_particle_set *s, const struct run_animation *animation, int level,
+                           int64_t i, int d)
 {
-    const double along = floor((s->X[d][i] - s->corner[d]) / f->spacing);
+    const double along = floor((s->X[d][i] - s->corner[d]) / animation->spacing);
     return (uint64_t)fmin(fmax(along, 0), KEY_MOST) >> level;
 }
 
 /* Returns particle i of the particle set s of film f as a member of the cell that contains it. level: base-2 logarithm
  * of the edge of the cell in spacings. */
-static struct member member_of_cell(const struct animation_particle_set *s, const struct run_animation *f, int level,
-                                    int64_t i)
+static struct member member_of_cell(const struct animation_particle_set *s, const struct run_animation *animation,
+                                    int level, int64_t i)
 {
     uint64_t key = (uint64_t)level;
-    for (int d = 0; d < DIM_MAX; d++) key = key << KEY_BITS | (d < f->dim ? cell_index(s, f, level, i, d) : 0);
+    for (int d = 0; d < DIM_MAX; d++)
+        key = key << KEY_BITS | (d < animation->dim ? cell_index(s, animation, level, i, d) : 0);
     return (struct member){key, (int32_t)i, (uint16_t)(s->material[i] << 8 | s->body[i])};
 }
 
 /* Returns true if particle i of the particle set s of film f may be merged with others into a cell with an edge of
  * 2^level spacings. Its size must be one spacing, and it must not be part of a crack in any frame. If level >
- * f->levels_damaged, it must be neither damaged nor yielding in any frame. */
-static bool may_merge(const struct animation_particle_set *s, const struct run_animation *f, int level, int64_t i)
+ * animation->levels_damaged, it must be neither damaged nor yielding in any frame. */
+static bool may_merge(const struct animation_particle_set *s, const struct run_animation *animation, int level,
+                      int64_t i)
 {
-    if (s->state[i] == FILM_CRACKED || (s->state[i] == FILM_DAMAGED && level > f->levels_damaged)) return false;
-    return fabs(size_of_particle(s, f, i) / f->spacing - 1) < EQUAL;
+    if (s->state[i] == FILM_CRACKED || (s->state[i] == FILM_DAMAGED && level > animation->levels_damaged)) return false;
+    return fabs(size_of_particle(s, animation, i) / animation->spacing - 1) < EQUAL;
 }
 
 /* Merges particles of the particle set s (the particles that consecutive output frames have in common) into cubic
- * cells with an edge of 2^level spacings of film f: sets s->level to `level` for the particles of each cell that they
- * fill completely, if all of them have the same material and body. Above f->levels_damaged they must also have the same
- * kinds and fragments in all frames. */
-static void merge_cells(struct animation_particle_set *s, const struct run_animation *f, int level)
+ * cells with an edge of 2^level spacings of film animation: sets s->level to `level` for the particles of each cell
+ * that they fill completely, if all of them have the same material and body. Above animation->levels_damaged they must
+ * also have the same kinds and fragments in all frames. */
+static void merge_cells(struct animation_particle_set *s, const struct run_animation *animation, int level)
 {
     struct member *m = BARE("report.members", s->n, struct member);
     int64_t n = 0;
-    const int64_t full = (int64_t)1 << (level * f->dim);
+    const int64_t full = (int64_t)1 << (level * animation->dim);
     for (int64_t i = 0; i < s->n; i++)
-        if (s->level[i] == level - 1 && may_merge(s, f, level, i)) m[n++] = member_of_cell(s, f, level, i);
+        if (s->level[i] == level - 1 && may_merge(s, animation, level, i))
+            m[n++] = member_of_cell(s, animation, level, i);
     array_sort(m, n, sizeof *m, member_compare);
     for (int64_t k = 0, end; k < n; k = end) {
         bool alike = true;
         for (end = k; end < n && are_in_one_cell(&m[end], &m[k]); end++)
-            alike &= level <= f->levels_damaged || s->history[m[end].index] == s->history[m[k].index];
+            alike &= level <= animation->levels_damaged || s->history[m[end].index] == s->history[m[k].index];
         if (!alike || end - k != full) continue;
         for (int64_t j = k; j < end; j++) s->level[m[j].index] = (uint8_t)level;
     }
     memory_free(m);
 }
 
-/* Sets s->level for all particles of the particle set s of film f: the cell into which particle i is merged has an edge
- * of 2^level[i] spacings; 0: the particle is shown alone. */
-static void mesh_levels_set(struct animation_particle_set *s, const struct run_animation *f)
+/* Sets s->level for all particles of the particle set s of film animation: the cell into which particle i is merged has
+ * an edge of 2^level[i] spacings; 0: the particle is shown alone. */
+static void mesh_levels_set(struct animation_particle_set *s, const struct run_animation *animation)
 {
-    const double largest = (1 + EQUAL) * cell_edge_length(f, f->levels_all);
+    const double largest = (1 + EQUAL) * cell_edge_length(animation, animation->levels_all);
     for (int64_t i = 0; i < s->n; i++)
-        s->level[i] = (uint8_t)(size_of_particle(s, f, i) <= largest ? f->levels_all : 0);
-    for (int level = f->levels_all + 1; level <= f->levels; level++) merge_cells(s, f, level);
+        s->level[i] = (uint8_t)(size_of_particle(s, animation, i) <= largest ? animation->levels_all : 0);
+    for (int level = animation->levels_all + 1; level <= animation->levels; level++) merge_cells(s, animation, level);
 }
 
-/* Sets the lists of particles of each group (particles shown as one) of the set s of film f: s->groups, s->first and
- * s->member. Particles with s->level > 0 in the same cell of this level, of one material and body, form a group. */
-static void film_groups_fill(struct animation_particle_set *s, const struct run_animation *f)
+/* Sets the lists of particles of each group (particles shown as one) of the set s of film animation: s->groups,
+ * s->first and s->member. Particles with s->level > 0 in the same cell of this level, of one material and body, form a
+ * group. */
+static void film_groups_fill(struct animation_particle_set *s, const struct run_animation *animation)
 {
     struct member *m = BARE("report.members", s->n, struct member);
     for (int64_t i = 0; i < s->n; i++)
-        m[i] = s->level[i] ? member_of_cell(s, f, s->level[i], i) : (struct member){(uint64_t)i, (int32_t)i, 0};
+        m[i] = s->level[i] ? member_of_cell(s, animation, s->level[i], i) : (struct member){(uint64_t)i, (int32_t)i, 0};
     array_sort(m, s->n, sizeof *m, member_compare);
     s->groups = 0;
     for (int64_t k = 0; k < s->n; k++) {
@@ -119,35 +126,36 @@ static void film_groups_fill(struct animation_particle_set *s, const struct run_
 }
 
 void animation_particle_set_merge_into_groups(struct animation_particle_set *particle_set,
-                                              const struct run_animation *f)
+                                              const struct run_animation *animation)
 {
     struct animation_particle_set *s = particle_set;
-    for (int d = 0; d < f->dim; d++) {
+    for (int d = 0; d < animation->dim; d++) {
         s->corner[d] = INFINITY;
         for (int64_t i = 0; i < s->n; i++)
-            s->corner[d] = fmin(s->corner[d], s->X[d][i] - size_of_particle(s, f, i) / 2);
+            s->corner[d] = fmin(s->corner[d], s->X[d][i] - size_of_particle(s, animation, i) / 2);
     }
-    mesh_levels_set(s, f);
-    film_groups_fill(s, f);
+    mesh_levels_set(s, animation);
+    film_groups_fill(s, animation);
 }
 
 double animation_group_drawn_edge_length(const struct animation_particle_set *particle_set,
-                                         const struct run_animation *f, int64_t group)
+                                         const struct run_animation *animation, int64_t group)
 {
     const int32_t i = particle_set->member[particle_set->first[group]];
-    return particle_set->level[i] ? cell_edge_length(f, particle_set->level[i]) : size_of_particle(particle_set, f, i);
+    return particle_set->level[i] ? cell_edge_length(animation, particle_set->level[i])
+                                  : size_of_particle(particle_set, animation, i);
 }
 
 double animation_group_centre_coordinate(const struct animation_particle_set *particle_set,
-                                         const struct run_animation *f, int64_t group, int axis)
+                                         const struct run_animation *animation, int64_t group, int axis)
 {
     const int32_t first = particle_set->first[group], n = particle_set->first[group + 1] - first;
     const int32_t i = particle_set->member[first];
     const int level = particle_set->level[i];
     double sum = 0;
-    if (level > 0 && n < (int64_t)1 << (level * f->dim))
+    if (level > 0 && n < (int64_t)1 << (level * animation->dim))
         return particle_set->corner[axis] +
-               ((double)cell_index(particle_set, f, level, i, axis) + 0.5) * cell_edge_length(f, level);
+               ((double)cell_index(particle_set, animation, level, i, axis) + 0.5) * cell_edge_length(animation, level);
     for (int32_t k = 0; k < n; k++) sum += particle_set->X[axis][particle_set->member[first + k]];
     return sum / n;
 }

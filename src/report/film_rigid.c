@@ -6,14 +6,17 @@
 #include "rigid/rigid_surface.h"
 
 /* Returns the number of rigid bodies that the page of film f shows: none in one dimension or without the scene. */
-static int rigids_of(const struct run_animation *f) { return f->scene && f->dim > 1 ? f->scene->rigids : 0; }
+static int rigids_of(const struct run_animation *animation)
+{
+    return animation->scene && animation->dim > 1 ? animation->scene->rigids : 0;
+}
 
 /* Computes the bounding box of the particles in the first output frame of film f. low[dim], high[dim]: receive its
  * lower and upper corner [m]. */
-static void particles_box(const struct run_animation *f, real *low, real *high)
+static void particles_box(const struct run_animation *animation, real *low, real *high)
 {
-    const struct animation_particle_set *s = &f->set[0];
-    for (int d = 0; d < f->dim; d++) {
+    const struct animation_particle_set *s = &animation->set[0];
+    for (int d = 0; d < animation->dim; d++) {
         low[d] = INFINITY, high[d] = -INFINITY;
         for (int64_t i = 0; i < s->n; i++) low[d] = fmin(low[d], s->X[d][i]), high[d] = fmax(high[d], s->X[d][i]);
     }
@@ -42,23 +45,24 @@ static void write_surface(struct html_page *p, const struct rigid_surface *s, co
     memory_free(X), memory_free(corner);
 }
 
-void animation_write_rigid_body_surfaces(struct html_page *p, const struct run_animation *f)
+void animation_write_rigid_body_surfaces(struct html_page *p, const struct run_animation *animation)
 {
-    const int rigids = rigids_of(f);
+    const int rigids = rigids_of(animation);
     struct rigid_placement *at = NEW("report.rigid", rigids, struct rigid_placement);
-    if (rigids > 0 && rigids_read_placements_of_frame(at, rigids, f->folder, f->frame[0].listed.number)) {
+    if (rigids > 0 &&
+        rigids_read_placements_of_frame(at, rigids, animation->folder, animation->frame[0].listed.number)) {
         json_begin_object_or_list(&p->json, "rigid", '[');
         for (int b = 0; b < rigids; b++) {
-            const struct scene_body *body = &f->scene->body[f->scene->bodies + b];
+            const struct scene_body *body = &animation->scene->body[animation->scene->bodies + b];
             real low[DIM_MAX], high[DIM_MAX];
             struct rigid_surface surface;
-            particles_box(f, low, high);
-            (void)rigid_compute_plotting_box(&body->shape, f->dim, low, high);
-            rigid_surface_approximate_by_polygons(&surface, &body->shape, f->dim, low, high);
+            particles_box(animation, low, high);
+            (void)rigid_compute_plotting_box(&body->shape, animation->dim, low, high);
+            rigid_surface_approximate_by_polygons(&surface, &body->shape, animation->dim, low, high);
             json_begin_object_or_list(&p->json, NULL, '{');
             json_write_text(&p->json, "name", body->name);
-            write_vector(p, "centre", at[b].centre, f->dim);
-            write_surface(p, &surface, at[b].centre, f->dim);
+            write_vector(p, "centre", at[b].centre, animation->dim);
+            write_surface(p, &surface, at[b].centre, animation->dim);
             json_end_object_or_list(&p->json, '}');
             rigid_surface_free(&surface);
         }
@@ -67,22 +71,22 @@ void animation_write_rigid_body_surfaces(struct html_page *p, const struct run_a
     memory_free(at);
 }
 
-void animation_write_rigid_body_motion_of_frame(struct html_page *p, const struct run_animation *f,
+void animation_write_rigid_body_motion_of_frame(struct html_page *p, const struct run_animation *animation,
                                                 const struct output_frame *frame, int frame_number)
 {
-    const int rigids = rigids_of(f);
+    const int rigids = rigids_of(animation);
     struct rigid_placement *at = NEW("report.rigid", rigids, struct rigid_placement);
-    if (rigids > 0 && rigids_read_placements_of_frame(at, rigids, f->folder, frame_number)) {
+    if (rigids > 0 && rigids_read_placements_of_frame(at, rigids, animation->folder, frame_number)) {
         json_begin_object_or_list(&p->json, "rigid", '[');
         for (int b = 0; b < rigids; b++) {
             json_begin_object_or_list(&p->json, NULL, '{');
             real beside[DIM_MAX];
-            rigid_body_find_nearest_particle_displacement(&f->scene->body[f->scene->bodies + b].shape, &at[b], frame,
-                                                          beside);
-            write_vector(p, "x", at[b].x, f->dim);
-            write_vector(p, "beside", beside, f->dim);
+            rigid_body_find_nearest_particle_displacement(&animation->scene->body[animation->scene->bodies + b].shape,
+                                                          &at[b], frame, beside);
+            write_vector(p, "x", at[b].x, animation->dim);
+            write_vector(p, "beside", beside, animation->dim);
             json_begin_object_or_list(&p->json, "turn", '[');
-            for (int d = 0; d < f->dim; d++) write_vector(p, NULL, at[b].turn[d], f->dim);
+            for (int d = 0; d < animation->dim; d++) write_vector(p, NULL, at[b].turn[d], animation->dim);
             json_end_object_or_list(&p->json, ']');
             json_end_object_or_list(&p->json, '}');
         }

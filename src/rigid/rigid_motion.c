@@ -70,15 +70,15 @@ static int add_column(struct column *column, int at, const char *body, const cha
     return at + 1;
 }
 
-int rigids_list_history_columns(const struct run *e, struct column *column)
+int rigids_list_history_columns(const struct run *run, struct column *column)
 {
     static const char *const force[] = {"force_x", "force_y", "force_z"}, *const place[] = {"x", "y", "z"};
     static const char *const moment[] = {"moment_x", "moment_y", "moment_z"};
     static const char *const velocity[] = {"velocity_x", "velocity_y", "velocity_z"};
-    const int dim = e->rigid->dim;
+    const int dim = run->rigid->dim;
     int n = 0;
-    for (int k = 0; k < e->rigid->n; k++) {
-        const char *name = e->rigid->body[k].name;
+    for (int k = 0; k < run->rigid->n; k++) {
+        const char *name = run->rigid->body[k].name;
         for (int d = 0; d < dim; d++) n = add_column(column, n, name, force[d], "N");
         for (int d = dim == 2 ? 2 : 0; d < 3 && dim > 1; d++) n = add_column(column, n, name, moment[d], "N m");
         for (int d = 0; d < dim; d++) n = add_column(column, n, name, place[d], "m");
@@ -123,12 +123,12 @@ void rigids_extrapolate_stored_velocities_to_time(struct rigid_set *rigid, real 
         rigids_compute_velocity_of_body_at_time(rigid, k, t, dt, rigid->motion + 2 * DIM_MAX * k + DIM_MAX);
 }
 
-void rigids_write_history_values(struct run *e, real *record)
+void rigids_write_history_values(struct run *run, real *record)
 {
-    const int dim = e->rigid->dim;
-    for (int k = 0; k < e->rigid->n; k++) {
-        const struct rigid_body *r = &e->rigid->body[k];
-        const real *x = e->rigid->motion + 2 * DIM_MAX * k, *v = x + DIM_MAX;
+    const int dim = run->rigid->dim;
+    for (int k = 0; k < run->rigid->n; k++) {
+        const struct rigid_body *r = &run->rigid->body[k];
+        const real *x = run->rigid->motion + 2 * DIM_MAX * k, *v = x + DIM_MAX;
         for (int d = 0; d < dim; d++) *record++ = r->force[d];
         for (int d = dim == 2 ? 2 : 0; d < 3 && dim > 1; d++) *record++ = r->moment[d];
         for (int d = 0; d < dim; d++) *record++ = x[d];

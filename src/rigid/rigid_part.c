@@ -4,16 +4,16 @@
 #include "rigid/rigid_surface.h"
 #include "run/part.h"
 
-static void rigid_free_all(struct run *e)
+static void rigid_free_all(struct run *run)
 {
-    for (int b = 0; e->rigid->surface && b < e->rigid->n; b++) rigid_surface_free(&e->rigid->surface[b]);
-    memory_free(e->rigid->surface);
-    memory_free(e->rigid->body), memory_free(e->rigid->shape), memory_free(e->rigid->motion);
+    for (int b = 0; run->rigid->surface && b < run->rigid->n; b++) rigid_surface_free(&run->rigid->surface[b]);
+    memory_free(run->rigid->surface);
+    memory_free(run->rigid->body), memory_free(run->rigid->shape), memory_free(run->rigid->motion);
 }
 
-static status rigid_state(struct run *e, struct archive *a)
+static status rigid_state(struct run *run, struct archive *a)
 {
-    for (int k = 0; k < e->rigid->n; k++) TRY(rigid_save_or_load(&e->rigid->body[k], k, a));
+    for (int k = 0; k < run->rigid->n; k++) TRY(rigid_save_or_load(&run->rigid->body[k], k, a));
     return OK;
 }
 

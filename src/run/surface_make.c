@@ -74,11 +74,13 @@ static status refuse_apart(const struct scene *s, const struct particles *p, con
                       own, here.text, there.text, apart.text);
 }
 
-status surface_correction_compute_bond_weight_factors(struct surface_correction *w, struct bond_source *source,
+status surface_correction_compute_bond_weight_factors(struct surface_correction *correction, struct bond_source *source,
                                                       const struct particles *p, const struct loads *loads,
                                                       const struct scene *s)
 {
-    const status made = surface_correction_fit_bond_weight_factors(w, p, source, source->rotates);
-    if (made == OK) source->surface = w;
-    return made == REFUSED && w->apart[0] >= 0 ? refuse_apart(s, p, loads, w->apart[0], w->apart[1]) : made;
+    const status made = surface_correction_fit_bond_weight_factors(correction, p, source, source->rotates);
+    if (made == OK) source->surface = correction;
+    return made == REFUSED && correction->apart[0] >= 0
+               ? refuse_apart(s, p, loads, correction->apart[0], correction->apart[1])
+               : made;
 }

@@ -23,43 +23,43 @@ static const real too_close = 1e-3;
 
 enum { PARTICLES_MAX = INT32_MAX - 64 }; /* largest number of particles, since indices are 32-bit numbers */
 
-static void draft_free(struct new_particles *d)
+static void draft_free(struct new_particles *created)
 {
-    for (int a = 0; a < DIM_MAX; a++) memory_free(d->X[a]);
-    for (int a = 0; a < DIM_MAX; a++) memory_free(d->v[a]);
-    memory_free(d->volume);
-    memory_free(d->mass);
-    memory_free(d->material);
-    memory_free(d->body);
-    memory_free(d->id);
+    for (int a = 0; a < DIM_MAX; a++) memory_free(created->X[a]);
+    for (int a = 0; a < DIM_MAX; a++) memory_free(created->v[a]);
+    memory_free(created->volume);
+    memory_free(created->mass);
+    memory_free(created->material);
+    memory_free(created->body);
+    memory_free(created->id);
 }
 
-static void draft_grow(struct new_particles *d)
+static void draft_grow(struct new_particles *created)
 {
-    d->room = d->room > 0 ? 2 * d->room : 4096;
-    for (int a = 0; a < d->scene->dim; a++) GROW("fill.X", d->X[a], d->room);
-    for (int a = 0; a < d->scene->dim; a++) GROW("fill.v", d->v[a], d->room);
-    GROW("fill.volume", d->volume, d->room);
-    GROW("fill.mass", d->mass, d->room);
-    GROW("fill.material", d->material, d->room);
-    GROW("fill.body", d->body, d->room);
-    GROW("fill.id", d->id, d->room);
+    created->room = created->room > 0 ? 2 * created->room : 4096;
+    for (int a = 0; a < created->scene->dim; a++) GROW("fill.X", created->X[a], created->room);
+    for (int a = 0; a < created->scene->dim; a++) GROW("fill.v", created->v[a], created->room);
+    GROW("fill.volume", created->volume, created->room);
+    GROW("fill.mass", created->mass, created->room);
+    GROW("fill.material", created->material, created->room);
+    GROW("fill.body", created->body, created->room);
+    GROW("fill.id", created->id, created->room);
 }
 
-status new_particles_append_particle(struct new_particles *d, const real *position, real volume, int material_number,
-                                     int body_number)
+status new_particles_append_particle(struct new_particles *created, const real *position, real volume,
+                                     int material_number, int body_number)
 {
-    if (d->n + d->skipped >= PARTICLES_MAX)
+    if (created->n + created->skipped >= PARTICLES_MAX)
         return new_particles_report_body_fault(
-            d, body_number, "has more particles than the limit of 2147483583; use a larger particles.spacing");
-    if (d->n == d->room) draft_grow(d);
-    for (int a = 0; a < d->scene->dim; a++) d->X[a][d->n] = position[a];
-    for (int a = 0; a < d->scene->dim; a++) d->v[a][d->n] = NAN;
-    d->volume[d->n] = volume, d->mass[d->n] = NAN;
-    d->material[d->n] = (uint8_t)material_number;
-    d->body[d->n] = (uint8_t)body_number;
-    d->id[d->n] = (int32_t)(d->n + d->skipped);
-    d->n++;
+            created, body_number, "has more particles than the limit of 2147483583; use a larger particles.spacing");
+    if (created->n == created->room) draft_grow(created);
+    for (int a = 0; a < created->scene->dim; a++) created->X[a][created->n] = position[a];
+    for (int a = 0; a < created->scene->dim; a++) created->v[a][created->n] = NAN;
+    created->volume[created->n] = volume, created->mass[created->n] = NAN;
+    created->material[created->n] = (uint8_t)material_number;
+    created->body[created->n] = (uint8_t)body_number;
+    created->id[created->n] = (int32_t)(created->n + created->skipped);
+    created->n++;
     return OK;
 }
 
@@ -116,19 +116,19 @@ static real cell_volume(const struct scene *s)
     return lattice_particle_volume(scene_cross_section_or_thickness(s), s->spacing, s->dim);
 }
 
-/* Computes the axes axis[dim] of the lattice that covers the whole shape of one body of d->scene. body: index of the
- * body. Returns REFUSED, with a message, if the shape or its first solid is unbounded, or if the lattice would have
+/* Computes the axes axis[dim] of the lattice that covers the whole shape of one body of created->scene. body: index of
+ * the body. Returns REFUSED, with a message, if the shape or its first solid is unbounded, or if the lattice would have
  * more than 64 PARTICLES_MAX positions or one farther than FILL_FARTHEST spacings from its centre. */
-static status lattice_axes(const struct new_particles *d, int body, struct axis axis[DIM_MAX])
+static status lattice_axes(const struct new_particles *created, int body, struct axis axis[DIM_MAX])
 {
-    const struct scene *s = d->scene;
+    const struct scene *s = created->scene;
     real low[DIM_MAX], high[DIM_MAX], from[DIM_MAX], to[DIM_MAX], places = 1;
     if (!region_compute_bounding_box_if_finite(&s->body[body].shape, s->dim, from, to))
         return new_particles_report_body_fault(
-            d, body, "has an infinite shape; build it from finite solids such as boxes, balls or cylinders");
+            created, body, "has an infinite shape; build it from finite solids such as boxes, balls or cylinders");
     if (!first_solid_box(&s->body[body].shape, s->dim, low, high) &&
         !first_solid_box(&s->body[0].shape, s->dim, low, high))
-        return new_particles_report_body_fault(d, body, "has an infinite first solid; begin with a finite one");
+        return new_particles_report_body_fault(created, body, "has an infinite first solid; begin with a finite one");
     for (int a = 0; a < s->dim; a++) {
         struct axis *x = &axis[a];
         x->centre = 0.5 * (low[a] + high[a]);
@@ -139,7 +139,7 @@ static status lattice_axes(const struct new_particles *d, int body, struct axis 
         places *= real_max(0, last - first + 1);
         if (!(places < 64.0 * PARTICLES_MAX && -first < FILL_FARTHEST && last < FILL_FARTHEST))
             return new_particles_report_body_fault(
-                d, body,
+                created, body,
                 "is too large for particles.spacing; use a larger spacing, or check the "
                 "units of both (m if none is written)");
         x->first = (int64_t)first, x->last = (int64_t)last;
@@ -148,15 +148,16 @@ static status lattice_axes(const struct new_particles *d, int body, struct axis 
     return OK;
 }
 
-/* Counts a particle that is inside a body but not created, because coarse cells replace it, in d->skipped. place[dim]:
- * its position [m], by which the bounding box d->low, d->high of these particles is extended. Returns OK. */
-static status place_skip(struct new_particles *d, const real *place)
+/* Counts a particle that is inside a body but not created, because coarse cells replace it, in created->skipped.
+ * place[dim]: its position [m], by which the bounding box created->low, created->high of these particles is extended.
+ * Returns OK. */
+static status place_skip(struct new_particles *created, const real *place)
 {
-    for (int a = 0; a < d->scene->dim; a++) {
-        d->low[a] = d->skipped > 0 ? real_min(d->low[a], place[a]) : place[a];
-        d->high[a] = d->skipped > 0 ? real_max(d->high[a], place[a]) : place[a];
+    for (int a = 0; a < created->scene->dim; a++) {
+        created->low[a] = created->skipped > 0 ? real_min(created->low[a], place[a]) : place[a];
+        created->high[a] = created->skipped > 0 ? real_max(created->high[a], place[a]) : place[a];
     }
-    d->skipped++;
+    created->skipped++;
     return OK;
 }
 
@@ -165,41 +166,42 @@ static status place_skip(struct new_particles *d, const real *place)
  * random by up to half of `particles.irregularity` spacings along each axis (Imachi et al. 2019, eq. 49). body: index
  * of the body; volume: volume of the particle [m^3]. Returns REFUSED, with a message, if there would be too many
  * particles. */
-static status lattice_point(struct new_particles *d, int body, const real *place, real volume)
+static status lattice_point(struct new_particles *created, int body, const real *place, real volume)
 {
-    const struct scene *s = d->scene;
+    const struct scene *s = created->scene;
     real X[DIM_MAX] = {0};
-    if (cells_without_particles_contain(d->hollow, place)) return place_skip(d, place);
+    if (cells_without_particles_contain(created->hollow, place)) return place_skip(created, place);
     if (!region_contains(&s->body[body].shape, place, s->dim, ON_SURFACE * s->spacing)) return OK;
     for (int a = 0; a < s->dim; a++)
-        X[a] = place[a] + s->spacing * s->irregularity * scatter(s->seed, d->n, a); /* Imachi et al. 2019, eq. 49 */
+        X[a] =
+            place[a] + s->spacing * s->irregularity * scatter(s->seed, created->n, a); /* Imachi et al. 2019, eq. 49 */
     return new_particles_append_particle(
-        d, X, volume, scene_material_index_at_position(s, &s->body[body], place, s->body[body].material), body);
+        created, X, volume, scene_material_index_at_position(s, &s->body[body], place, s->body[body].material), body);
 }
 
 /* Returns REFUSED, with a message, if the scene of d has no spacing at which to fill the body number `body`. */
-static status check_spacing_given(const struct new_particles *d, int body)
+static status check_spacing_given(const struct new_particles *created, int body)
 {
-    if (d->scene->spacing > 0) return OK;
+    if (created->scene->spacing > 0) return OK;
     return new_particles_report_body_fault(
-        d, body, "particles.spacing is missing: a shape is filled with particles at this distance; add it");
+        created, body, "particles.spacing is missing: a shape is filled with particles at this distance; add it");
 }
 
 /* Adds the particles of the lattice in the shape of a body to d, the list of particles to be created, with x varying
  * fastest. body: index of the body. Returns REFUSED, with a message, if the input file (scene) has no spacing or the
  * shape does not fit it. */
-static status fill_lattice(struct new_particles *d, int body)
+static status fill_lattice(struct new_particles *created, int body)
 {
-    real volume = cell_volume(d->scene), place[DIM_MAX];
+    real volume = cell_volume(created->scene), place[DIM_MAX];
     struct axis axis[DIM_MAX] = {{0}}; /* unused directions have the one position 0 */
-    TRY(check_spacing_given(d, body));
-    TRY(lattice_axes(d, body, axis));
+    TRY(check_spacing_given(created, body));
+    TRY(lattice_axes(created, body, axis));
     for (int64_t k = axis[2].first; k <= axis[2].last; k++)
         for (int64_t j = axis[1].first; j <= axis[1].last; j++)
             for (int64_t i = axis[0].first; i <= axis[0].last; i++) {
                 const int64_t at[DIM_MAX] = {i, j, k};
                 for (int a = 0; a < DIM_MAX; a++) place[a] = axis_place(&axis[a], at[a]);
-                TRY(lattice_point(d, body, place, volume));
+                TRY(lattice_point(created, body, place, volume));
             }
     return OK;
 }
@@ -216,16 +218,17 @@ status body_lattice_compute_first_site_position(const struct scene *s, int body,
 
 /* ---- all ------------------------------------------------------------------------------------------------------- */
 
-/* Collects the particles of all bodies of d->scene in d, the list of particles to be created: from particle lists, or
- * from lattices in the shapes. Returns REFUSED, with a message, for a body without particles or with an invalid list or
- * shape. */
-static status draft_make(struct new_particles *d)
+/* Collects the particles of all bodies of created->scene in d, the list of particles to be created: from particle
+ * lists, or from lattices in the shapes. Returns REFUSED, with a message, for a body without particles or with an
+ * invalid list or shape. */
+static status draft_make(struct new_particles *created)
 {
-    for (int body = 0; body < d->scene->bodies; body++) {
-        const bool listed = d->scene->body[body].file != NULL;
-        int64_t before = d->n;
-        TRY(listed ? new_particles_append_body_from_file(d, body) : fill_lattice(d, body));
-        if (d->n == before && d->skipped == 0) return new_particles_report_empty_body(d, body, listed);
+    for (int body = 0; body < created->scene->bodies; body++) {
+        const bool listed = created->scene->body[body].file != NULL;
+        int64_t before = created->n;
+        TRY(listed ? new_particles_append_body_from_file(created, body) : fill_lattice(created, body));
+        if (created->n == before && created->skipped == 0)
+            return new_particles_report_empty_body(created, body, listed);
     }
     return OK;
 }
@@ -237,61 +240,62 @@ static real volume_term(const void *volume, int64_t i) { return ((const real *)v
 
 /* Returns the spacing of the scene of d [m]. If the scene has none because all particles come from lists, returns the
  * edge of a square or cube of the mean particle volume. */
-static real spacing_of(const struct new_particles *d)
+static real spacing_of(const struct new_particles *created)
 {
-    const struct scene *s = d->scene;
+    const struct scene *s = created->scene;
     if (s->spacing > 0) return s->spacing;
-    return pow(reproducible_sum(d->n, volume_term, d->volume) / ((real)d->n * scene_cross_section_or_thickness(s)),
+    return pow(reproducible_sum(created->n, volume_term, created->volume) /
+                   ((real)created->n * scene_cross_section_or_thickness(s)),
                1.0 / s->dim);
 }
 
 /* Creates the particles p from d, the list of particles to be created. A velocity that is NAN in d becomes that of the
  * body, a mass that is NAN follows from the density of the material. The method of the scene determines the kind of the
  * particles (peridynamic or material points). optional: optional arrays to create (WITH_*). */
-static void take_draft(struct particles *p, const struct new_particles *d, int optional)
+static void take_draft(struct particles *p, const struct new_particles *created, int optional)
 {
-    const struct scene *s = d->scene;
-    particles_make(p, s->dim, d->n, optional);
+    const struct scene *s = created->scene;
+    particles_make(p, s->dim, created->n, optional);
     p->plane_strain = s->space == SPACE_PLANE_STRAIN ? s->material : NULL;
 #pragma omp parallel for schedule(static)
-    for (int64_t i = 0; i < d->n; i++) {
+    for (int64_t i = 0; i < created->n; i++) {
         for (int a = 0; a < s->dim; a++) {
-            p->X[a][i] = p->x[a][i] = d->X[a][i];
-            p->v[a][i] = isnan(d->v[a][i]) ? s->body[d->body[i]].velocity[a] : d->v[a][i];
+            p->X[a][i] = p->x[a][i] = created->X[a][i];
+            p->v[a][i] = isnan(created->v[a][i]) ? s->body[created->body[i]].velocity[a] : created->v[a][i];
             if (optional & WITH_STRETCH) p->stretch[a][i] = 1;
             if (optional & WITH_ROTATIONS && s->dim == 3) p->end_rotation[ROTATION - 1][i] = 1;
         }
-        p->volume0[i] = p->volume[i] = d->volume[i];
-        p->material[i] = d->material[i];
-        p->body[i] = d->body[i];
-        p->mass[i] = isnan(d->mass[i]) ? s->material[p->material[i]].density * p->volume0[i] : d->mass[i];
+        p->volume0[i] = p->volume[i] = created->volume[i];
+        p->material[i] = created->material[i];
+        p->body[i] = created->body[i];
+        p->mass[i] = isnan(created->mass[i]) ? s->material[p->material[i]].density * p->volume0[i] : created->mass[i];
         p->kind[i] = s->method == METHOD_PD ? KIND_PD : KIND_MPM;
-        p->id[i] = d->id[i];
+        p->id[i] = created->id[i];
     }
 }
 
 /* Sets p->n_body to the number of particles of d including those left out because coarse cells replace them
- * (d->skipped). If there are any, sets p->low, p->high to the bounding box of all of them [m]. */
-static void take_skipped(struct particles *p, const struct new_particles *d)
+ * (created->skipped). If there are any, sets p->low, p->high to the bounding box of all of them [m]. */
+static void take_skipped(struct particles *p, const struct new_particles *created)
 {
-    for (int a = 0; a < p->dim && d->skipped > 0; a++) {
+    for (int a = 0; a < p->dim && created->skipped > 0; a++) {
         particles_coordinate_range(p, p->n, a, &p->low[a], &p->high[a]);
-        p->low[a] = real_min(p->low[a], d->low[a]), p->high[a] = real_max(p->high[a], d->high[a]);
+        p->low[a] = real_min(p->low[a], created->low[a]), p->high[a] = real_max(p->high[a], created->high[a]);
     }
-    p->n_body = p->n + d->skipped;
+    p->n_body = p->n + created->skipped;
 }
 
 /* Returns REFUSED, with a message, if a particle of p is farther than FILL_FARTHEST spacings from the origin or its
- * mass is not a positive finite number. d: list from which p was created, for the name of the body in the message;
- * spacing: distance of particles [m]. */
-static status check_values(const struct particles *p, const struct new_particles *d, real spacing)
+ * mass is not a positive finite number. created: list from which p was created, for the name of the body in the
+ * message; spacing: distance of particles [m]. */
+static status check_values(const struct particles *p, const struct new_particles *created, real spacing)
 {
     for (int64_t i = 0; i < p->n; i++) {
         bool good = isfinite(p->mass[i]) && p->mass[i] > 0 && isfinite(spacing);
         for (int a = 0; a < p->dim; a++) good = good && fabs(p->X[a][i]) <= FILL_FARTHEST * spacing;
         if (!good)
             return new_particles_report_body_fault(
-                d, p->body[i],
+                created, p->body[i],
                 "a particle is beyond 1e7 spacings from the origin, where double precision no longer resolves strains, "
                 "or has no finite mass; give positions and spacing in the same unit, and move the body to the origin");
     }
@@ -299,9 +303,9 @@ static status check_values(const struct particles *p, const struct new_particles
 }
 
 /* Returns REFUSED if the initial state (`initial` of the scene) moves a particle farther than FILL_FARTHEST spacings
- * from the origin, makes its volume 0 or negative, or gives it a velocity or stress that is not finite. d: list from
- * which p was created, for the name of the body in the message; spacing: distance of particles [m]. */
-static status check_start(const struct particles *p, const struct new_particles *d, real spacing)
+ * from the origin, makes its volume 0 or negative, or gives it a velocity or stress that is not finite. created: list
+ * from which p was created, for the name of the body in the message; spacing: distance of particles [m]. */
+static status check_start(const struct particles *p, const struct new_particles *created, real spacing)
 {
     for (int64_t i = 0; i < p->n; i++) {
         real sum = p->volume[i];
@@ -311,7 +315,7 @@ static status check_start(const struct particles *p, const struct new_particles 
         for (int k = 0; k < symmetric_tensor_component_count(p->dim); k++) sum += p->stress[k][i];
         if (!good || !isfinite(sum))
             return new_particles_report_body_fault(
-                d, p->body[i],
+                created, p->body[i],
                 "`initial` moves a particle beyond 1e7 spacings from the origin, turns it inside out, or gives it a "
                 "speed or stress that is not a number; check its values (strains near 1e-3 are usual)");
     }
@@ -319,9 +323,9 @@ static status check_start(const struct particles *p, const struct new_particles 
 }
 
 /* Returns REFUSED if two particles are closer than too_close spacings. The message names the pair with the smallest
- * index of its first particle, so that it does not depend on the number of threads. d: list from which p was created,
- * for the name of the body in the message; spacing: distance of particles [m]. */
-static status check_distances(const struct particles *p, const struct new_particles *d, real spacing)
+ * index of its first particle, so that it does not depend on the number of threads. created: list from which p was
+ * created, for the name of the body in the message; spacing: distance of particles [m]. */
+static status check_distances(const struct particles *p, const struct new_particles *created, real spacing)
 {
     struct cells cells;
     int64_t first = p->n;
@@ -343,7 +347,7 @@ static status check_distances(const struct particles *p, const struct new_partic
     }
     cells_free(&cells);
     if (first == p->n) return OK;
-    const struct scene_body *one = &d->scene->body[p->body[first]], *two = &d->scene->body[p->body[other]];
+    const struct scene_body *one = &created->scene->body[p->body[first]], *two = &created->scene->body[p->body[other]];
     if (one == two)
         status_set(REFUSED, "body %s has two particles at (%.6g, %.6g, %.6g) m: remove one of the two from its list",
                    one->name, X[0], X[1], X[2]);
@@ -356,21 +360,21 @@ static status check_distances(const struct particles *p, const struct new_partic
 /* Creates the particles p from d, the list of particles to be created, applies the initial states, checks values and
  * distances, and sorts the particles. Joined bodies become one. optional: optional arrays to create (WITH_*). Returns
  * REFUSED, with a message, for invalid values, lists or positions. */
-static status fill_made(struct particles *p, const struct new_particles *d, int optional)
+static status fill_made(struct particles *p, const struct new_particles *created, int optional)
 {
-    const struct scene *s = d->scene;
-    real spacing = spacing_of(d);
+    const struct scene *s = created->scene;
+    real spacing = spacing_of(created);
     TRY(initial_states_check_no_body_inverts(s));
-    take_draft(p, d, optional);
+    take_draft(p, created, optional);
     particles_set_strength_factors(p, s);
     particles_set_initial_temperatures(p, s);
-    take_skipped(p, d);
-    TRY(check_values(p, d, spacing));
+    take_skipped(p, created);
+    TRY(check_values(p, created, spacing));
     TRY(particle_lists_check_distances_fit_spacing(p, s));
     initial_states_apply_to_particles(p, s, spacing);
-    TRY(check_start(p, d, spacing));
+    TRY(check_start(p, created, spacing));
     particles_sort_by_lattice_rows(p, spacing, optional);
-    TRY(check_distances(p, d, spacing));
+    TRY(check_distances(p, created, spacing));
     for (int64_t i = 0; i < p->n; i++) p->body[i] = (uint8_t)s->body[p->body[i]].joined; /* joined bodies become one */
     return OK;
 }

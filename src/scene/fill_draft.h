@@ -24,21 +24,21 @@ struct new_particles {
 /* Appends a particle at the position `position` (dim coordinates [m]) to d, the list of particles to be created.
  * volume: volume of the particle [m^3]; material_number, body_number: indices of its material and its body in the input
  * file. Returns REFUSED, with a message, if there would be more than PARTICLES_MAX particles. */
-status new_particles_append_particle(struct new_particles *d, const real *position, real volume, int material_number,
-                                     int body_number);
+status new_particles_append_particle(struct new_particles *created, const real *position, real volume,
+                                     int material_number, int body_number);
 
-/* Always returns REFUSED, with the message that a body of the input file d->scene has no particles. body: index of the
- * body. from_particle_list: true if its particles were to come from a list; otherwise the message gives the extents of
- * the body's shape. */
-status new_particles_report_empty_body(const struct new_particles *d, int body, bool from_particle_list);
+/* Always returns REFUSED, with the message that a body of the input file created->scene has no particles. body: index
+ * of the body. from_particle_list: true if its particles were to come from a list; otherwise the message gives the
+ * extents of the body's shape. */
+status new_particles_report_empty_body(const struct new_particles *created, int body, bool from_particle_list);
 
-/* Always returns REFUSED, with a message that names the body with the index `body_number` in the input file d->scene
- * and ends with the text `reason`. */
-status new_particles_report_body_fault(const struct new_particles *d, int body_number, const char *reason);
+/* Always returns REFUSED, with a message that names the body with the index `body_number` in the input file
+ * created->scene and ends with the text `reason`. */
+status new_particles_report_body_fault(const struct new_particles *created, int body_number, const char *reason);
 
 /* Appends the particles of the body with the index `body_number` from its particle list file to d, the list of
  * particles to be created. Returns REFUSED, with a message, if the file cannot be read or is invalid. */
-status new_particles_append_body_from_file(struct new_particles *d, int body_number);
+status new_particles_append_body_from_file(struct new_particles *created, int body_number);
 
 /* Returns REFUSED, with a message, if an initial state of scene s (the input file) turns a body inside out; else OK. */
 status initial_states_check_no_body_inverts(const struct scene *s);

@@ -16,9 +16,11 @@ static bool cell_inside(const struct grid *box, const struct region *shape, int6
     return true;
 }
 
-void body_mark_cells_with_all_sites_inside(struct cells_without_particles *h, const struct scene *s, int body_index)
+void body_mark_cells_with_all_sites_inside(struct cells_without_particles *hollow, const struct scene *s,
+                                           int body_index)
 {
-    h->whole = NEW("hollow.whole", h->box.n, uint8_t);
+    hollow->whole = NEW("hollow.whole", hollow->box.n, uint8_t);
 #pragma omp parallel for schedule(dynamic, 4096)
-    for (int64_t I = 0; I < h->box.n; I++) h->whole[I] = cell_inside(&h->box, &s->body[body_index].shape, I);
+    for (int64_t I = 0; I < hollow->box.n; I++)
+        hollow->whole[I] = cell_inside(&hollow->box, &s->body[body_index].shape, I);
 }

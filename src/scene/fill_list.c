@@ -73,36 +73,36 @@ static status entry_material(const struct scene *s, const struct particle_list *
 /* Adds entry i of the particle list l to d, the list of particles to be created. body: index of its body in the scene;
  * volume: volume of the particle if l has no volumes [m^3]. Returns REFUSED, with a message, for an unknown
  * material. */
-static status take_entry(struct new_particles *d, int body, const struct particle_list *l, int64_t i, real volume)
+static status take_entry(struct new_particles *created, int body, const struct particle_list *l, int64_t i, real volume)
 {
-    const struct scene *s = d->scene;
+    const struct scene *s = created->scene;
     const struct scene_body *b = &s->body[body];
     int material;
     real X[DIM_MAX];
     TRY(entry_material(s, l, b, i, &material));
     for (int a = 0; a < s->dim; a++) X[a] = l->X[a][i];
-    TRY(new_particles_append_particle(d, X, l->volume ? l->volume[i] : volume,
+    TRY(new_particles_append_particle(created, X, l->volume ? l->volume[i] : volume,
                                       scene_material_index_at_position(s, b, X, material), body));
-    const int64_t last = d->n - 1;
+    const int64_t last = created->n - 1;
     for (int a = 0; a < s->dim; a++)
-        if (l->v[a]) d->v[a][last] = l->v[a][i];
-    if (l->mass) d->mass[last] = l->mass[i];
-    if (l->density) d->mass[last] = l->density[i] * d->volume[last];
+        if (l->v[a]) created->v[a][last] = l->v[a][i];
+    if (l->mass) created->mass[last] = l->mass[i];
+    if (l->density) created->mass[last] = l->density[i] * created->volume[last];
     return OK;
 }
 
 /* Adds the entries of the particle list l that belong to the body with the index `body` to d, the list of particles to
  * be created. These are the entries that name the body, or all if l has no column of bodies. Returns REFUSED, with a
  * message, if an entry names a body with another file, or if neither l gives volumes nor the scene a spacing. */
-static status take_list(struct new_particles *d, int body, const struct particle_list *l)
+static status take_list(struct new_particles *created, int body, const struct particle_list *l)
 {
-    const struct scene *s = d->scene;
+    const struct scene *s = created->scene;
     const char *path = s->body[body].file;
     char place[PLACE_LENGTH];
     const real volume = lattice_particle_volume(scene_cross_section_or_thickness(s), s->spacing, s->dim);
     if (!l->volume && !(volume > 0))
         return new_particles_report_body_fault(
-            d, body, "has a list without volumes; add a column volume, or set particles.spacing");
+            created, body, "has a list without volumes; add a column volume, or set particles.spacing");
     for (int64_t i = 0; i < l->n; i++) {
         const int owner = l->body != NULL ? (int)l->body[i] : body;
         if (!shares_file(s, owner, path))
@@ -110,32 +110,33 @@ static status take_list(struct new_particles *d, int body, const struct particle
                               "%s: the body with the number %d (counted from 0 in the order of the scene) does not use "
                               "this file; correct the column body",
                               entry_place(place, l, path, i, false), owner);
-        if (owner == body) TRY(take_entry(d, body, l, i, volume));
+        if (owner == body) TRY(take_entry(created, body, l, i, volume));
     }
     return OK;
 }
 
-/* Rounds the positions of the particles `first` .. d->n - 1 in d (the list of particles to be created) to exact lattice
- * sites, if they form a lattice within the rounding of the decimals in their file, such that planes of symmetry of the
- * scene are on sites or midway between two sites. Changes nothing otherwise. */
-static void take_lattice(struct new_particles *d, int64_t first)
+/* Rounds the positions of the particles `first` .. created->n - 1 in d (the list of particles to be created) to exact
+ * lattice sites, if they form a lattice within the rounding of the decimals in their file, such that planes of symmetry
+ * of the scene are on sites or midway between two sites. Changes nothing otherwise. */
+static void take_lattice(struct new_particles *created, int64_t first)
 {
-    const struct scene *s = d->scene;
+    const struct scene *s = created->scene;
     for (int a = 0; a < s->dim; a++) {
         real anchor = 0;
         for (int b = 0; b < s->boundaries; b++)
             if (s->boundary[b].kind == BOUNDARY_MIRROR && s->boundary[b].axis == a) anchor = s->boundary[b].at;
-        coordinates_round_to_lattice(d->X[a] + first, d->n - first, s->spacing, anchor);
+        coordinates_round_to_lattice(created->X[a] + first, created->n - first, s->spacing, anchor);
     }
 }
 
-status new_particles_append_body_from_file(struct new_particles *d, int body_number)
+status new_particles_append_body_from_file(struct new_particles *created, int body_number)
 {
-    const int64_t first = d->n;
+    const int64_t first = created->n;
     struct particle_list list;
-    TRY(particle_list_read(&list, d->scene->body[body_number].file, &d->scene->body[body_number].form, d->scene->dim));
-    status s = take_list(d, body_number, &list);
+    TRY(particle_list_read(&list, created->scene->body[body_number].file, &created->scene->body[body_number].form,
+                           created->scene->dim));
+    status s = take_list(created, body_number, &list);
     particle_list_free(&list);
-    if (s == OK && d->scene->body[body_number].list.lattice) take_lattice(d, first);
+    if (s == OK && created->scene->body[body_number].list.lattice) take_lattice(created, first);
     return s;
 }

@@ -35,7 +35,7 @@ static void write_paths(struct yaml_writer *w, const struct shape_file *f)
     fprintf(w->out, "%s, contents: \"%016" PRIx64 "\"", f->files > 1 ? "]" : "", f->contents);
 }
 
-static void write_image(struct yaml_writer *w, const struct shape_file *f, const struct voxel_solid *p)
+static void write_image(struct yaml_writer *w, const struct shape_file *f, const struct voxel_solid *voxels)
 {
     fputs(", pixel: ", w->out);
     yaml_write_real(w, f->size[0]);
@@ -46,8 +46,8 @@ static void write_image(struct yaml_writer *w, const struct shape_file *f, const
     fputs(", origin: ", w->out);
     yaml_write_number_list(w, f->from, f->dim);
     fputs(", values: [", w->out);
-    for (int k = 0; k < p->ranges; k++)
-        fprintf(w->out, "%s\"%d-%d\"", k ? ", " : "", p->range[k].low, p->range[k].high);
+    for (int k = 0; k < voxels->ranges; k++)
+        fprintf(w->out, "%s\"%d-%d\"", k ? ", " : "", voxels->range[k].low, voxels->range[k].high);
     fputc(']', w->out);
 }
 

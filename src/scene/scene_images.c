@@ -18,7 +18,7 @@ int compare_file_names_numerically(const void *a, const void *b)
 
 /* Appends the grey values that `text` gives, such as 255 or 100-255, to the ranges of p. n: YAML node of the text, for
  * messages. Returns REFUSED, with a message, for another form, for values above GREY_MAX and for too many ranges. */
-static status grey_range_read(struct reader *r, const struct yaml_node *n, const char *text, struct voxel_solid *p)
+static status grey_range_read(struct reader *r, const struct yaml_node *n, const char *text, struct voxel_solid *voxels)
 {
     int low = -1, high = -1, end = 0;
     if (sscanf(text, "%d%n", &low, &end) == 1 && text[end] == '\0')
@@ -29,17 +29,17 @@ static status grey_range_read(struct reader *r, const struct yaml_node *n, const
         return fault_report_at_node(
             r, n, "%s is not a grey value; give a number such as 255, or a range such as 100-255 (largest value: %d)",
             text_to_printable_line_for_message(r, text), GREY_MAX);
-    if (p->ranges == GREY_RANGES_MAX)
+    if (voxels->ranges == GREY_RANGES_MAX)
         return fault_report_at_node(r, n, "more than %d ranges of grey values; join some", GREY_RANGES_MAX);
-    p->range[p->ranges++] = (struct grey_range){low, high};
+    voxels->range[voxels->ranges++] = (struct grey_range){low, high};
     return OK;
 }
 
 status read_grey_value_ranges_of_voxel_solid(struct reader *r, const struct yaml_node *values_node,
-                                             struct voxel_solid *p)
+                                             struct voxel_solid *voxels)
 {
-    p->ranges = 0;
-    if (values_node->kind == NODE_SCALAR) return grey_range_read(r, values_node, values_node->text, p);
+    voxels->ranges = 0;
+    if (values_node->kind == NODE_SCALAR) return grey_range_read(r, values_node, values_node->text, voxels);
     if (values_node->kind != NODE_LIST || values_node->n == 0)
         return fault_report_at_node(
             r, values_node,
@@ -48,7 +48,7 @@ status read_grey_value_ranges_of_voxel_solid(struct reader *r, const struct yaml
         if (item->kind != NODE_SCALAR)
             return fault_report_at_node(r, item,
                                         "is not a grey value; give a number such as 255, or a range such as 100-255");
-        TRY(grey_range_read(r, item, item->text, p));
+        TRY(grey_range_read(r, item, item->text, voxels));
     }
     return OK;
 }
@@ -78,7 +78,7 @@ static status check_covered(struct reader *r, const struct yaml_node *n, const s
 }
 
 status read_materials_by_grey_value(struct reader *r, const struct yaml_node *materials_node,
-                                    const struct voxels *voxels, struct voxel_solid *p)
+                                    const struct voxels *voxels, struct voxel_solid *voxel_solid)
 {
     if (!r->bounded || r->cutting)
         return fault_report_at_node(
@@ -87,20 +87,20 @@ status read_materials_by_grey_value(struct reader *r, const struct yaml_node *ma
                         "give a mapping of grey values to materials, such as {0: void, 1-255: rock}"));
     bool *in = NEW("grey values", GREY_MAX + 1, bool);
     status s = OK;
-    p->ranges = 0;
+    voxel_solid->ranges = 0;
     for (const struct yaml_node *c = materials_node->first; c && s == OK; c = c->next) {
-        const int before = p->ranges;
-        s = grey_range_read(r, c, c->key, p);
+        const int before = voxel_solid->ranges;
+        s = grey_range_read(r, c, c->key, voxel_solid);
         if (s != OK) break;
-        const struct grey_range range = p->range[before];
+        const struct grey_range range = voxel_solid->range[before];
         for (int grey = range.low; grey <= range.high && s == OK; grey++) {
             if (in[grey])
                 s = fault_report_at_node(r, c, "has grey value %d in two ranges; remove it from one of them", grey);
             in[grey] = true;
         }
-        if (is_void(c)) p->ranges = before;
+        if (is_void(c)) voxel_solid->ranges = before;
     }
-    if (s == OK && p->ranges == 0)
+    if (s == OK && voxel_solid->ranges == 0)
         s = fault_report_at_node(r, materials_node, "has only void grey values; give at least one of them a material");
     if (s == OK) s = check_covered(r, materials_node, voxels, in);
     memory_free(in);

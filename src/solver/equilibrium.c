@@ -47,46 +47,47 @@ enum { WORK_PARTS = 16 };
 
 /* Stores the addresses of all vectors (struct field) of the solver q in list[FIELDS], so that one loop can allocate or
  * free them. */
-static void all_fields(struct newton_solver *q, struct field **list)
+static void all_fields(struct newton_solver *newton, struct field **list)
 {
-    struct field *const fields[] = {&q->u, &q->f, &q->d, &q->q, &q->r, &q->z, &q->x, &q->at, &q->before, &q->grown};
+    struct field *const fields[] = {&newton->u, &newton->f, &newton->d,  &newton->q,      &newton->r,
+                                    &newton->z, &newton->x, &newton->at, &newton->before, &newton->grown};
     memcpy(list, fields, sizeof fields);
 }
 enum { FIELDS = 10 }; /* number of vectors of a solver */
 
-void newton_solver_make(struct newton_solver *q, int dim, int64_t node_count)
+void newton_solver_make(struct newton_solver *newton, int dim, int64_t node_count)
 {
     struct field *list[FIELDS];
-    q->dim = dim, q->n = node_count;
-    q->strain_ratio = 0;
-    q->held = NEW("equilibrium.held", node_count, uint8_t);
-    all_fields(q, list);
+    newton->dim = dim, newton->n = node_count;
+    newton->strain_ratio = 0;
+    newton->held = NEW("equilibrium.held", node_count, uint8_t);
+    all_fields(newton, list);
     for (int k = 0; k < FIELDS; k++)
         for (int d = 0; d < dim; d++) list[k]->of[d] = NEW("equilibrium.field", node_count, real);
 }
 
-void newton_solver_free(struct newton_solver *q)
+void newton_solver_free(struct newton_solver *newton)
 {
     struct field *list[FIELDS];
-    all_fields(q, list);
+    all_fields(newton, list);
     for (int k = 0; k < FIELDS; k++)
         for (int d = 0; d < DIM_MAX; d++) memory_free(list[k]->of[d]);
-    memory_free(q->held);
-    *q = (struct newton_solver){0};
+    memory_free(newton->held);
+    *newton = (struct newton_solver){0};
 }
 
-static bool is_held(const struct newton_solver *q, int64_t i, int d) { return q->held[i] >> d & 1; }
+static bool is_held(const struct newton_solver *newton, int64_t i, int d) { return newton->held[i] >> d & 1; }
 
 /* Computes the vector to = a x + b y for all components of all nodes of q, including those with prescribed
  * displacement. `to` may be x or y. */
-static void combine(const struct newton_solver *q, struct field *to, real a, const struct field *x, real b,
+static void combine(const struct newton_solver *newton, struct field *to, real a, const struct field *x, real b,
                     const struct field *y)
 {
-    for (int d = 0; d < q->dim; d++) {
+    for (int d = 0; d < newton->dim; d++) {
         real *t = to->of[d];
         const real *v = x->of[d], *w = y->of[d];
 #pragma omp parallel for schedule(static)
-        for (int64_t i = 0; i < q->n; i++) t[i] = a * v[i] + b * w[i];
+        for (int64_t i = 0; i < newton->n; i++) t[i] = a * v[i] + b * w[i];
     }
 }
 
@@ -108,25 +109,25 @@ static void dot_block(const void *context, int64_t first, int64_t end, real *sum
 
 /* Computes the scalar product of the vectors a and b: over the free components of q in sum[0], over held components
  * (with prescribed displacement) in sum[1]. */
-static void dots(const struct newton_solver *q, const struct field *a, const struct field *b, real sum[2])
+static void dots(const struct newton_solver *newton, const struct field *a, const struct field *b, real sum[2])
 {
-    reproducible_sums(q->n, 2, dot_block, &(struct product){q, a, b}, sum);
+    reproducible_sums(newton->n, 2, dot_block, &(struct product){newton, a, b}, sum);
 }
 
-static real dot_free(const struct newton_solver *q, const struct field *a, const struct field *b)
+static real dot_free(const struct newton_solver *newton, const struct field *a, const struct field *b)
 {
     real sum[2];
-    dots(q, a, b, sum);
+    dots(newton, a, b, sum);
     return sum[0];
 }
 
 /* ---- forces ------------------------------------------------------------------------------------------------------ */
 
-/* Computes the forces f [N] at the displacements u [m] by the callback q->force, and counts the call. */
-static void forces_at(struct newton_solver *q, const struct field *u, struct field *f)
+/* Computes the forces f [N] at the displacements u [m] by the callback newton->force, and counts the call. */
+static void forces_at(struct newton_solver *newton, const struct field *u, struct field *f)
 {
-    q->force(q->context, u, f);
-    q->forces++;
+    newton->force(newton->context, u, f);
+    newton->forces++;
 }
 
 /* Adds the products a b of two vectors over all components, free and held, of nodes first .. end - 1 to *sum. context:
@@ -145,101 +146,105 @@ static void plain_block(const void *context, int64_t first, int64_t end, real *s
 
 /* Returns the scalar product of vectors a and b over all components of q, free and held (with prescribed
  * displacement). */
-static real dot_all(const struct newton_solver *q, const struct field *a, const struct field *b)
+static real dot_all(const struct newton_solver *newton, const struct field *a, const struct field *b)
 {
     real sum;
-    reproducible_sums(q->n, 1, plain_block, &(struct product){q, a, b}, &sum);
+    reproducible_sums(newton->n, 1, plain_block, &(struct product){newton, a, b}, &sum);
     return sum;
 }
 
 /* Returns the estimated size [m] of the region that moves with the largest component of the displacement `increment`,
  * from the sum of squares of the increment. Bonds at the border of this region rotate by about this component divided
- * by the size. q: solver, with the size of the body; most: the largest component [m]. */
-static real turning_width(const struct newton_solver *q, const struct field *increment, real most)
+ * by the size. newton: solver, with the size of the body; most: the largest component [m]. */
+static real turning_width(const struct newton_solver *newton, const struct field *increment, real most)
 {
-    return q->length * pow(real_max(1, dot_all(q, increment, increment) / square(most)), 1.0 / q->dim);
+    return newton->length * pow(real_max(1, dot_all(newton, increment, increment) / square(most)), 1.0 / newton->dim);
 }
 
 /* Returns the factor [1] by which the displacement `increment` of q is multiplied when its product with the stiffness
  * is computed from a difference of forces. With this factor, strains of bonds are at most DIFFERENCE_STRAIN and their
  * rotations about DIFFERENCE_TURN. most: largest component of the increment [m]. */
-static real difference_step(const struct newton_solver *q, const struct field *increment, real most)
+static real difference_step(const struct newton_solver *newton, const struct field *increment, real most)
 {
-    return real_min(DIFFERENCE_STRAIN / q->strain_ratio, DIFFERENCE_TURN * turning_width(q, increment, most)) / most;
+    return real_min(DIFFERENCE_STRAIN / newton->strain_ratio,
+                    DIFFERENCE_TURN * turning_width(newton, increment, most)) /
+           most;
 }
 
-/* Computes out = K in, the product of the tangent stiffness K at the displacements u = q->u with the displacement
- * vector `in`, by a one-sided difference of forces: (f(u) - f(u + step in))/step. q->f must contain the forces f(u).
- * Overwrites the vector q->at. */
-static void stiffness(struct newton_solver *q, const struct field *in, struct field *out)
+/* Computes out = K in, the product of the tangent stiffness K at the displacements u = newton->u with the displacement
+ * vector `in`, by a one-sided difference of forces: (f(u) - f(u + step in))/step. newton->f must contain the forces
+ * f(u). Overwrites the vector newton->at. */
+static void stiffness(struct newton_solver *newton, const struct field *in, struct field *out)
 {
-    const real most = field_largest_absolute_component(in, q->dim, q->n);
-    const real step = most > 0 ? difference_step(q, in, most) : 0;
-    combine(q, &q->at, 1, &q->u, step, in);
-    forces_at(q, &q->at, out);
+    const real most = field_largest_absolute_component(in, newton->dim, newton->n);
+    const real step = most > 0 ? difference_step(newton, in, most) : 0;
+    combine(newton, &newton->at, 1, &newton->u, step, in);
+    forces_at(newton, &newton->at, out);
     if (most > 0)
-        combine(q, out, -1 / step, out, 1 / step, &q->f);
+        combine(newton, out, -1 / step, out, 1 / step, &newton->f);
     else
-        combine(q, out, 0, out, 0, out);
+        combine(newton, out, 0, out, 0, out);
 }
 
-/* Stores in q->strain_ratio the ratio of the strain that the displacements d cause to their largest component [1/m],
- * which determines the size of the next difference of forces. curvature: d . K d with the tangent stiffness K [J]; does
- * nothing unless it is positive. */
-static void strain_note(struct newton_solver *q, const struct field *d, real curvature)
+/* Stores in newton->strain_ratio the ratio of the strain that the displacements d cause to their largest component
+ * [1/m], which determines the size of the next difference of forces. curvature: d . K d with the tangent stiffness K
+ * [J]; does nothing unless it is positive. */
+static void strain_note(struct newton_solver *newton, const struct field *d, real curvature)
 {
-    const real most = field_largest_absolute_component(d, q->dim, q->n);
-    if (curvature > 0 && most > 0) q->strain_ratio = sqrt(curvature / q->unit_energy) / most;
+    const real most = field_largest_absolute_component(d, newton->dim, newton->n);
+    if (curvature > 0 && most > 0) newton->strain_ratio = sqrt(curvature / newton->unit_energy) / most;
 }
 
-/* Measures how far the forces q->f are from equilibrium. Sets q->scale to the largest of the norms of applied forces,
- * reactions and round-off and SCALE_LEAST times the largest scale so far [N], q->residual to the norm of the unbalanced
- * forces, divided by q->scale [1], and q->worst to the node with the largest unbalanced force. */
-static void equilibrium_measure(struct newton_solver *q)
+/* Measures how far the forces newton->f are from equilibrium. Sets newton->scale to the largest of the norms of applied
+ * forces, reactions and round-off and SCALE_LEAST times the largest scale so far [N], newton->residual to the norm of
+ * the unbalanced forces, divided by newton->scale [1], and newton->worst to the node with the largest unbalanced force.
+ */
+static void equilibrium_measure(struct newton_solver *newton)
 {
     real sum[2], most = -1;
-    dots(q, &q->f, &q->f, sum);
-    q->scale = real_max(real_max(q->applied, sqrt(sum[1])), real_max(q->noise, SCALE_LEAST * q->largest));
-    q->largest = real_max(q->largest, q->scale);
-    q->residual = q->scale > 0 ? sqrt(sum[0]) / q->scale : 0;
-    for (int64_t i = 0; i < q->n; i++) {
+    dots(newton, &newton->f, &newton->f, sum);
+    newton->scale =
+        real_max(real_max(newton->applied, sqrt(sum[1])), real_max(newton->noise, SCALE_LEAST * newton->largest));
+    newton->largest = real_max(newton->largest, newton->scale);
+    newton->residual = newton->scale > 0 ? sqrt(sum[0]) / newton->scale : 0;
+    for (int64_t i = 0; i < newton->n; i++) {
         real size = 0;
-        for (int d = 0; d < q->dim; d++) size += is_held(q, i, d) ? 0 : square(q->f.of[d][i]);
-        if (size > most) most = size, q->worst = i;
+        for (int d = 0; d < newton->dim; d++) size += is_held(newton, i, d) ? 0 : square(newton->f.of[d][i]);
+        if (size > most) most = size, newton->worst = i;
     }
 }
 
 /* ---- one correction ---------------------------------------------------------------------------------------------- */
 
-/* Computes the residual q->r = f - K x of the initial increment x = q->x, with the present forces f = q->f and the
- * tangent stiffness K. x may contain the motion of supports. The residual is 0 for components with prescribed
- * displacement. */
-static void residual_of_guess(struct newton_solver *q)
+/* Computes the residual newton->r = f - K x of the initial increment x = newton->x, with the present forces f =
+ * newton->f and the tangent stiffness K. x may contain the motion of supports. The residual is 0 for components with
+ * prescribed displacement. */
+static void residual_of_guess(struct newton_solver *newton)
 {
-    if (field_largest_absolute_component(&q->x, q->dim, q->n) == 0) {
-        combine(q, &q->r, 1, &q->f, 0, &q->f);
+    if (field_largest_absolute_component(&newton->x, newton->dim, newton->n) == 0) {
+        combine(newton, &newton->r, 1, &newton->f, 0, &newton->f);
     } else {
-        stiffness(q, &q->x, &q->q);
-        combine(q, &q->r, 1, &q->f, -1, &q->q);
+        stiffness(newton, &newton->x, &newton->q);
+        combine(newton, &newton->r, 1, &newton->f, -1, &newton->q);
     }
-    for (int d = 0; d < q->dim; d++)
-        for (int64_t i = 0; i < q->n; i++)
-            if (is_held(q, i, d)) q->r.of[d][i] = 0;
+    for (int d = 0; d < newton->dim; d++)
+        for (int64_t i = 0; i < newton->n; i++)
+            if (is_held(newton, i, d)) newton->r.of[d][i] = 0;
 }
 
-/* Sets the free components of the initial increment q->x to 0 if the residual is smaller without them. These components
- * were extrapolated in proportion to the loads, which is wrong, for example, for a fragment that has broken off and
- * rotated. Overwrites q->z; q->r is the residual of the version tried last. */
-static void guess_check(struct newton_solver *q)
+/* Sets the free components of the initial increment newton->x to 0 if the residual is smaller without them. These
+ * components were extrapolated in proportion to the loads, which is wrong, for example, for a fragment that has broken
+ * off and rotated. Overwrites newton->z; newton->r is the residual of the version tried last. */
+static void guess_check(struct newton_solver *newton)
 {
-    residual_of_guess(q);
-    const real with = dot_free(q, &q->r, &q->r);
-    combine(q, &q->z, 1, &q->x, 0, &q->x);
-    for (int d = 0; d < q->dim; d++)
-        for (int64_t i = 0; i < q->n; i++)
-            if (!is_held(q, i, d)) q->x.of[d][i] = 0;
-    residual_of_guess(q);
-    if (with < dot_free(q, &q->r, &q->r)) combine(q, &q->x, 1, &q->z, 0, &q->z);
+    residual_of_guess(newton);
+    const real with = dot_free(newton, &newton->r, &newton->r);
+    combine(newton, &newton->z, 1, &newton->x, 0, &newton->x);
+    for (int d = 0; d < newton->dim; d++)
+        for (int64_t i = 0; i < newton->n; i++)
+            if (!is_held(newton, i, d)) newton->x.of[d][i] = 0;
+    residual_of_guess(newton);
+    if (with < dot_free(newton, &newton->r, &newton->r)) combine(newton, &newton->x, 1, &newton->z, 0, &newton->z);
 }
 
 /* Parameters of advance_block: the solver, and the factor of the step [1]. */
@@ -249,86 +254,92 @@ struct step {
 };
 
 /* Advances the nodes first .. end - 1 by a step of conjugate gradients: x += scale d for all components; r -= scale K d
- * for free components; r = 0 for components with prescribed displacement. K d is in q->q. Adds r . r to *sum. context:
- * solver and scale (struct step). Called by reproducible_sums for each block of nodes. */
+ * for free components; r = 0 for components with prescribed displacement. K d is in newton->q. Adds r . r to *sum.
+ * context: solver and scale (struct step). Called by reproducible_sums for each block of nodes. */
 static void advance_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct step *s = context;
-    const struct newton_solver *q = s->q;
-    for (int d = 0; d < q->dim; d++) {
-        real *x = q->x.of[d], *r = q->r.of[d], part = 0;
-        const real *increment = q->d.of[d], *force = q->q.of[d];
+    const struct newton_solver *newton = s->q;
+    for (int d = 0; d < newton->dim; d++) {
+        real *x = newton->x.of[d], *r = newton->r.of[d], part = 0;
+        const real *increment = newton->d.of[d], *force = newton->q.of[d];
 #pragma omp simd reduction(+ : part)
         for (int64_t i = first; i < end; i++) {
             x[i] += s->scale * increment[i];
-            r[i] = q->held[i] >> d & 1 ? 0 : r[i] - s->scale * force[i];
+            r[i] = newton->held[i] >> d & 1 ? 0 : r[i] - s->scale * force[i];
             part += r[i] * r[i];
         }
         *sum += part;
     }
 }
 
-/* Extends the correction q->x of the displacements along q->d, a direction in which the stiffness is negative. The
- * factor of q->d is such that bonds rotate by about TURN_MOST [rad]. */
-static void follow_negative(struct newton_solver *q)
+/* Extends the correction newton->x of the displacements along newton->d, a direction in which the stiffness is
+ * negative. The factor of newton->d is such that bonds rotate by about TURN_MOST [rad]. */
+static void follow_negative(struct newton_solver *newton)
 {
-    const real most = field_largest_absolute_component(&q->d, q->dim, q->n);
-    if (most > 0) combine(q, &q->x, 1, &q->x, TURN_MOST * turning_width(q, &q->d, most) / most, &q->d);
+    const real most = field_largest_absolute_component(&newton->d, newton->dim, newton->n);
+    if (most > 0)
+        combine(newton, &newton->x, 1, &newton->x, TURN_MOST * turning_width(newton, &newton->d, most) / most,
+                &newton->d);
 }
 
-/* Solves K x = f for the free components of the correction x = q->x by preconditioned conjugate gradients, starting
- * from the given x. Components with prescribed displacement do not change. Stops when the residual is `wanted` [N] or
- * FORCING_LEAST times its initial value, whichever is larger, when it has not decreased for DIRECTIONS_IDLE directions,
- * or after DIRECTIONS_MOST directions. If a direction with negative stiffness is found, x is extended along it
- * (Steihaug 1983), unless `prescribed` is true, which means that supports move. */
-static void correction(struct newton_solver *q, real wanted, bool prescribed)
+/* Solves K x = f for the free components of the correction x = newton->x by preconditioned conjugate gradients,
+ * starting from the given x. Components with prescribed displacement do not change. Stops when the residual is `wanted`
+ * [N] or FORCING_LEAST times its initial value, whichever is larger, when it has not decreased for DIRECTIONS_IDLE
+ * directions, or after DIRECTIONS_MOST directions. If a direction with negative stiffness is found, x is extended along
+ * it (Steihaug 1983), unless `prescribed` is true, which means that supports move. */
+static void correction(struct newton_solver *newton, real wanted, bool prescribed)
 {
     real rz = 0, left2, best2 = INFINITY;
     int best = 0;
-    residual_of_guess(q);
-    left2 = dot_free(q, &q->r, &q->r);
+    residual_of_guess(newton);
+    left2 = dot_free(newton, &newton->r, &newton->r);
     wanted = real_max(wanted, FORCING_LEAST * sqrt(left2));
     for (int k = 0; k < DIRECTIONS_MOST && left2 > square(wanted) && k - best < DIRECTIONS_IDLE; k++) {
         if (left2 < 0.5 * best2) best2 = left2, best = k;
-        q->precondition(q->context, &q->r, &q->z);
-        const real next = dot_all(q, &q->r, &q->z);
+        newton->precondition(newton->context, &newton->r, &newton->z);
+        const real next = dot_all(newton, &newton->r, &newton->z);
         if (!(next > 0)) break;
-        combine(q, &q->d, 1, &q->z, k > 0 ? next / rz : 0, &q->d);
+        combine(newton, &newton->d, 1, &newton->z, k > 0 ? next / rz : 0, &newton->d);
         rz = next;
-        stiffness(q, &q->d, &q->q);
-        const real curvature = dot_all(q, &q->d, &q->q);
-        q->directions++;
+        stiffness(newton, &newton->d, &newton->q);
+        const real curvature = dot_all(newton, &newton->d, &newton->q);
+        newton->directions++;
         if (!(curvature > 0)) {
-            if (!prescribed) follow_negative(q);
+            if (!prescribed) follow_negative(newton);
             break;
         }
-        strain_note(q, &q->d, curvature);
-        reproducible_sums(q->n, 1, advance_block, &(struct step){q, rz / curvature}, &left2);
+        strain_note(newton, &newton->d, curvature);
+        reproducible_sums(newton->n, 1, advance_block, &(struct step){newton, rz / curvature}, &left2);
     }
 }
 
 /* ---- its length -------------------------------------------------------------------------------------------------- */
 
-/* Computes the displacements q->z = q->u + share q->x, with a share [1] of the correction q->x added to the present
- * displacements, and stores the forces at q->z in q->q. */
-static void forces_along(struct newton_solver *q, real share)
+/* Computes the displacements newton->z = newton->u + share newton->x, with a share [1] of the correction newton->x
+ * added to the present displacements, and stores the forces at newton->z in newton->q. */
+static void forces_along(struct newton_solver *newton, real share)
 {
-    combine(q, &q->z, 1, &q->u, share, &q->x);
-    forces_at(q, &q->z, &q->q);
+    combine(newton, &newton->z, 1, &newton->u, share, &newton->x);
+    forces_at(newton, &newton->z, &newton->q);
 }
 
-/* Returns the factor of the correction x = q->x at which the force along x is at most PUSH_LEFT of its initial value,
- * or the norm of the forces has halved, after at most EVALUATIONS_MOST evaluations; it is 1 for linear bodies. The
- * energy decreases up to that point: the factor is reduced if the force there points against x, and increased if it
+/* Returns the factor of the correction x = newton->x at which the force along x is at most PUSH_LEFT of its initial
+ * value, or the norm of the forces has halved, after at most EVALUATIONS_MOST evaluations; it is 1 for linear bodies.
+ * The energy decreases up to that point: the factor is reduced if the force there points against x, and increased if it
  * still points along x. left: norm of the residual before the correction [N]; prescribed: true if supports move, so
- * that the increment is made in full. Stores the displacements at the factor in q->z and the forces there in q->q. */
-static real line_search(struct newton_solver *q, real left, bool prescribed)
+ * that the increment is made in full. Stores the displacements at the factor in newton->z and the forces there in
+ * newton->q. */
+static real line_search(struct newton_solver *newton, real left, bool prescribed)
 {
-    const real push = dot_free(q, &q->f, &q->x), most = field_largest_absolute_component(&q->x, q->dim, q->n);
-    real share = q->reach > 0 && !prescribed && most > q->reach ? q->reach / most : 1, low = 0, high = 0, at_low = push;
+    const real push = dot_free(newton, &newton->f, &newton->x),
+               most = field_largest_absolute_component(&newton->x, newton->dim, newton->n);
+    real share = newton->reach > 0 && !prescribed && most > newton->reach ? newton->reach / most : 1, low = 0, high = 0,
+         at_low = push;
     for (int k = 0; k < EVALUATIONS_MOST; k++) {
-        forces_along(q, share);
-        const real after = sqrt(dot_free(q, &q->q, &q->q)), at = dot_free(q, &q->q, &q->x);
+        forces_along(newton, share);
+        const real after = sqrt(dot_free(newton, &newton->q, &newton->q)),
+                   at = dot_free(newton, &newton->q, &newton->x);
         if (prescribed || !(push > 0) || after <= 0.5 * left) break;
         if (fabs(at) <= PUSH_LEFT * push) break;
         if (at > 0) {
@@ -344,51 +355,52 @@ static real line_search(struct newton_solver *q, real left, bool prescribed)
     return share;
 }
 
-/* Returns the work of all forces over the displacement increment share q->x [J]. It is computed by the trapezoidal
+/* Returns the work of all forces over the displacement increment share newton->x [J]. It is computed by the trapezoidal
  * rule, or if the forces may not be linear along the increment by Simpson's rule. The loads grow linearly along it,
- * from their values in q->before. share: factor of the line search [1]; left: norm of the residual before the increment
- * [N]; prescribed: true if supports move, so that a body that yields evenly may have no residual after the increment.
- * Overwrites the vectors q->at and q->r. */
-static real work_along(struct newton_solver *q, real share, real left, bool prescribed)
+ * from their values in newton->before. share: factor of the line search [1]; left: norm of the residual before the
+ * increment [N]; prescribed: true if supports move, so that a body that yields evenly may have no residual after the
+ * increment. Overwrites the vectors newton->at and newton->r. */
+static real work_along(struct newton_solver *newton, real share, real left, bool prescribed)
 {
     real ends[2], after[2], middle[2], grown[2], sum = 0;
-    dots(q, &q->before, &q->x, ends);
-    dots(q, &q->q, &q->x, after);
+    dots(newton, &newton->before, &newton->x, ends);
+    dots(newton, &newton->q, &newton->x, after);
     const real even = 0.5 * share * (ends[0] + ends[1] + after[0] + after[1]);
-    if (!(q->kinked && prescribed) && sqrt(dot_free(q, &q->q, &q->q)) <= WORK_CURVED * left) return even;
-    const int parts = q->kinked ? WORK_PARTS : 2;
-    dots(q, &q->f, &q->x, grown);
+    if (!(newton->kinked && prescribed) && sqrt(dot_free(newton, &newton->q, &newton->q)) <= WORK_CURVED * left)
+        return even;
+    const int parts = newton->kinked ? WORK_PARTS : 2;
+    dots(newton, &newton->f, &newton->x, grown);
     for (int k = 1; k < parts; k++) {
         const real part = (real)k / parts;
-        combine(q, &q->at, 1, &q->u, part * share, &q->x);
-        forces_at(q, &q->at, &q->r);
-        dots(q, &q->r, &q->x, middle);
+        combine(newton, &newton->at, 1, &newton->u, part * share, &newton->x);
+        forces_at(newton, &newton->at, &newton->r);
+        dots(newton, &newton->r, &newton->x, middle);
         sum += (k % 2 ? 4 : 2) * (middle[0] + middle[1] - (1 - part) * (grown[0] + grown[1] - ends[0] - ends[1]));
     }
     return (2 * even + share * sum) / (3 * parts);
 }
 
-/* Adds the correction q->x, multiplied by the factor of the line search, to the displacements q->u, and updates the
- * forces q->f. left: norm of the residual before the correction [N]; prescribed: true if supports move. During the line
- * search material laws follow the state at which forces are evaluated (q->laws, if laws change); afterwards those fixed
- * before hold again. Returns the work of all forces along the increment [J]. */
-static real advance(struct newton_solver *q, real left, bool prescribed)
+/* Adds the correction newton->x, multiplied by the factor of the line search, to the displacements newton->u, and
+ * updates the forces newton->f. left: norm of the residual before the correction [N]; prescribed: true if supports
+ * move. During the line search material laws follow the state at which forces are evaluated (newton->laws, if laws
+ * change); afterwards those fixed before hold again. Returns the work of all forces along the increment [J]. */
+static real advance(struct newton_solver *newton, real left, bool prescribed)
 {
-    if (q->laws) q->laws(q->context, false);
-    const real share = line_search(q, left, prescribed), work = work_along(q, share, left, prescribed);
-    if (q->laws) q->laws(q->context, true);
-    combine(q, &q->u, 1, &q->z, 0, &q->z);
-    combine(q, &q->f, 1, &q->q, 0, &q->q);
-    combine(q, &q->before, 1, &q->q, 0, &q->q);
+    if (newton->laws) newton->laws(newton->context, false);
+    const real share = line_search(newton, left, prescribed), work = work_along(newton, share, left, prescribed);
+    if (newton->laws) newton->laws(newton->context, true);
+    combine(newton, &newton->u, 1, &newton->z, 0, &newton->z);
+    combine(newton, &newton->f, 1, &newton->q, 0, &newton->q);
+    combine(newton, &newton->before, 1, &newton->q, 0, &newton->q);
     return work;
 }
 
-/* Returns the work [J] of the present forces q->f along `increment` on held components, those with prescribed
+/* Returns the work [J] of the present forces newton->f along `increment` on held components, those with prescribed
  * displacement. */
-static real dot_held(const struct newton_solver *q, const struct field *increment)
+static real dot_held(const struct newton_solver *newton, const struct field *increment)
 {
     real sum[2];
-    dots(q, &q->f, increment, sum);
+    dots(newton, &newton->f, increment, sum);
     return sum[1];
 }
 
@@ -397,65 +409,65 @@ static real dot_held(const struct newton_solver *q, const struct field *incremen
  * along the later ones. The actual path is approximated by the curve c s + d s^2, with loads linear in s, 0 to 1. Along
  * it no energy is lost, and the work exceeds the mean of the loads at both ends times the displacement by more/6. more:
  * growth of the loads times the displacement of all corrections but the first [J]. */
-static void loads_bend(struct newton_solver *q, real more)
+static void loads_bend(struct newton_solver *newton, real more)
 {
-    q->bent = more / 6;
-    q->lost -= more / 3;
+    newton->bent = more / 6;
+    newton->lost -= more / 3;
 }
 
-static bool is_balanced(const struct newton_solver *q)
+static bool is_balanced(const struct newton_solver *newton)
 {
-    return q->residual <= q->tolerance || q->residual * q->scale <= q->noise;
+    return newton->residual <= newton->tolerance || newton->residual * newton->scale <= newton->noise;
 }
 
-/* Calls q->settle, which updates whatever the forces depend on besides displacements (branches of material laws, active
- * contacts) to the present state. Returns true if this has changed nothing, so that the solution is valid. Otherwise
- * recomputes the forces and returns false. */
-static bool laws_settle(struct newton_solver *q)
+/* Calls newton->settle, which updates whatever the forces depend on besides displacements (branches of material laws,
+ * active contacts) to the present state. Returns true if this has changed nothing, so that the solution is valid.
+ * Otherwise recomputes the forces and returns false. */
+static bool laws_settle(struct newton_solver *newton)
 {
-    if (!q->settle || q->settle(q->context)) return true;
-    forces_at(q, &q->u, &q->f);
-    combine(q, &q->before, 1, &q->f, 0, &q->f);
+    if (!newton->settle || newton->settle(newton->context)) return true;
+    forces_at(newton, &newton->u, &newton->f);
+    combine(newton, &newton->before, 1, &newton->f, 0, &newton->f);
     return false;
 }
 
-status newton_solver_find_equilibrium(struct newton_solver *q, const struct field *increment, bool loads_changed)
+status newton_solver_find_equilibrium(struct newton_solver *newton, const struct field *increment, bool loads_changed)
 {
-    bool prescribed = loads_changed && field_largest_absolute_component(increment, q->dim, q->n) > 0;
-    combine(q, &q->x, prescribed, increment, 0, increment);
-    combine(q, &q->before, 1, &q->f, 0, &q->f);
-    real supports = prescribed ? 0.5 * dot_held(q, increment) : 0;
-    forces_at(q, &q->u, &q->f);
-    if (!loads_changed) combine(q, &q->before, 1, &q->f, 0, &q->f);
-    combine(q, &q->grown, 1, &q->f, -1, &q->before);
-    q->bent = 0;
-    if (!(q->strain_ratio > 0)) q->strain_ratio = 1 / q->length;
+    bool prescribed = loads_changed && field_largest_absolute_component(increment, newton->dim, newton->n) > 0;
+    combine(newton, &newton->x, prescribed, increment, 0, increment);
+    combine(newton, &newton->before, 1, &newton->f, 0, &newton->f);
+    real supports = prescribed ? 0.5 * dot_held(newton, increment) : 0;
+    forces_at(newton, &newton->u, &newton->f);
+    if (!loads_changed) combine(newton, &newton->before, 1, &newton->f, 0, &newton->f);
+    combine(newton, &newton->grown, 1, &newton->f, -1, &newton->before);
+    newton->bent = 0;
+    if (!(newton->strain_ratio > 0)) newton->strain_ratio = 1 / newton->length;
     const bool driven = prescribed;
     bool settled = false; /* the laws are those of u */
     real straight = NAN;  /* growth of loads times the first correction [J] */
-    if (prescribed) guess_check(q);
+    if (prescribed) guess_check(newton);
     for (int k = 0; k < CORRECTIONS_MOST; k++) {
-        equilibrium_measure(q);
-        const real left = q->residual * q->scale, goal = 0.5 * q->tolerance * q->scale;
+        equilibrium_measure(newton);
+        const real left = newton->residual * newton->scale, goal = 0.5 * newton->tolerance * newton->scale;
         if (!isfinite(left)) break;
-        if (!prescribed && is_balanced(q)) {
+        if (!prescribed && is_balanced(newton)) {
             if (!settled) {
                 settled = true;
-                laws_settle(q);
+                laws_settle(newton);
                 continue; /* with these laws and the present norm of loads */
             }
-            if (driven) supports += 0.5 * dot_held(q, increment);
-            if (!isnan(straight)) loads_bend(q, dot_free(q, &q->grown, &q->u) - straight);
-            q->lost -= supports;
+            if (driven) supports += 0.5 * dot_held(newton, increment);
+            if (!isnan(straight)) loads_bend(newton, dot_free(newton, &newton->grown, &newton->u) - straight);
+            newton->lost -= supports;
             return OK;
         }
-        correction(q, prescribed ? goal : real_min(FORCING_MOST * left, real_max(goal, FORCING_LEAST * left)),
+        correction(newton, prescribed ? goal : real_min(FORCING_MOST * left, real_max(goal, FORCING_LEAST * left)),
                    prescribed);
-        q->lost += advance(q, left, prescribed);
-        laws_settle(q);
+        newton->lost += advance(newton, left, prescribed);
+        laws_settle(newton);
         settled = true;
-        if (isnan(straight)) straight = dot_free(q, &q->grown, &q->u);
-        combine(q, &q->x, 0, &q->x, 0, &q->x);
+        if (isnan(straight)) straight = dot_free(newton, &newton->grown, &newton->u);
+        combine(newton, &newton->x, 0, &newton->x, 0, &newton->x);
         prescribed = false;
     }
     return status_set(

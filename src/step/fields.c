@@ -91,23 +91,24 @@ static bool in_mesh(const struct lagrangian_mesh *frame, int64_t i)
     return frame->mesh.points > 0 && frame->mesh.place[i] >= 0;
 }
 
-/* Computes the displacement gradients of all particles of run e, H[dim dim][n] [1], from mesh nodes, bonds or near
+/* Computes the displacement gradients of all particles of run, H[dim dim][n] [1], from mesh nodes, bonds or near
  * points. Allocates the arrays H[k], which the caller frees with memory_free. */
-static void gradients_make(const struct run *e, real **H)
+static void gradients_make(const struct run *run, real **H)
 {
-    const struct particles *p = &e->part;
+    const struct particles *p = &run->part;
     for (int k = 0; k < p->dim * p->dim; k++) H[k] = NEW("report.gradient", p->n, real);
-    if (e->frame->mesh.points > 0) mesh_points_gradient(&e->frame->mesh, H);
+    if (run->frame->mesh.points > 0) mesh_points_gradient(&run->frame->mesh, H);
 #pragma omp parallel
     {
         struct neighbour_list near = {0};
 #pragma omp for schedule(static)
         for (int64_t i = 0; i < p->n; i++)
             if (p->kind[i] == KIND_PD)
-                gradient_of_bonds(&e->bonds, p, i, H);
-            else if (!in_mesh(e->frame, i)) {
-                particles_list_neighbours_within_radius(&near, &e->cells, p, i, NEAR_REACH * e->scene->spacing, false);
-                gradient_of_points(p, &e->source, &near, i, H);
+                gradient_of_bonds(&run->bonds, p, i, H);
+            else if (!in_mesh(run->frame, i)) {
+                particles_list_neighbours_within_radius(&near, &run->cells, p, i, NEAR_REACH * run->scene->spacing,
+                                                        false);
+                gradient_of_points(p, &run->source, &near, i, H);
             }
         memory_free(near.at);
     }
@@ -208,23 +209,23 @@ static uint8_t *point_levels_make(const struct lagrangian_mesh *frame, const str
 
 /* ---- a frame ----------------------------------------------------------------------------------------------------- */
 
-/* Computes the fields of an output frame of run e that particles do not store (strain, density, plastic work, level of
+/* Computes the fields of an output frame of run that particles do not store (strain, density, plastic work, level of
  * cells) and stores pointers to them in *extra, from which the frame is written. requested_field_bits: set of these
  * fields, as bits ASK_... (output/output.h). Release them with frame_fields_free. */
-void frame_fields_compute_requested(struct run *e, unsigned requested_field_bits, struct frame_extra *extra)
+void frame_fields_compute_requested(struct run *run, unsigned requested_field_bits, struct frame_extra *extra)
 {
-    extra->asked = requested_field_bits, extra->material = e->scene->material, extra->space = e->scene->space;
-    if (requested_field_bits & (ASK_STRAIN | ASK_DENSITY)) gradients_make(e, extra->state.gradient);
-    if (requested_field_bits & ASK_PLASTIC_WORK) extra->state.plastic_work = plastic_work_make(&e->part, &e->bonds);
-    extra->state.plastic_strain = plastic_strain_make(&e->part, &e->bonds);
-    extra->state.damage = damage_make(&e->part, &e->bonds);
-    if (requested_field_bits & ASK_SHARE) extra->state.share = shares_make(&e->part, &e->bonds, &e->source);
-    if (requested_field_bits & ASK_LEVEL) extra->state.level = cell_levels_make(e->frame, &e->part);
+    extra->asked = requested_field_bits, extra->material = run->scene->material, extra->space = run->scene->space;
+    if (requested_field_bits & (ASK_STRAIN | ASK_DENSITY)) gradients_make(run, extra->state.gradient);
+    if (requested_field_bits & ASK_PLASTIC_WORK) extra->state.plastic_work = plastic_work_make(&run->part, &run->bonds);
+    extra->state.plastic_strain = plastic_strain_make(&run->part, &run->bonds);
+    extra->state.damage = damage_make(&run->part, &run->bonds);
+    if (requested_field_bits & ASK_SHARE) extra->state.share = shares_make(&run->part, &run->bonds, &run->source);
+    if (requested_field_bits & ASK_LEVEL) extra->state.level = cell_levels_make(run->frame, &run->part);
     if (!extra->more) return;
-    for (int k = 0; k < DIM_MAX * DIM_MAX; k++) extra->more_state.gradient[k] = e->frame->shown.gradient[k];
-    if (requested_field_bits & ASK_SHARE && e->bonds.soft.near)
-        extra->more_state.share = point_shares_make(&e->frame->shown.part, e->scene);
-    if (requested_field_bits & ASK_LEVEL) extra->more_state.level = point_levels_make(e->frame, e->scene);
+    for (int k = 0; k < DIM_MAX * DIM_MAX; k++) extra->more_state.gradient[k] = run->frame->shown.gradient[k];
+    if (requested_field_bits & ASK_SHARE && run->bonds.soft.near)
+        extra->more_state.share = point_shares_make(&run->frame->shown.part, run->scene);
+    if (requested_field_bits & ASK_LEVEL) extra->more_state.level = point_levels_make(run->frame, run->scene);
 }
 
 void frame_fields_free(struct frame_extra *extra)

@@ -10,43 +10,43 @@
 #include "run/say.h"
 #include "step/sample.h"
 
-struct observed_run observed_run_make_read_only_view(const struct run *e)
+struct observed_run observed_run_make_read_only_view(const struct run *run)
 {
-    const struct scene *s = e->scene;
-    return (struct observed_run){.part = &e->part,
-                                 .cells = &e->cells,
-                                 .bonds = &e->bonds,
-                                 .kernels = &e->kernels,
-                                 .loads = &e->loads,
-                                 .grid = &e->grid->field[0].grid,
-                                 .tips = &e->fracture->tips,
-                                 .material = s->material,
-                                 .partial = &e->coupling->partial,
-                                 .spacing = s->spacing,
-                                 .thickness = e->source.family.section,
-                                 .strain_stress = e->probing->strain_stress,
-                                 .residual_step0 = e->probing->residual_step0,
-                                 .t = e->clock.t,
-                                 .in_steps = scene_has_load_steps(s),
-                                 .load_step = e->clock.load_step,
-                                 .t_velocity = e->clock.step > 0 && scene_is_dynamic(s) ? e->clock.t - 0.5 * e->clock.dt
-                                                                                        : e->clock.t,
-                                 .pulse = e->probing->pulse,
-                                 .pulses = e->probing->pulses,
-                                 .space = s->space,
-                                 .horizon = e->source.family.horizon,
-                                 .crack = s->crack,
-                                 .cracks = s->cracks,
-                                 .energy_change = diagnostics_relative_energy_balance_error(e->diagnostics),
-                                 .growth = e->fracture->growth,
-                                 .growths = s->growths,
-                                 .baseline = e->probing->has_baseline ? &e->probing->baseline : NULL};
+    const struct scene *s = run->scene;
+    return (struct observed_run){
+        .part = &run->part,
+        .cells = &run->cells,
+        .bonds = &run->bonds,
+        .kernels = &run->kernels,
+        .loads = &run->loads,
+        .grid = &run->grid->field[0].grid,
+        .tips = &run->fracture->tips,
+        .material = s->material,
+        .partial = &run->coupling->partial,
+        .spacing = s->spacing,
+        .thickness = run->source.family.section,
+        .strain_stress = run->probing->strain_stress,
+        .residual_step0 = run->probing->residual_step0,
+        .t = run->clock.t,
+        .in_steps = scene_has_load_steps(s),
+        .load_step = run->clock.load_step,
+        .t_velocity = run->clock.step > 0 && scene_is_dynamic(s) ? run->clock.t - 0.5 * run->clock.dt : run->clock.t,
+        .pulse = run->probing->pulse,
+        .pulses = run->probing->pulses,
+        .space = s->space,
+        .horizon = run->source.family.horizon,
+        .crack = s->crack,
+        .cracks = s->cracks,
+        .energy_change = diagnostics_relative_energy_balance_error(run->diagnostics),
+        .growth = run->fracture->growth,
+        .growths = s->growths,
+        .baseline = run->probing->has_baseline ? &run->probing->baseline : NULL};
 }
 
-void run_update_break_and_reaction_probes(struct run *e)
+void run_update_break_and_reaction_probes(struct run *run)
 {
-    struct observed_run o = observed_run_make_read_only_view(e);
-    probes_update_break_spall_and_reaction_probes(&e->probing->probes, &o);
+    struct observed_run o = observed_run_make_read_only_view(run);
+    probes_update_break_spall_and_reaction_probes(&run->probing->probes, &o);
 }
 
 /* Adds the warning to `to` that the first bonds of particles with prescribed motion break, with the first of `loads`
@@ -72,21 +72,22 @@ static void say_torn(struct warnings *to, const struct loads *loads, const struc
     warnings_add_and_print(to, text);
 }
 
-void run_record_broken_bonds_of_step(struct run *e, int64_t broken_bond_count)
+void run_record_broken_bonds_of_step(struct run *run, int64_t broken_bond_count)
 {
     /* a load step breaks bonds before its end, but is recorded at its end */
-    const bool in_steps = scene_has_load_steps(e->scene);
-    const real t = in_steps ? e->scene->duration / (real)e->scene->steps.number * (real)e->clock.load_step : e->clock.t;
-    struct observed_run o = observed_run_make_read_only_view(e);
+    const bool in_steps = scene_has_load_steps(run->scene);
+    const real t =
+        in_steps ? run->scene->duration / (real)run->scene->steps.number * (real)run->clock.load_step : run->clock.t;
+    struct observed_run o = observed_run_make_read_only_view(run);
     char when[48];
     if (in_steps)
-        snprintf(when, sizeof when, "in load step %lld", (long long)e->clock.load_step);
+        snprintf(when, sizeof when, "in load step %lld", (long long)run->clock.load_step);
     else
         snprintf(when, sizeof when, "at %.4g s", t);
-    if (diagnostics_count_broken_bonds_and_record_first(e->diagnostics, &e->part, e->source.family.horizon,
+    if (diagnostics_count_broken_bonds_and_record_first(run->diagnostics, &run->part, run->source.family.horizon,
                                                         broken_bond_count, t))
-        say_torn(&e->warnings, &e->loads, &e->part, when);
-    if (scene_is_dynamic(e->scene)) run_update_break_and_reaction_probes(e);
+        say_torn(&run->warnings, &run->loads, &run->part, when);
+    if (scene_is_dynamic(run->scene)) run_update_break_and_reaction_probes(run);
     o.t = t;
-    if (in_steps && broken_bond_count > 0) probes_update_break_and_spall_probes(&e->probing->probes, &o);
+    if (in_steps && broken_bond_count > 0) probes_update_break_and_spall_probes(&run->probing->probes, &o);
 }

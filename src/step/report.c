@@ -141,55 +141,56 @@ static unsigned asked_of(const struct scene *scene, int k)
     return k > 0 && scene->series[k - 1].fields ? scene->series[k - 1].fields : scene->fields;
 }
 
-/* Writes a frame (output file of one time) of run e for each series of frames in `due`, and for the body also rigid
+/* Writes a frame (output file of one time) of run for each series of frames in `due`, and for the body also rigid
  * bodies and profiles. due: series of which a frame is to be written now, as bits: bit 0 for the whole body, bit k for
  * region k. Frames at t = 0 have no contact forces. Returns FAILED, with a message, if a value is not finite or a file
  * cannot be written. */
-static status write_frames(struct run *e, unsigned due)
+static status write_frames(struct run *run, unsigned due)
 {
-    const bool parts = e->scene->method == METHOD_PD && scene_can_have_cracks(e->scene);
-    struct output *out = e->report->out;
+    const bool parts = run->scene->method == METHOD_PD && scene_can_have_cracks(run->scene);
+    struct output *out = run->report->out;
     struct fragments fragments = {0};
     unsigned asked = 0;
     status s = OK;
-    if (e->frame->shown.part.n > 0)
+    if (run->frame->shown.part.n > 0)
         TRY(output_wait_until_frame_is_written(out)); /* the writer may still read the points */
-    run_update_particle_motion_and_stress(e);
-    TRY(frame_sound(&e->clock, &e->part));
-    if (parts) fragments_find_by_intact_bonds(&fragments, &e->bonds, &e->part);
+    run_update_particle_motion_and_stress(run);
+    TRY(frame_sound(&run->clock, &run->part));
+    if (parts) fragments_find_by_intact_bonds(&fragments, &run->bonds, &run->part);
     for (int k = 0; k <= out->n_series; k++)
-        if (due >> k & 1) asked |= asked_of(e->scene, k);
-    struct frame_extra extra = {.push = e->contact->push[0] ? e->contact->push : NULL,
+        if (due >> k & 1) asked |= asked_of(run->scene, k);
+    struct frame_extra extra = {.push = run->contact->push[0] ? run->contact->push : NULL,
                                 .fragment = fragments.of,
-                                .material_number = e->scene->material_number};
-    if (coarse_cell_points_interpolate_for_output(e->frame, &e->part, e->scene->material,
+                                .material_number = run->scene->material_number};
+    if (coarse_cell_points_interpolate_for_output(run->frame, &run->part, run->scene->material,
                                                   asked & (ASK_STRAIN | ASK_DENSITY))) {
-        extra.more = &e->frame->shown.part, extra.more_spacing = e->frame->shown.spacing;
-        extra.spacing = e->scene->spacing;
+        extra.more = &run->frame->shown.part, extra.more_spacing = run->frame->shown.spacing;
+        extra.spacing = run->scene->spacing;
     }
-    frame_fields_compute_requested(e, asked, &extra);
+    frame_fields_compute_requested(run, asked, &extra);
     for (int k = 0; k <= out->n_series && s == OK; k++) {
         if (!(due >> k & 1)) continue;
-        extra.asked = asked_of(e->scene, k);
-        s = output_begin_writing_frame_in_thread(out, k, &e->part, &extra, e->clock.t, e->clock.step, e->scene->text);
+        extra.asked = asked_of(run->scene, k);
+        s = output_begin_writing_frame_in_thread(out, k, &run->part, &extra, run->clock.t, run->clock.step,
+                                                 run->scene->text);
     }
     frame_fields_free(&extra);
     fragments_free(&fragments);
-    const struct observed_run seen = observed_run_make_read_only_view(e);
-    if (s == OK && due & 1) s = rigids_write_surfaces_of_frame(e->rigid, out, &e->part);
-    return s == OK && due & 1 ? profiles_write_csv_files(&e->probing->probes, out, &seen) : s;
+    const struct observed_run seen = observed_run_make_read_only_view(run);
+    if (s == OK && due & 1) s = rigids_write_surfaces_of_frame(run->rigid, out, &run->part);
+    return s == OK && due & 1 ? profiles_write_csv_files(&run->probing->probes, out, &seen) : s;
 }
 
-/* Writes a checkpoint of the run and adds the time that this took to e->report, without the time of waiting for an
+/* Writes a checkpoint of the run and adds the time that this took to run->report, without the time of waiting for an
  * output frame. Returns FAILED, with a message, if the file cannot be written. */
-static status write_checkpoint(struct run *e)
+static status write_checkpoint(struct run *run)
 {
-    struct run_report *r = e->report;
-    lagrangian_mesh_update_point_motion_and_stress(e->frame, &e->part, &e->loads);
+    struct run_report *r = run->report;
+    lagrangian_mesh_update_point_motion_and_stress(run->frame, &run->part, &run->loads);
     r->last_checkpoint = wall_clock_seconds();
     TRY(output_wait_until_frame_is_written(r->out));
     const double begun = wall_clock_seconds();
-    TRY(checkpoint_write(r->out, e->scene->text, e->save, e));
+    TRY(checkpoint_write(r->out, run->scene->text, run->save, run));
     const double now = wall_clock_seconds();
     r->checkpoint_seconds = real_max(r->checkpoint_seconds, now - r->last_checkpoint);
     r->checkpoints_spent += now - begun;
@@ -230,22 +231,22 @@ static status say_lost(struct output *out, const struct probes *probes, struct w
     return OK;
 }
 
-status report_open_history_and_write_first_frame(struct run *e)
+status report_open_history_and_write_first_frame(struct run *run)
 {
-    struct run_report *r = e->report;
+    struct run_report *r = run->report;
     r->started = r->last_progress = r->last_checkpoint = wall_clock_seconds();
-    r->step_started = e->clock.step;
+    r->step_started = run->clock.step;
     /* the checkpoint of step 0 counts frame 0 */
     const bool resumed = r->out && r->out->series[0].frames > 0;
-    status s = history_sample_open_csv_file(e, resumed);
-    if (s == OK && r->out) contact_allocate_particle_forces(e->contact, &e->part);
+    status s = history_sample_open_csv_file(run, resumed);
+    if (s == OK && r->out) contact_allocate_particle_forces(run->contact, &run->part);
     r->setup_seconds += wall_clock_seconds() - r->started;
-    if (s == OK && r->out && resumed) s = say_lost(r->out, &e->probing->probes, &e->warnings);
+    if (s == OK && r->out && resumed) s = say_lost(r->out, &run->probing->probes, &run->warnings);
     if (s == OK && r->out && !resumed) {
-        profiles_remove_files_of_earlier_run(&e->probing->probes, r->out);
+        profiles_remove_files_of_earlier_run(&run->probing->probes, r->out);
         /* frame 0 of the body is always written */
-        s = write_frames(e, report_bitmask_of_frame_series_due(r->out, e->scene, &e->clock, 0) | 1);
-        if (s == OK) s = write_checkpoint(e);
+        s = write_frames(run, report_bitmask_of_frame_series_due(r->out, run->scene, &run->clock, 0) | 1);
+        if (s == OK) s = write_checkpoint(run);
         r->checkpoints_spent = 0;
     }
     return s;
@@ -264,29 +265,29 @@ static void duration_text(char *text, size_t size, double seconds)
         snprintf(text, size, "%.1f h", seconds / 3600);
 }
 
-/* Prints the progress line of run e on stderr if PROGRESS_SECONDS (in a file PROGRESS_SECONDS_FILE) have passed since
- * the previous line. Prints nothing if e->report->quiet is true. last: true after the last step, when the line is
+/* Prints the progress line of run on stderr if PROGRESS_SECONDS (in a file PROGRESS_SECONDS_FILE) have passed since
+ * the previous line. Prints nothing if run->report->quiet is true. last: true after the last step, when the line is
  * always printed on a terminal. */
-static void progress(struct run *e, bool last)
+static void progress(struct run *run, bool last)
 {
-    if (e->report->quiet) return;
+    if (run->report->quiet) return;
     bool terminal = isatty(STDERR_FILENO);
     double now = wall_clock_seconds();
-    if (!last && now - e->report->last_progress < (terminal ? PROGRESS_SECONDS : PROGRESS_SECONDS_FILE)) return;
+    if (!last && now - run->report->last_progress < (terminal ? PROGRESS_SECONDS : PROGRESS_SECONDS_FILE)) return;
     if (last && !terminal) return;
-    e->report->last_progress = now;
-    double rate = (double)(e->clock.step - e->report->step_started) / real_max(now - e->report->started, 1e-9);
+    run->report->last_progress = now;
+    double rate = (double)(run->clock.step - run->report->step_started) / real_max(now - run->report->started, 1e-9);
     char left[32];
-    duration_text(left, sizeof left, rate > 0 ? (double)(e->clock.steps - e->clock.step) / rate : 0);
-    const struct crack_tip *tip = tips_find_tip_with_largest_growth(&e->fracture->tips);
+    duration_text(left, sizeof left, rate > 0 ? (double)(run->clock.steps - run->clock.step) / rate : 0);
+    const struct crack_tip *tip = tips_find_tip_with_largest_growth(&run->fracture->tips);
     const char *const from = terminal ? "\r" : "";
-    if (scene_has_load_steps(e->scene))
-        fprintf(stderr, "%sload step %lld/%lld  %s  at most %s left", from, (long long)e->clock.step,
-                (long long)e->clock.steps, e->report->note, left);
+    if (scene_has_load_steps(run->scene))
+        fprintf(stderr, "%sload step %lld/%lld  %s  at most %s left", from, (long long)run->clock.step,
+                (long long)run->clock.steps, run->report->note, left);
     else
-        fprintf(stderr, "%sstep %lld/%lld  t = %.4g s  %.0f steps/s  %s left", from, (long long)e->clock.step,
-                (long long)e->clock.steps, e->clock.t, rate, left);
-    fprintf(stderr, "  PD %.1f %%  crack %.3g mm%s", 100.0 * (double)e->part.n_of[KIND_PD] / (double)e->part.n_body,
+        fprintf(stderr, "%sstep %lld/%lld  t = %.4g s  %.0f steps/s  %s left", from, (long long)run->clock.step,
+                (long long)run->clock.steps, run->clock.t, rate, left);
+    fprintf(stderr, "  PD %.1f %%  crack %.3g mm%s", 100.0 * (double)run->part.n_of[KIND_PD] / (double)run->part.n_body,
             tip ? 1e3 * tip->growth : 0.0, terminal && !last ? "\033[K" : "\n");
     fflush(stderr);
 }
@@ -336,45 +337,46 @@ static void say_overlap(const struct bonds *b, const struct particles *p, const 
     warnings_add_and_print(to, text);
 }
 
-status report_write_outputs_due_after_step(struct run *e)
+status report_write_outputs_due_after_step(struct run *run)
 {
-    struct run_report *r = e->report;
-    const bool last = e->clock.step == e->clock.steps, in_steps = scene_has_load_steps(e->scene);
-    r->particle_steps[KIND_PD] += e->part.n_of[KIND_PD];
-    r->particle_steps[KIND_MPM] += e->part.n_of[KIND_MPM];
-    r->bond_visits += e->bonds.n;
-    r->inactive += particles_at_rest_fraction(&e->bonds, &e->frame->mesh, &e->part);
-    timer_add_elapsed_to_section(&e->timers, TIMER_SAMPLE);
+    struct run_report *r = run->report;
+    const bool last = run->clock.step == run->clock.steps, in_steps = scene_has_load_steps(run->scene);
+    r->particle_steps[KIND_PD] += run->part.n_of[KIND_PD];
+    r->particle_steps[KIND_MPM] += run->part.n_of[KIND_MPM];
+    r->bond_visits += run->bonds.n;
+    r->inactive += particles_at_rest_fraction(&run->bonds, &run->frame->mesh, &run->part);
+    timer_add_elapsed_to_section(&run->timers, TIMER_SAMPLE);
     /* before the checkpoint, so that a finished run is complete */
-    if (last && !in_steps) history_sample_write_after_last_step(e);
+    if (last && !in_steps) history_sample_write_after_last_step(run);
     TRY(r->history_status);
-    TRY(run_check_last_sample_for_energy_divergence(e));
-    if (last) run_warn_of_unconserved_energy_and_momentum(e);
-    if (last) warn_of_tips_above_rayleigh_speed(&e->fracture->tips, e->scene, &e->warnings);
-    if (last || in_steps) warn_when_bonds_first_yield(r, &e->bonds, e->scene, &e->warnings);
-    if (last || in_steps || r->sampling.due) say_struts(&e->bonds, &e->part, &e->source.limit, &e->warnings);
-    if (in_steps) say_overlap(&e->bonds, &e->part, &e->source.limit, e->scene->model, e->clock.t, &e->warnings);
+    TRY(run_check_last_sample_for_energy_divergence(run));
+    if (last) run_warn_of_unconserved_energy_and_momentum(run);
+    if (last) warn_of_tips_above_rayleigh_speed(&run->fracture->tips, run->scene, &run->warnings);
+    if (last || in_steps) warn_when_bonds_first_yield(r, &run->bonds, run->scene, &run->warnings);
+    if (last || in_steps || r->sampling.due) say_struts(&run->bonds, &run->part, &run->source.limit, &run->warnings);
+    if (in_steps)
+        say_overlap(&run->bonds, &run->part, &run->source.limit, run->scene->model, run->clock.t, &run->warnings);
     if (r->out) {
-        const unsigned due = report_bitmask_of_frame_series_due(r->out, e->scene, &e->clock, e->clock.step);
-        if (due) TRY(write_frames(e, due));
-        const bool late = wall_is_over(e->scene, r), stop = late || (r->stop && *r->stop);
-        if (stop || checkpoint_due(r, e->scene)) TRY(write_checkpoint(e));
+        const unsigned due = report_bitmask_of_frame_series_due(r->out, run->scene, &run->clock, run->clock.step);
+        if (due) TRY(write_frames(run, due));
+        const bool late = wall_is_over(run->scene, r), stop = late || (r->stop && *r->stop);
+        if (stop || checkpoint_due(r, run->scene)) TRY(write_checkpoint(run));
         if (stop && !last)
             return status_set(INTERRUPTED, "%s at step %lld of %lld; continue with --resume",
                               late ? "the wall-clock limit time.wall is reached" : "interrupted",
-                              (long long)e->clock.step, (long long)e->clock.steps);
+                              (long long)run->clock.step, (long long)run->clock.steps);
     }
-    progress(e, false);
-    timer_add_elapsed_to_section(&e->timers, TIMER_OUTPUT);
+    progress(run, false);
+    timer_add_elapsed_to_section(&run->timers, TIMER_OUTPUT);
     return OK;
 }
 
-status report_write_last_checkpoint_and_finish(struct run *e)
+status report_write_last_checkpoint_and_finish(struct run *run)
 {
-    struct run_report *r = e->report;
-    progress(e, true);
+    struct run_report *r = run->report;
+    progress(run, true);
     if (!r->out) return OK;
     TRY(output_wait_until_frame_is_written(r->out));
-    if (e->clock.step > r->step_started) TRY(write_checkpoint(e));
+    if (run->clock.step > r->step_started) TRY(write_checkpoint(run));
     return OK;
 }

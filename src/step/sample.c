@@ -76,17 +76,17 @@ static int spin_columns(const struct scene *s, const struct lagrangian_mesh *fra
     return n;
 }
 
-/* Fills e->report->record, one line of history.csv, from the completed sample of the run e. */
-static void fill_record(struct run *e)
+/* Fills run->report->record, one line of history.csv, from the completed sample of the run. */
+static void fill_record(struct run *run)
 {
-    const struct energy_balance *l = &e->diagnostics->now;
-    const struct crack_tip *tip = tips_find_tip_with_largest_growth(&e->fracture->tips);
-    real *r = e->report->record;
+    const struct energy_balance *l = &run->diagnostics->now;
+    const struct crack_tip *tip = tips_find_tip_with_largest_growth(&run->fracture->tips);
+    real *r = run->report->record;
     const real *place = tip ? tip->place : (const real[DIM_MAX]){NAN, NAN, NAN};
-    const int dim = e->part.dim;
-    const real n = (real)e->part.n_body, pd = (real)e->report->sampling.pd;
+    const int dim = run->part.dim;
+    const real n = (real)run->part.n_body, pd = (real)run->report->sampling.pd;
     const real fixed[RECORD_FIXED] = {[0] = l->time,
-                                      (real)e->clock.step,
+                                      (real)run->clock.step,
                                       [7] = l->balance_error,
                                       l->momentum[0],
                                       l->momentum[1],
@@ -94,43 +94,43 @@ static void fill_record(struct run *e)
                                       l->momentum_error,
                                       pd,
                                       pd / n,
-                                      (real)e->report->sampling.bonds,
+                                      (real)run->report->sampling.bonds,
                                       tip ? tip->growth : 0,
                                       place[0],
                                       dim > 1 ? place[1] : NAN,
                                       dim > 2 ? place[2] : NAN,
                                       [20] = 1 - pd / n,
-                                      inactive_since_sample(&e->clock, e->report),
+                                      inactive_since_sample(&run->clock, run->report),
                                       [25] = tip ? tip->number : 0};
     memcpy(r, fixed, sizeof fixed);
     for (int k = 0; k < ENERGIES; k++) r[ledger[k].column] = l->energy.of[k];
     r[ledger[LEDGER_WORK].column] = l->external_work;
-    for (int c = 0; c < e->probing->probes.columns; c++) r[RECORD_FIXED + c] = e->probing->probes.value[c];
-    r += RECORD_FIXED + e->probing->probes.columns;
-    for (const struct part *const *p = e->parts; *p; p++) {
+    for (int c = 0; c < run->probing->probes.columns; c++) r[RECORD_FIXED + c] = run->probing->probes.value[c];
+    r += RECORD_FIXED + run->probing->probes.columns;
+    for (const struct part *const *p = run->parts; *p; p++) {
         if (!(*p)->columns) continue;
-        (*p)->record(e, r);
-        r += (*p)->columns(e, NULL);
+        (*p)->record(run, r);
+        r += (*p)->columns(run, NULL);
     }
-    for (int c = 0; c < spin_columns(e->scene, e->frame, NULL); c++) r[c] = l->spin[e->part.dim == 2 ? 2 : c];
+    for (int c = 0; c < spin_columns(run->scene, run->frame, NULL); c++) r[c] = l->spin[run->part.dim == 2 ? 2 : c];
 }
 
 /* Stores names and units of the history columns of probes, of the modules of the engine (struct part) and of angular
- * momentum in column[], unless it is NULL. Returns their number. e: the run. */
-static int own_columns(const struct run *e, struct column *column)
+ * momentum in column[], unless it is NULL. Returns their number. run: the run. */
+static int own_columns(const struct run *run, struct column *column)
 {
-    const struct probes *probes = &e->probing->probes;
+    const struct probes *probes = &run->probing->probes;
     int n = probes->columns;
     for (int c = 0; c < probes->columns && column; c++) column[c] = probes->column[c];
-    for (const struct part *const *p = e->parts; *p; p++)
-        if ((*p)->columns) n += (*p)->columns(e, column ? column + n : NULL);
-    return n + spin_columns(e->scene, e->frame, column ? column + n : NULL);
+    for (const struct part *const *p = run->parts; *p; p++)
+        if ((*p)->columns) n += (*p)->columns(run, column ? column + n : NULL);
+    return n + spin_columns(run->scene, run->frame, column ? column + n : NULL);
 }
 
-status history_sample_open_csv_file(struct run *e, bool resume)
+status history_sample_open_csv_file(struct run *run, bool resume)
 {
-    struct run_report *report = e->report;
-    const int columns = RECORD_FIXED + own_columns(e, NULL);
+    struct run_report *report = run->report;
+    const int columns = RECORD_FIXED + own_columns(run, NULL);
     report->record = NEW("report.record", columns, real);
     if (!report->out) return OK;
     struct column *column = NEW("report.columns", columns, struct column);
@@ -140,7 +140,7 @@ status history_sample_open_csv_file(struct run *e, bool resume)
         INVARIANT(energy->name[0] == 0);
         snprintf(energy->name, sizeof energy->name, "%s", ledger[k].name), strcpy(energy->unit, "J");
     }
-    own_columns(e, column + RECORD_FIXED);
+    own_columns(run, column + RECORD_FIXED);
     status s = output_history_open(report->out, column, columns, resume);
     memory_free(column);
     return s;
@@ -159,10 +159,10 @@ static bool wants_stress(const struct scene *s)
     return false;
 }
 
-void run_update_particle_motion_and_stress(struct run *e)
+void run_update_particle_motion_and_stress(struct run *run)
 {
-    lagrangian_mesh_update_point_motion_and_stress(e->frame, &e->part, &e->loads);
-    bonds_compute_particle_stress(&e->bonds, &e->part, &e->source, &e->kernels);
+    lagrangian_mesh_update_point_motion_and_stress(run->frame, &run->part, &run->loads);
+    bonds_compute_particle_stress(&run->bonds, &run->part, &run->source, &run->kernels);
 }
 
 /* Returns true if a probe of scene s reads positions or velocities of particles, so that points of a mesh must be
@@ -211,74 +211,74 @@ static void momentum_at(const struct sampling *s, const struct velocity_time *no
     for (int d = 0; d < dim; d++) momentum[d] = now->scale * ((1 - share) * s->momentum[d] + share * momentum[d]);
 }
 
-/* Records stress, momentum, crack tips and probes of run e at the present positions: all quantities of a sample (the
+/* Records stress, momentum, crack tips and probes of run at the present positions: all quantities of a sample (the
  * values that a line of history.csv has) except energies. */
-static void sample_state(struct run *e)
+static void sample_state(struct run *run)
 {
     const struct grid *nodes[LEVELS_MAX + 1];
-    const int grids = meshes(e->frame, nodes);
-    if (wants_stress(e->scene)) bonds_compute_particle_stress(&e->bonds, &e->part, &e->source, &e->kernels);
-    rigids_store_motion_before_step(e->rigid, e->clock.t);
-    diagnostics_update_momentum(e->diagnostics, &e->part, nodes, grids, e->loads.impulse);
-    if (is_free(e->scene, e->frame))
-        diagnostics_update_angular_momentum(e->diagnostics, &e->part,
-                                            e->frame->mesh.points > 0 ? &e->frame->mesh : NULL, e->scene->bodies);
-    tips_update_from_damage(&e->fracture->tips, &e->part, &e->cells, e->clock.t);
-    tips_snap_onto_mirror_planes_they_grow_along(&e->fracture->tips, e->source.mirror, e->source.mirrors);
-    struct observed_run o = observed_run_make_read_only_view(e);
-    probes_sample_position_dependent_values(&e->probing->probes, &o);
+    const int grids = meshes(run->frame, nodes);
+    if (wants_stress(run->scene)) bonds_compute_particle_stress(&run->bonds, &run->part, &run->source, &run->kernels);
+    rigids_store_motion_before_step(run->rigid, run->clock.t);
+    diagnostics_update_momentum(run->diagnostics, &run->part, nodes, grids, run->loads.impulse);
+    if (is_free(run->scene, run->frame))
+        diagnostics_update_angular_momentum(run->diagnostics, &run->part,
+                                            run->frame->mesh.points > 0 ? &run->frame->mesh : NULL, run->scene->bodies);
+    tips_update_from_damage(&run->fracture->tips, &run->part, &run->cells, run->clock.t);
+    tips_snap_onto_mirror_planes_they_grow_along(&run->fracture->tips, run->source.mirror, run->source.mirrors);
+    struct observed_run o = observed_run_make_read_only_view(run);
+    probes_sample_position_dependent_values(&run->probing->probes, &o);
 }
 
-real run_compute_elastic_energy(struct run *e)
+real run_compute_elastic_energy(struct run *run)
 {
-    return e->kernels.bond_energy(&e->bonds, &e->part, NULL) +
-           points_strain_energy(&e->part, e->scene->material, &e->coupling->partial) +
-           lagrangian_mesh_strain_energy(e->frame, &e->part);
+    return run->kernels.bond_energy(&run->bonds, &run->part, NULL) +
+           points_strain_energy(&run->part, run->scene->material, &run->coupling->partial) +
+           lagrangian_mesh_strain_energy(run->frame, &run->part);
 }
 
-/* Computes the energies of a sample (a line of history.csv) of run e at the present positions, except the kinetic
- * energy, in e->report->sampling.energy [J]. */
-static void sample_energies(struct run *e)
+/* Computes the energies of a sample (a line of history.csv) of run at the present positions, except the kinetic
+ * energy, in run->report->sampling.energy [J]. */
+static void sample_energies(struct run *run)
 {
-    const struct material *m = e->scene->material;
-    e->report->sampling.pd = e->part.n_of[KIND_PD], e->report->sampling.bonds = e->bonds.n;
-    e->report->sampling.energy = (struct energy){
-        .strain = run_compute_elastic_energy(e),
-        .plastic = bond_plastic_work(&e->bonds) + points_plastic_work(&e->part, m, &e->coupling->partial),
-        .fracture = bonds_fracture_energy(&e->bonds),
-        .contact = contact_elastic_energy(e->contact, &e->part),
-        .damped = e->damped + contact_friction_dissipated_energy(e->contact),
-        .absorbed = e->loads.absorbing.energy,
-        .viscous = e->viscosity->taken,
+    const struct material *m = run->scene->material;
+    run->report->sampling.pd = run->part.n_of[KIND_PD], run->report->sampling.bonds = run->bonds.n;
+    run->report->sampling.energy = (struct energy){
+        .strain = run_compute_elastic_energy(run),
+        .plastic = bond_plastic_work(&run->bonds) + points_plastic_work(&run->part, m, &run->coupling->partial),
+        .fracture = bonds_fracture_energy(&run->bonds),
+        .contact = contact_elastic_energy(run->contact, &run->part),
+        .damped = run->damped + contact_friction_dissipated_energy(run->contact),
+        .absorbed = run->loads.absorbing.energy,
+        .viscous = run->viscosity->taken,
     };
-    const struct observed_run o = observed_run_make_read_only_view(e);
-    probes_sample_energies(&e->probing->probes, &o);
+    const struct observed_run o = observed_run_make_read_only_view(run);
+    probes_sample_energies(&run->probing->probes, &o);
 }
 
-/* Completes a sample of run e with the quantities that require velocities after the step, and writes it as a line of
+/* Completes a sample of run with the quantities that require velocities after the step, and writes it as a line of
  * history.csv. The number of peridynamic particles of the first sample is that of the start in the summary. now: time
  * of these velocities and factor on them; kinetic, work: kinetic energy and external work of the sample [J]. If an
- * energy is not finite, writes no line and sets e->stability->lost. */
-static void sample_write(struct run *e, const struct velocity_time *now, real kinetic, real work)
+ * energy is not finite, writes no line and sets run->stability->lost. */
+static void sample_write(struct run *run, const struct velocity_time *now, real kinetic, real work)
 {
-    struct sampling *sampling = &e->report->sampling;
-    if (wants_motion(e->scene)) lagrangian_mesh_update_point_motion_and_stress(e->frame, &e->part, &e->loads);
-    struct observed_run o = observed_run_make_read_only_view(e);
-    probes_sample_velocity_dependent_values(&e->probing->probes, &o, now);
-    probes_warn_of_meaningless_sif(&e->probing->probes, scene_is_single_equilibrium(e->scene), o.t, &e->warnings);
-    if (!e->diagnostics->started) e->coupling->conversion.start = sampling->pd;
-    if (scene_is_dynamic(e->scene)) {
-        momentum_now(&e->part, e->frame, e->diagnostics->now.momentum);
-        momentum_at(sampling, now, e->clock.t, e->part.dim, e->diagnostics->now.momentum);
+    struct sampling *sampling = &run->report->sampling;
+    if (wants_motion(run->scene)) lagrangian_mesh_update_point_motion_and_stress(run->frame, &run->part, &run->loads);
+    struct observed_run o = observed_run_make_read_only_view(run);
+    probes_sample_velocity_dependent_values(&run->probing->probes, &o, now);
+    probes_warn_of_meaningless_sif(&run->probing->probes, scene_is_single_equilibrium(run->scene), o.t, &run->warnings);
+    if (!run->diagnostics->started) run->coupling->conversion.start = sampling->pd;
+    if (scene_is_dynamic(run->scene)) {
+        momentum_now(&run->part, run->frame, run->diagnostics->now.momentum);
+        momentum_at(sampling, now, run->clock.t, run->part.dim, run->diagnostics->now.momentum);
     }
     sampling->energy.kinetic = kinetic;
-    e->stability->lost = !isfinite(energy_sum(&sampling->energy) + work);
-    if (e->stability->lost)
+    run->stability->lost = !isfinite(energy_sum(&sampling->energy) + work);
+    if (run->stability->lost)
         return; /* no line is written; run_check_last_sample_for_energy_divergence reports the failure */
-    diagnostics_update_energy_balance(e->diagnostics, e->clock.t, &sampling->energy, work);
-    fill_record(e);
-    if (e->report->out && e->report->history_status == OK)
-        e->report->history_status = output_write_history(e->report->out, e->report->record);
+    diagnostics_update_energy_balance(run->diagnostics, run->clock.t, &sampling->energy, work);
+    fill_record(run);
+    if (run->report->out && run->report->history_status == OK)
+        run->report->history_status = output_write_history(run->report->out, run->report->record);
 }
 
 /* Copies the velocities of p at the start of a step to sampling->before if the grid moves particles. The energies of
@@ -292,48 +292,48 @@ static void keep_velocities(struct sampling *sampling, const struct particles *p
     }
 }
 
-/* Returns the correction that a sample of run e subtracts from the kinetic energy [J]: the mean of m v^2/2 before and
+/* Returns the correction that a sample of run subtracts from the kinetic energy [J]: the mean of m v^2/2 before and
  * after the velocity update of the step, minus m v_before . v_after/2, the value that leap-frog conserves. Absorbing
  * dashpots, which act during the update, are left out. */
-static real kick_now(const struct run *e)
+static real kick_now(const struct run *run)
 {
-    const bool grid = e->part.n_free > 0 || coupling_moves_pd_particles_by_grid(e->coupling_kind);
-    const real dt = e->grid->transfer.dt_velocity;
-    return particles_mean_minus_leapfrog_kinetic_energy(&e->part, grid ? e->report->sampling.before : NULL, dt) +
-           mesh_kick(&e->frame->mesh, dt) + mesh_levels_leapfrog_kinetic_energy_correction(&e->frame->levels, dt) -
-           e->loads.absorbing.kick;
+    const bool grid = run->part.n_free > 0 || coupling_moves_pd_particles_by_grid(run->coupling_kind);
+    const real dt = run->grid->transfer.dt_velocity;
+    return particles_mean_minus_leapfrog_kinetic_energy(&run->part, grid ? run->report->sampling.before : NULL, dt) +
+           mesh_kick(&run->frame->mesh, dt) + mesh_levels_leapfrog_kinetic_energy_correction(&run->frame->levels, dt) -
+           run->loads.absorbing.kick;
 }
 
-void history_sample_begin_before_step(struct run *e)
+void history_sample_begin_before_step(struct run *run)
 {
-    struct sampling *sampling = &e->report->sampling;
-    sampling->due = report_history_sample_is_due(e->scene, &e->clock);
-    sampling->work = e->loads.work;
-    sampling->constraint_work = e->loads.constraint_work;
-    sampling->absorbed = e->loads.absorbing.energy;
-    if (!sampling->due && e->clock.step < e->clock.steps - 1) return;
-    if (wants_motion(e->scene)) lagrangian_mesh_update_point_motion_and_stress(e->frame, &e->part, &e->loads);
+    struct sampling *sampling = &run->report->sampling;
+    sampling->due = report_history_sample_is_due(run->scene, &run->clock);
+    sampling->work = run->loads.work;
+    sampling->constraint_work = run->loads.constraint_work;
+    sampling->absorbed = run->loads.absorbing.energy;
+    if (!sampling->due && run->clock.step < run->clock.steps - 1) return;
+    if (wants_motion(run->scene)) lagrangian_mesh_update_point_motion_and_stress(run->frame, &run->part, &run->loads);
     if (sampling->due)
-        sample_state(e), rigids_warn_of_overlap(e->rigid, e->scene->spacing, e->clock.t, &e->warnings);
-    else if (wants_stress(e->scene))
-        bonds_compute_particle_stress(&e->bonds, &e->part, &e->source, &e->kernels);
-    struct observed_run o = observed_run_make_read_only_view(e);
-    probes_store_motion_before_step(&e->probing->probes, &o);
-    keep_velocities(sampling, &e->part, e->coupling_kind);
+        sample_state(run), rigids_warn_of_overlap(run->rigid, run->scene->spacing, run->clock.t, &run->warnings);
+    else if (wants_stress(run->scene))
+        bonds_compute_particle_stress(&run->bonds, &run->part, &run->source, &run->kernels);
+    struct observed_run o = observed_run_make_read_only_view(run);
+    probes_store_motion_before_step(&run->probing->probes, &o);
+    keep_velocities(sampling, &run->part, run->coupling_kind);
     sampling->t_velocity = o.t_velocity;
     if (sampling->due) /* sample_state has computed it */
-        array_copy(sampling->momentum, e->diagnostics->now.momentum, e->part.dim, sizeof(real));
+        array_copy(sampling->momentum, run->diagnostics->now.momentum, run->part.dim, sizeof(real));
     else
-        momentum_now(&e->part, e->frame, sampling->momentum);
-    sampling->kinetic = kinetic_now(&e->part, e->frame);
-    sampling->rigid = rigids_compute_energy(e->rigid, e->clock.dt).before;
+        momentum_now(&run->part, run->frame, sampling->momentum);
+    sampling->kinetic = kinetic_now(&run->part, run->frame);
+    sampling->rigid = rigids_compute_energy(run->rigid, run->clock.dt).before;
 }
 
-void history_sample_compute_energies(struct run *e)
+void history_sample_compute_energies(struct run *run)
 {
-    if (!e->report->sampling.due) return;
-    sample_energies(e);
-    e->report->sampling.rigid_work = rigids_compute_energy(e->rigid, e->clock.dt).work;
+    if (!run->report->sampling.due) return;
+    sample_energies(run);
+    run->report->sampling.rigid_work = rigids_compute_energy(run->rigid, run->clock.dt).work;
 }
 
 /* Returns true if a boundary of scene s prescribes a velocity other than 0, so that velocities jump in the first
@@ -354,35 +354,37 @@ static bool start_separable(const struct scene *s, const struct particles *p, co
     return p->n_free == 0 || (s->transfer == TRANSFER_FLIP && !velocity_jumps(s) && grid->contact.touching == 0);
 }
 
-void history_sample_complete_after_step(struct run *e)
+void history_sample_complete_after_step(struct run *run)
 {
-    struct sampling *sampling = &e->report->sampling;
-    const bool first = e->clock.step == 0;
-    const real share = damping_velocity_increment_factor(e->scene->damping * e->clock.dt);
-    const struct velocity_time now = {e->clock.t + 0.5 * e->clock.dt, first ? 1 : 1 / share};
+    struct sampling *sampling = &run->report->sampling;
+    const bool first = run->clock.step == 0;
+    const real share = damping_velocity_increment_factor(run->scene->damping * run->clock.dt);
+    const struct velocity_time now = {run->clock.t + 0.5 * run->clock.dt, first ? 1 : 1 / share};
     if (!sampling->due) return;
     if (first) { /* the stored velocities are of t = 0, and nothing is damped yet */
         sampling->energy.damped = sampling->energy.absorbed = 0;
-        sample_write(e, &now, sampling->kinetic + sampling->rigid, sampling->work);
+        sample_write(run, &now, sampling->kinetic + sampling->rigid, sampling->work);
         /* leap-frog conserves 1/2 m v- . v+ with v+- = v +- a dt/2; at t = 0 the sample has 1/2 m v^2 */
-        if (start_separable(e->scene, &e->part, e->grid)) e->diagnostics->energy_start -= 2 * kick_now(e) / share;
+        if (start_separable(run->scene, &run->part, run->grid))
+            run->diagnostics->energy_start -= 2 * kick_now(run) / share;
         return;
     }
-    real kinetic = 0.5 * (sampling->kinetic + kinetic_now(&e->part, e->frame)) - kick_now(e);
-    sampling->energy.damped += e->grid->contact.begun;
-    sampling->energy.absorbed = 0.5 * (sampling->absorbed + e->loads.absorbing.energy);
-    const struct rigid_energy rigid = rigids_compute_energy(e->rigid, e->clock.dt);
-    rigids_average_stored_and_current_velocities(e->rigid);
-    sample_write(e, &now, kinetic / share + rigid.step,
-                 sampling->work + sampling->rigid_work + 0.5 * (sampling->constraint_work + e->loads.constraint_work));
+    real kinetic = 0.5 * (sampling->kinetic + kinetic_now(&run->part, run->frame)) - kick_now(run);
+    sampling->energy.damped += run->grid->contact.begun;
+    sampling->energy.absorbed = 0.5 * (sampling->absorbed + run->loads.absorbing.energy);
+    const struct rigid_energy rigid = rigids_compute_energy(run->rigid, run->clock.dt);
+    rigids_average_stored_and_current_velocities(run->rigid);
+    sample_write(run, &now, kinetic / share + rigid.step,
+                 sampling->work + sampling->rigid_work +
+                     0.5 * (sampling->constraint_work + run->loads.constraint_work));
 }
 
-void history_sample_write_in_equilibrium(struct run *e)
+void history_sample_write_in_equilibrium(struct run *run)
 {
-    sample_state(e);
-    sample_energies(e);
-    sample_write(e, &(struct velocity_time){e->clock.t, 1}, 0,
-                 e->loads.work + e->loads.constraint_work + rigids_compute_energy(e->rigid, e->clock.dt).work);
+    sample_state(run);
+    sample_energies(run);
+    sample_write(run, &(struct velocity_time){run->clock.t, 1}, 0,
+                 run->loads.work + run->loads.constraint_work + rigids_compute_energy(run->rigid, run->clock.dt).work);
 }
 
 /* Returns the power v . f [W] of the forces on those particles p that bonds move, and on the nodes of the mesh of the
@@ -438,59 +440,59 @@ static void reactions_at_end(struct loads *l, const struct grid_method *grid, co
         reactions_add(l, &frame->levels.at[level].mesh.grid);
 }
 
-/* Returns the power v . f [W] of the forces at the end of run e. The forces are computed as in a further step, in
+/* Returns the power v . f [W] of the forces at the end of run. The forces are computed as in a further step, in
  * which nothing moves, no bond breaks, and the loads keep their sums of energies and impulses; only reactions are
  * updated. The power includes the work on particles with prescribed motion, not that on nodes. *held: receives the
  * work that grid and mesh nodes with prescribed motion would do in this step [J]. */
-static real power_last(struct run *e, real *held)
+static real power_last(struct run *run, real *held)
 {
     struct memory_archive accounts;
-    const real before = e->loads.constraint_work, kick = e->loads.absorbing.kick;
-    const real dt_velocity = e->clock.dt * damping_velocity_increment_factor(e->scene->damping * e->clock.dt);
+    const real before = run->loads.constraint_work, kick = run->loads.absorbing.kick;
+    const real dt_velocity = run->clock.dt * damping_velocity_increment_factor(run->scene->damping * run->clock.dt);
     memory_archive_open_for_saving(&accounts, ARCHIVE_ACCOUNTS);
-    INVARIANT(loads_save_or_load(&e->loads, &accounts.archive) == OK);
-    e->loads.absorbing.idle = e->loads.ended = true;
-    loads_clear_forces_of_loaded_particles(&e->loads, &e->part);
-    bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &bond_limit_never, NULL);
-    contact_compute_forces(e->contact, &e->part, 0);
-    loads_apply_forces_and_motion_constraints(&e->loads, &e->part, e->clock.t + 0.5 * e->clock.dt, e->clock.dt,
-                                              dt_velocity);
-    if (e->frame->mesh.points > 0) lagrangian_mesh_compute_nodal_forces(e->frame, &e->part, e->clock.step);
-    const real power =
-        power_now(&e->part, e->frame) + grid_power_of_forces_on_material_points(e, e->clock.t + 0.5 * e->clock.dt);
-    const real walls = power_of_walls(e->frame);
-    *held = e->loads.constraint_work - before - e->clock.dt * walls;
-    const bool on_grid = e->part.n_free + e->part.n_grid_coupled > 0;
-    reactions_at_end(&e->loads, on_grid ? e->grid : NULL, e->frame, &e->clock);
+    INVARIANT(loads_save_or_load(&run->loads, &accounts.archive) == OK);
+    run->loads.absorbing.idle = run->loads.ended = true;
+    loads_clear_forces_of_loaded_particles(&run->loads, &run->part);
+    bond_forces(run->kernels.bond_force, &run->bonds, &run->part, &bond_limit_never, NULL);
+    contact_compute_forces(run->contact, &run->part, 0);
+    loads_apply_forces_and_motion_constraints(&run->loads, &run->part, run->clock.t + 0.5 * run->clock.dt,
+                                              run->clock.dt, dt_velocity);
+    if (run->frame->mesh.points > 0) lagrangian_mesh_compute_nodal_forces(run->frame, &run->part, run->clock.step);
+    const real power = power_now(&run->part, run->frame) +
+                       grid_power_of_forces_on_material_points(run, run->clock.t + 0.5 * run->clock.dt);
+    const real walls = power_of_walls(run->frame);
+    *held = run->loads.constraint_work - before - run->clock.dt * walls;
+    const bool on_grid = run->part.n_free + run->part.n_grid_coupled > 0;
+    reactions_at_end(&run->loads, on_grid ? run->grid : NULL, run->frame, &run->clock);
     memory_archive_rewind_for_loading(&accounts);
-    INVARIANT(loads_save_or_load(&e->loads, &accounts.archive) == OK);
+    INVARIANT(loads_save_or_load(&run->loads, &accounts.archive) == OK);
     memory_archive_free(&accounts);
-    e->loads.absorbing.kick = kick;
-    e->loads.absorbing.idle = e->loads.ended = false;
+    run->loads.absorbing.kick = kick;
+    run->loads.absorbing.idle = run->loads.ended = false;
     return power - walls;
 }
 
-/* Writes the last line of history.csv (a sample of energies, probes and crack tips) of run e after the last step. As
+/* Writes the last line of history.csv (a sample of energies, probes and crack tips) of run after the last step. As
  * in all lines, the kinetic energy is m v- . v+/2, with the velocities v- and v+ before and after a velocity update,
  * here by the last forces. */
-void history_sample_write_after_last_step(struct run *e)
+void history_sample_write_after_last_step(struct run *run)
 {
     real held = 0;
-    families_compute_pressure_stiffness_and_rotation(&e->bonds, &e->part, &e->source);
-    if (e->source.limit.softening && !e->source.modulus) bonds_update_softening(&e->bonds, &e->part);
-    lagrangian_mesh_update_point_motion_and_stress(e->frame, &e->part, &e->loads);
-    sample_state(e);
-    sample_energies(e);
-    real kinetic = kinetic_now(&e->part, e->frame), before = kinetic;
-    const real decay = e->scene->damping * e->clock.dt, share = damping_velocity_increment_factor(decay),
-               kick = e->clock.dt * share;
-    if (scene_is_dynamic(e->scene)) kinetic += 0.5 * kick * power_last(e, &held);
-    if (e->clock.step > 0)
-        e->report->sampling.energy.damped += damping_energy_loss_in_last_velocity_update(decay, before, kinetic);
-    e->report->sampling.energy.damped += e->grid->contact.begun;
-    const struct rigid_energy rigid = rigids_compute_energy(e->rigid, e->clock.dt);
-    const struct velocity_time now = {e->clock.t - 0.5 * e->clock.dt, 1 / square(share)};
-    rigids_extrapolate_stored_velocities_to_time(e->rigid, e->clock.t, e->clock.dt);
-    sample_write(e, &now, kinetic / share + rigid.last,
-                 e->loads.work + e->loads.constraint_work + rigid.work + 0.5 * held);
+    families_compute_pressure_stiffness_and_rotation(&run->bonds, &run->part, &run->source);
+    if (run->source.limit.softening && !run->source.modulus) bonds_update_softening(&run->bonds, &run->part);
+    lagrangian_mesh_update_point_motion_and_stress(run->frame, &run->part, &run->loads);
+    sample_state(run);
+    sample_energies(run);
+    real kinetic = kinetic_now(&run->part, run->frame), before = kinetic;
+    const real decay = run->scene->damping * run->clock.dt, share = damping_velocity_increment_factor(decay),
+               kick = run->clock.dt * share;
+    if (scene_is_dynamic(run->scene)) kinetic += 0.5 * kick * power_last(run, &held);
+    if (run->clock.step > 0)
+        run->report->sampling.energy.damped += damping_energy_loss_in_last_velocity_update(decay, before, kinetic);
+    run->report->sampling.energy.damped += run->grid->contact.begun;
+    const struct rigid_energy rigid = rigids_compute_energy(run->rigid, run->clock.dt);
+    const struct velocity_time now = {run->clock.t - 0.5 * run->clock.dt, 1 / square(share)};
+    rigids_extrapolate_stored_velocities_to_time(run->rigid, run->clock.t, run->clock.dt);
+    sample_write(run, &now, kinetic / share + rigid.last,
+                 run->loads.work + run->loads.constraint_work + rigid.work + 0.5 * held);
 }

@@ -26,13 +26,13 @@
 #define DAMPED_DOUBTFUL 0.1
 
 /* Warns that breaking bonds released more energy than they had stored, if the excess is above ENERGY_DOUBTFUL of the
- * largest energy. Does nothing for a single equilibrium. s: scene, for the advice; w: energies of the run; to: list of
- * warnings. */
-static void say_released(const struct scene *s, const struct diagnostics *w, struct warnings *to)
+ * largest energy. Does nothing for a single equilibrium. s: scene, for the advice; diagnostics: energies of the run;
+ * to: list of warnings. */
+static void say_released(const struct scene *s, const struct diagnostics *diagnostics, struct warnings *to)
 {
     char text[320];
-    const real released = diagnostics_excess_energy_released_by_bonds(w);
-    if (scene_is_single_equilibrium(s) || released <= ENERGY_DOUBTFUL * w->energy_scale) return;
+    const real released = diagnostics_excess_energy_released_by_bonds(diagnostics);
+    if (scene_is_single_equilibrium(s) || released <= ENERGY_DOUBTFUL * diagnostics->energy_scale) return;
     snprintf(
         text, sizeof text,
         "broken bonds released %.3g J more than they had stored (energy.fracture %.3g): with model %s, particles under "
@@ -41,17 +41,17 @@ static void say_released(const struct scene *s, const struct diagnostics *w, str
     warnings_add_and_print(to, text);
 }
 
-bool fracture_energy_warn_if_negative(const struct scene *s, const struct diagnostics *w, struct warnings *to)
+bool fracture_energy_warn_if_negative(const struct scene *s, const struct diagnostics *diagnostics, struct warnings *to)
 {
     char text[480];
-    const real released = diagnostics_excess_energy_released_by_bonds(w);
+    const real released = diagnostics_excess_energy_released_by_bonds(diagnostics);
     const bool states = s->model == MODEL_OSPD || s->model == MODEL_MOSPD;
-    if (!(released > RELEASED_NOTICED * w->energy_scale)) return false;
+    if (!(released > RELEASED_NOTICED * diagnostics->energy_scale)) return false;
     snprintf(
         text, sizeof text,
         "the fracture energy has fallen below 0, to %.3g J at t = %.4g s, %.2g %% of the largest energy: broken bonds "
         "have released more energy than they had stored, so bodies move too fast%s; see energy.fracture at the end",
-        -released, w->now.time, 100 * released / w->energy_scale,
+        -released, diagnostics->now.time, 100 * released / diagnostics->energy_scale,
         states ? " (particles under pressure gain energy when they lose bonds); compare with model: bond" : "");
     warnings_add_and_print(to, text);
     return true;
@@ -66,18 +66,18 @@ bool fracture_energy_warn_if_negative(const struct scene *s, const struct diagno
  * While bodies fly through cells of the grid, stress gains energy unless points are mapped ahead of their positions
  * (field_set_flight): with linear shapes a block of 40 x 20 points at 200 m/s gains a fifth in eleven cells. w:
  * energies of the run; to: list of warnings. Returns true if it warns. */
-static bool say_flight(const struct particles *p, const struct diagnostics *w, struct warnings *to)
+static bool say_flight(const struct particles *p, const struct diagnostics *diagnostics, struct warnings *to)
 {
-    const real error = w->now.balance_error, amount = fabs(error) * w->energy_scale;
+    const real error = diagnostics->now.balance_error, amount = fabs(error) * diagnostics->energy_scale;
     char text[420];
     if (p->n_free == 0 || fabs(error) > ENERGY_DOUBTFUL || fabs(error) < FLIGHT_LEAST) return false;
-    if (!(amount > ENERGY_DOUBTFUL * w->internal_scale)) return false;
+    if (!(amount > ENERGY_DOUBTFUL * diagnostics->internal_scale)) return false;
     snprintf(text, sizeof text,
              "energy of %.2g J, which is %.2g %% of all energy except that of free flight, %s (energy.balance_error "
              "%.2g), because the stress of material points is wrong while they fly through cells of the grid; let "
              "bodies start close to each other, halve the time step (time.safety), or use mpm.frame: reference",
-             amount, 100 * amount / w->internal_scale, error < 0 ? "is lost" : "has been gained without work of loads",
-             error);
+             amount, 100 * amount / diagnostics->internal_scale,
+             error < 0 ? "is lost" : "has been gained without work of loads", error);
     warnings_add_and_print(to, text);
     return true;
 }
@@ -87,14 +87,14 @@ static bool say_flight(const struct particles *p, const struct diagnostics *w, s
 #define SPIN_OF_ROUND_OFF 1e-9
 
 /* Warns that the bodies gained or lost angular momentum although no load acts on them, if the relative error exceeds
- * SPIN_DOUBTFUL and the angular momentum is no round-off. w: sums of the run; apic: true if points on the grid use
- * APIC; spacing: distance of particles [m]; to: list of warnings. */
-static void say_spin(const struct diagnostics *w, bool apic, real spacing, struct warnings *to)
+ * SPIN_DOUBTFUL and the angular momentum is no round-off. diagnostics: sums of the run; apic: true if points on the
+ * grid use APIC; spacing: distance of particles [m]; to: list of warnings. */
+static void say_spin(const struct diagnostics *diagnostics, bool apic, real spacing, struct warnings *to)
 {
-    const real error = w->now.spin_error;
+    const real error = diagnostics->now.spin_error;
     char text[360];
-    if (!w->turns || !(error > SPIN_DOUBTFUL)) return;
-    if (w->spin_scale < SPIN_OF_ROUND_OFF * w->momentum_scale * spacing) return;
+    if (!diagnostics->turns || !(error > SPIN_DOUBTFUL)) return;
+    if (diagnostics->spin_scale < SPIN_OF_ROUND_OFF * diagnostics->momentum_scale * spacing) return;
     snprintf(text, sizeof text,
              "the angular momentum of the bodies has changed by %.*f %%, although loads have no moment "
              "(angular_momentum_error); %s",
@@ -127,18 +127,18 @@ static void say_damped(real share, struct warnings *to)
 
 /* Writes a warning to text[capacity] that the first bonds broke in a collision so fast that stress oscillates behind
  * the front. Returns false, without text, if no such collision was expected, no bond broke, or the scene s silences the
- * warning. w: time of the first break. */
-static bool shock_text(const struct scene *s, const struct diagnostics *w, char *text, size_t capacity)
+ * warning. diagnostics: time of the first break. */
+static bool shock_text(const struct scene *s, const struct diagnostics *diagnostics, char *text, size_t capacity)
 {
     const struct shock shock = scene_most_severe_collision(s);
-    if (!(shock.share > 0) || isnan(w->break_time) || s->method == METHOD_MPM ||
+    if (!(shock.share > 0) || isnan(diagnostics->break_time) || s->method == METHOD_MPM ||
         scene_silences_warning(s, ACCEPT_SHOCK))
         return false;
     snprintf(text, capacity,
              "the first bond broke at %.4g s, in a collision at %.3g m/s, %.3g times the speed at which the stress of "
              "the wave front reaches the strength or yield stress of a body. Behind the front stress oscillates by 10 "
              "to 30 %%, so bonds may break too early: %s; if this is intended, add accept: [shock]",
-             w->break_time, shock.speed, shock.share, shock.remedy);
+             diagnostics->break_time, shock.speed, shock.share, shock.remedy);
     return true;
 }
 
@@ -203,23 +203,24 @@ static void say_work_error(real error, struct warnings *to)
     warnings_add_and_print(to, text);
 }
 
-void run_warn_of_unconserved_energy_and_momentum(struct run *e)
+void run_warn_of_unconserved_energy_and_momentum(struct run *run)
 {
-    const struct diagnostics *w = e->diagnostics;
-    const bool apic = e->scene->transfer == TRANSFER_APIC && e->part.n_free > 0;
-    const bool round_off = diagnostics_energy_is_round_off(w, e->mass, e->tables.wave_speed);
-    const real error = w->now.balance_error;
+    const struct diagnostics *diagnostics = run->diagnostics;
+    const bool apic = run->scene->transfer == TRANSFER_APIC && run->part.n_free > 0;
+    const bool round_off = diagnostics_energy_is_round_off(diagnostics, run->mass, run->tables.wave_speed);
+    const real error = diagnostics->now.balance_error;
     char text[640];
-    if (e->report->excerpt) return;
-    say_spin(w, apic, e->scene->spacing, &e->warnings);
-    say_released(e->scene, w, &e->warnings);
-    if (zone_damps(e->scene, e->coupling) && !round_off) say_damped(e->damped / w->energy_scale, &e->warnings);
-    if (shock_text(e->scene, w, text, sizeof text)) warnings_add_and_print(&e->warnings, text);
-    if (!round_off && !say_flight(&e->part, w, &e->warnings))
-        say_flow_error(&e->part, e->scene, e->clock.dt, error, &e->warnings);
-    if (scene_is_single_equilibrium(e->scene) || fabs(error) <= ENERGY_DOUBTFUL || round_off) return;
-    if (scene_has_load_steps(e->scene) && e->part.plastic_strain) {
-        say_work_error(error, &e->warnings);
+    if (run->report->excerpt) return;
+    say_spin(diagnostics, apic, run->scene->spacing, &run->warnings);
+    say_released(run->scene, diagnostics, &run->warnings);
+    if (zone_damps(run->scene, run->coupling) && !round_off)
+        say_damped(run->damped / diagnostics->energy_scale, &run->warnings);
+    if (shock_text(run->scene, diagnostics, text, sizeof text)) warnings_add_and_print(&run->warnings, text);
+    if (!round_off && !say_flight(&run->part, diagnostics, &run->warnings))
+        say_flow_error(&run->part, run->scene, run->clock.dt, error, &run->warnings);
+    if (scene_is_single_equilibrium(run->scene) || fabs(error) <= ENERGY_DOUBTFUL || round_off) return;
+    if (scene_has_load_steps(run->scene) && run->part.plastic_strain) {
+        say_work_error(error, &run->warnings);
         return;
     }
     snprintf(
@@ -228,12 +229,12 @@ void run_warn_of_unconserved_energy_and_momentum(struct run *e)
         "trust later results",
         100 * fabs(error), error < 0 ? "is lost" : "has been gained without work of loads", error,
         error < 0 && apic
-            ? scene_reason_not_to_advise_total_lagrangian_mpm(e->scene)
+            ? scene_reason_not_to_advise_total_lagrangian_mpm(run->scene)
                   ? ": APIC damps motion that its grid does not resolve; use mpm.transfer: flip to keep it"
                   : ": APIC damps motion that its grid does not resolve; use mpm.transfer: flip or mpm.frame: "
                     "reference to keep it"
             : "");
-    warnings_add_and_print(&e->warnings, text);
+    warnings_add_and_print(&run->warnings, text);
 }
 
 void warn_when_bonds_first_yield(struct run_report *r, const struct bonds *b, const struct scene *s,

@@ -90,42 +90,42 @@ static real start_strain(const struct scene *s)
     return most;
 }
 
-/* Writes to text[capacity] which load or initial state explains the motion of the diverged run e. steps: number of
+/* Writes to text[capacity] which load or initial state explains the motion of the diverged run. steps: number of
  * steps in which the squared speed last grew tenfold; INFINITY: unknown. Returns false, without text, if none explains
  * it. */
-static bool load_explanation(const struct run *e, real steps, char *text, size_t capacity)
+static bool load_explanation(const struct run *run, real steps, char *text, size_t capacity)
 {
     static const char *const unit[] = {"m/s", "Pa", "N/m^3", "", "", "Pa"};
     static const char *const word[] = {"velocity", "traction", "body force", "", "", "pressure"};
     const real window =
-        real_min((real)e->clock.step, isfinite(steps) ? real_max(ceil(steps), RISE_STRIDE) : (real)e->clock.step);
+        real_min((real)run->clock.step, isfinite(steps) ? real_max(ceil(steps), RISE_STRIDE) : (real)run->clock.step);
     const struct load *worst = NULL;
-    real speed = LOAD_SHARE_LEAST * e->tables.wave_speed;
-    const real work = e->loads.work + e->loads.constraint_work;
-    const real given = e->diagnostics->energy_start + e->loads.work + e->loads.constraint_work;
-    if (!loads_explain_motion(&e->part, e->frame, given)) return false;
-    if (e->stability->start_speed >= speed) {
+    real speed = LOAD_SHARE_LEAST * run->tables.wave_speed;
+    const real work = run->loads.work + run->loads.constraint_work;
+    const real given = run->diagnostics->energy_start + run->loads.work + run->loads.constraint_work;
+    if (!loads_explain_motion(&run->part, run->frame, given)) return false;
+    if (run->stability->start_speed >= speed) {
         snprintf(text, capacity,
                  "a smaller time step does not help: the scene starts with %.3g m/s, %.3g times the wave speed: check "
                  "the velocities of its bodies and of `initial`, and their units",
-                 e->stability->start_speed, e->stability->start_speed / e->tables.wave_speed);
+                 run->stability->start_speed, run->stability->start_speed / run->tables.wave_speed);
         return true;
     }
-    if (start_strain(e->scene) >= LARGE_STRAIN) {
+    if (start_strain(run->scene) >= LARGE_STRAIN) {
         snprintf(
             text, capacity,
             "a smaller time step does not help: the scene starts with a strain of %.3g, whose energy throws the body "
             "apart: check the displacement gradients of `initial` (0.001 is a strain of 0.1 %%)",
-            start_strain(e->scene));
+            start_strain(run->scene));
         return true;
     }
-    for (int b = 0; b < e->loads.n; b++) {
-        const real one = load_speed(&e->clock, &e->part, &e->loads.load[b], window);
-        if (one >= speed) speed = one, worst = &e->loads.load[b];
+    for (int b = 0; b < run->loads.n; b++) {
+        const real one = load_speed(&run->clock, &run->part, &run->loads.load[b], window);
+        if (one >= speed) speed = one, worst = &run->loads.load[b];
     }
     if (!worst) return false;
     const struct boundary *b = worst->boundary;
-    const real size = sqrt(dot(b->value, b->value, e->part.dim));
+    const real size = sqrt(dot(b->value, b->value, run->part.dim));
     const real value = b->kind == BOUNDARY_PRESSURE ? fabs(b->value[0]) : size;
     char within[40] = "";
     if (b->kind != BOUNDARY_VELOCITY) snprintf(within, sizeof within, " in %.0f step%s", window, window > 1 ? "s" : "");
@@ -137,7 +137,7 @@ static bool load_explanation(const struct run *e, real steps, char *text, size_t
              : b->by_mass ? "N/kg"
                           : unit[b->kind],
              b->kind == BOUNDARY_VELOCITY ? "drives its particles at" : "gives its particles a speed of", speed, within,
-             speed / e->tables.wave_speed, work);
+             speed / run->tables.wave_speed, work);
     return true;
 }
 
@@ -217,38 +217,38 @@ static bool squeeze_explanation(const struct bonds *b, const struct particles *p
     return true;
 }
 
-void run_describe_remedy_for_divergence(const struct run *e, const struct quantity_samples *earlier_samples,
+void run_describe_remedy_for_divergence(const struct run *run, const struct quantity_samples *earlier_samples,
                                         real growing_value, char *text, size_t capacity)
 {
     real steps;
     char others[256];
     const enum growth_rate rate =
-        quantity_samples_classify_growth_rate(earlier_samples, e->clock.step, growing_value, &steps);
-    if (scene_has_load_steps(e->scene)) { /* load steps have no time step */
+        quantity_samples_classify_growth_rate(earlier_samples, run->clock.step, growing_value, &steps);
+    if (scene_has_load_steps(run->scene)) { /* load steps have no time step */
         snprintf(text, capacity,
                  "this occurred in a static equilibrium; use more load steps (steps.number) or a smaller "
                  "solver_tolerance, and please report the scene");
         return;
     }
-    if (load_explanation(e, steps, text, capacity)) return;
-    const bool long_step = e->clock.dt > e->clock.dt_critical;
-    if (!long_step && squeeze_explanation(&e->bonds, &e->part, &e->clock, text, capacity)) return;
-    if (rate == RISE_FAST || long_step || !scene_is_dynamic(e->scene)) {
-        run_describe_smaller_time_step(e->scene, &e->clock, text, capacity);
+    if (load_explanation(run, steps, text, capacity)) return;
+    const bool long_step = run->clock.dt > run->clock.dt_critical;
+    if (!long_step && squeeze_explanation(&run->bonds, &run->part, &run->clock, text, capacity)) return;
+    if (rate == RISE_FAST || long_step || !scene_is_dynamic(run->scene)) {
+        run_describe_smaller_time_step(run->scene, &run->clock, text, capacity);
         return;
     }
-    say_others(e->scene, e->frame, e->coupling_kind, others, sizeof others);
+    say_others(run->scene, run->frame, run->coupling_kind, others, sizeof others);
     if (rate == RISE_UNSURE) {
-        const int used = run_describe_smaller_time_step(e->scene, &e->clock, text, capacity);
+        const int used = run_describe_smaller_time_step(run->scene, &run->clock, text, capacity);
         snprintf(text + used, capacity - (size_t)used,
                  "; if the run stays unstable, a method of this scene gains energy: try %s", others);
         return;
     }
-    if (e->diagnostics->now.balance_error < 0 && e->diagnostics->now.energy.fracture >= 0) {
+    if (run->diagnostics->now.balance_error < 0 && run->diagnostics->now.energy.fracture >= 0) {
         snprintf(text, capacity,
                  "a smaller time step (now %.2f of the critical %.3g s) may not help, because the energy balance shows "
                  "no gain: loads or supports may cause the motion: check them, or try %s",
-                 e->clock.dt / e->clock.dt_critical, e->clock.dt_critical, others);
+                 run->clock.dt / run->clock.dt_critical, run->clock.dt_critical, others);
         return;
     }
     snprintf(text, capacity,
@@ -256,23 +256,24 @@ void run_describe_remedy_for_divergence(const struct run *e, const struct quanti
              "so a smaller time step (now %.2f of the critical %.3g s) may not help; one of the methods in this scene "
              "gains energy: try %s, and please report the scene",
              isfinite(steps) ? "" : "more than ", isfinite(steps) ? steps : (real)RISE_STEPS, RISE_STEPS,
-             e->clock.dt / e->clock.dt_critical, e->clock.dt_critical, others);
+             run->clock.dt / run->clock.dt_critical, run->clock.dt_critical, others);
 }
 
 /* ---- divergence and inversion ------------------------------------------------------------------------------------ */
 
 /* Returns FAILED, with a message and a remedy, if a particle of the run is faster than the fastest wave, or has a
  * position or velocity that is not finite. Material points on the grid are always checked. check_peridynamic: true to
- * check the peridynamic particles too; check_mesh_points: true to check the material points of a mesh too. e: the run.
+ * check the peridynamic particles too; check_mesh_points: true to check the material points of a mesh too. run: the
+ * run.
  */
-status run_check_particles_for_divergence(const struct run *e, bool check_peridynamic, bool check_mesh_points)
+status run_check_particles_for_divergence(const struct run *run, bool check_peridynamic, bool check_mesh_points)
 {
     char remedy[REMEDY_LENGTH];
-    const status s = diagnostics_check_particles_for_divergence(&e->part, check_peridynamic, check_mesh_points,
-                                                                e->tables.wave_speed, e->clock.step, e->clock.t);
+    const status s = diagnostics_check_particles_for_divergence(&run->part, check_peridynamic, check_mesh_points,
+                                                                run->tables.wave_speed, run->clock.step, run->clock.t);
     if (s == OK) return OK;
-    const real speed = fastest_now(&e->part, e->frame), limit = e->tables.wave_speed;
-    run_describe_remedy_for_divergence(e, &e->stability->speed,
+    const real speed = fastest_now(&run->part, run->frame), limit = run->tables.wave_speed;
+    run_describe_remedy_for_divergence(run, &run->stability->speed,
                                        square(isfinite(speed) && speed > limit ? speed : limit), remedy, sizeof remedy);
     return status_set(s, "%s; %s", status_message(), remedy);
 }
@@ -312,16 +313,18 @@ static status formula_check(const struct loads *l, const struct particles *p, co
     return clock->step == clock->steps ? loads_check_formulas_are_finite(l, p, clock->t) : OK;
 }
 
-status run_check_stability_after_step(struct run *e)
+status run_check_stability_after_step(struct run *run)
 {
-    const bool diverged = e->frame->mesh.points > 0 && !(e->frame->speed <= e->tables.wave_speed / sqrt(e->part.dim));
-    TRY(formula_check(&e->loads, &e->part, &e->clock));
-    if (diverged) lagrangian_mesh_update_point_motion(e->frame, &e->part, &e->loads);
-    TRY(run_check_particles_for_divergence(e, e->stability->diverged || e->part.n_grid_coupled > 0, diverged));
-    TRY(inversion_check(&e->clock, &e->part, e->frame));
-    TRY(contact_check_largest_overlap(e));
-    TRY(rigids_check_motion_per_step_is_small(e->rigid, e->scene, &e->clock));
-    if (e->clock.step % RISE_STRIDE == 0)
-        quantity_samples_add_value(&e->stability->speed, e->clock.step, square(fastest_now(&e->part, e->frame)));
+    const bool diverged =
+        run->frame->mesh.points > 0 && !(run->frame->speed <= run->tables.wave_speed / sqrt(run->part.dim));
+    TRY(formula_check(&run->loads, &run->part, &run->clock));
+    if (diverged) lagrangian_mesh_update_point_motion(run->frame, &run->part, &run->loads);
+    TRY(run_check_particles_for_divergence(run, run->stability->diverged || run->part.n_grid_coupled > 0, diverged));
+    TRY(inversion_check(&run->clock, &run->part, run->frame));
+    TRY(contact_check_largest_overlap(run));
+    TRY(rigids_check_motion_per_step_is_small(run->rigid, run->scene, &run->clock));
+    if (run->clock.step % RISE_STRIDE == 0)
+        quantity_samples_add_value(&run->stability->speed, run->clock.step,
+                                   square(fastest_now(&run->part, run->frame)));
     return OK;
 }

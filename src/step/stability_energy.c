@@ -38,11 +38,11 @@ static int64_t fastest_particle(const struct particles *p)
  * run exceeds ENERGY_FROM_NOWHERE, or breaking bonds released more than RELEASED_FROM_NOWHERE of the largest energy
  * beyond what they had stored. The error is not tested in the first ENERGY_STEPS steps, in which half a step of a load
  * is a large share of the energy, unless the time step of `clock` is above the critical one. */
-static bool gains(const struct run_clock *clock, const struct diagnostics *w)
+static bool gains(const struct run_clock *clock, const struct diagnostics *diagnostics)
 {
     const bool counts = clock->step >= ENERGY_STEPS || clock->dt > clock->dt_critical;
-    return (counts && w->now.balance_error > ENERGY_FROM_NOWHERE) ||
-           diagnostics_excess_energy_released_by_bonds(w) > RELEASED_FROM_NOWHERE * w->energy_scale;
+    return (counts && diagnostics->now.balance_error > ENERGY_FROM_NOWHERE) ||
+           diagnostics_excess_energy_released_by_bonds(diagnostics) > RELEASED_FROM_NOWHERE * diagnostics->energy_scale;
 }
 
 /* Returns true if the time step of `clock` is above the critical one and velocities change sign in every step: kinetic
@@ -157,40 +157,43 @@ static bool say_turned(const struct particles *p, const struct scene *s, real t,
  * faster than waves: a body that gains energy, e.g. by breaking all its bonds, or whose velocities change sign in every
  * step; also if an energy is not finite. Warns of large strains, of parted material points and of large motions. Tested
  * at samples and at the end. Bodies whose energy is round-off are not tested. */
-status run_check_last_sample_for_energy_divergence(struct run *e)
+status run_check_last_sample_for_energy_divergence(struct run *run)
 {
-    if (e->stability->lost)
+    if (run->stability->lost)
         return status_set(FAILED,
                           "step %lld, t = %.4g s: an energy is not finite, but all positions are: check material, "
                           "supports and initial state (`cleave check`)",
-                          (long long)e->clock.step, e->clock.t);
-    const struct diagnostics *w = e->diagnostics;
-    const real excess = w->now.balance_error * w->energy_scale + diagnostics_excess_energy_released_by_bonds(w);
-    const bool last = e->clock.step == e->clock.steps && !scene_is_single_equilibrium(e->scene);
+                          (long long)run->clock.step, run->clock.t);
+    const struct diagnostics *diagnostics = run->diagnostics;
+    const real excess = diagnostics->now.balance_error * diagnostics->energy_scale +
+                        diagnostics_excess_energy_released_by_bonds(diagnostics);
+    const bool last = run->clock.step == run->clock.steps && !scene_is_single_equilibrium(run->scene);
     char what[96], remedy[REMEDY_LENGTH];
-    if (!e->report->sampling.due && !last) return OK;
-    quantity_samples_add_value(&e->stability->excess, e->clock.step, excess);
-    if (!e->stability->stretched)
-        e->stability->stretched = say_stretched(&e->part, e->scene, e->clock.t, &e->warnings) ||
-                                  (scene_is_dynamic(e->scene) && say_flowed(&e->part, e->clock.t, &e->warnings)) ||
-                                  say_turned(&e->part, e->scene, e->clock.t, &e->warnings);
-    if (!e->stability->parted)
-        e->stability->parted = material_points_warn_of_numerical_fracture(&e->stability->pairs, &e->part, &e->cells,
-                                                                          e->grid, e->scene, e->clock.t, &e->warnings);
-    large_motion_warn_of_self_penetration(&e->stability->motion, &e->part, e->scene, e->source.family.horizon,
-                                          e->clock.t, &e->warnings);
-    if (scene_is_dynamic(e->scene))
-        large_motion_warn_of_non_follower_pressure(&e->stability->motion, &e->part, &e->loads, e->clock.t,
-                                                   &e->warnings);
-    if (diagnostics_energy_is_round_off(w, e->mass, e->tables.wave_speed)) return OK;
-    if (!e->stability->released) e->stability->released = fracture_energy_warn_if_negative(e->scene, w, &e->warnings);
-    if (swings(&e->clock, &w->now.energy)) {
-        run_describe_smaller_time_step(e->scene, &e->clock, remedy, sizeof remedy);
-        return unstable(&e->part, &e->clock, "whose velocities change sign in every step", remedy);
+    if (!run->report->sampling.due && !last) return OK;
+    quantity_samples_add_value(&run->stability->excess, run->clock.step, excess);
+    if (!run->stability->stretched)
+        run->stability->stretched =
+            say_stretched(&run->part, run->scene, run->clock.t, &run->warnings) ||
+            (scene_is_dynamic(run->scene) && say_flowed(&run->part, run->clock.t, &run->warnings)) ||
+            say_turned(&run->part, run->scene, run->clock.t, &run->warnings);
+    if (!run->stability->parted)
+        run->stability->parted = material_points_warn_of_numerical_fracture(
+            &run->stability->pairs, &run->part, &run->cells, run->grid, run->scene, run->clock.t, &run->warnings);
+    large_motion_warn_of_self_penetration(&run->stability->motion, &run->part, run->scene, run->source.family.horizon,
+                                          run->clock.t, &run->warnings);
+    if (scene_is_dynamic(run->scene))
+        large_motion_warn_of_non_follower_pressure(&run->stability->motion, &run->part, &run->loads, run->clock.t,
+                                                   &run->warnings);
+    if (diagnostics_energy_is_round_off(diagnostics, run->mass, run->tables.wave_speed)) return OK;
+    if (!run->stability->released)
+        run->stability->released = fracture_energy_warn_if_negative(run->scene, diagnostics, &run->warnings);
+    if (swings(&run->clock, &diagnostics->now.energy)) {
+        run_describe_smaller_time_step(run->scene, &run->clock, remedy, sizeof remedy);
+        return unstable(&run->part, &run->clock, "whose velocities change sign in every step", remedy);
     }
-    if (!gains(&e->clock, w)) return OK;
+    if (!gains(&run->clock, diagnostics)) return OK;
     snprintf(what, sizeof what, "with %.0f %% of its energy gained without work of loads",
-             100 * excess / w->energy_scale);
-    run_describe_remedy_for_divergence(e, &e->stability->excess, excess, remedy, sizeof remedy);
-    return unstable(&e->part, &e->clock, what, remedy);
+             100 * excess / diagnostics->energy_scale);
+    run_describe_remedy_for_divergence(run, &run->stability->excess, excess, remedy, sizeof remedy);
+    return unstable(&run->part, &run->clock, what, remedy);
 }

@@ -39,65 +39,66 @@ static struct step step_begin(const struct run_clock *clock, real damping, struc
     return (struct step){.middle = clock->t + 0.5 * dt, decay, share, dt_velocity};
 }
 
-/* Records the bonds of run e broken in this step and converts material points near them to peridynamic particles.
+/* Records the bonds of run broken in this step and converts material points near them to peridynamic particles.
  * now->broken: number of these bonds; now->converted: receives the number of points. */
-static void conversion(struct run *e, struct step *now)
+static void conversion(struct run *run, struct step *now)
 {
-    const bool marked = conversion_flag_points_near_contact(e);
-    run_record_broken_bonds_of_step(e, now->broken);
-    now->converted = run_convert_flagged_points_to_peridynamic(e, now->broken, marked,
-                                                               any_growing_crack_weakens_bonds_gradually(e->fracture));
-    timer_add_elapsed_to_section(&e->timers, TIMER_CONVERT);
+    const bool marked = conversion_flag_points_near_contact(run);
+    run_record_broken_bonds_of_step(run, now->broken);
+    now->converted = run_convert_flagged_points_to_peridynamic(
+        run, now->broken, marked, any_growing_crack_weakens_bonds_gradually(run->fracture));
+    timer_add_elapsed_to_section(&run->timers, TIMER_CONVERT);
 }
 
-/* Updates the pairs of particles of run e that may be in contact, and sets in now->motion how peridynamic particles
+/* Updates the pairs of particles of run that may be in contact, and sets in now->motion how peridynamic particles
  * move in this step. */
-static void motion_begin(struct run *e, struct step *now)
+static void motion_begin(struct run *run, struct step *now)
 {
-    contact_update_pair_list_if_outdated(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, e->clock.step,
-                                         e->diagnostics->bonds_broken,
-                                         e->coupling->conversion.converted + e->coupling->conversion.reverted);
-    now->motion = (struct pd_motion){e->clock.dt, now->dt_velocity, e->tables.wave_speed, e->loads.loaded, false};
-    e->grid->transfer.bonded = e->coupling->bonded; /* reversion may have reallocated the list */
-    timer_add_elapsed_to_section(&e->timers, TIMER_CONVERT);
+    contact_update_pair_list_if_outdated(run->contact, &run->part, &run->bonds, &run->loads, &run->source.family,
+                                         run->clock.step, run->diagnostics->bonds_broken,
+                                         run->coupling->conversion.converted + run->coupling->conversion.reverted);
+    now->motion = (struct pd_motion){run->clock.dt, now->dt_velocity, run->tables.wave_speed, run->loads.loaded, false};
+    run->grid->transfer.bonded = run->coupling->bonded; /* reversion may have reallocated the list */
+    timer_add_elapsed_to_section(&run->timers, TIMER_CONVERT);
 }
 
-/* Sorts the points of run e on the grid into cells. Returns FAILED, with a message, if positions of points are not
+/* Sorts the points of run on the grid into cells. Returns FAILED, with a message, if positions of points are not
  * finite or if a grid would need too many nodes. */
-static status sort(struct run *e)
+static status sort(struct run *run)
 {
     bool lost;
-    TRY(grid_sort_points_into_cells(e, &lost));
-    return lost ? run_check_particles_for_divergence(e, true, false) : OK;
+    TRY(grid_sort_points_into_cells(run, &lost));
+    return lost ? run_check_particles_for_divergence(run, true, false) : OK;
 }
 
-/* Damps the velocities of points of run e in the interface zone (material points near peridynamic particles), before
- * the forces of the step are computed. Adds the first half of the energy that this removes to e->damped; the second
+/* Damps the velocities of points of run in the interface zone (material points near peridynamic particles), before
+ * the forces of the step are computed. Adds the first half of the energy that this removes to run->damped; the second
  * half is added when the velocities after the step are known. Sets now->damps to true if the input file (scene) has
  * such damping. */
-static void zone_damp(struct run *e, struct step *now)
+static void zone_damp(struct run *run, struct step *now)
 {
-    now->damps = e->coupling->zone.points > 0 && e->coupling->damping_share > 0;
+    now->damps = run->coupling->zone.points > 0 && run->coupling->damping_share > 0;
     if (!now->damps) return;
-    e->damped +=
-        interface_zone_damp_return_loss_by_old_velocity(&e->coupling->zone, &e->part, e->coupling->damping_share);
-    loads_update_mirror_images(&e->loads, &e->part); /* breaking bonds read the velocities of mirror images */
+    run->damped +=
+        interface_zone_damp_return_loss_by_old_velocity(&run->coupling->zone, &run->part, run->coupling->damping_share);
+    loads_update_mirror_images(&run->loads, &run->part); /* breaking bonds read the velocities of mirror images */
 }
 
-/* Stores the velocities of run e before the forces of this step, from which the energy loss by bulk damping is
+/* Stores the velocities of run before the forces of this step, from which the energy loss by bulk damping is
  * computed. In the first step it also damps them over half a time step, because velocities are half a step behind
  * positions from then on. Does nothing without bulk damping. now->decay: product of damping rate and time step [1]. */
-static void damping_begin(struct run *e, const struct step *now)
+static void damping_begin(struct run *run, const struct step *now)
 {
-    real *const *before = e->report->sampling.before;
-    e->loads.damped = damping_undamped_velocity_excess(now->decay, e->clock.step == 0);
+    real *const *before = run->report->sampling.before;
+    run->loads.damped = damping_undamped_velocity_excess(now->decay, run->clock.step == 0);
     if (!(now->decay > 0)) return;
-    if (e->clock.step == 0) {
-        e->damped += damping_apply_first_half_return_energy_loss(&e->part, &e->frame->mesh, &e->loads, now->decay);
-        for (int d = 0; d < e->part.dim && before[d]; d++)
-            for (int64_t i = 0; i < e->part.n; i++) before[d][i] *= now->share;
+    if (run->clock.step == 0) {
+        run->damped +=
+            damping_apply_first_half_return_energy_loss(&run->part, &run->frame->mesh, &run->loads, now->decay);
+        for (int d = 0; d < run->part.dim && before[d]; d++)
+            for (int64_t i = 0; i < run->part.n; i++) before[d][i] *= now->share;
     }
-    damping_store_velocities(e->damping, &e->part, &e->frame->mesh);
+    damping_store_velocities(run->damping, &run->part, &run->frame->mesh);
 }
 
 /* Returns true if the loop over bonds may also move the particles, because nothing reads positions between forces and
@@ -116,17 +117,17 @@ static int64_t surface_interval(real horizon, real wave_speed, real dt)
     return 1 + (int64_t)(0.5 * horizon / (wave_speed * dt));
 }
 
-/* Computes the forces of the bonds of run e and breaks the bonds beyond their limit. now->broken: receives the number
+/* Computes the forces of the bonds of run and breaks the bonds beyond their limit. now->broken: receives the number
  * of broken bonds, each counted once for each of its two particles. If sweep_moves returns true, the loop over bonds
  * also moves the particles without loads. */
-static void push_bonds(struct run *e, struct step *now)
+static void push_bonds(struct run *run, struct step *now)
 {
-    loads_clear_forces_of_loaded_particles(&e->loads, &e->part);
-    if (e->clock.step % surface_interval(e->source.family.horizon, e->tables.wave_speed, e->clock.dt) == 0)
-        bonds_start_softening_at_strength_surface(&e->bonds, &e->part, &e->source);
-    e->source.limit.retries = e->clock.step % SOFTENING_RETRY_STEPS == 0;
-    now->broken = bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &e->source.limit,
-                              sweep_moves(e->scene, e->report) ? &now->motion : NULL);
+    loads_clear_forces_of_loaded_particles(&run->loads, &run->part);
+    if (run->clock.step % surface_interval(run->source.family.horizon, run->tables.wave_speed, run->clock.dt) == 0)
+        bonds_start_softening_at_strength_surface(&run->bonds, &run->part, &run->source);
+    run->source.limit.retries = run->clock.step % SOFTENING_RETRY_STEPS == 0;
+    now->broken = bond_forces(run->kernels.bond_force, &run->bonds, &run->part, &run->source.limit,
+                              sweep_moves(run->scene, run->report) ? &now->motion : NULL);
 }
 
 /* Computes the contact forces of c on particles. Records these forces for output, too, if a frame (a file with the
@@ -140,94 +141,97 @@ static void push_contact(struct contact *c, struct particles *p, const struct ru
     contact_record_first_and_last_contact_time(c, clock->t);
 }
 
-/* Moves the peridynamic particles of run e that the loop over bonds has not moved: those with loads, or all if
+/* Moves the peridynamic particles of run that the loop over bonds has not moved: those with loads, or all if
  * sweep_moves is false. Sets motion->diverged to true if a particle is faster than waves. */
-static void move_peridynamic(struct run *e, struct pd_motion *motion)
+static void move_peridynamic(struct run *run, struct pd_motion *motion)
 {
-    struct particles *p = &e->part;
-    const struct loads *l = &e->loads;
-    motion->diverged |= sweep_moves(e->scene, e->report)
-                            ? e->kernels.pd_move(p, l->list, l->listed, motion)
-                            : e->kernels.pd_move(p, p->list[KIND_PD], p->n_of[KIND_PD], motion);
-    e->stability->diverged = motion->diverged;
+    struct particles *p = &run->part;
+    const struct loads *l = &run->loads;
+    motion->diverged |= sweep_moves(run->scene, run->report)
+                            ? run->kernels.pd_move(p, l->list, l->listed, motion)
+                            : run->kernels.pd_move(p, p->list[KIND_PD], p->n_of[KIND_PD], motion);
+    run->stability->diverged = motion->diverged;
 }
 
-/* Moves the grids of run e and their material points. Numbers in the code are the steps of the algorithm listed at the
+/* Moves the grids of run and their material points. Numbers in the code are the steps of the algorithm listed at the
  * function `step`. Returns FAILED, with a message, if a grid would need too many nodes. now: quantities of this
  * step. */
-static status move_grid(struct run *e, const struct step *now)
+static status move_grid(struct run *run, const struct step *now)
 {
-    const bool any = e->part.n_free + e->part.n_grid_coupled > 0;
-    viscosity_subtract_or_restore_pressure(e->viscosity, &e->part, true);
-    grid_map_points_to_nodes(e->grid, &e->part, &e->kernels, &e->timers); /* 1, 3: mass, momentum, force to nodes */
-    viscosity_subtract_or_restore_pressure(e->viscosity, &e->part, false);
-    if (e->clock.step == 0) patch_test_store_largest_residual_force(e->probing, e->scene, &e->part, e->grid);
-    TRY(grid_advance_material_points_one_step(e, now->middle)); /* 3, 4, 6, 7 */
-    if (any && e->part.end_strain)
-        bonded_points_compute_strain_from_stress(&e->coupling->partial, &e->part, e->scene->material);
-    if (any) timer_add_elapsed_to_section(&e->timers, TIMER_GATHER);
-    if (now->damps) e->damped += interface_zone_damping_loss_by_new_velocity(&e->coupling->zone, &e->part);
+    const bool any = run->part.n_free + run->part.n_grid_coupled > 0;
+    viscosity_subtract_or_restore_pressure(run->viscosity, &run->part, true);
+    grid_map_points_to_nodes(run->grid, &run->part, &run->kernels,
+                             &run->timers); /* 1, 3: mass, momentum, force to nodes */
+    viscosity_subtract_or_restore_pressure(run->viscosity, &run->part, false);
+    if (run->clock.step == 0) patch_test_store_largest_residual_force(run->probing, run->scene, &run->part, run->grid);
+    TRY(grid_advance_material_points_one_step(run, now->middle)); /* 3, 4, 6, 7 */
+    if (any && run->part.end_strain)
+        bonded_points_compute_strain_from_stress(&run->coupling->partial, &run->part, run->scene->material);
+    if (any) timer_add_elapsed_to_section(&run->timers, TIMER_GATHER);
+    if (now->damps) run->damped += interface_zone_damping_loss_by_new_velocity(&run->coupling->zone, &run->part);
     return OK;
 }
 
-/* Computes the forces on nodes of the bodies of run e in the reference frame (mesh of the undeformed body) and moves
+/* Computes the forces on nodes of the bodies of run in the reference frame (mesh of the undeformed body) and moves
  * these nodes. Does nothing without such bodies. now: quantities of this step. */
-static void move_frame(struct run *e, const struct step *now)
+static void move_frame(struct run *run, const struct step *now)
 {
-    if (e->frame->mesh.points == 0) return;
-    lagrangian_mesh_compute_nodal_forces(e->frame, &e->part, e->clock.step);
-    viscosity_add_nodal_forces(e);
-    if (e->clock.step == 0) patch_test_include_mesh_residual_force(e->probing, e->scene, &e->frame->mesh);
-    lagrangian_mesh_move_nodes(e->frame, &e->part, &e->loads, &e->clock, now->middle, now->dt_velocity);
+    if (run->frame->mesh.points == 0) return;
+    lagrangian_mesh_compute_nodal_forces(run->frame, &run->part, run->clock.step);
+    viscosity_add_nodal_forces(run);
+    if (run->clock.step == 0) patch_test_include_mesh_residual_force(run->probing, run->scene, &run->frame->mesh);
+    lagrangian_mesh_move_nodes(run->frame, &run->part, &run->loads, &run->clock, now->middle, now->dt_velocity);
 }
 
-/* Adds the reactions at nodes of run e with prescribed velocity to their supports. Then sets velocities and positions
+/* Adds the reactions at nodes of run with prescribed velocity to their supports. Then sets velocities and positions
  * of particles with prescribed motion to their values at the end of the step. now: quantities of this step. */
-static void step_hold(struct run *e, const struct step *now)
+static void step_hold(struct run *run, const struct step *now)
 {
-    for (int k = 0; k < e->grid->fields; k++)
-        loads_add_grid_reactions(&e->loads, &e->grid->field[k].grid, now->dt_velocity);
-    if (loads_impose_prescribed_motion(&e->loads, &e->part, now->middle, e->clock.dt)) e->grid->sort_needed = SORT_ALL;
-    loads_update_mirror_images(&e->loads, &e->part);
-    timer_add_elapsed_to_section(&e->timers, TIMER_GRID);
+    for (int k = 0; k < run->grid->fields; k++)
+        loads_add_grid_reactions(&run->loads, &run->grid->field[k].grid, now->dt_velocity);
+    if (loads_impose_prescribed_motion(&run->loads, &run->part, now->middle, run->clock.dt))
+        run->grid->sort_needed = SORT_ALL;
+    loads_update_mirror_images(&run->loads, &run->part);
+    timer_add_elapsed_to_section(&run->timers, TIMER_GRID);
 }
 
-/* Completes the sample of the start of the step, applies bulk damping and adds its energy loss to e->damped, and
+/* Completes the sample of the start of the step, applies bulk damping and adds its energy loss to run->damped, and
  * advances time and step number. now: quantities of this step. */
-static void finish(struct run *e, const struct step *now)
+static void finish(struct run *run, const struct step *now)
 {
     const bool damps = now->decay > 0;
-    const real loss = damps && e->clock.step > 0
-                          ? damping_energy_loss_since_previous_step(e->damping, &e->part, &e->frame->mesh, now->decay)
-                          : 0;
-    e->damped += loss;
-    e->report->sampling.energy.damped += loss;
-    history_sample_complete_after_step(e);
-    if (damps) damping_apply_full_step(&e->part, &e->frame->mesh, &e->loads, now->decay);
-    e->clock.t = (real)(e->clock.step + 1) * e->clock.dt;
-    e->clock.step++;
-    timer_add_elapsed_to_section(&e->timers, TIMER_SAMPLE);
+    const real loss =
+        damps && run->clock.step > 0
+            ? damping_energy_loss_since_previous_step(run->damping, &run->part, &run->frame->mesh, now->decay)
+            : 0;
+    run->damped += loss;
+    run->report->sampling.energy.damped += loss;
+    history_sample_complete_after_step(run);
+    if (damps) damping_apply_full_step(&run->part, &run->frame->mesh, &run->loads, now->decay);
+    run->clock.t = (real)(run->clock.step + 1) * run->clock.dt;
+    run->clock.step++;
+    timer_add_elapsed_to_section(&run->timers, TIMER_SAMPLE);
 }
 
-bool load_step_flag_points_near_rigid_bodies(struct run *e, real present_pseudo_time, real t)
+bool load_step_flag_points_near_rigid_bodies(struct run *run, real present_pseudo_time, real t)
 {
-    if (!e->coupling->approaches || e->rigid->n == 0) return false;
-    rigids_move_to_prescribed_positions(e->rigid, t);
-    conversion_flag_points_near_contact(e);
-    rigids_move_to_prescribed_positions(e->rigid, present_pseudo_time);
+    if (!run->coupling->approaches || run->rigid->n == 0) return false;
+    rigids_move_to_prescribed_positions(run->rigid, t);
+    conversion_flag_points_near_contact(run);
+    rigids_move_to_prescribed_positions(run->rigid, present_pseudo_time);
     return true;
 }
 
-bool load_step_convert_points_near_breaks_to_pd(struct run *e, int64_t broken_bond_count)
+bool load_step_convert_points_near_breaks_to_pd(struct run *run, int64_t broken_bond_count)
 {
     struct step now = {.broken = broken_bond_count};
-    if (e->frame->mesh.points > 0 && e->scene->method == METHOD_ADAPTIVE)
-        mesh_points_mark(&e->frame->mesh, &e->part, e->frame->elastic, !e->scene->small_strain);
-    conversion(e, &now);
+    if (run->frame->mesh.points > 0 && run->scene->method == METHOD_ADAPTIVE)
+        mesh_points_mark(&run->frame->mesh, &run->part, run->frame->elastic, !run->scene->small_strain);
+    conversion(run, &now);
     return now.converted > 0;
 }
 
-/* Makes one time step of run e by the algorithm of Zeng et al. 2022, section 4, as corrected (MUSL, leap-frog
+/* Makes one time step of run by the algorithm of Zeng et al. 2022, section 4, as corrected (MUSL, leap-frog
  * start). Its steps:
  *
  *     1  mass and momentum of material points to the nodes
@@ -242,36 +246,36 @@ bool load_step_convert_points_near_breaks_to_pd(struct run *e, int64_t broken_bo
  * Bonds break at the positions after step 4 of the previous time step, so that step 5 of the paper is made
  * one time step later. Returns FAILED, with a message, if positions of points are not finite or a grid needs
  * too many nodes. */
-status step(struct run *e)
+status step(struct run *run)
 {
-    struct step now = step_begin(&e->clock, e->scene->damping, &e->grid->transfer);
-    if (e->coupling->approaches && e->clock.step == 0) conversion(e, &now); /* bodies that touch at the start */
-    reversion_convert_relaxed_particles_to_mpm(e);
-    motion_begin(e, &now);
-    history_sample_begin_before_step(e);
-    TRY(sort(e));
-    zone_damp(e, &now);
-    damping_begin(e, &now);
+    struct step now = step_begin(&run->clock, run->scene->damping, &run->grid->transfer);
+    if (run->coupling->approaches && run->clock.step == 0) conversion(run, &now); /* bodies that touch at the start */
+    reversion_convert_relaxed_particles_to_mpm(run);
+    motion_begin(run, &now);
+    history_sample_begin_before_step(run);
+    TRY(sort(run));
+    zone_damp(run, &now);
+    damping_begin(run, &now);
 
-    push_bonds(e, &now); /* 2, 5 */
-    viscosity_add_bond_forces_and_pressure(e);
-    push_contact(e->contact, &e->part, e->report, e->scene, &e->clock);
-    rigids_update_work_and_particle_impulse(e->rigid, now.dt_velocity, e->loads.impulse);
-    loads_apply_forces_and_motion_constraints(&e->loads, &e->part, now.middle, e->clock.dt, now.dt_velocity);
-    timer_add_elapsed_to_section(&e->timers, TIMER_BONDS);
-    history_sample_compute_energies(e);
-    now.broken += cracks_grow_one_step_and_count_cut_bonds(e);
-    timer_add_elapsed_to_section(&e->timers, TIMER_SAMPLE);
+    push_bonds(run, &now); /* 2, 5 */
+    viscosity_add_bond_forces_and_pressure(run);
+    push_contact(run->contact, &run->part, run->report, run->scene, &run->clock);
+    rigids_update_work_and_particle_impulse(run->rigid, now.dt_velocity, run->loads.impulse);
+    loads_apply_forces_and_motion_constraints(&run->loads, &run->part, now.middle, run->clock.dt, now.dt_velocity);
+    timer_add_elapsed_to_section(&run->timers, TIMER_BONDS);
+    history_sample_compute_energies(run);
+    now.broken += cracks_grow_one_step_and_count_cut_bonds(run);
+    timer_add_elapsed_to_section(&run->timers, TIMER_SAMPLE);
 
-    move_peridynamic(e, &now.motion); /* 4 */
-    rigids_advance_one_step(e->rigid, now.middle, e->clock.dt,
+    move_peridynamic(run, &now.motion); /* 4 */
+    rigids_advance_one_step(run->rigid, now.middle, run->clock.dt,
                             now.dt_velocity / now.share); /* bulk damping does not act on rigid bodies */
-    timer_add_elapsed_to_section(&e->timers, TIMER_BONDS);
-    TRY(move_grid(e, &now)); /* 1, 3, 4, 6, 7 */
-    move_frame(e, &now);     /* 3, 4, 7 */
-    step_hold(e, &now);
+    timer_add_elapsed_to_section(&run->timers, TIMER_BONDS);
+    TRY(move_grid(run, &now)); /* 1, 3, 4, 6, 7 */
+    move_frame(run, &now);     /* 3, 4, 7 */
+    step_hold(run, &now);
 
-    conversion(e, &now); /* 8 */
-    finish(e, &now);
+    conversion(run, &now); /* 8 */
+    finish(run, &now);
     return OK;
 }

@@ -13,23 +13,23 @@
 #include "step/report.h"
 #include "step/stability.h"
 
-static void report_free_all(struct run *e)
+static void report_free_all(struct run *run)
 {
-    struct run_report *r = e->report;
+    struct run_report *r = run->report;
     if (!r) return;
     for (int d = 0; d < DIM_MAX; d++) memory_free(r->sampling.before[d]);
     memory_free(r->record);
 }
 
-static void damping_free_all(struct run *e)
+static void damping_free_all(struct run *run)
 {
     for (int k = 0; k < 2; k++)
-        for (int d = 0; d < DIM_MAX; d++) memory_free(e->damping->before[k][d]);
+        for (int d = 0; d < DIM_MAX; d++) memory_free(run->damping->before[k][d]);
 }
 
-static void stability_free_all(struct run *e)
+static void stability_free_all(struct run *run)
 {
-    if (e->stability) memory_free(e->stability->pairs.pair);
+    if (run->stability) memory_free(run->stability->pairs.pair);
 }
 
 /* State of put_figure while it writes scalar results of probes to JSON: name of the present probe, and whether its
@@ -55,11 +55,11 @@ static void put_figure(void *context, const char *probe, const char *quantity, r
     json_write_real(sink->json, quantity, value);
 }
 
-static void put_probes(struct json *j, const struct probes *s, const struct observed_run *o)
+static void put_probes(struct json *j, const struct probes *probes, const struct observed_run *o)
 {
     struct probe_sink sink = {.json = j};
     json_begin_object_or_list(j, "probes", '{');
-    probes_visit_results(s, o, put_figure, &sink);
+    probes_visit_results(probes, o, put_figure, &sink);
     if (sink.open) json_end_object_or_list(j, '}');
     json_end_object_or_list(j, '}');
 }
@@ -74,36 +74,36 @@ static void put_error_bars(struct json *j, const struct run_report *r)
     json_end_object_or_list(j, '}');
 }
 
-static void put_figures(const struct run *e, struct json *j)
+static void put_figures(const struct run *run, struct json *j)
 {
-    const struct observed_run o = observed_run_make_read_only_view(e);
-    put_probes(j, &e->probing->probes, &o);
-    put_error_bars(j, e->report);
+    const struct observed_run o = observed_run_make_read_only_view(run);
+    put_probes(j, &run->probing->probes, &o);
+    put_error_bars(j, run->report);
 }
 
-static status report_state(struct run *e, struct archive *a)
+static status report_state(struct run *run, struct archive *a)
 {
-    struct run_report *r = e->report;
+    struct run_report *r = run->report;
     if (a->scope == ARCHIVE_REBUILD) return OK;
     ARCHIVE_VALUE(a, "engine/particle_steps", r->particle_steps);
     ARCHIVE_VALUE(a, "engine/bond_visits", r->bond_visits);
     ARCHIVE_VALUE(a, "engine/inactive", r->inactive);
     ARCHIVE_VALUE(a, "engine/sampled", r->sampled);
-    struct run_seconds seconds = a->saving ? report_wall_clock_times(r, &e->timers) : (struct run_seconds){0};
+    struct run_seconds seconds = a->saving ? report_wall_clock_times(r, &run->timers) : (struct run_seconds){0};
     ARCHIVE_VALUE(a, "engine/seconds", seconds);
     if (!a->saving) r->before = seconds;
     return output_save_or_load(r->out, a);
 }
 
-static status stability_state(struct run *e, struct archive *a)
+static status stability_state(struct run *run, struct archive *a)
 {
-    ARCHIVE_VALUE(a, "engine/speed_rise", e->stability->speed);
-    ARCHIVE_VALUE(a, "engine/excess_rise", e->stability->excess);
-    ARCHIVE_VALUE(a, "engine/stretched", e->stability->stretched);
-    ARCHIVE_VALUE(a, "engine/parted", e->stability->parted);
-    ARCHIVE_VALUE(a, "engine/released", e->stability->released);
-    ARCHIVE_VALUE(a, "engine/pulled", e->stability->pairs.pulled);
-    ARCHIVE_VALUE(a, "engine/large_motion", e->stability->motion);
+    ARCHIVE_VALUE(a, "engine/speed_rise", run->stability->speed);
+    ARCHIVE_VALUE(a, "engine/excess_rise", run->stability->excess);
+    ARCHIVE_VALUE(a, "engine/stretched", run->stability->stretched);
+    ARCHIVE_VALUE(a, "engine/parted", run->stability->parted);
+    ARCHIVE_VALUE(a, "engine/released", run->stability->released);
+    ARCHIVE_VALUE(a, "engine/pulled", run->stability->pairs.pulled);
+    ARCHIVE_VALUE(a, "engine/large_motion", run->stability->motion);
     return OK;
 }
 

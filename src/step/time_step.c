@@ -131,27 +131,28 @@ static real critical_of_lattices(const struct bond_source *all, const struct par
  * cost: about 30 rounds, each as expensive as a few time steps. */
 enum { ITERATED_MOST = 15000 };
 
-/* Returns the critical time step of the bonds of the run e [s]. Returns INFINITY for the method mpm, which has no
+/* Returns the critical time step of the bonds of the run [s]. Returns INFINITY for the method mpm, which has no
  * bonds, and the time in which a wave crosses one spacing for a peridynamic body without bonds. With method pd, for a
  * body of at most ITERATED_MOST particles or with randomly shifted positions, the step follows from the highest
  * frequency of the body, found by iteration. Otherwise it follows from the highest frequency of an infinite lattice.
  * Scattered particles, bonds near surfaces and heavy neighbours can make the body stiffer than this lattice. Therefore
  * the step is multiplied by the ratio of two bounds from row sums of stiffness matrices, that of the body to that of
  * the lattice, if this is below 1. */
-static real critical_of_bonds(struct run *e)
+static real critical_of_bonds(struct run *run)
 {
-    const struct scene *s = e->scene;
-    bond_force_fn *const force = elastic_force(s, &e->kernels);
+    const struct scene *s = run->scene;
+    bond_force_fn *const force = elastic_force(s, &run->kernels);
     real bound;
     if (s->method == METHOD_MPM) return INFINITY;
-    if (s->method == METHOD_PD && (s->irregularity > 0 || e->part.n <= ITERATED_MOST)) {
-        const real step = bonds_critical_time_step_by_iteration(&e->bonds, &e->part, force, &e->loads, s->spacing);
+    if (s->method == METHOD_PD && (s->irregularity > 0 || run->part.n <= ITERATED_MOST)) {
+        const real step =
+            bonds_critical_time_step_by_iteration(&run->bonds, &run->part, force, &run->loads, s->spacing);
         /* without bonds the wave speed limits the step */
-        return isfinite(step) ? step : s->spacing / e->tables.wave_speed;
+        return isfinite(step) ? step : s->spacing / run->tables.wave_speed;
     }
-    const real step = critical_of_lattices(&e->source, &e->part, force, &bound);
-    const real share = real_min(1, bonds_critical_time_step_if_all_peridynamic(&e->part, &e->source) / bound);
-    return share * step * share_of_coupling(e->scene, e->coupling_kind);
+    const real step = critical_of_lattices(&run->source, &run->part, force, &bound);
+    const real share = real_min(1, bonds_critical_time_step_if_all_peridynamic(&run->part, &run->source) / bound);
+    return share * step * share_of_coupling(run->scene, run->coupling_kind);
 }
 
 /* ---- the step ---------------------------------------------------------------------------------------------------- */
@@ -211,42 +212,42 @@ static real lightest_share(const struct scene *s, const struct particles *p)
     return least;
 }
 
-/* Computes the critical time step, the time step and the number of steps of the run e, in e->clock. In load steps,
+/* Computes the critical time step, the time step and the number of steps of the run, in run->clock. In load steps,
  * their number is that of the scene. The limits of all methods of the scene apply from the start, because particles
  * convert later. Returns REFUSED, with a message, if the prescribed step is too large for coarse cells, or the steps
  * are too many. */
-status run_choose_time_step_and_step_count(struct run *e)
+status run_choose_time_step_and_step_count(struct run *run)
 {
-    const struct scene *s = e->scene;
-    const bool on_grid = e->part.n_free + e->part.n_grid_coupled > 0;
+    const struct scene *s = run->scene;
+    const bool on_grid = run->part.n_free + run->part.n_grid_coupled > 0;
     real points = INFINITY;
     if (on_grid)
-        points = critical_of_points(s, &e->tables, e->grid->field[0].grid.h,
-                                    fastest_driven(s, &e->loads, &e->part, e->stability->start_speed));
-    e->clock.dt_critical = real_min(real_min(critical_of_bonds(e), points),
-                                    lagrangian_mesh_critical_time_step(e->frame, s, e->coupling_kind)) *
-                           sqrt(lightest_share(s, &e->part)) *
-                           viscosity_time_step_factor(s, &e->loads, &e->part, e->stability->start_speed);
-    const real contact = contact_critical_time_step(e->contact, &e->part, s->material, e->clock.dt_critical);
-    const int levels = mesh_levels_choose_level_count(e->frame, &e->part, s, e->clock.dt_critical).levels;
+        points = critical_of_points(s, &run->tables, run->grid->field[0].grid.h,
+                                    fastest_driven(s, &run->loads, &run->part, run->stability->start_speed));
+    run->clock.dt_critical = real_min(real_min(critical_of_bonds(run), points),
+                                      lagrangian_mesh_critical_time_step(run->frame, s, run->coupling_kind)) *
+                             sqrt(lightest_share(s, &run->part)) *
+                             viscosity_time_step_factor(s, &run->loads, &run->part, run->stability->start_speed);
+    const real contact = contact_critical_time_step(run->contact, &run->part, s->material, run->clock.dt_critical);
+    const int levels = mesh_levels_choose_level_count(run->frame, &run->part, s, run->clock.dt_critical).levels;
     const real safety = levels > 0 ? real_min(s->safety, LEVELS_STEP_MOST) : s->safety;
     const real automatic =
-        real_min(damping_step(s), real_min(safety * e->clock.dt_critical, contact_safety(s) * contact));
+        real_min(damping_step(s), real_min(safety * run->clock.dt_critical, contact_safety(s) * contact));
     const real dt = s->time_step > 0 ? s->time_step : automatic;
-    e->clock.stride = 1 << levels;
-    if (e->clock.stride > 1 && dt > LEVELS_STEP_MOST * e->clock.dt_critical * (1 + 1e-9))
+    run->clock.stride = 1 << levels;
+    if (run->clock.stride > 1 && dt > LEVELS_STEP_MOST * run->clock.dt_critical * (1 + 1e-9))
         return status_set(REFUSED,
                           "time.step: %.4g s is too large for coarse cells (mpm.levels above 0), which are stable up "
                           "to %.4g s (%.2f of the critical step); use a smaller time.step, or set mpm.levels: 0",
-                          dt, LEVELS_STEP_MOST * e->clock.dt_critical, LEVELS_STEP_MOST);
-    e->clock.dt_bears = dt;
+                          dt, LEVELS_STEP_MOST * run->clock.dt_critical, LEVELS_STEP_MOST);
+    run->clock.dt_bears = dt;
     if (scene_has_load_steps(s))
-        e->clock.steps = s->steps.number, e->clock.dt = s->duration / s->steps.number;
+        run->clock.steps = s->steps.number, run->clock.dt = s->duration / s->steps.number;
     else if (scene_is_dynamic(s))
-        TRY(make_steps(e->scene, &e->clock, dt));
+        TRY(make_steps(run->scene, &run->clock, dt));
     else
-        e->clock.steps = s->solver_steps, e->clock.dt = dt;
-    e->source.limit.dt = scene_has_load_steps(s) ? dt : e->clock.dt;
-    e->source.core = e->bonds.core = core_stiffness(e->scene, &e->clock);
+        run->clock.steps = s->solver_steps, run->clock.dt = dt;
+    run->source.limit.dt = scene_has_load_steps(s) ? dt : run->clock.dt;
+    run->source.core = run->bonds.core = core_stiffness(run->scene, &run->clock);
     return OK;
 }

@@ -113,11 +113,11 @@ static void points_pressure(struct viscosity *v, const struct particles *p, cons
  * step (trapezoidal rule); 0 in the first step, which has no previous forces. */
 static real half_step(const struct run_clock *clock) { return clock->step > 0 ? 0.5 * clock->dt : 0; }
 
-void viscosity_add_bond_forces_and_pressure(struct run *e)
+void viscosity_add_bond_forces_and_pressure(struct run *run)
 {
-    if (!viscosity_made(e->viscosity, e->scene, e->part.n, e->frame->mesh.grid.n)) return;
-    bonds_push(e->viscosity, &e->bonds, &e->part, half_step(&e->clock));
-    points_pressure(e->viscosity, &e->part, &e->coupling->partial, e->clock.dt);
+    if (!viscosity_made(run->viscosity, run->scene, run->part.n, run->frame->mesh.grid.n)) return;
+    bonds_push(run->viscosity, &run->bonds, &run->part, half_step(&run->clock));
+    points_pressure(run->viscosity, &run->part, &run->coupling->partial, run->clock.dt);
 }
 
 void viscosity_subtract_or_restore_pressure(struct viscosity *v, const struct particles *p, bool subtract)
@@ -239,24 +239,24 @@ static void nodes_book(struct viscosity *v, const struct grid *g, real half, rea
     memory_free(work);
 }
 
-void viscosity_add_nodal_forces(struct run *e)
+void viscosity_add_nodal_forces(struct run *run)
 {
-    const struct mesh *mesh = &e->frame->mesh;
-    const int dim = e->part.dim;
+    const struct mesh *mesh = &run->frame->mesh;
+    const int dim = run->part.dim;
     real *H[DIM_MAX * DIM_MAX] = {NULL}, *G[DIM_MAX * DIM_MAX] = {NULL}, *f[DIM_MAX] = {NULL};
     struct mesh moving = *mesh;
-    if (!e->viscosity->work || mesh->points == 0) return;
+    if (!run->viscosity->work || mesh->points == 0) return;
     for (int k = 0; k < dim * dim; k++)
-        H[k] = NEW("viscosity.H", e->part.n, real), G[k] = NEW("viscosity.G", e->part.n, real);
+        H[k] = NEW("viscosity.H", run->part.n, real), G[k] = NEW("viscosity.G", run->part.n, real);
     for (int d = 0; d < dim; d++) f[d] = NEW("viscosity.f", mesh->grid.n, real);
     for (int d = 0; d < dim; d++) moving.displacement[d] = mesh->grid.velocity[d];
     mesh_points_gradient(mesh, H);
     mesh_points_gradient(&moving, G);
 #pragma omp parallel for schedule(static)
-    for (int64_t i = 0; i < e->part.n; i++)
-        if (mesh->place[i] >= 0) viscous_stress(e->viscosity, &e->part, &e->coupling->partial, i, H, G);
+    for (int64_t i = 0; i < run->part.n; i++)
+        if (mesh->place[i] >= 0) viscous_stress(run->viscosity, &run->part, &run->coupling->partial, i, H, G);
     cells_push(mesh, H, f);
-    nodes_book(e->viscosity, &mesh->grid, half_step(&e->clock), f);
+    nodes_book(run->viscosity, &mesh->grid, half_step(&run->clock), f);
     for (int k = 0; k < dim * dim; k++) memory_free(H[k]), memory_free(G[k]);
     for (int d = 0; d < dim; d++) memory_free(f[d]);
 }
@@ -297,22 +297,22 @@ real viscosity_time_step_factor(const struct scene *s, const struct loads *l, co
     return sqrt(1 + q * q) - q;
 }
 
-static void viscosity_free_all(struct run *e)
+static void viscosity_free_all(struct run *run)
 {
-    struct viscosity *v = e->viscosity;
+    struct viscosity *v = run->viscosity;
     for (int d = 0; d < DIM_MAX; d++) memory_free(v->bonds[d]), memory_free(v->nodes[d]), memory_free(v->stress[d]);
     memory_free(v->pressure), memory_free(v->volume), memory_free(v->work);
 }
 
-static status viscosity_state(struct run *e, struct archive *a)
+static status viscosity_state(struct run *run, struct archive *a)
 {
-    struct viscosity *v = e->viscosity;
-    const size_t n = (size_t)e->part.n * sizeof(real), nodes = (size_t)e->frame->mesh.grid.n * sizeof(real);
+    struct viscosity *v = run->viscosity;
+    const size_t n = (size_t)run->part.n * sizeof(real), nodes = (size_t)run->frame->mesh.grid.n * sizeof(real);
     static const char *const name[] = {"viscosity/bonds_x", "viscosity/bonds_y", "viscosity/bonds_z"};
     static const char *const node[] = {"viscosity/nodes_x", "viscosity/nodes_y", "viscosity/nodes_z"};
-    if (!viscosity_made(v, e->scene, e->part.n, e->frame->mesh.grid.n)) return OK;
-    for (int d = 0; d < e->part.dim; d++) TRY(a->exchange(a, name[d], v->bonds[d], n));
-    for (int d = 0; d < e->part.dim && nodes > 0; d++) TRY(a->exchange(a, node[d], v->nodes[d], nodes));
+    if (!viscosity_made(v, run->scene, run->part.n, run->frame->mesh.grid.n)) return OK;
+    for (int d = 0; d < run->part.dim; d++) TRY(a->exchange(a, name[d], v->bonds[d], n));
+    for (int d = 0; d < run->part.dim && nodes > 0; d++) TRY(a->exchange(a, node[d], v->nodes[d], nodes));
     TRY(a->exchange(a, "viscosity/pressure", v->pressure, n));
     TRY(a->exchange(a, "viscosity/volume", v->volume, n));
     ARCHIVE_VALUE(a, "viscosity/taken", v->taken);

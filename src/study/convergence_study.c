@@ -156,12 +156,12 @@ static bool runs_fit(struct convergence_study *s, int runs, int jobs, double lef
 
 /* Returns the reason why the convergence of the scene s cannot be studied as the request w demands, as a text for a
  * message, or NULL if it can be studied. The text is static. */
-static const char *study_refusal(const struct scene *s, const struct convergence_request *w)
+static const char *study_refusal(const struct scene *s, const struct convergence_request *request)
 {
     for (int b = 0; b < s->bodies; b++)
         if (s->body[b].file)
             return "the particles of a body come from a list, whose spacing cannot be refined; give the body a shape";
-    if (w->fixed_horizon && !has_bonds(s)) return "--horizon: method mpm has no horizon; remove --horizon";
+    if (request->fixed_horizon && !has_bonds(s)) return "--horizon: method mpm has no horizon; remove --horizon";
     return NULL;
 }
 
@@ -169,15 +169,15 @@ static const char *study_refusal(const struct scene *s, const struct convergence
  * spacing), and stores its duration in s->spent. The durations of the other runs are predicted from it. Sets *refused
  * to true if the input file (scene) is invalid at this spacing, for example because the integration rings of probes
  * become too narrow. Returns REFUSED, with a message, if the run exceeds the budget, FAILED if it fails. */
-static status first_run(struct convergence_study *s, const struct convergence_request *w, bool *refused)
+static status first_run(struct convergence_study *s, const struct convergence_request *request, bool *refused)
 {
-    struct study_options options = w->options;
+    struct study_options options = request->options;
     s->first = s->study.n;
     options.jobs = 1;
     if (options.threads <= 0) options.threads = 1;
     options.quiet = true;
     options.until = s->begun + s->budget;
-    level_run_add(s, s->spacings.levels - 1, 0, w->runs);
+    level_run_add(s, s->spacings.levels - 1, 0, request->runs);
     TRY(study_find_completed_failed_and_equal_cases(&s->study, false));
     TRY(study_execute_waiting_runs(&s->study, options));
     const struct study_case *run = &s->study.at[s->first];
@@ -196,31 +196,31 @@ static status first_run(struct convergence_study *s, const struct convergence_re
 
 /* Prints a warning for each result that w requests (a number in summary.json) and the first run of the study s lacks,
  * because its name may be wrong. It is no error, since cracks and tips may still appear at finer spacings. */
-static void wanted_warn(const struct convergence_study *s, const struct convergence_request *w)
+static void wanted_warn(const struct convergence_study *s, const struct convergence_request *request)
 {
     const struct path folder = study_case_folder(&s->study, &s->study.at[s->first]);
     double value;
-    for (int k = 0; k < w->wanteds; k++)
-        if (summary_read_number(folder.text, w->wanted[k], &value) != OK)
+    for (int k = 0; k < request->wanteds; k++)
+        if (summary_read_number(folder.text, request->wanted[k], &value) != OK)
             fprintf(
                 stderr,
                 "warning: the summary of the first run has no value named %s; choose one listed in %s/summary.json\n",
-                w->wanted[k], printable_name(folder.text).text);
+                request->wanted[k], printable_name(folder.text).text);
 }
 
 /* Makes the first run of the study s, which the request w demands, at the coarsest spacing level (first_run). If the
  * input file (scene) is invalid at that spacing, refines all levels and tries again, at most FINER_MOST times. Stores
  * the largest spacing that was invalid in s->refused, INFINITY if none was. Returns the status of the last try: OK,
  * REFUSED, FAILED or INTERRUPTED. */
-static status first_run_sound(struct convergence_study *s, const struct convergence_request *w)
+static status first_run_sound(struct convergence_study *s, const struct convergence_request *request)
 {
     bool refused = false;
     status done = FAILED;
     s->refused = INFINITY;
     for (int finer = 0; finer <= FINER_MOST; finer++) {
-        spacings_choose_for_convergence_study(&s->spacings, &s->scene, w->levels,
+        spacings_choose_for_convergence_study(&s->spacings, &s->scene, request->levels,
                                               s->scene.spacing * pow(2, -0.5 * finer));
-        done = first_run(s, w, &refused);
+        done = first_run(s, request, &refused);
         if (!refused) break;
         s->refused = s->point[s->first].spacing;
         s->point[s->first].level = -2;
@@ -232,9 +232,9 @@ static status first_run_sound(struct convergence_study *s, const struct converge
  * The finest level has the spacing that the input file (scene) gives times 2^(shift/2), so that the scene's own
  * spacing is among the levels if shift is at most 0. Omits levels at which the scene is invalid. Returns false if no
  * valid plan results. */
-static bool mesh_levels_plan(struct convergence_study *s, const struct convergence_request *w, int shift)
+static bool mesh_levels_plan(struct convergence_study *s, const struct convergence_request *request, int shift)
 {
-    int levels = w->levels - (shift < 0 ? shift : 0);
+    int levels = request->levels - (shift < 0 ? shift : 0);
     if (levels > LEVELS_MOST) return false;
     spacings_choose_for_convergence_study(&s->spacings, &s->scene, levels, s->scene.spacing * pow(2, 0.5 * shift));
     while (levels > LEVELS_LEAST && s->spacings.at[levels - 1][0] > 0.999 * s->refused) levels--;
@@ -245,18 +245,18 @@ static bool mesh_levels_plan(struct convergence_study *s, const struct convergen
 }
 
 /* Chooses spacing levels (runs with one particle spacing each) and numbers of runs with which the study fits into its
- * budget. Levels are coarsened until the predicted time fits. w: request; jobs: number of runs at a time. Returns
+ * budget. Levels are coarsened until the predicted time fits. request: request; jobs: number of runs at a time. Returns
  * REFUSED, with a message, if no plan fits. s: the study. */
-static status plan_fit(struct convergence_study *s, const struct convergence_request *w, int jobs)
+static status plan_fit(struct convergence_study *s, const struct convergence_request *request, int jobs)
 {
     static const int finer_first[] = {-2, -1, 0, 1, 2, 3, 4, 5, 6}, own_first[] = {0, -1, -2, 1, 2, 3, 4, 5, 6};
     const double left = s->budget - (wall_clock_seconds() - s->begun);
     double need = 0;
     bool planned = false;
     for (size_t k = 0; k < COUNT_OF(own_first); k++) {
-        const int shift = w->finer ? finer_first[k] : own_first[k];
-        if (!mesh_levels_plan(s, w, shift) || (shift < 0 && !w->finer && !isfinite(s->refused))) continue;
-        const bool fits = runs_fit(s, w->runs, jobs, left) && horizon_at(s, s->spacings.at[0][0]) <= HORIZON_MOST;
+        const int shift = request->finer ? finer_first[k] : own_first[k];
+        if (!mesh_levels_plan(s, request, shift) || (shift < 0 && !request->finer && !isfinite(s->refused))) continue;
+        const bool fits = runs_fit(s, request->runs, jobs, left) && horizon_at(s, s->spacings.at[0][0]) <= HORIZON_MOST;
         if (shift <= 0) need = s->expected, planned = true;
         if (!fits) continue;
         s->own = shift > 0 ? -1 : -shift;
@@ -270,7 +270,7 @@ static status plan_fit(struct convergence_study *s, const struct convergence_req
         return status_set(REFUSED,
                           "--levels: fewer than %d different spacings, equal to that of the scene or larger, are "
                           "possible: use fewer --levels, or a smaller particles.spacing",
-                          w->levels);
+                          request->levels);
     return status_set(
         REFUSED,
         "--budget %.3g s is too small: three runs at each spacing would take about %.3g s; give a larger budget",
@@ -311,23 +311,23 @@ static void plan_print(const struct convergence_study *s)
 /* Plans the runs of a convergence study such that they fit into the budget of the request w, makes them, and reads
  * their results into s->table. Returns REFUSED or FAILED, with a message, if the study cannot be planned, its first run
  * fails, or a summary cannot be read. Returns INTERRUPTED after a stop signal. */
-static status study_go(struct convergence_study *s, const struct convergence_request *w)
+static status study_go(struct convergence_study *s, const struct convergence_request *request)
 {
-    struct study_options options = w->options;
+    struct study_options options = request->options;
     const int cores = machine_physical_core_count();
-    TRY(study_make(&s->study, w->scene, w->folder, "converge"));
-    s->study.options = w->words;
-    spacings_choose_for_convergence_study(&s->spacings, &s->scene, w->levels, s->scene.spacing);
+    TRY(study_make(&s->study, request->scene, request->folder, "converge"));
+    s->study.options = request->words;
+    spacings_choose_for_convergence_study(&s->spacings, &s->scene, request->levels, s->scene.spacing);
     if (horizon_at(s, s->spacings.at[0][0]) > HORIZON_MOST)
         return status_set(REFUSED,
                           "--horizon: the finest spacing would have a horizon of %.3g spacings, more than %g; use "
                           "fewer --levels or a smaller particles.horizon",
                           horizon_at(s, s->spacings.at[0][0]), HORIZON_MOST);
-    TRY(first_run_sound(s, w));
-    wanted_warn(s, w);
+    TRY(first_run_sound(s, request));
+    wanted_warn(s, request);
     if (options.threads <= 0) options.threads = 1;
     if (options.jobs <= 0) options.jobs = cores > options.threads ? cores / options.threads : 1;
-    TRY(plan_fit(s, w, options.jobs));
+    TRY(plan_fit(s, request, options.jobs));
     if (!options.quiet) plan_print(s);
     runs_add_all(s);
     if (!options.quiet)
@@ -343,19 +343,20 @@ static status study_go(struct convergence_study *s, const struct convergence_req
     return study_table_read(&s->table, &s->study);
 }
 
-status convergence_study_run(struct convergence_study *s, const struct convergence_request *w)
+status convergence_study_run(struct convergence_study *s, const struct convergence_request *request)
 {
-    *s = (struct convergence_study){.override = w->override,
-                                    .overrides = w->overrides,
-                                    .budget = w->budget,
+    *s = (struct convergence_study){.override = request->override,
+                                    .overrides = request->overrides,
+                                    .budget = request->budget,
                                     .begun = wall_clock_seconds(),
-                                    .fixed_horizon = w->fixed_horizon,
+                                    .fixed_horizon = request->fixed_horizon,
                                     .study.lock.fd = -1};
-    TRY(scene_read(&s->scene, w->scene, w->override, w->overrides));
-    const char *refusal = study_refusal(&s->scene, w);
-    status done = refusal ? status_set(REFUSED, "%s: %s", w->scene, refusal) : OK;
-    for (int k = 0; k < w->wanteds && done == OK; k++) done = result_name_check_is_known(&s->scene, w->wanted[k]);
-    if (done == OK) done = study_go(s, w);
+    TRY(scene_read(&s->scene, request->scene, request->override, request->overrides));
+    const char *refusal = study_refusal(&s->scene, request);
+    status done = refusal ? status_set(REFUSED, "%s: %s", request->scene, refusal) : OK;
+    for (int k = 0; k < request->wanteds && done == OK; k++)
+        done = result_name_check_is_known(&s->scene, request->wanted[k]);
+    if (done == OK) done = study_go(s, request);
     if (done != OK) convergence_study_free(s);
     return done;
 }

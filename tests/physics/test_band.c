@@ -22,15 +22,15 @@ struct band {
     real width, growth, fracture;
 }; /* [m], [m], [J] */
 
-/* Returns the width of the new damage of e: its area over `growth`, that of both tips. Particles behind the ends of the
- * pre-crack, which are damaged from the start, are left out. */
-static real band_width(const struct run *e, real growth)
+/* Returns the width of the new damage of run: its area over `growth`, that of both tips. Particles behind the ends of
+ * the pre-crack, which are damaged from the start, are left out. */
+static real band_width(const struct run *run, real growth)
 {
-    const struct particles *p = &e->part;
+    const struct particles *p = &run->part;
     real area = 0;
     for (int64_t i = 0; i < p->n; i++) {
         real ahead = fabs(p->X[0][i]) - 5e-3; /* beyond the end of the pre-crack [m] */
-        if (p->damage[i] > DAMAGED && ahead > 0 && ahead < growth) area += square(e->scene->spacing);
+        if (p->damage[i] > DAMAGED && ahead > 0 && ahead < growth) area += square(run->scene->spacing);
     }
     return area / (2 * growth);
 }

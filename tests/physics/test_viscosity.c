@@ -34,14 +34,14 @@ struct front {
 };
 
 /* Computes the largest velocity behind the front, *most, and the largest difference from v, *off, both over v, without
- * a tenth of the distance at the piston and the last spacings before the front. e: run of the piston. */
-static void behind(const struct run *e, real *most, real *off)
+ * a tenth of the distance at the piston and the last spacings before the front. run: run of the piston. */
+static void behind(const struct run *run, real *most, real *off)
 {
-    const struct material *m = &e->scene->material[0];
-    const real way = m->wave_speed * e->clock.t, v = 5;
+    const struct material *m = &run->scene->material[0];
+    const real way = m->wave_speed * run->clock.t, v = 5;
     *most = *off = 0;
-    for (int64_t i = 0; i < e->part.n; i++) {
-        const real X = e->part.X[0][i], x = e->part.v[0][i] / v;
+    for (int64_t i = 0; i < run->part.n; i++) {
+        const real X = run->part.X[0][i], x = run->part.v[0][i] / v;
         *most = real_max(*most, x - 1);
         if (X > 0.1 * way && X < way - 22e-3) *off = real_max(*off, fabs(x - 1));
     }

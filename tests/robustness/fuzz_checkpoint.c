@@ -24,14 +24,14 @@ static const char text[] =
 static struct scene scene;
 static struct output out;
 
-/* Creates a run e of the scene with output in the folder `fuzz_run`. */
-static void begin(struct run *e)
+/* Creates a run of the scene with output in the folder `fuzz_run`. */
+static void begin(struct run *run)
 {
     if (!scene.text && scene_read_text(&scene, text, strlen(text), "fuzz", NULL, 0) != OK)
         fuzz_fail("the scene", status_message());
-    *e = (struct run){0};
-    if (run_set_up_from_scene(e, &scene, &out) != OK) fuzz_fail("the engine", status_message());
-    e->report->quiet = true;
+    *run = (struct run){0};
+    if (run_set_up_from_scene(run, &scene, &out) != OK) fuzz_fail("the engine", status_message());
+    run->report->quiet = true;
     if (!out.folder && output_open(&out, "fuzz_run", scene.text, OUTPUT_OVERWRITE, false) != OK)
         fuzz_fail("the folder", status_message());
 }

@@ -155,9 +155,9 @@ static void add_loads(struct maker *m, const double *edge)
 }
 
 /* Fails if a result of e is not finite, unless the run reported it. when: for the message. */
-static void judge(const struct run *e, const char *when)
+static void judge(const struct run *run, const char *when)
 {
-    const struct particles *p = &e->part;
+    const struct particles *p = &run->part;
     for (int64_t i = 0; i < p->n; i++) {
         for (int d = 0; d < p->dim; d++)
             if (!isfinite(p->x[d][i]) || !isfinite(p->v[d][i]))
@@ -166,7 +166,7 @@ static void judge(const struct run *e, const char *when)
             if (!isfinite(p->stress[k][i])) fuzz_fail("a stress that is no number", when);
         if (!(p->damage[i] >= -1e-9 && p->damage[i] <= 1 + 1e-9)) fuzz_fail("damage is not within 0 and 1", when);
     }
-    if (!isfinite(e->diagnostics->now.balance_error) || !isfinite(e->diagnostics->now.momentum_error))
+    if (!isfinite(run->diagnostics->now.balance_error) || !isfinite(run->diagnostics->now.momentum_error))
         fuzz_fail("a balance that is no number", when);
 }
 

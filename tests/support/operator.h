@@ -54,20 +54,20 @@ struct spectrum {
  * if `node` is true, else for each particle of the run: bit d is set if component d is no unknown, since a velocity is
  * prescribed for the particle, a wall holds the node, or the node follows its mirror image. Release it with
  * memory_free. */
-static inline uint8_t *operator_held(struct run *e, bool node)
+static inline uint8_t *operator_held(struct run *run, bool node)
 {
-    const int64_t n = node ? e->frame->mesh.grid.n : e->part.n;
+    const int64_t n = node ? run->frame->mesh.grid.n : run->part.n;
     uint8_t *held = NEW("test.held", n + 1, uint8_t);
     if (node) {
-        const struct grid *g = &e->frame->mesh.grid;
-        loads_prescribe_mesh_velocities(&e->loads, &e->frame->mesh, 0, e->clock.dt);
+        const struct grid *g = &run->frame->mesh.grid;
+        loads_prescribe_mesh_velocities(&run->loads, &run->frame->mesh, 0, run->clock.dt);
         for (int64_t k = 0; k < g->walls; k++) held[g->wall[k].node] |= (uint8_t)(1 << g->wall[k].component);
         for (int64_t k = 0; k < g->mirror_nodes; k++) held[g->mirror_node[k].node] = 7;
         return held;
     }
-    for (int b = 0; b < e->loads.n; b++)
-        for (int64_t k = 0; k < e->loads.load[b].n && e->loads.load[b].boundary->kind == BOUNDARY_VELOCITY; k++)
-            held[e->loads.load[b].particle[k]] |= e->loads.load[b].boundary->components;
+    for (int b = 0; b < run->loads.n; b++)
+        for (int64_t k = 0; k < run->loads.load[b].n && run->loads.load[b].boundary->kind == BOUNDARY_VELOCITY; k++)
+            held[run->loads.load[b].particle[k]] |= run->loads.load[b].boundary->components;
     return held;
 }
 
@@ -87,10 +87,10 @@ static inline void operator_add(struct operator* o, bool node, const uint8_t *he
  * those of the nodes of the mesh with mass. Nodes beyond a symmetry plane add their mass to their images. */
 static inline void operator_unknowns(struct operator* o)
 {
-    struct run *e = &o->e;
-    const struct grid *g = &e->frame->mesh.grid;
-    const int64_t nodes = e->frame->mesh.points > 0 ? g->n : 0;
-    uint8_t *held = operator_held(e, false), *held_node = nodes > 0 ? operator_held(e, true) : NULL;
+    struct run *run = &o->e;
+    const struct grid *g = &run->frame->mesh.grid;
+    const int64_t nodes = run->frame->mesh.points > 0 ? g->n : 0;
+    uint8_t *held = operator_held(run, false), *held_node = nodes > 0 ? operator_held(run, true) : NULL;
     real *mass = NEW("test.node_mass", nodes + 1, real);
     for (int64_t I = 0; I < nodes; I++) mass[I] = g->mass[I];
     for (int64_t k = 0; nodes > 0 && k < g->mirror_nodes; k++)
@@ -98,8 +98,8 @@ static inline void operator_unknowns(struct operator* o)
     for (int pass = 0; pass < 2; pass++) {
         if (pass > 0) o->unknown = NEW("test.unknown", o->n, struct unknown), o->mass = NEW("test.mass", o->n, real);
         o->n = 0;
-        for (int64_t i = 0; i < e->part.n; i++)
-            if (e->part.kind[i] == KIND_PD) operator_add(o, false, held, i, e->part.mass[i]);
+        for (int64_t i = 0; i < run->part.n; i++)
+            if (run->part.kind[i] == KIND_PD) operator_add(o, false, held, i, run->part.mass[i]);
         for (int64_t I = 0; I < nodes; I++)
             if (mass[I] > 0) operator_add(o, true, held_node, I, mass[I]);
     }
@@ -114,11 +114,11 @@ static inline void operator_unknowns(struct operator* o)
  * u [m]. */
 static inline void operator_place(struct operator* o, struct unknown q, real u)
 {
-    struct run *e = &o->e;
+    struct run *run = &o->e;
     if (q.node)
-        e->frame->mesh.displacement[q.d][q.at] = u;
+        run->frame->mesh.displacement[q.d][q.at] = u;
     else
-        e->part.x[q.d][q.at] = e->part.X[q.d][q.at] + u;
+        run->part.x[q.d][q.at] = run->part.X[q.d][q.at] + u;
 }
 
 /* Computes the internal forces f[o->n] on all unknowns [N] for the present displacements. Nodes beyond symmetry planes
@@ -126,21 +126,21 @@ static inline void operator_place(struct operator* o, struct unknown q, real u)
  * as in mesh_move. */
 static inline void operator_forces(struct operator* o, real *f)
 {
-    struct run *e = &o->e;
-    struct grid *g = &e->frame->mesh.grid;
-    const int64_t mirror_nodes = e->frame->mesh.points > 0 ? g->mirror_nodes : 0;
+    struct run *run = &o->e;
+    struct grid *g = &run->frame->mesh.grid;
+    const int64_t mirror_nodes = run->frame->mesh.points > 0 ? g->mirror_nodes : 0;
     for (int64_t k = 0; k < mirror_nodes; k++)
         for (int d = 0; d < g->dim; d++)
-            e->frame->mesh.displacement[d][g->mirror_node[k].node] =
-                g->mirror_node[k].sign[d] * e->frame->mesh.displacement[d][g->mirror_node[k].image];
-    if (getenv("OPERATOR_SHOW")) lagrangian_mesh_update_point_motion_and_stress(e->frame, &e->part, &e->loads);
-    run_compute_internal_forces(e);
+            run->frame->mesh.displacement[d][g->mirror_node[k].node] =
+                g->mirror_node[k].sign[d] * run->frame->mesh.displacement[d][g->mirror_node[k].image];
+    if (getenv("OPERATOR_SHOW")) lagrangian_mesh_update_point_motion_and_stress(run->frame, &run->part, &run->loads);
+    run_compute_internal_forces(run);
     for (int64_t k = 0; k < mirror_nodes; k++)
         for (int d = 0; d < g->dim; d++)
             g->force[d][g->mirror_node[k].image] += g->mirror_node[k].sign[d] * g->force[d][g->mirror_node[k].node];
     for (int64_t k = 0; k < o->n; k++) {
         const struct unknown q = o->unknown[k];
-        f[k] = q.node ? g->force[q.d][q.at] : e->part.f[q.d][q.at];
+        f[k] = q.node ? g->force[q.d][q.at] : run->part.f[q.d][q.at];
     }
 }
 
@@ -193,7 +193,7 @@ static inline void operator_free(struct operator* o)
  * afterwards. */
 static inline real operator_energy(struct operator* o)
 {
-    struct run *e = &o->e;
+    struct run *run = &o->e;
     uint64_t seed = 3;
     real *u = NEW("test.u", o->n, real), *f = NEW("test.f", o->n, real), half = 0;
     for (int64_t k = 0; k < o->n; k++) {
@@ -201,8 +201,8 @@ static inline real operator_energy(struct operator* o)
         operator_place(o, o->unknown[k], u[k]);
     }
     operator_forces(o, f);
-    const real W = e->kernels.bond_energy(&e->bonds, &e->part, NULL) +
-                   mesh_strain(&e->frame->mesh, &e->part, e->frame->elastic, !o->s.small_strain);
+    const real W = run->kernels.bond_energy(&run->bonds, &run->part, NULL) +
+                   mesh_strain(&run->frame->mesh, &run->part, run->frame->elastic, !o->s.small_strain);
     for (int64_t k = 0; k < o->n * o->n; k++) half += 0.5 * u[k / o->n] * o->K[k] * u[k % o->n];
     for (int64_t k = 0; k < o->n; k++) operator_place(o, o->unknown[k], 0);
     memory_free(u);

@@ -50,24 +50,24 @@ static const char turned[] =
 static struct run *contact_run(struct scene *s, const char *text, const char *law)
 {
     const struct scene_override set = {"contact.law", law};
-    struct run *e = NEW("test.engine", 1, struct run);
+    struct run *run = NEW("test.engine", 1, struct run);
     if (scene_read_text(s, text, strlen(text), "contact.yaml", &set, 1) != OK) fail_msg("%s", status_message());
-    assert_ok(run_set_up_from_scene(e, s, NULL));
-    e->report->quiet = true;
-    assert_ok(report_open_history_and_write_first_frame(e));
-    return e;
+    assert_ok(run_set_up_from_scene(run, s, NULL));
+    run->report->quiet = true;
+    assert_ok(report_open_history_and_write_first_frame(run));
+    return run;
 }
 
-static void contact_end(struct run *e, struct scene *s)
+static void contact_end(struct run *run, struct scene *s)
 {
-    run_free_memory(e);
-    memory_free(e);
+    run_free_memory(run);
+    memory_free(run);
     scene_free(s);
 }
 
-static bool has_bond(const struct run *e, int64_t i, int64_t j)
+static bool has_bond(const struct run *run, int64_t i, int64_t j)
 {
-    for (struct bond_iterator it = bond_iterator_of_row(&e->bonds, e->bonds.row_of[i]); bond_iterator_advance(&it);)
+    for (struct bond_iterator it = bond_iterator_of_row(&run->bonds, run->bonds.row_of[i]); bond_iterator_advance(&it);)
         if (it.bond.w != 0 && it.bond.nbr == j) return true;
     return false;
 }
@@ -81,35 +81,35 @@ static real length(const struct particles *p, real *const *place, int64_t i, int
 
 /* Returns the contact stiffness k of particles i and j [N/m]: 15 c V V/delta, with the micro-modulus c, the volumes V
  * and the horizon delta; for two materials the harmonic mean. */
-static real plain_stiffness(const struct run *e, int64_t i, int64_t j)
+static real plain_stiffness(const struct run *run, int64_t i, int64_t j)
 {
-    const struct particles *p = &e->part;
-    struct family family = e->source.family;
+    const struct particles *p = &run->part;
+    struct family family = run->source.family;
     family_make_on_lattice(&family, family.space, family.spacing, 3.015, family.section);
-    const real a = family_micro_modulus(&family, &e->scene->material[p->material[i]]);
-    const real b = family_micro_modulus(&family, &e->scene->material[p->material[j]]);
-    return 15 * (2 * a * b / (a + b)) * p->volume0[i] * p->volume0[j] / (3.015 * e->scene->spacing);
+    const real a = family_micro_modulus(&family, &run->scene->material[p->material[i]]);
+    const real b = family_micro_modulus(&family, &run->scene->material[p->material[j]]);
+    return 15 * (2 * a * b / (a + b)) * p->volume0[i] * p->volume0[j] / (3.015 * run->scene->spacing);
 }
 
-static bool may_meet(const struct run *e, int64_t i, int64_t j)
+static bool may_meet(const struct run *run, int64_t i, int64_t j)
 {
-    const struct particles *p = &e->part;
-    if (i == j || (e->scene->contact_between == CONTACT_BODIES && p->body[i] == p->body[j])) return false;
-    return !has_bond(e, i, j);
+    const struct particles *p = &run->part;
+    if (i == j || (run->scene->contact_between == CONTACT_BODIES && p->body[i] == p->body[j])) return false;
+    return !has_bond(run, i, j);
 }
 
 /* Computes the contact of the law `pair` by sums over all pairs of particles without a bond that are closer than one
  * spacing and closer than in the reference state. f[dim n]: receives the forces [N]. Returns the energy [J]. */
-static real plain_pairs(const struct run *e, real *f)
+static real plain_pairs(const struct run *run, real *f)
 {
-    const struct particles *p = &e->part;
+    const struct particles *p = &run->part;
     real energy = 0;
     memset(f, 0, (size_t)(p->n * p->dim) * sizeof *f);
     for (int64_t i = 0; i < p->n; i++)
         for (int64_t j = i + 1; j < p->n; j++) {
-            const real r = length(p, p->x, i, j), d = real_min(e->scene->spacing, length(p, p->X, i, j));
-            if (r >= d || !may_meet(e, i, j)) continue;
-            const real k = plain_stiffness(e, i, j);
+            const real r = length(p, p->x, i, j), d = real_min(run->scene->spacing, length(p, p->X, i, j));
+            if (r >= d || !may_meet(run, i, j)) continue;
+            const real k = plain_stiffness(run, i, j);
             energy += 0.5 * k * square(d - r);
             for (int x = 0; x < p->dim; x++) {
                 const real push = k * (d - r) * (p->x[x][i] - p->x[x][j]) / r;
@@ -152,67 +152,67 @@ static real height_of(int dim, real density)
 
 /* Returns by how much the surface of the body of particle i (ball or box) exceeds half a spacing above the particle
  * [spacings]. */
-static real plain_rise(const struct run *e, int64_t i)
+static real plain_rise(const struct run *run, int64_t i)
 {
-    const struct particles *p = &e->part;
-    const struct solid *solid = e->scene->body[p->body[i]].shape.solid;
+    const struct particles *p = &run->part;
+    const struct solid *solid = run->scene->body[p->body[i]].shape.solid;
     real inside = INFINITY, r2 = 0;
     for (int d = 0; d < p->dim; d++) {
         r2 += square(p->X[d][i] - solid->centre[d]);
         inside = real_min(inside, real_min(p->X[d][i] - solid->from[d], solid->to[d] - p->X[d][i]));
     }
     if (solid->kind == SOLID_BALL) inside = solid->radius - sqrt(r2);
-    const real rise = inside / e->scene->spacing - 0.5;
+    const real rise = inside / run->scene->spacing - 0.5;
     return rise > 0.6 ? 0 : real_max(rise, -0.6);
 }
 
 /* Returns the height of particle i above the surface of the particles near faces with which it may come into contact,
  * at the positions place[dim] (current or reference) [spacings]. *softest: receives the stiffness k of the softest pair
  * [N/m]. */
-static real plain_height(const struct run *e, int64_t i, real *const *place, real *softest)
+static real plain_height(const struct run *run, int64_t i, real *const *place, real *softest)
 {
-    const struct contact *c = e->contact;
+    const struct contact *c = run->contact;
     real density = 0, rise = 0;
     *softest = INFINITY;
     for (int64_t k = 0; k < c->rows; k++) {
         const int32_t j = c->particle[k];
-        if (!may_meet(e, i, j) || length(&e->part, e->part.x, i, j) > 2.3 * e->scene->spacing) continue;
-        const real weight = wendland(0.5 * length(&e->part, place, i, j) / e->scene->spacing);
-        density += weight, rise += weight * plain_rise(e, j);
-        *softest = real_min(*softest, plain_stiffness(e, i, j));
+        if (!may_meet(run, i, j) || length(&run->part, run->part.x, i, j) > 2.3 * run->scene->spacing) continue;
+        const real weight = wendland(0.5 * length(&run->part, place, i, j) / run->scene->spacing);
+        density += weight, rise += weight * plain_rise(run, j);
+        *softest = real_min(*softest, plain_stiffness(run, i, j));
     }
-    return height_of(e->part.dim, density) - (density > 0 ? rise / density : 0);
+    return height_of(run->part.dim, density) - (density > 0 ? rise / density : 0);
 }
 
 /* Returns the contact energy of all particles by the law `surface` [J]: the sum of 1/4 k (zero - height)^2. zero:
  * height at which contact begins, the sum of the rise of the own surface and half a spacing, or less if the reference
  * state is closer. */
-static real plain_faces(const struct run *e)
+static real plain_faces(const struct run *run)
 {
     real energy = 0, softest;
-    for (int64_t k = 0; k < e->contact->rows; k++) {
-        const int32_t i = e->contact->particle[k];
-        const real height = plain_height(e, i, e->part.x, &softest);
-        if (height >= 1 + plain_rise(e, i)) continue;
-        const real zero = real_min(1 + plain_rise(e, i), plain_height(e, i, e->part.X, &softest));
-        if (height < zero) energy += 0.25 * softest * square((zero - height) * e->scene->spacing);
+    for (int64_t k = 0; k < run->contact->rows; k++) {
+        const int32_t i = run->contact->particle[k];
+        const real height = plain_height(run, i, run->part.x, &softest);
+        if (height >= 1 + plain_rise(run, i)) continue;
+        const real zero = real_min(1 + plain_rise(run, i), plain_height(run, i, run->part.X, &softest));
+        if (height < zero) energy += 0.25 * softest * square((zero - height) * run->scene->spacing);
     }
     return energy;
 }
 
-/* Computes the forces of contact alone into e->part.f. */
-static void contact_alone(struct run *e)
+/* Computes the forces of contact alone into run->part.f. */
+static void contact_alone(struct run *run)
 {
-    for (int d = 0; d < e->part.dim; d++) memset(e->part.f[d], 0, (size_t)e->part.n * sizeof(real));
-    contact_restore_active_particles_after_restart(e->contact, &e->part, &e->bonds, &e->loads);
-    contact_compute_forces(e->contact, &e->part, 0);
+    for (int d = 0; d < run->part.dim; d++) memset(run->part.f[d], 0, (size_t)run->part.n * sizeof(real));
+    contact_restore_active_particles_after_restart(run->contact, &run->part, &run->bonds, &run->loads);
+    contact_compute_forces(run->contact, &run->part, 0);
 }
 
 /* Checks Newton's third law: sums of forces and moments vanish up to the round-off of the up to a dozen pairs of a
  * particle. */
-static void check_third_law(const struct run *e)
+static void check_third_law(const struct run *run)
 {
-    const struct particles *p = &e->part;
+    const struct particles *p = &run->part;
     real most = 0, sum[DIM_MAX] = {0}, moment[DIM_MAX] = {0};
     for (int64_t i = 0; i < p->n; i++)
         for (int d = 0; d < p->dim; d++) {
@@ -229,45 +229,45 @@ static void check_third_law(const struct run *e)
     }
 }
 
-/* Compares the contact of run e with plain sums over all particles. Law `pair`: forces and energy agree to round-off.
+/* Compares the contact of run with plain sums over all particles. Law `pair`: forces and energy agree to round-off.
  * Law `surface`: the energy agrees within the error of the table of heights, 1e-6 spacings. */
-static void check_plain(struct run *e)
+static void check_plain(struct run *run)
 {
-    const struct particles *p = &e->part;
+    const struct particles *p = &run->part;
     real *f = NEW("test.f", p->n * p->dim, real), most = 0;
-    contact_alone(e);
-    const real found = contact_elastic_energy(e->contact, p);
-    if (e->scene->contact_form == CONTACT_SURFACE) {
-        const real energy = plain_faces(e);
-        const real k = plain_stiffness(e, 0, 0) * square(e->scene->spacing);
-        assert_near(found, energy, 1e-6 * sqrt(k * energy * (real)(e->contact->touching + 1)));
+    contact_alone(run);
+    const real found = contact_elastic_energy(run->contact, p);
+    if (run->scene->contact_form == CONTACT_SURFACE) {
+        const real energy = plain_faces(run);
+        const real k = plain_stiffness(run, 0, 0) * square(run->scene->spacing);
+        assert_near(found, energy, 1e-6 * sqrt(k * energy * (real)(run->contact->touching + 1)));
     } else {
-        const real energy = plain_pairs(e, f);
+        const real energy = plain_pairs(run, f);
         for (int64_t k = 0; k < p->n * p->dim; k++) most = real_max(most, fabs(f[k]));
         for (int d = 0; d < p->dim; d++)
             for (int64_t i = 0; i < p->n; i++) assert_near(p->f[d][i], f[d * p->n + i], 1e-12 * most);
         assert_near(found, energy, 1e-12 * energy);
     }
-    check_third_law(e);
+    check_third_law(run);
     memory_free(f);
 }
 
 /* Compares the contact force on the particle with the deepest overlap with -dE/dx, by a central difference over 1e-6 of
  * a spacing. Tolerance: pairs that open within the difference leave (1e-6)^2 k. */
-static void check_gradient(struct run *e)
+static void check_gradient(struct run *run)
 {
-    struct particles *p = &e->part;
-    contact_alone(e);
-    const int32_t i = e->contact->deepest;
-    const real h = 1e-6 * e->scene->spacing;
+    struct particles *p = &run->part;
+    contact_alone(run);
+    const int32_t i = run->contact->deepest;
+    const real h = 1e-6 * run->scene->spacing;
     real most = 0;
     for (int d = 0; d < p->dim; d++) most = real_max(most, fabs(p->f[d][i]));
     for (int d = 0; d < p->dim; d++) {
         const real x = p->x[d][i];
         p->x[d][i] = x + h;
-        const real above = contact_elastic_energy(e->contact, p);
+        const real above = contact_elastic_energy(run->contact, p);
         p->x[d][i] = x - h;
-        const real below = contact_elastic_energy(e->contact, p);
+        const real below = contact_elastic_energy(run->contact, p);
         p->x[d][i] = x;
         assert_near(p->f[d][i], (below - above) / (2 * h), 1e-4 * most);
     }
@@ -278,20 +278,20 @@ static void check_gradient(struct run *e)
 static void check_collision(const char *text, const char *law, real pairs_least)
 {
     struct scene s;
-    struct run *e = contact_run(&s, text, law);
+    struct run *run = contact_run(&s, text, law);
     int64_t seen = 0;
-    while (e->clock.step < e->clock.steps) {
-        assert_ok(run_adapt_mesh_and_advance_one_step(e));
-        assert_ok(run_check_stability_after_step(e));
-        if (e->clock.step % 4 > 0) continue;
-        check_plain(e);
-        if (e->contact->touching == 0) continue;
-        check_gradient(e);
+    while (run->clock.step < run->clock.steps) {
+        assert_ok(run_adapt_mesh_and_advance_one_step(run));
+        assert_ok(run_check_stability_after_step(run));
+        if (run->clock.step % 4 > 0) continue;
+        check_plain(run);
+        if (run->contact->touching == 0) continue;
+        check_gradient(run);
         seen++;
     }
-    if (seen < 3 || (real)e->contact->pairs_most < pairs_least)
-        fail_msg("seen %d times, %d pairs", (int)seen, (int)e->contact->pairs_most);
-    contact_end(e, &s);
+    if (seen < 3 || (real)run->contact->pairs_most < pairs_least)
+        fail_msg("seen %d times, %d pairs", (int)seen, (int)run->contact->pairs_most);
+    contact_end(run, &s);
 }
 
 static void test_line(void **state)
@@ -317,12 +317,12 @@ static void test_space(void **state)
 
 /* Compares the forces of the law `surface` with the gradient of the energy, without the part that removes energy gained
  * by the time step (contact_balance.c). */
-static void check_law_gradient(struct run *e)
+static void check_law_gradient(struct run *run)
 {
-    struct contact *c = e->contact;
+    struct contact *c = run->contact;
     real *drag = NEW("test.drag", c->rows, real);
     for (int64_t row = 0; row < c->rows; row++) drag[row] = c->balance[row].drag, c->balance[row].drag = 0;
-    check_gradient(e);
+    check_gradient(run);
     for (int64_t row = 0; row < c->rows; row++) c->balance[row].drag = drag[row];
     memory_free(drag);
 }
@@ -334,19 +334,19 @@ static void test_steps(void **state)
 {
     (void)state;
     struct scene s;
-    struct run *e = contact_run(&s, turned, "surface");
+    struct run *run = contact_run(&s, turned, "surface");
     real most = 0;
     int64_t seen = 0;
-    while (e->clock.step < e->clock.steps) {
-        assert_ok(run_adapt_mesh_and_advance_one_step(e));
-        most = real_max(most, fabs(e->diagnostics->now.balance_error));
-        if (e->contact->touching == 0) continue;
-        if (seen % 8 == 0) check_law_gradient(e);
+    while (run->clock.step < run->clock.steps) {
+        assert_ok(run_adapt_mesh_and_advance_one_step(run));
+        most = real_max(most, fabs(run->diagnostics->now.balance_error));
+        if (run->contact->touching == 0) continue;
+        if (seen % 8 == 0) check_law_gradient(run);
         seen++;
     }
     if (seen < 20) fail_msg("in contact for %d steps", (int)seen);
     assert_near(most, 0, 0.01);
-    contact_end(e, &s);
+    contact_end(run, &s);
 }
 
 /* Checks the stiffness k of a pair of lattice particles against closed forms: 5/6 E A/D in 1D (neighbourhoods of 3
@@ -356,12 +356,12 @@ static void test_stiffness(void **state)
 {
     (void)state;
     struct scene s;
-    struct run *e = contact_run(&s, line, "pair");
-    assert_near(e->contact->law.stiffness[0] * square(4e-6 * 1e-3), 15 / 3.015 / 6 * 200e9 * 4e-6 / 1e-3, 1);
-    contact_end(e, &s);
-    e = contact_run(&s, plane, "pair");
-    assert_near(e->contact->law.stiffness[0] * square(2e-3 * 1e-6), 0.51 * 200e9 * 2e-3, 0.03 * 0.51 * 200e9 * 2e-3);
-    contact_end(e, &s);
+    struct run *run = contact_run(&s, line, "pair");
+    assert_near(run->contact->law.stiffness[0] * square(4e-6 * 1e-3), 15 / 3.015 / 6 * 200e9 * 4e-6 / 1e-3, 1);
+    contact_end(run, &s);
+    run = contact_run(&s, plane, "pair");
+    assert_near(run->contact->law.stiffness[0] * square(2e-3 * 1e-6), 0.51 * 200e9 * 2e-3, 0.03 * 0.51 * 200e9 * 2e-3);
+    contact_end(run, &s);
 }
 
 /* Checks for the contact law `law` that bodies at rest one spacing apart, and the faces of a crack, have no force and
@@ -375,12 +375,12 @@ static void check_rest(const char *law)
                                "cracks: [{from: [5 mm, -1 mm], to: [5 mm, 8 mm]}]\nparticles: {spacing: 1 mm}\n"
                                "contact: {between: all}\ntime: {step: 0.1 us}\noutput: {frames: 1, samples: 10}\n";
     struct scene s;
-    struct run *e = contact_run(&s, text, law);
-    for (int step = 0; step < 1000; step++) assert_ok(run_adapt_mesh_and_advance_one_step(e));
-    assert_true(e->contact->pairs > 50);
+    struct run *run = contact_run(&s, text, law);
+    for (int step = 0; step < 1000; step++) assert_ok(run_adapt_mesh_and_advance_one_step(run));
+    assert_true(run->contact->pairs > 50);
     for (int d = 0; d < 2; d++)
-        for (int64_t i = 0; i < e->part.n; i++) assert_true(e->part.v[d][i] == 0);
-    contact_end(e, &s);
+        for (int64_t i = 0; i < run->part.n; i++) assert_true(run->part.v[d][i] == 0);
+    contact_end(run, &s);
 }
 
 static void test_rest(void **state)

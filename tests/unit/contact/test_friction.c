@@ -55,32 +55,33 @@ static void spring_follows_its_face(void **state)
 /* Reads the scene `text` into s and returns its run before the first step. */
 static struct run *body_begin(struct scene *s, const char *text)
 {
-    struct run *e = NEW("test.engine", 1, struct run);
+    struct run *run = NEW("test.engine", 1, struct run);
     if (scene_read_text(s, text, strlen(text), "friction.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
-    assert_ok(run_set_up_from_scene(e, s, NULL));
-    e->report->quiet = true;
-    assert_ok(report_open_history_and_write_first_frame(e));
-    return e;
+    assert_ok(run_set_up_from_scene(run, s, NULL));
+    run->report->quiet = true;
+    assert_ok(report_open_history_and_write_first_frame(run));
+    return run;
 }
 
-static void body_end(struct run *e, struct scene *s)
+static void body_end(struct run *run, struct scene *s)
 {
-    run_free_memory(e);
-    memory_free(e);
+    run_free_memory(run);
+    memory_free(run);
     scene_free(s);
 }
 
-static void look(struct run *e)
+static void look(struct run *run)
 {
-    contact_update_pair_list_if_outdated(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, 0, 0, 0);
+    contact_update_pair_list_if_outdated(run->contact, &run->part, &run->bonds, &run->loads, &run->source.family, 0, 0,
+                                         0);
 }
 
-static void forces_at(struct run *e, real dt)
+static void forces_at(struct run *run, real dt)
 {
-    struct particles *p = &e->part;
-    look(e);
+    struct particles *p = &run->part;
+    look(run);
     for (int d = 0; d < p->dim; d++) memset(p->f[d], 0, (size_t)p->n * sizeof(real));
-    contact_compute_forces(e->contact, p, dt);
+    contact_compute_forces(run->contact, p, dt);
 }
 
 /* A block pressed into a disc by 0.1 spacings, eccentrically. */
@@ -95,13 +96,13 @@ static void rigid_force_is_a_gradient(void **state)
 {
     (void)state;
     struct scene s;
-    struct run *e = body_begin(&s, pressed);
-    struct particles *p = &e->part;
-    struct rigid_body *r = &e->rigid->body[0];
-    look(e);
+    struct run *run = body_begin(&s, pressed);
+    struct particles *p = &run->part;
+    struct rigid_body *r = &run->rigid->body[0];
+    look(run);
     r->x[1] -= 0.1e-3;
-    forces_at(e, 0);
-    const real energy = contact_elastic_energy(e->contact, p), step = 1e-9;
+    forces_at(run, 0);
+    const real energy = contact_elastic_energy(run->contact, p), step = 1e-9;
     const real force[] = {r->force[0], r->force[1]}, moment = r->moment[2];
     real sum[2] = {0}, turning = 0, own[2] = {0};
     int32_t one = -1;
@@ -118,12 +119,12 @@ static void rigid_force_is_a_gradient(void **state)
         real work[2];
         for (int side = 0; side < 2; side++) {
             p->x[d][one] += (side ? -1 : 1) * step;
-            work[side] = contact_elastic_energy(e->contact, p);
+            work[side] = contact_elastic_energy(run->contact, p);
             p->x[d][one] -= (side ? -1 : 1) * step;
         }
         assert_near(own[d], -(work[0] - work[1]) / (2 * step), 1e-5 * hypot(own[0], own[1]));
     }
-    body_end(e, &s);
+    body_end(run, &s);
 }
 
 /* An eccentrically pivoted disc beside two separated contacts: its moment is nonzero, unlike that of a centred disc. */
@@ -138,20 +139,20 @@ static void rigid_moment(void **state)
 {
     (void)state;
     struct scene s;
-    struct run *e = body_begin(&s, pivoted);
-    struct particles *p = &e->part;
-    struct rigid_body *r = &e->rigid->body[0];
+    struct run *run = body_begin(&s, pivoted);
+    struct particles *p = &run->part;
+    struct rigid_body *r = &run->rigid->body[0];
     real force = 0, turning = 0;
-    look(e);
+    look(run);
     r->x[1] -= 0.1e-3;
-    forces_at(e, 0);
+    forces_at(run, 0);
     for (int64_t i = 0; i < p->n; i++) {
         force -= p->f[1][i];
         turning -= (p->x[0][i] - r->x[0]) * p->f[1][i] - (p->x[1][i] - r->x[1]) * p->f[0][i];
     }
     assert_true(force > 0 && turning < -5e-3 * force); /* pressed up on its left end: clockwise moment */
     assert_close(r->moment[2], turning, 1e-12);
-    body_end(e, &s);
+    body_end(run, &s);
 }
 
 /* ---- faces that slide -------------------------------------------------------------------------------------------- */
@@ -169,25 +170,25 @@ static void faces_rub(void **state)
 {
     (void)state;
     struct scene s;
-    struct run *e = body_begin(&s, blocks);
-    struct particles *p = &e->part;
+    struct run *run = body_begin(&s, blocks);
+    struct particles *p = &run->part;
     real drag[2] = {0}, press[2] = {0};
-    look(e);
+    look(run);
     for (int64_t i = 0; i < p->n; i++) {
         if (p->body[i] == 1) p->x[1][i] -= 0.05e-3;
         p->v[0][i] = 7, p->v[1][i] = 2;
     }
-    for (int k = 0; k < 3; k++) forces_at(e, 1e-7);
-    assert_near(contact_friction_stored_energy(e->contact), 0, 1e-20);
-    assert_near(contact_friction_dissipated_energy(e->contact), 0, 1e-20);
+    for (int k = 0; k < 3; k++) forces_at(run, 1e-7);
+    assert_near(contact_friction_stored_energy(run->contact), 0, 1e-20);
+    assert_near(contact_friction_dissipated_energy(run->contact), 0, 1e-20);
     for (int64_t i = 0; i < p->n; i++) p->v[0][i] = p->body[i] == 1 ? 9 : 7, p->v[1][i] = 0;
-    for (int k = 0; k < 400; k++) forces_at(e, 1e-7); /* 80 um: all springs slide */
+    for (int k = 0; k < 400; k++) forces_at(run, 1e-7); /* 80 um: all springs slide */
     for (int64_t i = 0; i < p->n; i++) drag[p->body[i]] += p->f[0][i], press[p->body[i]] += p->f[1][i];
     assert_true(press[1] > 0);
     assert_near(drag[0] + drag[1], 0, 1e-9 * press[1]);
     assert_close(drag[1], -0.3 * press[1], 0.02); /* forces at the ends of the face are oblique */
-    assert_true(contact_friction_dissipated_energy(e->contact) > 0);
-    body_end(e, &s);
+    assert_true(contact_friction_dissipated_energy(run->contact) > 0);
+    body_end(run, &s);
 }
 
 /* A block under a rigid bar. */
@@ -213,22 +214,22 @@ static void rigid_body_rubs(void **state)
 {
     (void)state;
     struct scene s;
-    struct run *e = body_begin(&s, barred);
-    struct particles *p = &e->part;
-    struct rigid_body *r = &e->rigid->body[0];
+    struct run *run = body_begin(&s, barred);
+    struct particles *p = &run->part;
+    struct rigid_body *r = &run->rigid->body[0];
     real force[2];
-    look(e);
+    look(run);
     r->x[1] -= 0.05e-3, r->v[0] = 7, r->v[1] = 2, r->spin[2] = 130;
     for (int64_t i = 0; i < p->n; i++) {
         p->v[0][i] = 7 - 130 * (p->x[1][i] - r->x[1]);
         p->v[1][i] = 2 + 130 * (p->x[0][i] - r->x[0]);
     }
-    for (int k = 0; k < 3; k++) forces_at(e, 1e-7);
-    assert_near(contact_friction_stored_energy(e->contact), 0, 1e-20);
-    assert_near(contact_friction_dissipated_energy(e->contact), 0, 1e-20);
+    for (int k = 0; k < 3; k++) forces_at(run, 1e-7);
+    assert_near(contact_friction_stored_energy(run->contact), 0, 1e-20);
+    assert_near(contact_friction_dissipated_energy(run->contact), 0, 1e-20);
     r->spin[2] = 0;
     for (int64_t i = 0; i < p->n; i++) p->v[0][i] = 5.4, p->v[1][i] = 2;
-    for (int k = 0; k < 400; k++) forces_at(e, 1e-7); /* 64 um: all springs slide */
+    for (int k = 0; k < 400; k++) forces_at(run, 1e-7); /* 64 um: all springs slide */
     block_force(p, force);
     assert_true(force[1] < 0);
     assert_close(force[0], -0.3 * force[1], 1e-9);
@@ -237,14 +238,14 @@ static void rigid_body_rubs(void **state)
     for (int64_t i = 0; i < p->n; i++)
         turning += (p->x[0][i] - r->x[0]) * p->f[1][i] - (p->x[1][i] - r->x[1]) * p->f[0][i];
     assert_near(r->moment[2], -turning, 1e-12 * fabs(force[1]) * 31e-3);
-    const real before = contact_friction_dissipated_energy(e->contact), lost = -0.3 * force[1] * 1.6 * 7e-7;
-    for (int k = 0; k < 7; k++) forces_at(e, 1e-7);
-    assert_close(contact_friction_dissipated_energy(e->contact) - before, lost, 1e-9);
-    e->report->sampling.due = true, e->damped = 0.021;
-    history_sample_compute_energies(e);
-    assert_close(e->report->sampling.energy.damped, 0.021 + before + lost, 1e-9);
+    const real before = contact_friction_dissipated_energy(run->contact), lost = -0.3 * force[1] * 1.6 * 7e-7;
+    for (int k = 0; k < 7; k++) forces_at(run, 1e-7);
+    assert_close(contact_friction_dissipated_energy(run->contact) - before, lost, 1e-9);
+    run->report->sampling.due = true, run->damped = 0.021;
+    history_sample_compute_energies(run);
+    assert_close(run->report->sampling.energy.damped, 0.021 + before + lost, 1e-9);
     assert_true(lost > 1e-6 * 0.021); /* significant beside the other terms */
-    body_end(e, &s);
+    body_end(run, &s);
 }
 
 /* Checks the weights of faces of particles of different sizes against the formula: W = (1 - q)^4 (1 + 4 q) with q =
@@ -253,14 +254,14 @@ static void weights_of_sizes(void **state)
 {
     (void)state;
     struct scene s;
-    struct run *e = body_begin(&s, blocks);
-    struct particles *p = &e->part;
-    struct contact *c = e->contact;
+    struct run *run = body_begin(&s, blocks);
+    struct particles *p = &run->part;
+    struct contact *c = run->contact;
     int tried = 0;
     for (int64_t i = 0; i < p->n; i++)
         if (p->body[i] == 1) p->volume0[i] *= square(1.3);
     c->due = true;
-    look(e);
+    look(run);
     for (int64_t row = 0; row < c->rows; row++)
         for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
             const int32_t i = c->particle[row], l = c->other[q], j = c->particle[l];
@@ -271,7 +272,7 @@ static void weights_of_sizes(void **state)
             tried += own != felt && W > 0;
         }
     assert_true(tried > 10);
-    body_end(e, &s);
+    body_end(run, &s);
 }
 
 int main(void)

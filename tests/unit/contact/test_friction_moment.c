@@ -64,54 +64,54 @@ static const real *axis_of(int dim)
  * into the lower one and rotates both by an arbitrary angle. Returns the run. */
 static struct run *pressed_begin(struct scene *s, const char *text)
 {
-    struct run *e = NEW("test.engine", 1, struct run);
-    struct particles *p = &e->part;
+    struct run *run = NEW("test.engine", 1, struct run);
+    struct particles *p = &run->part;
     if (scene_read_text(s, text, strlen(text), "friction.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
-    assert_ok(run_set_up_from_scene(e, s, NULL));
-    e->report->quiet = true;
-    assert_ok(report_open_history_and_write_first_frame(e));
-    contact_update_pair_list_if_outdated(e->contact, p, &e->bonds, &e->loads, &e->source.family, 0, 0, 0);
+    assert_ok(run_set_up_from_scene(run, s, NULL));
+    run->report->quiet = true;
+    assert_ok(report_open_history_and_write_first_frame(run));
+    contact_update_pair_list_if_outdated(run->contact, p, &run->bonds, &run->loads, &run->source.family, 0, 0, 0);
     for (int64_t i = 0; i < p->n; i++)
         if (p->body[i] == 1) p->x[p->dim - 1][i] -= 0.12e-3;
     body_rotate(p, 1, (const real[]){7e-3, 6e-3, 4e-3}, axis_of(p->dim), 0.013);
     body_rotate(p, -1, (const real[]){3e-3, 11e-3, -2e-3}, axis_of(p->dim), 0.7);
-    return e;
+    return run;
 }
 
-static void pressed_end(struct run *e, struct scene *s)
+static void pressed_end(struct run *run, struct scene *s)
 {
-    run_free_memory(e);
-    memory_free(e);
+    run_free_memory(run);
+    memory_free(run);
     scene_free(s);
 }
 
-/* Computes the forces of contact into e->part.f, after a step of dt [s], which stretches the friction springs; dt = 0:
- * without. */
-static void forces_after(struct run *e, real dt)
+/* Computes the forces of contact into run->part.f, after a step of dt [s], which stretches the friction springs; dt =
+ * 0: without. */
+static void forces_after(struct run *run, real dt)
 {
-    struct particles *p = &e->part;
-    contact_update_pair_list_if_outdated(e->contact, p, &e->bonds, &e->loads, &e->source.family, 0, 0, 0);
+    struct particles *p = &run->part;
+    contact_update_pair_list_if_outdated(run->contact, p, &run->bonds, &run->loads, &run->source.family, 0, 0, 0);
     for (int d = 0; d < p->dim; d++) memset(p->f[d], 0, (size_t)p->n * sizeof(real));
-    contact_compute_forces(e->contact, p, dt);
+    contact_compute_forces(run->contact, p, dt);
 }
 
-/* Moves the particles of run e by a step dt [s]. Returns the mean power of friction at the velocities of this step,
+/* Moves the particles of run by a step dt [s]. Returns the mean power of friction at the velocities of this step,
  * with the forces before and after the step [W]. drag[dim n]: friction forces [N], updated. */
-static real slide(struct run *e, real dt, real *drag)
+static real slide(struct run *run, real dt, real *drag)
 {
-    struct particles *p = &e->part;
-    struct contact *c = e->contact;
+    struct particles *p = &run->part;
+    struct contact *c = run->contact;
     real power = 0;
     for (int d = 0; d < p->dim; d++)
         for (int64_t i = 0; i < p->n; i++) {
             power += 0.5 * drag[d * p->n + i] * p->v[d][i];
             p->x[d][i] += p->v[d][i] * dt;
         }
-    forces_after(e, dt);
+    forces_after(run, dt);
     for (int d = 0; d < p->dim; d++) memcpy(drag + d * p->n, p->f[d], (size_t)p->n * sizeof(real));
     struct contact_spring *spring = c->spring;
     c->spring = NULL;
-    forces_after(e, 0);
+    forces_after(run, 0);
     c->spring = spring;
     for (int d = 0; d < p->dim; d++)
         for (int64_t i = 0; i < p->n; i++) {
@@ -167,20 +167,20 @@ static void set_moving(struct particles *p)
 static real work_error(const char *text, real time, int steps)
 {
     struct scene s;
-    struct run *e = pressed_begin(&s, text);
-    struct particles *p = &e->part;
+    struct run *run = pressed_begin(&s, text);
+    struct particles *p = &run->part;
     real *drag = NEW("test.drag", p->n * p->dim, real), work = 0;
-    forces_after(e, 0);
+    forces_after(run, 0);
     set_moving(p);
     for (int k = 0; k < steps; k++) {
-        work -= slide(e, time / steps, drag) * time / steps;
+        work -= slide(run, time / steps, drag) * time / steps;
         check_sums(p, drag);
     }
-    const real energy = friction_energy(e->contact);
-    assert_true(contact_friction_dissipated_energy(e->contact) > 0.3 * energy &&
-                contact_friction_stored_energy(e->contact) > 0);
+    const real energy = friction_energy(run->contact);
+    assert_true(contact_friction_dissipated_energy(run->contact) > 0.3 * energy &&
+                contact_friction_stored_energy(run->contact) > 0);
     memory_free(drag);
-    pressed_end(e, &s);
+    pressed_end(run, &s);
     return work / energy - 1;
 }
 
@@ -202,23 +202,23 @@ static void sliding_in_space(void **state) { (void)state, check_sliding(space); 
 static void check_turning(const char *text)
 {
     struct scene s;
-    struct run *e = pressed_begin(&s, text);
-    struct particles *p = &e->part;
-    const struct contact *c = e->contact;
+    struct run *run = pressed_begin(&s, text);
+    struct particles *p = &run->part;
+    const struct contact *c = run->contact;
     const real centre[] = {-2e-3, 5e-3, 1e-3}, dt = 1e-7;
     real k = 0;
-    forces_after(e, 0);
+    forces_after(run, 0);
     for (int64_t row = 0; row < c->rows; row++) k = real_max(k, 0.5 * c->face[row].stiffness);
     for (int step = 0; step < 100; step++) {
         for (int d = 0; d < p->dim; d++) memcpy(p->v[d], p->x[d], (size_t)p->n * sizeof(real));
         body_rotate(p, -1, centre, axis_of(p->dim), 1e-3);
         for (int d = 0; d < p->dim; d++)
             for (int64_t i = 0; i < p->n; i++) p->v[d][i] = (p->x[d][i] - p->v[d][i]) / dt;
-        forces_after(e, dt);
+        forces_after(run, dt);
     }
     assert_true(c->touching > 5);
     assert_near(friction_energy(c), 0, 1e-12 * k);
-    pressed_end(e, &s);
+    pressed_end(run, &s);
 }
 
 static void turning_together(void **state)

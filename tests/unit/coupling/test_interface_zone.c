@@ -9,7 +9,7 @@ static const enum space spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID}
 
 /* Creates in `space` the body c, whose left half is peridynamic, and its interface zone r (material points near
  * peridynamic particles). shake: largest random displacement of the particles from the lattice [spacings]. */
-static void half_make(struct particle_cloud *c, struct interface_zone *r, enum space space, real shake)
+static void half_make(struct particle_cloud *c, struct interface_zone *zone, enum space space, real shake)
 {
     static const int size[DIM_MAX + 1][DIM_MAX] = {{0}, {40, 0, 0}, {20, 14, 0}, {14, 8, 8}};
     struct cloud_plan plan = {.space = space, .horizon = 3, .shake = shake, .seed = 7};
@@ -19,13 +19,13 @@ static void half_make(struct particle_cloud *c, struct interface_zone *r, enum s
     for (int64_t i = 0; i < c->p.n; i++)
         c->p.kind[i] = c->p.X[0][i] < 0.5 * size[dim][0] * CLOUD_SPACING ? KIND_PD : KIND_MPM;
     cloud_source(c);
-    interface_zone_find_points_and_neighbours(r, &c->p, &c->source);
-    assert_true(r->points > 0 && r->n > r->points);
+    interface_zone_find_points_and_neighbours(zone, &c->p, &c->source);
+    assert_true(zone->points > 0 && zone->n > zone->points);
 }
 
-static void half_free(struct particle_cloud *c, struct interface_zone *r)
+static void half_free(struct particle_cloud *c, struct interface_zone *zone)
 {
-    interface_zone_free(r);
+    interface_zone_free(zone);
     particle_cloud_free(c);
 }
 

@@ -31,89 +31,89 @@ static const char block[] =
     "pd: {region: {ball: {centre: [6 mm, 0, 3 mm], radius: 3 mm}}}\n"
     "boundary: [{mirror: {axis: y, at: 0, tangential: free}}]\n";
 
-static void engine_from(struct run *e, struct scene *s, const char *text)
+static void engine_from(struct run *run, struct scene *s, const char *text)
 {
     if (scene_read_text(s, text, strlen(text), "points.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
-    assert_int_equal(run_set_up_from_scene(e, s, NULL), OK);
+    assert_int_equal(run_set_up_from_scene(run, s, NULL), OK);
 }
 
 /* ---- gradient ---------------------------------------------------------------------------------------------------- */
 
 /* Returns component d of the position X[dim], rotated about z and randomly displaced; coordinates normal to a mirror of
  * run e are kept. seed: state of the random numbers. */
-static real shaken(const struct run *e, const real *X, int d, uint64_t *seed)
+static real shaken(const struct run *run, const real *X, int d, uint64_t *seed)
 {
     const real angle = TURN_MOST * X[0] / 20e-3;
     const real rotation[3] = {-angle * X[1], angle * X[1], 0.5 * angle * X[1]};
-    return rotation[d] + cloud_between(seed, -SHAKE, SHAKE) * e->scene->spacing;
+    return rotation[d] + cloud_between(seed, -SHAKE, SHAKE) * run->scene->spacing;
 }
 
-static void shake(struct run *e)
+static void shake(struct run *run)
 {
-    struct particles *p = &e->part;
-    struct mesh *mesh = &e->frame->mesh;
+    struct particles *p = &run->part;
+    struct mesh *mesh = &run->frame->mesh;
     uint64_t seed = 5;
     for (int64_t i = 0; i < p->n; i++) {
         real X[DIM_MAX] = {0};
         particle_reference_position(p, i, X);
-        for (int d = 0; d < p->dim; d++) p->x[d][i] = X[d] + shaken(e, X, d, &seed);
+        for (int d = 0; d < p->dim; d++) p->x[d][i] = X[d] + shaken(run, X, d, &seed);
     }
     for (int64_t I = 0; I < mesh->grid.n && mesh->points > 0; I++) {
         real X[DIM_MAX] = {0};
         for (int d = 0; d < p->dim; d++)
             X[d] = grid_node_position(&mesh->grid, d, I / mesh->grid.stride[d] % mesh->grid.count[d]);
-        for (int d = 0; d < p->dim; d++) mesh->displacement[d][I] = shaken(e, X, d, &seed);
+        for (int d = 0; d < p->dim; d++) mesh->displacement[d][I] = shaken(run, X, d, &seed);
     }
 }
 
-static real energy_of(struct run *e)
+static real energy_of(struct run *run)
 {
-    run_compute_internal_forces(e);
-    return e->kernels.bond_energy(&e->bonds, &e->part, NULL) +
-           mesh_strain(&e->frame->mesh, &e->part, e->frame->elastic, !e->scene->small_strain);
+    run_compute_internal_forces(run);
+    return run->kernels.bond_energy(&run->bonds, &run->part, NULL) +
+           mesh_strain(&run->frame->mesh, &run->part, run->frame->elastic, !run->scene->small_strain);
 }
 
-/* Compares the force *force on one component of a particle or node of run e with the derivative of the energy by its
+/* Compares the force *force on one component of a particle or node of run with the derivative of the energy by its
  * coordinate *place, by central differences. scale: largest force [N], to which the tolerance refers. */
-static void check_slope(struct run *e, real *place, const real *force, real scale)
+static void check_slope(struct run *run, real *place, const real *force, real scale)
 {
-    const real step = 1e-5 * e->scene->spacing, was = *place;
+    const real step = 1e-5 * run->scene->spacing, was = *place;
     *place = was + step;
-    const real above = energy_of(e);
+    const real above = energy_of(run);
     *place = was - step;
-    const real below = energy_of(e);
+    const real below = energy_of(run);
     *place = was;
-    (void)energy_of(e);
+    (void)energy_of(run);
     assert_near(-(above - below) / (2 * step), *force, 1e-6 * scale);
 }
 
-static real largest(const struct run *e)
+static real largest(const struct run *run)
 {
     real most = 0;
-    for (int64_t i = 0; i < e->part.n; i++)
-        if (e->part.kind[i] == KIND_PD) most = real_max(most, fabs(e->part.f[0][i]));
+    for (int64_t i = 0; i < run->part.n; i++)
+        if (run->part.kind[i] == KIND_PD) most = real_max(most, fabs(run->part.f[0][i]));
     return most;
 }
 
 /* Compares forces with the energy gradient (check_slope) at every few unknowns of both kinds, particles and nodes,
  * without nodes on or beyond a plane of symmetry, which move with others. */
-static void check_gradient(struct run *e)
+static void check_gradient(struct run *run)
 {
-    struct particles *p = &e->part;
-    struct mesh *mesh = &e->frame->mesh;
+    struct particles *p = &run->part;
+    struct mesh *mesh = &run->frame->mesh;
     int64_t particles = 0, nodes = 0;
-    shake(e);
-    (void)energy_of(e);
-    const real scale = largest(e);
+    shake(run);
+    (void)energy_of(run);
+    const real scale = largest(run);
     for (int64_t i = 0; i < p->n; i++)
         for (int d = 0; d < p->dim && p->kind[i] == KIND_PD; d++)
-            if (++particles % 5 == 0) check_slope(e, &p->x[d][i], &p->f[d][i], scale);
+            if (++particles % 5 == 0) check_slope(run, &p->x[d][i], &p->f[d][i], scale);
     for (int64_t I = 0; I < mesh->grid.n; I++)
         for (int d = 0; d < p->dim && mesh->grid.mass[I] > 0; d++)
             if (grid_node_position(&mesh->grid, 1, I / mesh->grid.stride[1] % mesh->grid.count[1]) >
-                    0.5 * e->scene->spacing &&
+                    0.5 * run->scene->spacing &&
                 ++nodes % 5 == 0)
-                check_slope(e, &mesh->displacement[d][I], &mesh->grid.force[d][I], scale);
+                check_slope(run, &mesh->displacement[d][I], &mesh->grid.force[d][I], scale);
     assert_true(particles > 60 && nodes > 50);
 }
 
@@ -141,17 +141,17 @@ static void test_gradient(void **state)
 
 /* Checks the state of the material point of row `row` (its bonds): the pressure follows from the strain of its bonds,
  * the other components of the strain from its stress; also checks its rotation. */
-static void check_point(const struct run *e, int64_t row)
+static void check_point(const struct run *run, int64_t row)
 {
-    const struct bonds *b = &e->bonds;
-    const struct particles *p = &e->part;
+    const struct bonds *b = &run->bonds;
+    const struct particles *p = &run->part;
     const int32_t i = b->particle[row];
     const int dim = p->dim, n = symmetric_tensor_component_count(dim);
     const struct state_modulus *m = &b->state.modulus[0];
     const real share = p->volume0[i] / b->state.weighted[row],
-               *local = e->coupling->partial.local + e->coupling->partial.index[i] * n;
+               *local = run->coupling->partial.local + run->coupling->partial.index[i] * n;
     real S = 0, compliance[SYM_MAX * SYM_MAX];
-    material_compliance_matrix(&e->scene->material[0], dim, compliance);
+    material_compliance_matrix(&run->scene->material[0], dim, compliance);
     for (int64_t k = 0; k < b->column_count[row / LANES]; k++) {
         const struct bond bond = bond_read(b, row / LANES, k, (int)(row % LANES));
         real y2 = 0, r = fabs(1 / bond.inverse_length);

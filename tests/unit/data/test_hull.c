@@ -46,9 +46,9 @@ static struct grid_hull grid_make(bool torus, int n, int m)
     return g;
 }
 
-static void hull_of(struct hull *s, const struct grid_hull *g)
+static void hull_of(struct hull *hull, const struct grid_hull *g)
 {
-    hull_make_closed_surface(s, 3, g->corners, g->corner, g->faces, g->face);
+    hull_make_closed_surface(hull, 3, g->corners, g->corner, g->faces, g->face);
 }
 
 static void ball_and_torus(void **state)

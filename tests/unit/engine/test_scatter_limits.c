@@ -9,18 +9,18 @@
 #include "step/report.h"
 #include "coupling/coupling_part.h"
 
-static void make(struct run *e, struct scene *s, const char *text)
+static void make(struct run *run, struct scene *s, const char *text)
 {
     omp_set_num_threads(2);
     if (scene_read_text(s, text, strlen(text), "scatter.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
-    assert_ok(run_set_up_from_scene(e, s, NULL));
-    e->report->quiet = true;
-    assert_ok(report_open_history_and_write_first_frame(e));
+    assert_ok(run_set_up_from_scene(run, s, NULL));
+    run->report->quiet = true;
+    assert_ok(report_open_history_and_write_first_frame(run));
 }
 
-static void drop(struct run *e, struct scene *s)
+static void drop(struct run *run, struct scene *s)
 {
-    run_free_memory(e);
+    run_free_memory(run);
     scene_free(s);
 }
 
@@ -31,14 +31,14 @@ static void drop(struct run *e, struct scene *s)
     "boundary: [{mirror: {axis: x, at: 0}}]\ninitial: [{velocity_gradient: [400, 0, 0, 400]}]\n"                       \
     "contact: {between: none}\ntime: {step: 2e-8}\noutput: {frames: 0, samples: 1}\n"
 
-/* Returns the smallest critical stretch of the intact bonds of row `row` of run e (bonds of one particle); INFINITY if
+/* Returns the smallest critical stretch of the intact bonds of row `row` of run (bonds of one particle); INFINITY if
  * there is none. */
-static real least_of(const struct run *e, int64_t row)
+static real least_of(const struct run *run, int64_t row)
 {
-    const struct particles *p = &e->part;
-    const int32_t i = e->bonds.particle[row];
+    const struct particles *p = &run->part;
+    const int32_t i = run->bonds.particle[row];
     real least = INFINITY;
-    for (struct bond_iterator it = bond_iterator_of_row(&e->bonds, row); bond_iterator_advance(&it);)
+    for (struct bond_iterator it = bond_iterator_of_row(&run->bonds, row); bond_iterator_advance(&it);)
         if (it.bond.w != 0) least = real_min(least, 1e-3 * real_min(p->strength[i], p->strength[it.bond.nbr]));
     return least;
 }
@@ -58,10 +58,10 @@ static void test_rows_are_watched(void **state)
     drop(&e, &s);
 }
 
-static int64_t broken_in(const struct run *e)
+static int64_t broken_in(const struct run *run)
 {
     int64_t broken = 0;
-    for (int64_t row = 0; row < e->bonds.rows; row++) broken += e->bonds.broken[row];
+    for (int64_t row = 0; row < run->bonds.rows; row++) broken += run->bonds.broken[row];
     return broken;
 }
 

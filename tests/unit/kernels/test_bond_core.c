@@ -20,31 +20,31 @@ static const char chain[] = "name: squeezed\nspace: line\nsection: 1\nmethod: pd
 static struct run *make(struct scene *s, const char *text, const char *model)
 {
     const struct scene_override set = {"model", model};
-    struct run *e = NEW("test.engine", 1, struct run);
+    struct run *run = NEW("test.engine", 1, struct run);
     if (scene_read_text(s, text, strlen(text), "squeezed.yaml", &set, 1) != OK) fail_msg("%s", status_message());
-    assert_ok(run_set_up_from_scene(e, s, NULL));
-    return e;
+    assert_ok(run_set_up_from_scene(run, s, NULL));
+    return run;
 }
 
-static void end(struct run *e, struct scene *s)
+static void end(struct run *run, struct scene *s)
 {
-    run_free_memory(e);
-    memory_free(e);
+    run_free_memory(run);
+    memory_free(run);
     scene_free(s);
 }
 
-static real energy_now(struct run *e)
+static real energy_now(struct run *run)
 {
-    for (int d = 0; d < e->part.dim; d++) memset(e->part.f[d], 0, (size_t)e->part.n * sizeof(real));
-    e->kernels.bond_force(&e->bonds, &e->part, &bond_limit_never, NULL);
-    return e->kernels.bond_energy(&e->bonds, &e->part, NULL);
+    for (int d = 0; d < run->part.dim; d++) memset(run->part.f[d], 0, (size_t)run->part.n * sizeof(real));
+    run->kernels.bond_force(&run->bonds, &run->part, &bond_limit_never, NULL);
+    return run->kernels.bond_energy(&run->bonds, &run->part, NULL);
 }
 
-/* Compresses the body of run e along x to `share` times its length, and displaces each particle by up to 0.05
+/* Compresses the body of run along x to `share` times its length, and displaces each particle by up to 0.05
  * spacings. */
-static void squeeze(struct run *e, real share)
+static void squeeze(struct run *run, real share)
 {
-    struct particles *p = &e->part;
+    struct particles *p = &run->part;
     for (int64_t i = 0; i < p->n; i++)
         for (int d = 0; d < p->dim; d++)
             p->x[d][i] = (d == 0 ? share : 1) * p->X[d][i] + 0.05 * sin(12.9 * (double)i + 78.2 * d);
@@ -56,25 +56,25 @@ static void squeeze(struct run *e, real share)
 static void check_gradient(const char *model)
 {
     struct scene s;
-    struct run *e = make(&s, block, model);
-    struct particles *p = &e->part;
-    squeeze(e, 0.45);
+    struct run *run = make(&s, block, model);
+    struct particles *p = &run->part;
+    squeeze(run, 0.45);
     for (int64_t i = 0; i < p->n; i += 5)
         for (int d = 0; d < p->dim; d++) {
             const real x = p->x[d][i], h = 1e-5;
             p->x[d][i] = x + h;
-            const real above = energy_now(e);
+            const real above = energy_now(run);
             p->x[d][i] = x - h;
-            const real below = energy_now(e);
+            const real below = energy_now(run);
             p->x[d][i] = x;
-            energy_now(e);
+            energy_now(run);
             assert_near(p->f[d][i], (below - above) / (2 * h), 1e-5 * 1e4);
         }
     real sum[DIM_MAX] = {0};
     for (int64_t i = 0; i < p->n; i++)
         for (int d = 0; d < p->dim; d++) sum[d] += p->f[d][i];
     for (int d = 0; d < p->dim; d++) assert_near(sum[d], 0, 1e-10 * 1e4);
-    end(e, &s);
+    end(run, &s);
 }
 
 static void forces_are_the_gradient(void **state)
@@ -91,17 +91,17 @@ static void chain_has_the_closed_form(void **state)
 {
     (void)state;
     struct scene s;
-    struct run *e = make(&s, chain, "bond");
-    struct particles *p = &e->part;
+    struct run *run = make(&s, chain, "bond");
+    struct particles *p = &run->part;
     real k = 0;
     for (real l = 0.95; l > 0.2; l -= 0.05) {
         for (int64_t i = 0; i < p->n; i++) p->x[0][i] = l * p->X[0][i];
-        const real energy = energy_now(e) / 19, core = l < 0.7 ? 3 * square(0.7 - l) : 0;
+        const real energy = energy_now(run) / 19, core = l < 0.7 ? 3 * square(0.7 - l) : 0;
         if (k == 0) k = 2 * energy / square(1 - l);
         assert_near(energy, 0.5 * k * (square(1 - l) + core), 1e-10 * k);
         assert_near(p->f[0][0], -k * (1 - l + (l < 0.7 ? 3 * (0.7 - l) : 0)), 1e-10 * k);
     }
-    end(e, &s);
+    end(run, &s);
 }
 
 int main(void)

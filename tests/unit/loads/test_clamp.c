@@ -70,33 +70,33 @@ static void body_free(struct body *a)
     scene_free(&a->s);
 }
 
-/* Computes the forces of run e by the calls of a time step, without breaking bonds. */
-static void forces(struct run *e)
+/* Computes the forces of run by the calls of a time step, without breaking bonds. */
+static void forces(struct run *run)
 {
-    loads_update_mirror_images(&e->loads, &e->part);
-    bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &e->source.limit, NULL);
+    loads_update_mirror_images(&run->loads, &run->part);
+    bond_forces(run->kernels.bond_force, &run->bonds, &run->part, &run->source.limit, NULL);
 }
 
-static real energy(struct run *e)
+static real energy(struct run *run)
 {
-    forces(e);
-    return e->kernels.bond_energy(&e->bonds, &e->part, NULL);
+    forces(run);
+    return run->kernels.bond_energy(&run->bonds, &run->part, NULL);
 }
 
 /* ---- the operator ------------------------------------------------------------------------------------------------ */
 
-/* Returns the stiffness matrix -df/dx of run e at the reference positions, n x n for n components, to be freed. */
-static real *stiffness_of(struct run *e)
+/* Returns the stiffness matrix -df/dx of run at the reference positions, n x n for n components, to be freed. */
+static real *stiffness_of(struct run *run)
 {
-    struct particles *p = &e->part;
+    struct particles *p = &run->part;
     const int64_t n = p->dim * p->n;
-    const real s = STEP * e->scene->spacing;
+    const real s = STEP * run->scene->spacing;
     real *K = NEW("test.stiffness", n * n, real);
     for (int64_t k = 0; k < n; k++) {
         real *x = &p->x[k / p->n][k % p->n];
         for (int sign = 1; sign >= -1; sign -= 2) {
             *x = p->X[k / p->n][k % p->n] + sign * s;
-            forces(e);
+            forces(run);
             for (int64_t j = 0; j < n; j++) K[k * n + j] -= sign * p->f[j / p->n][j % p->n] / (2 * s);
         }
         *x = p->X[k / p->n][k % p->n];
@@ -104,10 +104,10 @@ static real *stiffness_of(struct run *e)
     return K;
 }
 
-static void check_operator(struct run *e, const char *name)
+static void check_operator(struct run *run, const char *name)
 {
-    const int64_t n = e->part.dim * e->part.n;
-    real *K = stiffness_of(e), largest = 0, skew = 0;
+    const int64_t n = run->part.dim * run->part.n;
+    real *K = stiffness_of(run), largest = 0, skew = 0;
     for (int64_t k = 0; k < n * n; k++) largest = real_max(largest, fabs(K[k]));
     for (int64_t k = 0; k < n; k++)
         for (int64_t j = 0; j < k; j++) {
@@ -124,19 +124,19 @@ static void check_operator(struct run *e, const char *name)
     memory_free(K);
 }
 
-/* Checks far from the reference positions that the energy of the rows of run e changes along random motions by the work
+/* Checks far from the reference positions that the energy of the rows of run changes along random motions by the work
  * of the forces. name: of the case, for messages. */
-static void check_gradient(struct run *e, const char *name)
+static void check_gradient(struct run *run, const char *name)
 {
-    struct particles *p = &e->part;
-    const real h = e->scene->spacing;
+    struct particles *p = &run->part;
+    const real h = run->scene->spacing;
     real *way = NEW("test.way", p->dim * p->n, real);
     uint64_t seed = 11;
     for (int d = 0; d < p->dim; d++)
         for (int64_t i = 0; i < p->n; i++) p->x[d][i] = p->X[d][i] + cloud_between(&seed, -0.03, 0.03) * h;
     for (int round = 0; round < 3; round++) {
         real work = 0, size = 0, change = 0;
-        forces(e);
+        forces(run);
         for (int64_t k = 0; k < p->dim * p->n; k++) {
             way[k] = cloud_between(&seed, -1, 1) * SLIDE * h;
             work -= 2 * way[k] * p->f[k / p->n][k % p->n];
@@ -144,7 +144,7 @@ static void check_gradient(struct run *e, const char *name)
         }
         for (int sign = 1; sign >= -1; sign -= 2) {
             for (int64_t k = 0; k < p->dim * p->n; k++) p->x[k / p->n][k % p->n] += (sign > 0 ? 1 : -2) * way[k];
-            change += sign * energy(e);
+            change += sign * energy(run);
         }
         for (int64_t k = 0; k < p->dim * p->n; k++) p->x[k / p->n][k % p->n] += way[k];
         if (!(fabs(change - work) <= GRADIENT * size))

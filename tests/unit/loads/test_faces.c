@@ -379,7 +379,7 @@ static void check_impulse(const struct solid_shown *q, int64_t columns, const ch
 {
     enum { STEPS = 12 };
     struct scene s;
-    struct run *e = NEW("test.engine", 1, struct run);
+    struct run *run = NEW("test.engine", 1, struct run);
     struct diagnostics w;
     char text[TEXT];
     const bool three = strcmp(q->space, "solid") == 0, one = strcmp(q->space, "line") == 0;
@@ -400,25 +400,25 @@ static void check_impulse(const struct solid_shown *q, int64_t columns, const ch
              : three ? "3e5, 2e5, -1e5"
                      : "3e5, -2e5");
     if (scene_read_text(&s, text, strlen(text), "faces.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
-    if (run_set_up_from_scene(e, &s, NULL) != OK) fail_msg("%s", status_message());
-    e->report->quiet = true;
-    assert_ok(report_open_history_and_write_first_frame(e));
-    for (int step = 0; step < STEPS; step++) assert_ok(run_adapt_mesh_and_advance_one_step(e));
+    if (run_set_up_from_scene(run, &s, NULL) != OK) fail_msg("%s", status_message());
+    run->report->quiet = true;
+    assert_ok(report_open_history_and_write_first_frame(run));
+    for (int step = 0; step < STEPS; step++) assert_ok(run_adapt_mesh_and_advance_one_step(run));
     diagnostics_initialise(&w);
-    const struct grid *nodes[] = {&e->frame->mesh.grid};
-    diagnostics_update_momentum(&w, &e->part, nodes, 1, (const real[DIM_MAX]){0});
-    const real t = observed_run_make_read_only_view(e).t_velocity, shows = (real)columns * pow(H, s.dim - 1) *
-                                                                           (one     ? 3e-6
-                                                                            : three ? 1
-                                                                                    : T);
+    const struct grid *nodes[] = {&run->frame->mesh.grid};
+    diagnostics_update_momentum(&w, &run->part, nodes, 1, (const real[DIM_MAX]){0});
+    const real t = observed_run_make_read_only_view(run).t_velocity, shows = (real)columns * pow(H, s.dim - 1) *
+                                                                             (one     ? 3e-6
+                                                                              : three ? 1
+                                                                                      : T);
     for (int d = 0; d < s.dim; d++) {
         const real given = (const real[]){3e5, three || one ? 2e5 : -2e5, -1e5}[d] * shows * t;
         if (!(fabs(w.now.momentum[d] - given) <= 1e-10 * fabs(given))) /* round-off of 12 steps for 3e5 */
             fail_msg("%s, %s: momentum %.12g where %.12g was given", q->name, method, w.now.momentum[d], given);
     }
-    run_free_memory(e);
+    run_free_memory(run);
     scene_free(&s);
-    memory_free(e);
+    memory_free(run);
 }
 
 static void test_impulse(void **state)

@@ -282,10 +282,10 @@ static void other_scenes_are_refused(void **state)
 static status future_archive(void *context, struct archive *a)
 {
     int32_t version = 1000;
-    struct hdf *f = a->file;
+    struct hdf *hdf = a->file;
     (void)context;
-    if (H5Adelete_by_name(f->file, "/Cleave", "version", H5P_DEFAULT) < 0) return FAILED;
-    hdf_write_scalar_attribute(f, "/Cleave", "version", HDF_I32, &version);
+    if (H5Adelete_by_name(hdf->file, "/Cleave", "version", H5P_DEFAULT) < 0) return FAILED;
+    hdf_write_scalar_attribute(hdf, "/Cleave", "version", HDF_I32, &version);
     return OK;
 }
 

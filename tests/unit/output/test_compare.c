@@ -385,12 +385,12 @@ static void missing_gnuplot_is_named(void **state)
 }
 
 /* Returns the fraction of the pixels of a rectangle from from_x to to_x [spacings] in which a body of c is drawn. */
-static double covered(const struct plotted_particles *c, double from_x, double to_x)
+static double covered(const struct plotted_particles *plotted, double from_x, double to_x)
 {
     enum { PIXELS = 20 * SIDE }; /* 20 pixels per spacing: a gap of a tenth of a spacing is visible */
     struct colour *pixel = NEW("test.pixel", PIXELS * PIXELS, struct colour);
     struct view v = {.from = {from_x * SPACING, 0}, .to = {to_x * SPACING, SIDE * SPACING}, .top = 0.5};
-    image_paint_particles_in_plane(pixel, PIXELS, PIXELS, &v, c, MAP_DAMAGE);
+    image_paint_particles_in_plane(pixel, PIXELS, PIXELS, &v, plotted, MAP_DAMAGE);
     int shown = 0;
     for (int q = 0; q < PIXELS * PIXELS; q++) shown += pixel[q].alpha > 0;
     memory_free(pixel);

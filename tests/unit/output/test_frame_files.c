@@ -72,7 +72,7 @@ static void fields_are_read_by_name(void **state)
 /* Reads what VTK's reader of temporal grids reads of step `step` of `steps` in h, and compares it with p: the part
  * PartOffsets[step]; points from PointOffsets on, one cell offset more than cells for each preceding part, rows of a
  * field from its own offset on. */
-static void check_step(struct hdf *f, int step, int steps, const struct particles *p)
+static void check_step(struct hdf *hdf, int step, int steps, const struct particles *p)
 {
     static const char *const start[] = {
         "PartOffsets",  "PointOffsets", "CellOffsets", "ConnectivityIdOffsets", "PointDataOffsets/stress",
@@ -81,24 +81,24 @@ static void check_step(struct hdf *f, int step, int steps, const struct particle
     char path[80];
     for (int k = 0; k < 6; k++) {
         snprintf(path, sizeof path, "/VTKHDF/Steps/%s", start[k]);
-        hdf_read_rows(f, path, HDF_I64, steps, all);
+        hdf_read_rows(hdf, path, HDF_I64, steps, all);
         at[k] = all[step];
     }
     for (int k = 0; k < 3; k++) {
         static const char *const count[] = {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"};
         snprintf(path, sizeof path, "/VTKHDF/%s", count[k]);
-        hdf_read_rows(f, path, HDF_I64, steps, all);
+        hdf_read_rows(hdf, path, HDF_I64, steps, all);
         counts[k] = all[at[0]];
     }
     assert_true(at[5] == 1 && counts[0] == p->n && counts[1] == p->n && counts[2] == p->n);
-    n = hdf_dataset_element_count(f, "/VTKHDF/Types");
+    n = hdf_dataset_element_count(hdf, "/VTKHDF/Types");
     float *points = calloc((size_t)n * 3, sizeof *points), *stress = calloc((size_t)n * 6, sizeof *stress);
     int64_t *offset = calloc((size_t)(n + steps), sizeof *offset), *corner = calloc((size_t)n, sizeof *corner);
-    hdf_read_rows(f, "/VTKHDF/Points", HDF_F32, 3 * n, points);
-    hdf_read_rows(f, "/VTKHDF/PointData/stress", HDF_F32, 6 * n, stress);
-    hdf_read_rows(f, "/VTKHDF/Offsets", HDF_I64, n + steps, offset);
-    hdf_read_rows(f, "/VTKHDF/Connectivity", HDF_I64, n, corner);
-    assert_false(f->failed);
+    hdf_read_rows(hdf, "/VTKHDF/Points", HDF_F32, 3 * n, points);
+    hdf_read_rows(hdf, "/VTKHDF/PointData/stress", HDF_F32, 6 * n, stress);
+    hdf_read_rows(hdf, "/VTKHDF/Offsets", HDF_I64, n + steps, offset);
+    hdf_read_rows(hdf, "/VTKHDF/Connectivity", HDF_I64, n, corner);
+    assert_false(hdf->failed);
     for (int64_t k = 0; k < p->n; k++) {
         const int64_t i = p->n - 1 - k; /* ids are in reverse order */
         assert_true(points[3 * (at[1] + k)] == (float)p->x[0][i]);

@@ -432,27 +432,28 @@ static void summary_has_the_figures(void **state)
     (void)state;
     struct output o;
     struct scene s = {.name = "a \"b\"\n", .method = METHOD_ADAPTIVE, .dim = 2, .spacing = 1e-3, .thickness = 1};
-    struct run *e = NEW("test.engine", 1, struct run);
+    struct run *run = NEW("test.engine", 1, struct run);
     char *text;
     size_t length;
     open_fresh(&o, "summary", false);
-    run_components_allocate(e);
-    e->scene = &s, e->report->out = &o, e->clock.step = 7, e->clock.t = 0.1, e->timers.spent[TIMER_BONDS] = 7e-4;
-    e->report->began = wall_clock_seconds(), e->report->before = (struct run_seconds){3, 0.25, 3e-4};
-    e->report->setup_seconds = 0.25, e->timers.spent[TIMER_OUTPUT] = 2;
-    e->part.n = e->part.n_body = 4, e->part.dim = 2, e->part.n_of[KIND_PD] = 3;
-    e->report->particle_steps[KIND_PD] = 1000;
-    e->diagnostics->break_time = NAN;
-    e->coupling->conversion = (struct conversion){.first_time = 0.05, .events = 1, .start = 1, .first_place = {1, 2}};
-    e->fracture->tips = (struct crack_tips){.dim = 2, .n = 1, .spacing = 1e-3};
-    e->fracture->tips.tip[0] = (struct crack_tip){.along = {1},
-                                                  .place = {0, 2e-3},
-                                                  .growth = 2e-3,
-                                                  .start_time = 0.06,
-                                                  .arrest_time = 0.08,
-                                                  .first_time = 0.05,
-                                                  .particles = 2};
-    assert_int_equal(run_write_summary_files(e, OK, 2), OK);
+    run_components_allocate(run);
+    run->scene = &s, run->report->out = &o, run->clock.step = 7, run->clock.t = 0.1,
+    run->timers.spent[TIMER_BONDS] = 7e-4;
+    run->report->began = wall_clock_seconds(), run->report->before = (struct run_seconds){3, 0.25, 3e-4};
+    run->report->setup_seconds = 0.25, run->timers.spent[TIMER_OUTPUT] = 2;
+    run->part.n = run->part.n_body = 4, run->part.dim = 2, run->part.n_of[KIND_PD] = 3;
+    run->report->particle_steps[KIND_PD] = 1000;
+    run->diagnostics->break_time = NAN;
+    run->coupling->conversion = (struct conversion){.first_time = 0.05, .events = 1, .start = 1, .first_place = {1, 2}};
+    run->fracture->tips = (struct crack_tips){.dim = 2, .n = 1, .spacing = 1e-3};
+    run->fracture->tips.tip[0] = (struct crack_tip){.along = {1},
+                                                    .place = {0, 2e-3},
+                                                    .growth = 2e-3,
+                                                    .start_time = 0.06,
+                                                    .arrest_time = 0.08,
+                                                    .first_time = 0.05,
+                                                    .particles = 2};
+    assert_int_equal(run_write_summary_files(run, OK, 2), OK);
     assert_int_equal(file_read_whole("summary/summary.json", &text, &length), OK);
     static const char *const part[] = {"\"name\": \"a \\\"b\\\"\\u000a\"",
                                        "\"status\": \"done\"",
@@ -476,12 +477,12 @@ static void summary_has_the_figures(void **state)
     assert_null(strstr(text, "message"));
     memory_free(text);
     remove_tree("summary"); /* if it cannot be written, the fault of the run is kept */
-    assert_int_equal(run_write_summary_files(e, status_set(FAILED, "the run's own fault"), 2), FAILED);
+    assert_int_equal(run_write_summary_files(run, status_set(FAILED, "the run's own fault"), 2), FAILED);
     assert_string_equal(status_message(), "the run's own fault");
-    assert_int_equal(run_write_summary_files(e, OK, 2), FAILED);
+    assert_int_equal(run_write_summary_files(run, OK, 2), FAILED);
     assert_message("summary was moved, removed or replaced");
-    run_components_free(e);
-    memory_free(e);
+    run_components_free(run);
+    memory_free(run);
     output_close(&o);
 }
 

@@ -14,12 +14,12 @@
 enum { PIXELS = 120, FINE = 8 * PIXELS };
 
 /* Paints c into a square of 2 x `half` around 0 [m]. Returns the number of pixels with a particle. */
-static int painted_around(const struct plotted_particles *c, double half)
+static int painted_around(const struct plotted_particles *plotted, double half)
 {
     struct colour *pixel = NEW("test.pixel", PIXELS * PIXELS, struct colour);
     const struct view v = {.from = {-half, -half}, .to = {half, half}, .top = 1};
     int painted = 0;
-    image_paint_particles_in_plane(pixel, PIXELS, PIXELS, &v, c, MAP_DAMAGE);
+    image_paint_particles_in_plane(pixel, PIXELS, PIXELS, &v, plotted, MAP_DAMAGE);
     for (int q = 0; q < PIXELS * PIXELS; q++) painted += pixel[q].alpha > 0;
     memory_free(pixel);
     return painted;

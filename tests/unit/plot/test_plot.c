@@ -261,12 +261,12 @@ static void block_deform(struct output_frame *f, const double H[2][2], double op
 }
 
 /* Counts the pixels *painted of c with a particle and *blank without in a square of 2 x `half` around 0 [m]. */
-static void pixels_count(const struct plotted_particles *c, double half, int *painted, int *blank)
+static void pixels_count(const struct plotted_particles *plotted, double half, int *painted, int *blank)
 {
     struct colour *pixel = NEW("test.pixel", PIXELS * PIXELS, struct colour);
     const struct view v = {.from = {-half, -half}, .to = {half, half}, .top = 1};
     *painted = *blank = 0;
-    image_paint_particles_in_plane(pixel, PIXELS, PIXELS, &v, c, MAP_DAMAGE);
+    image_paint_particles_in_plane(pixel, PIXELS, PIXELS, &v, plotted, MAP_DAMAGE);
     for (int q = 0; q < PIXELS * PIXELS; q++) *(pixel[q].alpha ? painted : blank) += 1;
     memory_free(pixel);
 }

@@ -38,10 +38,10 @@ static struct solid box(real x0, real y0, real x1, real y1)
     return (struct solid){.kind = SOLID_BOX, .from = {x0, y0}, .to = {x1, y1}};
 }
 
-static int column_named(const struct probes *s, const char *name)
+static int column_named(const struct probes *probes, const char *name)
 {
-    for (int k = 0; k < s->columns; k++)
-        if (strcmp(s->column[k].name, name) == 0) return k;
+    for (int k = 0; k < probes->columns; k++)
+        if (strcmp(probes->column[k].name, name) == 0) return k;
     fail_msg("no column %s", name);
     return -1;
 }
@@ -325,19 +325,19 @@ static struct observed_run bar_seen(const struct bar *bar, real t)
 }
 
 /* Bonds the particles of `bar` and makes a spall probe s of it. Returns the bar as it is at 1 s. */
-static struct observed_run spall_probe_make(struct probes *s, struct bar *bar)
+static struct observed_run spall_probe_make(struct probes *probes, struct bar *bar)
 {
     struct probe_request request = {.name = "spall", .kind = PROBE_SPALL};
     bar_bond(bar);
     const struct observed_run o = bar_seen(bar, 1);
-    assert_ok(probes_make(s, &request, 1, &o));
+    assert_ok(probes_make(probes, &request, 1, &o));
     return o;
 }
 
-/* Releases the probes s of `bar`, its bonds and its particles. */
-static void bar_probes_free(struct probes *s, struct bar *bar)
+/* Releases the probes of `bar`, its bonds and its particles. */
+static void bar_probes_free(struct probes *probes, struct bar *bar)
 {
-    probes_free(s);
+    probes_free(probes);
     bonds_free(&bar->bonds);
     body_free(&bar->b);
 }

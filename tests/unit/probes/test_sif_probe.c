@@ -73,15 +73,18 @@ static void plate_field(struct plate *k, const real K[MODES], const real *place,
 
 static const real start[2] = {30, 30};
 
-static int column_named(const struct probes *s, const char *name)
+static int column_named(const struct probes *probes, const char *name)
 {
-    for (int k = 0; k < s->columns; k++)
-        if (strcmp(s->column[k].name, name) == 0) return k;
+    for (int k = 0; k < probes->columns; k++)
+        if (strcmp(probes->column[k].name, name) == 0) return k;
     fail_msg("no column %s", name);
     return -1;
 }
 
-static real value_of(const struct probes *s, const char *name) { return s->value[column_named(s, name)]; }
+static real value_of(const struct probes *probes, const char *name)
+{
+    return probes->value[column_named(probes, name)];
+}
 
 struct figures {
     int n;

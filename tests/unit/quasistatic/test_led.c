@@ -65,19 +65,19 @@ static void test_kink(void **state)
     for (real angle = 15; angle < 80; angle += 60) {
         struct solution a;
         plate(&a, angle, 5, "");
-        const struct sif_cracks *l = &a.e.statics->sif;
+        const struct sif_cracks *cracks = &a.e.statics->sif;
         const real K[MODES] = {cos(angle * degree), sin(angle * degree)},
                    expected = crack_kink_angle_from_sif(K) / degree;
-        assert_int_equal(l->n, 2);
+        assert_int_equal(cracks->n, 2);
         for (int k = 0; k < 2; k++) {
-            const struct sif_crack_tip *tip = &l->tip[k];
+            const struct sif_crack_tip *tip = &cracks->tip[k];
             const real way[2] = {tip->position[0] - tip->start[0], tip->position[1] - tip->start[1]};
             const real along = angle * degree + (k == 0 ? 3.14159265358979323846 : 0);
             const real turn = remainder(atan2(way[1], way[0]) - along, 360 * degree) / degree;
             if (tip->grown > 0 && fabs(turn - expected) > 3)
                 fail_msg("tip %d at %g: %g degrees, %g are expected", k, angle, turn, expected);
         }
-        assert_true(l->tip[0].grown + l->tip[1].grown >= 2 * 0.001);
+        assert_true(cracks->tip[0].grown + cracks->tip[1].grown >= 2 * 0.001);
         solution_free(&a);
     }
 }
@@ -102,11 +102,11 @@ static void test_bend(void **state)
     (void)state;
     struct solution a;
     run(&a, BEND);
-    const struct sif_cracks *l = &a.e.statics->sif;
-    assert_int_equal(l->n, 1);
-    assert_in_range(l->segments, 7, 10);
-    for (int64_t k = 0; k < l->segments; k++) {
-        const real *to = l->path[k].at[1], *from = l->tip[0].start;
+    const struct sif_cracks *cracks = &a.e.statics->sif;
+    assert_int_equal(cracks->n, 1);
+    assert_in_range(cracks->segments, 7, 10);
+    for (int64_t k = 0; k < cracks->segments; k++) {
+        const real *to = cracks->path[k].at[1], *from = cracks->tip[0].start;
         const real chord = atan2(to[0] - from[0], to[1] - from[1]) / degree;
         const real expected =
             bend_crack_chord_angle(2e-3 * (real)(k + 1)); /* increments of equal length, with equal chords */
@@ -165,14 +165,15 @@ static void test_fronts(void **state)
         for (int k = 0; k < 2; k++) {
             struct solution a;
             block(&a, orders[askew > 0][k], askew, 3);
-            const struct sif_cracks *l = &a.e.statics->sif;
+            const struct sif_cracks *cracks = &a.e.statics->sif;
             const struct steps_record *r = &a.e.statics->record;
-            const real width = 4e-3 / cos(askew * degree), area = 2e-3 * width * (real)l->segments;
-            assert_int_equal(l->n, 1);
-            assert_int_equal(l->segments, 2);
+            const real width = 4e-3 / cos(askew * degree), area = 2e-3 * width * (real)cracks->segments;
+            assert_int_equal(cracks->n, 1);
+            assert_int_equal(cracks->segments, 2);
             assert_true(fabs(r->area / area - 1) < 1e-6);
             if (fabs(r->released / area / 300 - 0.985) > 0.015) fail_msg("released: %g G_c", r->released / area / 300);
-            for (int d = 0; d < 2; d++) assert_true(fabs(dot(l->tip[0].heading, l->tip[0].last, 2) - 1) < 1e-9);
+            for (int d = 0; d < 2; d++)
+                assert_true(fabs(dot(cracks->tip[0].heading, cracks->tip[0].last, 2) - 1) < 1e-9);
             if (k > 0 && fabs(a.e.statics->t / size - 1) > 1e-4) fail_msg("%g, %g", a.e.statics->t, size);
             size = a.e.statics->t;
             solution_free(&a);
@@ -198,12 +199,12 @@ static void test_kink_through(void **state)
              "  - {traction: [0, -20 MPa, 0], face: y-, time: {ramp: {until: 1 s}}}\n",
              -c, -s + 0.25, c, s + 0.25, c, s + 0.25, -c, -s + 0.25);
     run(&a, text);
-    const struct sif_cracks *l = &a.e.statics->sif;
+    const struct sif_cracks *cracks = &a.e.statics->sif;
     const real K[MODES] = {cos(angle * degree), sin(angle * degree)}, expected = crack_kink_angle_from_sif(K) / degree;
-    assert_int_equal(l->n, 2);
-    assert_true(l->segments >= 2);
+    assert_int_equal(cracks->n, 2);
+    assert_true(cracks->segments >= 2);
     for (int k = 0; k < 2; k++) {
-        const struct sif_crack_tip *tip = &l->tip[k];
+        const struct sif_crack_tip *tip = &cracks->tip[k];
         const real way[2] = {tip->position[0] - tip->start[0], tip->position[1] - tip->start[1]};
         const real along = atan2(tip->start[1] - 0.25e-3, tip->start[0]);
         const real turn = remainder(atan2(way[1], way[0]) - along, 360 * degree) / degree;

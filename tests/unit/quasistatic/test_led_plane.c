@@ -40,16 +40,16 @@ static void solution_free(struct solution *a)
 
 /* Sets the displacements of all particles to the crack-tip field with factors K [Pa m^(1/2)] around the tip, for the
  * plane state `space`. */
-static void field_set(struct run *e, const struct sif_crack_tip *tip, enum space space, const real K[MODES])
+static void field_set(struct run *run, const struct sif_crack_tip *tip, enum space space, const real K[MODES])
 {
-    struct particles *p = &e->part;
-    struct material m = e->scene->material[0];
+    struct particles *p = &run->part;
+    struct material m = run->scene->material[0];
     material_compute_derived_constants(&m, space);
     const struct crack_medium medium = crack_medium_of_material(&m, space);
     const real *a = tip->along;
     for (int64_t i = 0; i < p->n; i++) {
         real X[2], u[2] = {0, 0};
-        crack_tip_plane_project_particle(&e->statics->sif.plane, &e->part, i, X);
+        crack_tip_plane_project_particle(&run->statics->sif.plane, &run->part, i, X);
         for (int d = 0; d < 2; d++) X[d] -= tip->position[d];
         for (int mode = 0; mode < MODES; mode++) {
             struct crack_field f;
@@ -58,7 +58,8 @@ static void field_set(struct run *e, const struct sif_crack_tip *tip, enum space
             u[1] += K[mode] * (a[1] * f.displacement[0] + a[0] * f.displacement[1]);
         }
         for (int d = 0; d < 3; d++)
-            p->x[d][i] = p->X[d][i] + u[0] * e->statics->sif.plane.axis[0][d] + u[1] * e->statics->sif.plane.axis[1][d];
+            p->x[d][i] =
+                p->X[d][i] + u[0] * run->statics->sif.plane.axis[0][d] + u[1] * run->statics->sif.plane.axis[1][d];
     }
 }
 

@@ -213,27 +213,27 @@ static void trace_add(struct trace *t, const void *data, size_t size)
     memcpy(t->data + t->size, data, size);
     t->size += size;
 }
-static void trace_take(struct trace *t, const struct run *e)
+static void trace_take(struct trace *t, const struct run *run)
 {
-    const struct bonds *b = &e->bonds;
+    const struct bonds *b = &run->bonds;
     const real energy[] = {bonds_fracture_energy(b),
                            b->plastic_stretch ? bond_plastic_work(b) : 0,
-                           e->loads.work,
-                           e->loads.constraint_work,
-                           e->statics->balance.lost,
-                           e->damped,
-                           e->loads.load[0].reaction[1],
-                           e->statics->stretch_ratio};
+                           run->loads.work,
+                           run->loads.constraint_work,
+                           run->statics->balance.lost,
+                           run->damped,
+                           run->loads.load[0].reaction[1],
+                           run->statics->stretch_ratio};
     *t = (struct trace){0};
     trace_add(t, energy, sizeof energy);
     trace_add(t, b->broken_volume, (size_t)b->rows * sizeof *b->broken_volume);
-    for (int d = 0; d < e->part.dim; d++) {
-        trace_add(t, e->part.x[d], (size_t)e->part.n * sizeof(real));
-        trace_add(t, e->statics->balance.u.of[d], (size_t)e->statics->balance.n * sizeof(real));
-        trace_add(t, e->statics->balance.f.of[d], (size_t)e->statics->balance.n * sizeof(real));
+    for (int d = 0; d < run->part.dim; d++) {
+        trace_add(t, run->part.x[d], (size_t)run->part.n * sizeof(real));
+        trace_add(t, run->statics->balance.u.of[d], (size_t)run->statics->balance.n * sizeof(real));
+        trace_add(t, run->statics->balance.f.of[d], (size_t)run->statics->balance.n * sizeof(real));
     }
-    trace_add(t, e->part.damage, (size_t)e->part.n * sizeof(real));
-    trace_add(t, e->part.flag, (size_t)e->part.n);
+    trace_add(t, run->part.damage, (size_t)run->part.n * sizeof(real));
+    trace_add(t, run->part.flag, (size_t)run->part.n);
 }
 
 /* Tests a trial of a crack increment, in bodies with and without yielding bonds. */

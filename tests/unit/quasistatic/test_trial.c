@@ -20,18 +20,18 @@ static const char plate[] =
     "  - {traction: [1 MPa, 0], face: x+, time: {ramp: {until: 2 s}}}\noutput: {frames: 0}\n";
 
 /* Returns the number of slots of bonds in the columns of the blocks of eight rows. */
-static int64_t bond_slots(const struct run *e) { return e->bonds.columns * LANES; }
+static int64_t bond_slots(const struct run *run) { return run->bonds.columns * LANES; }
 
 /* Adds `more` to the plastic stretch of all bonds of e [1]. */
-static void flow(struct run *e, real more)
+static void flow(struct run *run, real more)
 {
-    for (int64_t q = 0; q < bond_slots(e); q++) e->bonds.plastic_stretch[q] += more;
+    for (int64_t q = 0; q < bond_slots(run); q++) run->bonds.plastic_stretch[q] += more;
 }
 
 /* Fails unless all bonds of e have the plastic stretch `stretch` [1]. */
-static void expect(const struct run *e, real stretch)
+static void expect(const struct run *run, real stretch)
 {
-    for (int64_t q = 0; q < bond_slots(e); q++) assert_true(e->bonds.plastic_stretch[q] == stretch);
+    for (int64_t q = 0; q < bond_slots(run); q++) assert_true(run->bonds.plastic_stretch[q] == stretch);
 }
 
 static void test_trial_within_trial(void **state)

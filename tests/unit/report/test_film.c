@@ -15,12 +15,12 @@ static const double H = 0.25e-3;
 
 /* Makes a film f of FRAMES frames of a plate of NX by NY particles, of which those of row 20 are damaged from x = 10 H
  * on, and part of a crack from 30 H on. */
-static void plate_make(struct run_animation *f)
+static void plate_make(struct run_animation *animation)
 {
-    *f = (struct run_animation){.dim = 2, .spacing = H, .frames = FRAMES, .listed = FRAMES, .sets = 1};
-    f->frame = NEW("test.frames", FRAMES, struct animation_frame);
-    f->set = memory_ensure_capacity("test.sets", NULL, 1, sizeof *f->set);
-    struct animation_particle_set *s = f->set;
+    *animation = (struct run_animation){.dim = 2, .spacing = H, .frames = FRAMES, .listed = FRAMES, .sets = 1};
+    animation->frame = NEW("test.frames", FRAMES, struct animation_frame);
+    animation->set = memory_ensure_capacity("test.sets", NULL, 1, sizeof *animation->set);
+    struct animation_particle_set *s = animation->set;
     const int n = s->n = NX * NY;
     for (int d = 0; d < 2; d++) s->X[d] = NEW("test.X", n, real);
     s->material = NEW("test.material", n, uint8_t), s->body = NEW("test.body", n, uint8_t);
@@ -36,7 +36,10 @@ static void plate_make(struct run_animation *f)
 
 /* Returns the number of bytes of the frames of f that are shown: 4 for displacements, and 4 once for positions, 6 at
  * most for sizes and two fields of the set. */
-static int64_t film_bytes(const struct run_animation *f) { return f->set->groups * (4 * f->used + 10); }
+static int64_t film_bytes(const struct run_animation *animation)
+{
+    return animation->set->groups * (4 * animation->used + 10);
+}
 
 static void groups_cover_the_body(void **state)
 {
@@ -101,14 +104,14 @@ static void groups_do_not_mix(void **state)
 }
 
 /* Returns true if every particle of the plate f lies in the cell that is drawn of its group. */
-static bool covers_the_body(const struct run_animation *f)
+static bool covers_the_body(const struct run_animation *animation)
 {
-    const struct animation_particle_set *s = f->set;
+    const struct animation_particle_set *s = animation->set;
     for (int64_t g = 0; g < s->groups; g++)
         for (int32_t k = s->first[g]; k < s->first[g + 1]; k++)
             for (int d = 0; d < 2; d++)
-                if (fabs(s->X[d][s->member[k]] - animation_group_centre_coordinate(s, f, g, d)) + 0.49 * H >
-                    animation_group_drawn_edge_length(s, f, g) / 2)
+                if (fabs(s->X[d][s->member[k]] - animation_group_centre_coordinate(s, animation, g, d)) + 0.49 * H >
+                    animation_group_drawn_edge_length(s, animation, g) / 2)
                     return false;
     return s->first[s->groups] == NX * NY;
 }

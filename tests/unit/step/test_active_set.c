@@ -88,21 +88,21 @@ static struct run *run_make(struct scene *s, const char *body, const char *bound
                             bool rest)
 {
     char text[4096], edges[1024];
-    struct run *e = NEW("test.engine", 1, struct run);
+    struct run *run = NEW("test.engine", 1, struct run);
     snprintf(edges, sizeof edges, boundary, more);
     snprintf(text, sizeof text, "%s%s%s\ntime: {active_set: %s, step: 0.08 us}\n", body, edges, keys,
              rest ? "true" : "false");
     if (scene_read_text(s, text, strlen(text), "active_set.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
-    assert_ok(run_set_up_from_scene(e, s, NULL));
-    e->report->quiet = true;
-    assert_ok(report_open_history_and_write_first_frame(e));
-    return e;
+    assert_ok(run_set_up_from_scene(run, s, NULL));
+    run->report->quiet = true;
+    assert_ok(report_open_history_and_write_first_frame(run));
+    return run;
 }
 
-static void run_free(struct run *e, struct scene *s)
+static void run_free(struct run *run, struct scene *s)
 {
-    run_free_memory(e);
-    memory_free(e);
+    run_free_memory(run);
+    memory_free(run);
     scene_free(s);
 }
 
@@ -124,12 +124,12 @@ static void same_bits(const struct run *a, const struct run *b)
 }
 
 /* Returns the inactive share of the body of e, or of its points on the grid. */
-static real sleeping(const struct run *e)
+static real sleeping(const struct run *run)
 {
-    const struct transfer_order *active = e->grid->transfer.order;
-    const struct transfer_order *all = &e->grid->field[0].order;
+    const struct transfer_order *active = run->grid->transfer.order;
+    const struct transfer_order *all = &run->grid->field[0].order;
     const real points = all->n > 0 && active != all ? 1 - (real)active->n / (real)all->n : 0;
-    return real_max(particles_at_rest_fraction(&e->bonds, &e->frame->mesh, &e->part), points);
+    return real_max(particles_at_rest_fraction(&run->bonds, &run->frame->mesh, &run->part), points);
 }
 
 /* Runs the scene of body, boundary, more and keys with and without the active set; results agree after every tenth
