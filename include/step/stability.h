@@ -20,8 +20,4 @@ struct stability {
     struct large_motion motion; /* state of the checks for large motion */
 };
 
-/* Writes the advice to choose a smaller time step to text[capacity]. Returns the length of this text. s: scene, for the
- * key to change; clock: present time step and critical one. */
-int run_describe_smaller_time_step(const struct scene *s, const struct run_clock *clock, char *text, size_t capacity);
-
 #endif
