@@ -16,6 +16,7 @@ static void check_shape(enum shape shape, real r, real l)
     row_of_points some_N[ROW], some_dN[ROW];
     real N[ROW], dN[ROW], sum[4] = {0};
     const int64_t cell = (int64_t)floor(r), base = cell - 1;
+    if (shape == SHAPE_QUADRATIC) l = 0.5; /* GIMP with the width of a cell */
     shape_functions_evaluate_at_row_nodes(shape, points_broadcast(r - (real)cell), points_broadcast(l),
                                           points_broadcast(0.5 / l), some_N, some_dN);
     for (int k = 0; k < ROW; k++) N[k] = some_N[k][0], dN[k] = some_dN[k][0];
