@@ -82,8 +82,8 @@ status grid_sort_points_into_cells(struct run *run, bool *position_not_finite);
 
 /* Maps mass, momentum and forces of the material points of p to the nodes of the background grids of mpm. kernels:
  * compiled loops for the vector instructions of this machine; timers: receives the time spent. */
-void grid_map_points_to_nodes(struct grid_method *mpm, struct particles *p, const struct kernels *kernels,
-                              struct timers *timers);
+void grid_transfer_mass_momentum_forces_to_nodes(struct grid_method *mpm, struct particles *p,
+                                                 const struct kernels *kernels, struct timers *timers);
 
 /* Advances the material points of run on the background grids by one time step: moves the nodes under their forces,
  * with contact and boundary conditions, then updates positions, velocities, strain and stress of the points. t_middle:

@@ -68,7 +68,7 @@ struct boundary {
 };
 
 /* Returns true if a formula of boundary b contains the time t. */
-static inline bool boundary_formula_uses_time(const struct boundary *b)
+static inline bool boundary_formula_depends_on_time(const struct boundary *b)
 {
     bool in_time = false;
     for (int d = 0; d < DIM_MAX; d++) in_time |= b->formula[d].in_time;
@@ -77,7 +77,7 @@ static inline bool boundary_formula_uses_time(const struct boundary *b)
 
 /* Returns the time [s] for which the formulas of boundary b are evaluated at time t: b->frozen_at in static problems,
  * else t, but at most b->end, after which formulas keep their values. */
-static inline real boundary_formula_time_frozen_or_clamped(const struct boundary *b, real t)
+static inline real boundary_time_at_which_formulas_are_evaluated(const struct boundary *b, real t)
 {
     return b->frozen ? b->frozen_at : b->end > 0 ? real_min(t, b->end) : t;
 }
@@ -137,8 +137,8 @@ void exposed_face_free(struct exposed_face *f);
 /* Sets in_layer[i] = 1 for the selected particles in the layer of depth b->depth behind the face of boundary b, and
  * leaves other entries unchanged. On each line of particles normal to the face the layer ends at the first gap.
  * selected, in_layer: [p->n]; spacing: lattice spacing [m]. */
-void boundary_face_mark_particles_in_layer(const struct boundary *b, const struct particles *p, const uint8_t *selected,
-                                           real spacing, uint8_t *in_layer);
+void boundary_face_flag_particles_within_depth(const struct boundary *b, const struct particles *p,
+                                               const uint8_t *selected, real spacing, uint8_t *in_layer);
 
 /* Function that boundary_face_visit_surface_particles calls for each free end of a line of particles normal to a face.
  * particle: index of the particle at that end; area: cross-section of the line [m^2]; context: data of the caller. */
@@ -154,7 +154,8 @@ void boundary_face_visit_surface_particles(const struct boundary *b, const struc
 /* Displacements that a boundary of kind VELOCITY prescribes at a (pseudo-)time t >= 0, from reference positions. For
  * `displacement` its value, for a velocity its integral from 0, for a rotation the rotation by the accumulated angle;
  * static formulas are evaluated at `frozen_at`. Made once for a load and time, then evaluated at many positions. Not
- * for a velocity by a formula of t, whose integral has no closed form (boundary_check_displacement_has_closed_form). */
+ * for a velocity by a formula of t, whose integral has no closed form
+ * (boundary_check_velocity_has_closed_form_integral). */
 struct prescribed_displacement {
     const struct boundary *boundary;
     int dim;
@@ -163,17 +164,19 @@ struct prescribed_displacement {
 };
 
 /* Returns the displacements that boundary b prescribes at time t [s], prepared for evaluation at many positions by
- * prescribed_displacement_at: evaluates the function of time and the rotation once. dim: dimension; b: kept, borrowed.
+ * prescribed_displacement_component_at_position: evaluates the function of time and the rotation once. dim: dimension;
+ * b: kept, borrowed.
  */
-struct prescribed_displacement prescribed_displacement_make(const struct boundary *b, int dim, real t);
+struct prescribed_displacement boundary_prescribed_displacement_at_time(const struct boundary *b, int dim, real t);
 
 /* Returns component `component` of the prescribed displacement [m] at the reference position X (dim components [m]).
  * The boundary must prescribe this component. */
-real prescribed_displacement_at(const struct prescribed_displacement *prescribed, const real *X, int component);
+real prescribed_displacement_component_at_position(const struct prescribed_displacement *prescribed, const real *X,
+                                                   int component);
 
 /* Returns REFUSED, with a message, if boundary b prescribes a velocity whose integral over time has no closed form (a
  * formula of t), so that its displacements are unknown; else OK. */
-status boundary_check_displacement_has_closed_form(const struct boundary *b);
+status boundary_check_velocity_has_closed_form_integral(const struct boundary *b);
 
 /* Motion that a boundary of kind VELOCITY prescribes in a time step from t - dt/2 to t + dt/2 (loads_driving.c). */
 struct prescribed_motion {
@@ -184,14 +187,15 @@ struct prescribed_motion {
 };
 
 /* Returns the motion that boundary b prescribes in the step of size dt from t - dt/2 to t + dt/2 [s], prepared for
- * evaluation at many positions by prescribed_velocity_at. dim: dimension of the body; b: kept by reference. */
-struct prescribed_motion prescribed_motion_make(const struct boundary *b, int dim, real t, real dt);
+ * evaluation at many positions by prescribed_velocity_component_at_position. dim: dimension of the body; b: kept by
+ * reference. */
+struct prescribed_motion boundary_prescribed_motion_in_step(const struct boundary *b, int dim, real t, real dt);
 
 /* Returns component `component` of the velocity [m/s] prescribed by `motion` at X (dim components [m]); for a
  * prescribed displacement its change in the step divided by dt. at_present_position: true if X is the position of the
  * material at the start of the step, false if X is its reference position. */
-real prescribed_velocity_at(const struct prescribed_motion *motion, const real *X, int component,
-                            bool at_present_position);
+real prescribed_velocity_component_at_position(const struct prescribed_motion *motion, const real *X, int component,
+                                               bool at_present_position);
 
 /* Returns true if the motion that boundary b prescribes differs between positions: it rotates or depends on X. */
 static inline bool boundary_motion_varies_in_space(const struct boundary *b)

@@ -107,8 +107,8 @@ void load_set_particle_list_from_selected_flags(struct load *l, const uint8_t *s
 /* Finds the particles of p with a free face on which the pressure boundary[boundary_number] acts, and stores them in l
  * with the areas of these faces. boundary[boundaries]: all boundaries of the scene, since mirrors may cover a face.
  * spacing: lattice spacing [m]. Returns REFUSED, with a message, if the region has no particles or no free face. */
-status load_find_pressure_faces(struct load *l, const struct boundary *boundary, int boundaries, int boundary_number,
-                                struct particles *p, real spacing);
+status load_find_free_faces_under_pressure(struct load *l, const struct boundary *boundary, int boundaries,
+                                           int boundary_number, struct particles *p, real spacing);
 
 /* Function that pressure_boundary_visit_free_faces calls for each free face of a particle (index `particle`). axis,
  * side: axis of the outward normal, and -1 or 1 for its direction; area: area of the face [m^2]; context: caller's
@@ -124,41 +124,42 @@ void pressure_boundary_visit_free_faces(const struct boundary *boundary, int bou
 /* Prepares load l if it has a formula or is a pressure that follows the deformation: multiplies its shares (areas,
  * volumes or masses of particles of p) by formulas that do not depend on time, and allocates arrays for shares that
  * depend on time. Returns REFUSED, with a message, if a formula has no finite value at a particle. */
-status load_prepare_time_varying_particle_factors(struct load *l, const struct particles *p);
+status load_prepare_particle_load_factors(struct load *l, const struct particles *p);
 
 /* Checks that the formulas of all loads and supports in l have finite values at their particles in p at time t [s].
  * Returns FAILED, with a message that contains boundary, position and time, if a value is not finite. */
-status loads_check_formulas_are_finite(const struct loads *l, const struct particles *p, real t);
+status loads_check_formula_values_are_finite(const struct loads *l, const struct particles *p, real t);
 
 /* Recomputes l->share for loads whose formula or surface changes in time: the factor of each particle of p by which the
  * value of the load is multiplied, its area, volume or mass times a formula. The factors are means over the velocity
  * update of duration dt_velocity [s] that ends at time t [s]. Part of loads_add_applied_forces. */
-void loads_update_mean_particle_factors_for_forces(struct loads *l, const struct particles *p, real t,
-                                                   real dt_velocity);
+void loads_update_time_mean_load_factors_for_forces(struct loads *l, const struct particles *p, real t,
+                                                    real dt_velocity);
 
 /* Recomputes l->share for loads whose formula or surface changes in time: the factor of each particle of p by which the
  * value of the load is multiplied, its area, volume or mass times a formula. The factors are means over the two
  * velocity updates before and after the last position update, from t - dt/2 to t + dt/2 [s]. Part of
  * loads_add_work_of_applied_forces. */
-void loads_update_mean_particle_factors_for_work(struct loads *l, const struct particles *p, real t, real dt);
+void loads_update_time_mean_load_factors_for_work(struct loads *l, const struct particles *p, real t, real dt);
 
-/* Releases the arrays that load_prepare_time_varying_particle_factors has allocated for load l. */
-void load_time_varying_particle_factors_free(struct load *l);
+/* Releases the arrays that load_prepare_particle_load_factors has allocated for load l. */
+void load_time_varying_load_factors_free(struct load *l);
 
-/* Computes the force of load l on its particle number `entry` at time t [s], from the reference position of the
+/* Computes the force of load l on its particle number `index_in_load` at time t [s], from the reference position of the
  * particle in p. force: dim components [N]. In static problems the force is that at full load. */
-void load_force_on_particle(const struct load *l, const struct particles *p, int64_t entry, real t, real *force);
+void load_force_on_particle(const struct load *l, const struct particles *p, int64_t index_in_load, real t,
+                            real *force);
 
 /* Computes the total force of load l on its particles in p at time t [s] into l->reaction [N], and the mean
  * displacement of its particles into l->displacement [m]. The mean is weighted by force, so that total force times mean
  * displacement is the work; it is not weighted if the forces sum to zero. */
 void load_compute_total_force_and_mean_displacement(struct load *l, const struct particles *p, real t);
 
-/* Computes the value that the boundary of load l prescribes at its particle number `entry` (of p) at time t [s]:
- * boundary.value times its function of time and its formula. value: receives dim components in the unit of
+/* Computes the value that the boundary of load l prescribes at its particle number `index_in_load` (of p) at time t
+ * [s]: boundary.value times its function of time and its formula. value: receives dim components in the unit of
  * boundary.value, for example a traction [Pa]; it is not multiplied by the area, volume or mass of the particle, nor by
  * the spatial profile of a body force. Not defined for prescribed rotations. */
-void load_prescribed_value_at_particle(const struct load *l, const struct particles *p, int64_t entry, real t,
+void load_prescribed_value_at_particle(const struct load *l, const struct particles *p, int64_t index_in_load, real t,
                                        real *value);
 
 /* Creates the loads l of boundary[boundaries]: finds the particles of each, sets FLAG_DRIVEN on particles with
@@ -166,8 +167,8 @@ void load_prescribed_value_at_particle(const struct load *l, const struct partic
  * [m] of mirror planes. Must be called before the bonds are made. boundary: kept by reference; spacing: lattice spacing
  * [m]; optional_arrays: optional arrays of p, sum of WITH_*. Returns REFUSED, with a message, if a boundary has no
  * particles or no free face, or a mirror is misplaced. Release with loads_free. */
-status loads_make(struct loads *l, const struct boundary *boundary, int boundaries, struct particles *p, real spacing,
-                  real mirror_reach, int optional_arrays);
+status loads_make_from_boundaries(struct loads *l, const struct boundary *boundary, int boundaries, struct particles *p,
+                                  real spacing, real mirror_reach, int optional_arrays);
 
 /* Frees all arrays of *l and of its loads; the boundaries, which belong to the scene, remain. */
 void loads_free(struct loads *l);
@@ -175,17 +176,18 @@ void loads_free(struct loads *l);
 /* Sets in l the list of particles of p on which contact forces may act, in place of the previous one: n indices in
  * ascending order, which are copied. The forces of these particles are cleared before each step, and they are moved
  * after all forces are complete, not already while bond forces are computed. */
-void loads_set_particles_with_contact_forces(struct loads *l, const struct particles *p, const int32_t *list,
-                                             int64_t n);
+void loads_store_list_of_possible_contact_particles(struct loads *l, const struct particles *p,
+                                                    const int32_t *particle_list, int64_t n);
 
 /* ---- applied forces (loads_applied.c) ---------------------------------------------------------------------------- */
 
-/* Combines loads of l with equal particle lists, to traverse each list once. dim: of the space. Part of loads_make. */
+/* Combines loads of l with equal particle lists, to traverse each list once. dim: of the space. Part of
+ * loads_make_from_boundaries. */
 void loads_merge_equal_particle_lists(struct loads *l, int dim);
 
 /* Releases the arrays load.share (area, volume or mass of each loaded particle) of all loads in l, also arrays that
  * several loads have in common. */
-void loads_particle_factors_free(struct loads *l);
+void loads_particle_load_factors_free(struct loads *l);
 
 /* Adds the applied forces at time t [s] to the particle forces p->f, and their impulse over dt_velocity, the duration
  * of the velocity update [s], to l->impulse. Part of loads_apply_forces_and_motion_constraints. */
@@ -200,9 +202,9 @@ void loads_add_work_of_applied_forces(struct loads *l, struct particles *p, real
  * of them act on the same part of a face, or if one lies in a mirror plane. */
 status absorbing_boundaries_check_for_overlap(const struct loads *l, const struct particles *p);
 
-/* Creates the dashpots on the particles of p at all absorbing faces in l. Must be called after loads_make.
- * impedance[m][material]: wave impedances of the materials for particles that are moved by m (enum moved_by: bonds,
- * grid or mesh), kept by reference. Release with absorbing_dashpots_free. */
+/* Creates the dashpots on the particles of p at all absorbing faces in l. Must be called after
+ * loads_make_from_boundaries. impedance[m][material]: wave impedances of the materials for particles that are moved by
+ * m (enum moved_by: bonds, grid or mesh), kept by reference. Release with absorbing_dashpots_free. */
 void absorbing_dashpots_make(struct loads *l, const struct particles *p, const struct impedance *const *impedance);
 
 /* Frees the dashpots of all absorbing faces in l, which absorbing_dashpots_make has made. */
@@ -216,25 +218,26 @@ void loads_add_dashpot_forces(struct loads *l, struct particles *p, real dt_velo
  * loads_prescribe_grid_velocities, after the prescribed velocities of nodes are set. The kernel kernels->spread
  * distributes the coefficients of the dashpots on particles of p to the nodes. half_width:
  * transfer_data.half_width [m]. */
-void loads_add_grid_dashpots(struct loads *l, struct grid *g, const struct particles *p, const struct kernels *kernels,
-                             real half_width);
+void loads_append_dashpots_to_grid(struct loads *l, struct grid *g, const struct particles *p,
+                                   const struct kernels *kernels, real half_width);
 
 /* Appends the absorbing dashpots of mesh nodes to mesh->grid, from the particles of p at absorbing faces in l; part of
  * loads_find_driven_mesh_nodes. */
-void loads_add_mesh_dashpots(struct loads *l, struct mesh *mesh, const struct particles *p);
+void loads_append_dashpots_to_mesh(struct loads *l, struct mesh *mesh, const struct particles *p);
 
 /* Adds energy and impulse that all dashpots of a grid or mesh have absorbed in a step, `absorbed`, to the sums in l. */
 void loads_add_absorbed_energy_and_impulse(struct loads *l, const struct dashpot_effect *absorbed);
 
-/* Computes the displacement that load l prescribes at time t [s] for its particle number `entry`, i.e. particle
+/* Computes the displacement that load l prescribes at time t [s] for its particle number `index_in_load`, i.e. particle
  * l->particle[entry] of p. displacement: receives dim components [m], 0 where none is prescribed. */
-void load_displacement_of_particle(const struct load *l, const struct particles *p, int64_t entry, real t,
-                                   real *displacement);
+void load_prescribed_displacement_of_particle(const struct load *l, const struct particles *p, int64_t index_in_load,
+                                              real t, real *displacement);
 
 /* Returns the motion that boundary number `boundary_number` of l prescribes in the step from t - dt/2 to t + dt/2 [s],
- * as prescribed_motion_make. After the last step of a run (l->ended), a prescribed displacement has the velocity of the
- * step before, since no step follows in which a change of velocity would do work. */
-struct prescribed_motion loads_prescribed_motion(const struct loads *l, int boundary_number, int dim, real t, real dt);
+ * as boundary_prescribed_motion_in_step. After the last step of a run (l->ended), a prescribed displacement has the
+ * velocity of the step before, since no step follows in which a change of velocity would do work. */
+struct prescribed_motion loads_prescribed_motion_of_boundary_in_step(const struct loads *l, int boundary_number,
+                                                                     int dim, real t, real dt);
 
 /* Returns the largest speed [m/s] of the displacement that load l prescribes between the times 0 and `t_end` [s],
  * INFINITY if the displacement jumps. Formulas are sampled at some times and at some particles of p. */
@@ -294,11 +297,11 @@ void loads_prescribe_mesh_velocities(const struct loads *l, struct mesh *mesh, r
 
 /* Finds the nodes of g, the grid of a mesh of coarse cells, whose motion l prescribes, by their positions: nodes in
  * regions with prescribed motion and on mirror planes. Stores them in `driven_nodes`. */
-void loads_find_driven_coarse_nodes(const struct loads *l, struct constrained_set *driven_nodes, struct grid *g,
-                                    const struct particles *p);
+void loads_find_driven_nodes_of_coarse_cells(const struct loads *l, struct constrained_set *driven_nodes,
+                                             struct grid *g, const struct particles *p);
 
 /* Stores in g->wall the velocities that l prescribes for nodes of grid g of a mesh of coarse cells, for the step from t
- * - dt/2 to t + dt/2 [s]. driven_nodes: these nodes, found by loads_find_driven_coarse_nodes. */
+ * - dt/2 to t + dt/2 [s]. driven_nodes: these nodes, found by loads_find_driven_nodes_of_coarse_cells. */
 void loads_prescribe_coarse_node_velocities(const struct loads *l, const struct constrained_set *driven_nodes,
                                             struct grid *g, real t, real dt);
 
@@ -306,11 +309,11 @@ void loads_prescribe_coarse_node_velocities(const struct loads *l, const struct 
  * grid-to-particle transfer: sets velocities of material points on a background grid, and positions of these and of
  * peridynamic particles with prescribed displacement. Adds impulse and work of supports to l->impulse and
  * l->constraint_work, the work of applied forces to l->work. Returns true if a material point was moved. */
-bool loads_impose_prescribed_motion(struct loads *l, struct particles *p, real t, real dt);
+bool loads_impose_prescribed_motion_on_particles(struct loads *l, struct particles *p, real t, real dt);
 
 /* Adds the reactions of the prescribed nodes, mirror nodes and dashpots of grid g (or of the grid of a mesh) to the
  * reactions of their loads in l. dt_velocity: duration of the velocity update [s]. */
-void loads_add_grid_reactions(struct loads *l, const struct grid *g, real dt_velocity);
+void loads_add_reactions_at_grid_nodes(struct loads *l, const struct grid *g, real dt_velocity);
 
 /* ---- static equilibrium (loads_static.c) ------------------------------------------------------------------------- */
 
@@ -329,9 +332,10 @@ void loads_compute_prescribed_static_displacements(struct loads *l, const struct
 /* Adds the inertia forces of a rigid rotation (inertia relief) to the applied forces l of a free body of particles p in
  * 2D. Loads with a moment, for example loads on particles of an irregular lattice, then have an equilibrium. Returns
  * the moment of the loads divided by the largest moment that forces of this size could have [1]. */
-real loads_add_inertia_relief(struct loads *l, const struct particles *p);
+real loads_add_inertia_relief_and_return_moment_ratio(struct loads *l, const struct particles *p);
 
-/* Adds the applied forces l of a static problem at full load, with those of loads_add_inertia_relief, to p->f [N]. */
+/* Adds the applied forces l of a static problem at full load, with those of
+ * loads_add_inertia_relief_and_return_moment_ratio, to p->f [N]. */
 void loads_add_static_forces(const struct loads *l, struct particles *p);
 
 /* Sets the reaction of each support in l to minus the sum of the forces p->f on those components whose motion it
@@ -341,7 +345,7 @@ void loads_extract_static_reactions_from_forces(struct loads *l, struct particle
 /* Computes the work of the loads l on the body of particles p, whose response is linear and whose loads grow in
  * proportion. Stores half the sum of applied forces times displacements in l->work, and half the sum of reactions times
  * prescribed displacements in l->constraint_work [J]. */
-void loads_compute_static_work(struct loads *l, const struct particles *p);
+void loads_compute_work_in_static_equilibrium(struct loads *l, const struct particles *p);
 
 /* Saves impulse and work so far, displacement and reaction of each load in l to the archive `a` (checkpoint file or
  * memory) if a->saving, else restores them. Returns FAILED if an entry is missing or its size differs. */

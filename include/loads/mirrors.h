@@ -7,18 +7,20 @@
 
 /* Checks all mirror boundaries of l and appends to p mirror images (copies beyond the plane) of the particles within
  * `mirror_reach` [m] of their planes. optional_arrays: optional particle arrays, as in particles_make. Part of
- * loads_make. Returns REFUSED, with a message, if a mirror plane is inside its body or two mirrors coincide. */
-status loads_make_mirror_images(struct loads *l, struct particles *p, real mirror_reach, int optional_arrays);
+ * loads_make_from_boundaries. Returns REFUSED, with a message, if a mirror plane is inside its body or two mirrors
+ * coincide. */
+status loads_append_mirror_images_of_particles(struct loads *l, struct particles *p, real mirror_reach,
+                                               int optional_arrays);
 
 /* Sets the flag MOVES_LATER in l->loaded for the particles of p whose bonds may cross a clamped mirror plane (a mirror
  * that also prevents motion along its plane). The reactions of such bonds are added after all bond forces, so these
  * particles must not be moved before. */
-void loads_flag_particles_at_clamped_mirrors(struct loads *l, const struct particles *p);
+void loads_flag_clamped_mirror_particles_to_move_late(struct loads *l, const struct particles *p);
 
 /* Copies position x, velocity v, kind and FLAG_DRIVEN of the source particles of p to their mirror images, reflected in
  * the mirror plane. Before this, the coordinates of the source particles normal to the mirror are rounded to multiples
  * of l->place_step, if it is not 0, so that image and particle are exactly symmetric. */
-void loads_update_mirror_images(const struct loads *l, struct particles *p);
+void loads_update_mirror_images_of_particles(const struct loads *l, struct particles *p);
 
 /* Checks the distance between parallel mirrors of l for a body with bonds of at most `bond_length` [m]. A particle
  * between mirrors that are closer would have bonds to images of images on both sides, of which only one exists. The

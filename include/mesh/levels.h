@@ -71,7 +71,7 @@ struct mesh_levels {
     bool returned; /* true: points whose conversion was postponed have been marked for conversion again in this step */
     real wave_speed; /* largest longitudinal wave speed of the materials [m/s] */
     /* distances of converting points from coarse cells, in cells of level 0
-     * (mesh_levels_set_postpone_and_refine_distances) */
+     * (mesh_levels_set_conversion_and_refine_distances) */
     int safe_cells, roomy_cells;
     int64_t changes;                      /* number of changes of the levels since the start */
     struct mesh_level at[LEVELS_MAX + 1]; /* meshes of the coarse levels: at[1] .. at[n] */
@@ -122,10 +122,11 @@ status mesh_levels_make_over_finest_mesh(struct mesh_levels *l, int coarse_level
 void mesh_levels_free(struct mesh_levels *l);
 
 /* Sets in l two distances between a coarse cell and a material point that is to become peridynamic, both in cells of
- * level 0 (the finest). postpone_distance: if the point is closer, its conversion is postponed, since its bonds would
- * reach the coarse cell. refine_distance: if it is closer, the coarse cell shall be split, since points near breaking
- * bonds convert next. */
-void mesh_levels_set_postpone_and_refine_distances(struct mesh_levels *l, int postpone_distance, int refine_distance);
+ * level 0 (the finest). conversion_delay_distance: if the point is closer, its conversion is postponed, since its bonds
+ * would reach the coarse cell. refine_distance: if it is closer, the coarse cell shall be split, since points near
+ * breaking bonds convert next. */
+void mesh_levels_set_conversion_and_refine_distances(struct mesh_levels *l, int conversion_delay_distance,
+                                                     int refine_distance);
 
 /* Sets the inertia of coarse cells of l, between lumped and consistent mass (kernels/mesh/mesh_inertia.h), such that
  * waves in the cells have the dispersion of waves in a lattice with bonds. edge: edge of cells with lumped mass that
@@ -145,8 +146,8 @@ void mesh_levels_compute_coarsest_admissible_levels(const struct mesh_levels *l,
  * coarser than at present, the motion of the nodes inside is compared with the interpolation from its corners. If the
  * energy of the difference (kinetic, and of its strain) exceeds `max_energy` [J/kg], `highest_level` becomes one less
  * than `intended_cell_level` in this cell. intended_cell_level, highest_level: a byte for each cell of level 0, the
- * finest. The motion of the nodes of level 0 must be up to date (mesh_levels_prolong_motion_to_fine_nodes). Returns
- * true if an entry of `highest_level` was lowered. */
+ * finest. The motion of the nodes of level 0 must be up to date (mesh_levels_prolong_motion_to_all_finest_nodes).
+ * Returns true if an entry of `highest_level` was lowered. */
 bool mesh_levels_limit_coarsening_by_energy_loss(const struct mesh_levels *l, const uint8_t *intended_cell_level,
                                                  real max_energy, uint8_t *highest_level);
 
@@ -182,11 +183,11 @@ void mesh_levels_copy_motion_to_ghost_nodes(struct mesh_levels *l);
 
 /* Interpolates displacement and velocity of the nodes of coarse cells of l to all nodes of level 0 (the finest mesh)
  * inside these cells, so that these have the motion of the coarse cells. */
-void mesh_levels_prolong_motion_to_fine_nodes(struct mesh_levels *l);
+void mesh_levels_prolong_motion_to_all_finest_nodes(struct mesh_levels *l);
 
 /* Interpolates displacement and velocity of the nodes of coarse cells of l to those nodes of level 0 (the finest mesh)
  * inside these cells that have particles in an adjacent cell. */
-void mesh_levels_prolong_motion_near_particles(struct mesh_levels *l);
+void mesh_levels_prolong_motion_near_particles_only(struct mesh_levels *l);
 
 /* Returns the highest coarsening level (0: finest) whose forces act in step number `step`: the largest L <= l->n for
  * which `step` is a multiple of 2^L, because the forces of level L act every 2^L steps. */

@@ -110,10 +110,10 @@ enum { CELLS_ACROSS = 6 };
 
 /* Computes for each cell of the finest mesh the highest coarsening level (0: finest, coarse cells of level L replace
  * 2^L cells along each axis) that the thickness of the body around it allows: CELLS_ACROSS cells of this level must
- * fit. highest_level: [mesh->grid.n], receives these levels; mirror[mirror_count]: planes of symmetry, beyond which the
- * body continues. Returns the largest of these levels. */
-int mesh_compute_cell_coarsening_limit_by_thickness(const struct mesh *mesh, const struct mirror_plane *mirror,
-                                                    int mirror_count, uint8_t *highest_level);
+ * fit. coarsest_level: [mesh->grid.n], receives these levels; mirror[mirror_count]: planes of symmetry, beyond which
+ * the body continues. Returns the largest of these levels. */
+int mesh_compute_coarsest_cell_levels_for_thickness(const struct mesh *mesh, const struct mirror_plane *mirror,
+                                                    int mirror_count, uint8_t *coarsest_level);
 
 /* Marks all cells of grid g that are within `reach_in_cells` cells of a marked cell, in all directions including
  * diagonals. cell_is_marked: [g->n] marks of the cells, not 0 if marked. */

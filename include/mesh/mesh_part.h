@@ -64,8 +64,8 @@ void mirror_planes_warn_if_not_fitting_grid_or_mesh(const struct run *run, struc
  * (reference frame) or by the background grid (current frame). Stores the choice with its reason in reference->choice,
  * sets FLAG_MESHED of the particles of p in the reference frame, and makes the background grids `mpm` for this choice.
  * Returns REFUSED, with a message, if the scene requires the reference frame for a body that cannot use it. */
-status bodies_choose_material_mesh_or_background_grid(struct lagrangian_mesh *reference, struct grid_method *mpm,
-                                                      struct particles *p, const struct scene *s);
+status bodies_choose_lagrangian_mesh_or_background_grid(struct lagrangian_mesh *reference, struct grid_method *mpm,
+                                                        struct particles *p, const struct scene *s);
 
 /* Returns true if the material points of at least one body move with a mesh (the reference frame r). */
 bool lagrangian_mesh_is_used_by_any_body(const struct lagrangian_mesh *reference);
@@ -187,8 +187,8 @@ struct levels_choice {
 /* Computes reference->room, the highest coarsening level (0: finest) that the thickness of the body allows in each
  * cell, if scene s may have coarse cells; otherwise reference->room stays NULL. particle_count: number of particles of
  * the body, including those that are not made because they are inside coarse cells. */
-void mesh_levels_store_coarsening_limits_by_thickness(struct lagrangian_mesh *reference, const struct scene *s,
-                                                      int64_t particle_count);
+void mesh_levels_store_coarsest_levels_for_thickness(struct lagrangian_mesh *reference, const struct scene *s,
+                                                     int64_t particle_count);
 
 /* Returns the number of levels of coarse cells for scene s, and the reason. The number is given by the scene or chosen
  * from its loads and the thickness of the body. dt_critical: critical time step of the run [s]. reference: the mesh; p:
@@ -203,8 +203,8 @@ void mesh_levels_describe_level_count(const struct levels_choice *c, const struc
 
 /* Returns true if the scene s gives more levels of coarse cells than its loads or the thickness of the body allow, and
  * writes why to `reason` (`capacity` bytes; a longer text is cut). Returns false otherwise. c: number of levels with
- * its reason, from mesh_levels_choose_level_count; frame: the mesh, with the limits by thickness. */
-bool mesh_levels_given_by_scene_are_too_many(const struct levels_choice *c, const struct lagrangian_mesh *frame,
+ * its reason, from mesh_levels_choose_level_count; reference: the mesh, with the limits by thickness. */
+bool mesh_levels_given_by_scene_are_too_many(const struct levels_choice *c, const struct lagrangian_mesh *reference,
                                              const struct scene *s, char *reason, size_t capacity);
 
 /* Makes the coarse cells of run, whose time step must be known, with initial coarsening levels;
@@ -225,7 +225,7 @@ uint8_t *mesh_levels_choose_level_of_each_cell(struct lagrangian_mesh *reference
 
 /* Changes the coarsening levels of run. new_cell_level: for each cell of level 0 (the finest) the level of the cell
  * to which it shall belong, as mesh_levels_choose_level_of_each_cell returns it. Cells that become level 0 must have
- * particles (mesh_cells_to_become_finest_lack_particles). The energy that the change removes is added to run->damped.
+ * particles (mesh_any_new_finest_cell_lacks_particles). The energy that the change removes is added to run->damped.
  */
 void mesh_levels_change_cell_levels(struct run *run, const uint8_t *new_cell_level);
 
@@ -259,7 +259,7 @@ bool initial_finest_cells_have_all_particles(struct lagrangian_mesh *reference, 
 /* Returns true if a cell of `mesh` that shall have level 0 (the finest) has no particles, so that the run must be set
  * up again with more particles. new_cell_level: for each cell of level 0 the level of the cell to which it shall
  * belong. */
-bool mesh_cells_to_become_finest_lack_particles(const struct mesh *mesh, const uint8_t *new_cell_level);
+bool mesh_any_new_finest_cell_lacks_particles(const struct mesh *mesh, const uint8_t *new_cell_level);
 
 /* Chooses the cells without particles for the given coarsening levels and stores them in reference->hollow. Particles
  * change only when the run is set up again. cell_level: for each cell of level 0 (the finest) the level of the cell to

@@ -27,7 +27,7 @@ const char *file_describe_damage(const char *path);
 /* Checks the length and the hash of the file `path` by its footer. Returns NULL if the file is complete and unchanged,
  * or if it cannot be read; otherwise a static text that completes "PATH ..." in a message. Only damage that is certain
  * is thus reported. */
-const char *file_describe_damage_if_readable(const char *path);
+const char *file_describe_damage_ignoring_read_errors(const char *path);
 
 /* Returns a hash of `length` bytes from `bytes` on. previous_hash: a number on which the hash depends, too, for example
  * the hash of the bytes before these. */

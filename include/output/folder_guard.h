@@ -26,6 +26,7 @@ bool file_name_is_hidden_or_temporary(const char *name);
  * kind->is_sign does not use it. Sets *exists to true if the folder exists and is of this kind, else to false. Returns
  * REFUSED, with the name of the entry in the message, if the folder contains a file that Cleave did not write, or if a
  * subfolder listed in kind->inner is a symbolic link. */
-status folder_check_writable(const struct folder_kind *kind, const char *folder, const char *scene_text, bool *exists);
+status folder_check_writable(const struct folder_kind *kind, const char *folder, const char *scene_text,
+                             bool *exists_and_is_of_kind);
 
 #endif

@@ -184,16 +184,16 @@ status output_begin_writing_frame_in_thread(struct output *o, int series, const 
  * frames.vtkhdf, at the end of a run. scene_text: text of the scene, stored in the file. Writes nothing if there is no
  * frame, or if there are more frames than such a file can serve efficiently. Returns FAILED if a file cannot be
  * written. */
-status output_write_vtkhdf_of_all_frames(struct output *o, const char *scene_text);
+status output_write_single_vtkhdf_with_all_frames(struct output *o, const char *scene_text);
 
 /* Removes the files with all frames, frames.vtkhdf, that an earlier process wrote to the folder of the run o, since
  * they lack the frames of a run that continues. */
-void output_remove_vtkhdf_of_all_frames(const struct output *o);
+void output_remove_single_vtkhdf_with_all_frames(const struct output *o);
 
 /* Discards the stored order in which o writes particles to frames (ascending id), for all series of frames, so that the
  * next frame determines it again. Must be called when the number of particles or their ids have changed, after
  * output_wait_until_frame_is_written. */
-void output_discard_stored_particle_order_by_id(struct output *o);
+void output_discard_cached_frame_particle_order(struct output *o);
 
 /* Waits until the thread that writes a frame (stored state of the particles at one time) of o has finished. Returns
  * FAILED if the frame could not be written; OK if it was written or there was no frame in progress. */

@@ -42,10 +42,10 @@ struct path path_of_temporary_file(const char *path);
 /* Returns the temporary name PATH.cleave.tmp of `path` and adds `path` to the list of unfinished files, whose temporary
  * files are removed if the program fails. file_replace_by_temporary or file_discard_temporary with the same path
  * removes it from the list. */
-struct path file_register_and_name_temporary(const char *path);
+struct path file_register_temporary_and_return_path(const char *path);
 
-/* Removes the temporary files of all files whose writing has begun with file_register_and_name_temporary and is not
- * finished. To be called before the program ends because of an internal fault. */
+/* Removes the temporary files of all files whose writing has begun with file_register_temporary_and_return_path and is
+ * not finished. To be called before the program ends because of an internal fault. */
 void files_remove_unfinished_temporaries(void);
 
 /* Returns true if a file, folder, link or other entry called `path` exists; a link counts even if its target is
@@ -72,7 +72,7 @@ status file_check_replaceable(const char *path);
 /* Checks that the file `path` begins as a file of Cleave does, so that it may be replaced. beginning[beginning_count]:
  * the possible beginnings; a file shorter than a beginning must agree with it to the end of the file. Returns OK also
  * if there is no such file; REFUSED if no beginning agrees. */
-status file_check_is_from_cleave(const char *path, const char *const *beginning, size_t beginning_count);
+status file_check_has_known_beginning(const char *path, const char *const *beginning, size_t beginning_count);
 
 /* Type of a function that folder_visit_selected_files calls for a file. path: path of the file. Returns OK to continue;
  * any other status ends the visit, and folder_visit_selected_files returns it. */

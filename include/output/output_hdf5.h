@@ -87,7 +87,7 @@ void hdf_write_text(struct hdf *hdf, const char *name, const char *text);
 
 /* Writes the string `text` as the dataset `name`, a list of one string of variable length, which VTK shows as field
  * data. Bytes that are not ASCII become question marks. A failure is stored in hdf->failed. */
-void hdf_write_text_list(struct hdf *hdf, const char *name, const char *text);
+void hdf_write_text_as_list_of_one_string(struct hdf *hdf, const char *name, const char *text);
 
 /* Writes values[count], numbers of the given type, as the attribute `name` of a group or dataset; the attribute is a
  * list even for one number. group: path of the group or dataset. A failure is stored in hdf->failed. */

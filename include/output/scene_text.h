@@ -17,6 +17,6 @@ bool scene_text_is_from_cleave(const char *text);
 
 /* Returns REFUSED with a message about the first line in which the scenes `former_text`, of the run in the folder, and
  * `present_text` differ. The message begins with the path of the key in this line. */
-status scene_texts_refuse_with_first_difference(const char *folder, const char *former_text, const char *present_text);
+status scene_texts_report_first_different_line(const char *folder, const char *former_text, const char *present_text);
 
 #endif

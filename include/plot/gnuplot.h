@@ -63,7 +63,8 @@ status gnuplot_open(struct gnuplot *g, const char *path, enum picture_format for
  * scaled from width x height to that size. Sends the style common to all pictures. Returns REFUSED if the path has
  * control characters or is a file that must not be replaced, FAILED if gnuplot cannot be started. Close g with
  * gnuplot_close. */
-status gnuplot_open_scaled(struct gnuplot *g, const char *path, enum picture_format format, int width, int height);
+status gnuplot_open_scaled_to_process_wide_size(struct gnuplot *g, const char *path, enum picture_format format,
+                                                int width, int height);
 
 /* Returns the number of pixels with which an image inside a picture of `format` is computed along an edge that takes
  * `layout_pixels` pixels in the layout of the picture. It is larger for pictures of a finer resolution, and for vector

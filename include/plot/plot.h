@@ -299,12 +299,13 @@ bool particles_are_on_lattice(double *const *X, int dim, int64_t n);
  * displacements of neighbours that no crack separates. spacing: of the particles [m]; displacement_factor: factor on
  * displacements; scene: for its pre-cracks, NULL if they are not known. Returns an allocated array [f->n][9] with F by
  * rows along x, y, z [1], which the caller releases with memory_free, or NULL if no deformation is visible.
- * apart[f->n]: receives for each particle the bits 1 << (2 a + b) of the sides where its lattice neighbour is drawn
- * apart from it, across a crack or in another body; a: axis, b: 0 towards larger coordinates, 1 towards smaller ones.
+ * separated_sides[f->n]: receives for each particle the bits 1 << (2 a + b) of the sides where its lattice neighbour is
+ * drawn apart from it, across a crack or in another body; a: axis, b: 0 towards larger coordinates, 1 towards smaller
+ * ones.
  */
 float *deformation_gradients_fit_to_displacements(const struct output_frame *f, double spacing,
                                                   double displacement_factor, const struct scene *scene,
-                                                  uint8_t *apart);
+                                                  uint8_t *separated_sides);
 
 /* Computes the inverse of the 3 x 3 matrix `matrix` and returns true. Returns false, with undefined `inverse`, if the
  * determinant is 0 or not a number. */
@@ -331,7 +332,7 @@ double frame_particle_spacing(const struct output_frame *f);
 /* Returns an allocated array with the size [m] of each particle of the frame f, whose particles come from lists, by the
  * distances of its neighbours. Returns NULL if the sizes do not differ (the list is not graded), if the frame stores
  * spacings, or for a bar. spacing: median spacing [m]. */
-float *frame_estimate_graded_particle_sizes(const struct output_frame *f, double spacing);
+float *frame_estimate_particle_sizes_if_graded(const struct output_frame *f, double spacing);
 
 /* Quantity that the colours of a map (picture of particles) show: damage, kind or fragment of the particles, a field,
  * named values such as bodies, or cracks (particles with damage above CRACK_DAMAGE). */
@@ -344,8 +345,8 @@ enum map colour_map_kind_for_field(const struct plot_field *field);
  * are no particles. Pictures with displacements N times as large move the body by N - 1 times this vector, so that its
  * distance from the particle, in contact or not, is the true one. shape: of the body at the start; placement: its
  * placement in the frame f. */
-void rigid_body_find_nearest_particle_displacement(const struct region *shape, const struct rigid_placement *placement,
-                                                   const struct output_frame *f, real *displacement);
+void rigid_body_displacement_of_nearest_particle(const struct region *shape, const struct rigid_placement *placement,
+                                                 const struct output_frame *f, real *displacement);
 
 /* Adds the rigid bodies of the scene s to c, the particles of frame number `frame_number` that a picture shows. Their
  * positions and rotations are those that the run in `folder` has stored for this frame. In a picture with magnified
@@ -377,11 +378,11 @@ struct categories {
     struct category of[CATEGORIES_MOST];
 };
 
-/* Lists the named values (bodies, materials and so on) of a field that occur in cloud[frame_count], the particles of
- * several frames, and stores them in *k. folder: folder of the run, from whose scene the names of bodies and materials
- * are read. */
+/* Lists the named values (bodies, materials and so on) of a field that occur in frame_particles[frame_count], the
+ * particles of several frames, and stores them in *k. folder: folder of the run, from whose scene the names of bodies
+ * and materials are read. */
 void categories_list_values_present_in_frames(struct categories *categories, const struct plot_field *field,
-                                              const char *folder, const struct plotted_particles *cloud,
+                                              const char *folder, const struct plotted_particles *frame_particles,
                                               int frame_count);
 
 /* Returns the colour of one value of a field whose values have names, such as bodies or materials. category_value: the
@@ -407,21 +408,21 @@ struct view {
  * a particle that cuts all bonds across it causes the damage 1/2. */
 #define CRACK_DAMAGE 0.35
 
-/* Returns a view whose rectangle shows all of cloud[frame_count], the particles of several frames: the bounding box of
- * the body with a margin. A few particles that are far from all others may be outside. */
-struct view view_make_around_particles(const struct plotted_particles *cloud, int frame_count);
+/* Returns a view whose rectangle shows all of frame_particles[frame_count], the particles of several frames: the
+ * bounding box of the body with a margin. A few particles that are far from all others may be outside. */
+struct view view_make_around_particles(const struct plotted_particles *frame_particles, int frame_count);
 
 /* Sets the field that the view v shows, and the values at the ends of its colour scale. These follow from the kind of
- * scale of the field (field->scale) and its values in cloud[frame_count]. Extreme values of a few particles are
- * ignored. */
+ * scale of the field (field->scale) and its values in frame_particles[frame_count]. Extreme values of a few particles
+ * are ignored. */
 void view_set_field_and_colour_range(struct view *v, const struct plot_field *field,
-                                     const struct plotted_particles *cloud, int frame_count);
+                                     const struct plotted_particles *frame_particles, int frame_count);
 
-/* Makes the view *v of cloud[frame_count], the particles of each frame, for the request r: its rectangle, the limits
- * and the table of its colour scale, and the pre-cracks of a plane scene. Returns REFUSED if a limit is not a number
- * with a unit of the field, or the lower limit is not below the upper; FAILED if there are no positions. */
-status view_make_for_request(struct view *v, const struct plot_request *r, const struct plotted_particles *cloud,
-                             int frame_count);
+/* Makes the view *v of frame_particles[frame_count], the particles of each frame, for the request r: its rectangle, the
+ * limits and the table of its colour scale, and the pre-cracks of a plane scene. Returns REFUSED if a limit is not a
+ * number with a unit of the field, or the lower limit is not below the upper; FAILED if there are no positions. */
+status view_make_for_request(struct view *v, const struct plot_request *r,
+                             const struct plotted_particles *frame_particles, int frame_count);
 
 /* Returns the colour of particle number i of c in a map of the quantity `map`. v: view, with the values at the ends of
  * the colour scale. */
@@ -456,10 +457,11 @@ void image_paint_precrack_faces(struct colour *pixel, int width, int height, con
  * deformable bodies are faded, too. */
 struct colour rigid_body_colour(enum map map);
 
-/* Extends the rectangle of the view v so that it shows the rigid bodies (their boxes) in the frames cloud[frame_count],
- * the particles at several times. Each side moves by at most 0.3 times the longer side of the original rectangle; parts
- * of a body farther away remain outside. Bodies that are not in the section are left out. */
-void view_extend_to_rigid_bodies(struct view *v, const struct plotted_particles *cloud, int frame_count);
+/* Extends the rectangle of the view v so that it shows the rigid bodies (their boxes) in the frames
+ * frame_particles[frame_count], the particles at several times. Each side moves by at most 0.3 times the longer side of
+ * the original rectangle; parts of a body farther away remain outside. Bodies that are not in the section are left out.
+ */
+void view_extend_to_rigid_bodies(struct view *v, const struct plotted_particles *frame_particles, int frame_count);
 
 /* Returns true if at least one rigid body of c is visible in the rectangle of v. In views from outside every rigid body
  * counts as visible. In plane bodies and slices the rectangle is tested at 300 x 300 points. */
@@ -473,8 +475,9 @@ void image_paint_rigid_bodies_in_plane(struct colour *pixel, int width, int heig
 /* Paints the rigid bodies of c, as seen from outside by a camera, into the image pixel[height * width], rows from
  * bottom to top. A pixel is painted where a body is nearer to the viewer than the depth stored in depth[height * width]
  * [m], which is then updated. v: visible rectangle; map: quantity that the colours show. */
-void image_paint_rigid_bodies_from_outside(struct colour *pixel, float *depth, int width, int height,
-                                           const struct view *v, const struct plotted_particles *plotted, enum map map);
+void image_paint_rigid_bodies_with_depth_test(struct colour *pixel, float *depth, int width, int height,
+                                              const struct view *v, const struct plotted_particles *plotted,
+                                              enum map map);
 
 /* Output file of a picture: its path and its format. */
 struct output_picture {
@@ -483,9 +486,11 @@ struct output_picture {
 };
 
 /* Draws one picture in the file output.path of the format output.format. It has a panel for each of the frames
- * cloud[frame_count] (the particles at one time), a common colour scale or key (legend), and the heading `title`. map:
- * quantity that the colours show; view: common rectangle and range of the colours. Returns FAILED if gnuplot fails. */
+ * frame_particles[frame_count] (the particles at one time), a common colour scale or key (legend), and the heading
+ * `title`. map: quantity that the colours show; view: common rectangle and range of the colours. Returns FAILED if
+ * gnuplot fails. */
 status picture_draw_panels_of_frames(struct output_picture output, const char *title, enum map map,
-                                     const struct view *view, const struct plotted_particles *cloud, int frame_count);
+                                     const struct view *view, const struct plotted_particles *frame_particles,
+                                     int frame_count);
 
 #endif

@@ -100,11 +100,11 @@ status diagnostics_save_or_load(struct diagnostics *diagnostics, struct archive 
 /* Returns true if the energies w of the run so far are mere round-off, so that relative energy errors mean nothing:
  * they are below 1e-24 of the kinetic energy of the whole body at the wave speed. mass: mass of the body [kg];
  * wave_speed: speed of the fastest wave [m/s]. */
-bool diagnostics_energy_is_round_off(const struct diagnostics *diagnostics, real mass, real wave_speed);
+bool diagnostics_energies_are_only_round_off(const struct diagnostics *diagnostics, real mass, real wave_speed);
 
 /* Returns the energy [J] that breaking bonds have released in excess of the energy that they had stored: minus the
  * fracture energy of the last sample of w if that is negative, else 0. Only bonds of state-based models can have such
  * an excess. */
-real diagnostics_excess_energy_released_by_bonds(const struct diagnostics *diagnostics);
+real diagnostics_bond_energy_release_beyond_stored(const struct diagnostics *diagnostics);
 
 #endif

@@ -35,7 +35,7 @@ status run_find_equilibrium_for_cost_estimate(struct run *run, real t);
  * equilibrium that run_find_equilibrium_for_cost_estimate found for the time first_load_time [s]. If all loads grow
  * in proportion, its stretches are scaled; if loads reverse or others begin later, further equilibria are computed.
  * Returns FAILED, with a message, if one of them is not found. */
-status run_predict_largest_stretch_to_critical_ratio(struct run *run, real first_load_time, real *load_time,
+status run_predict_largest_ratio_to_critical_stretch(struct run *run, real first_load_time, real *load_time,
                                                      real *ratio);
 
 /* Returns the load size of run at pseudo-time t [s], a measure that is proportional to the loads: the root of the sum
@@ -46,7 +46,7 @@ real statics_norm_of_prescribed_loads(const struct run *run, real t);
 /* Returns the reason (a static text) why the growth direction of the cracks of run is not determined from their
  * stress-intensity factors, or NULL if it is. The key `steps.path` of the scene may be a reason. plane: receives the
  * plane in which the crack tips move, valid only if NULL is returned; may be NULL if the caller does not need it. */
-const char *sif_growth_reason_direction_undetermined(const struct run *run, struct crack_tip_plane *plane);
+const char *sif_growth_reason_direction_is_undetermined(const struct run *run, struct crack_tip_plane *plane);
 
 /* Checks the scene of run, if it is three-dimensional and demands crack growth by stress-intensity factors
  * (`steps.path: hoop`). Returns REFUSED, with the reason, if the growth direction cannot be determined from them.

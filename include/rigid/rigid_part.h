@@ -35,7 +35,8 @@ void rigids_move_to_prescribed_positions(struct rigid_set *rigid, real t);
 /* Updates, from the contact forces on all rigid bodies in the last step, the work of the drives (the forces that
  * enforce prescribed motion) and the largest forces. Subtracts the impulse of the contact forces, force times
  * dt_velocity [s], from `particle_impulse`, the impulse on the particles (dim components [N s]). */
-void rigids_update_work_and_particle_impulse(struct rigid_set *rigid, real dt_velocity, real particle_impulse[DIM_MAX]);
+void rigids_update_drive_work_and_contact_impulse(struct rigid_set *rigid, real dt_velocity,
+                                                  real particle_impulse[DIM_MAX]);
 
 /* Advances all rigid bodies by one leap-frog step under their forces or prescribed velocities (rigid_advance_one_step).
  * t_middle: time in the middle of the step; dt: time by which positions advance; dt_velocity: time by which velocities

@@ -32,10 +32,10 @@ bool rigid_compute_plotting_box(const struct region *shape, int dim, real *low, 
 void rigid_surface_free(struct rigid_surface *s);
 
 /* Writes the surfaces and the motion of all rigid bodies at their present positions to a file beside the latest frame
- * (state at one time) of the whole body of o. Then writes the index of all such files anew. part: particles of the run;
+ * (state at one time) of the whole body of o. Then writes the index of all such files anew. p: particles of the run;
  * an unbounded body is cut to the box of the particles. Does nothing without rigid bodies and in one dimension. Returns
  * FAILED if a file cannot be written. */
-status rigids_write_surfaces_of_frame(struct rigid_set *rigid, const struct output *o, const struct particles *part);
+status rigids_write_surfaces_of_frame(struct rigid_set *rigid, const struct output *o, const struct particles *p);
 
 /* Position and rotation of a rigid body in a frame: a point of the body that was at X at t = 0 is at x + turn (X -
  * centre) [m]. centre: centre of the body at t = 0 [m]; x: centre at the time of the frame [m]; turn: rotation matrix

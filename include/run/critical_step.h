@@ -22,9 +22,9 @@ struct bond_stiffness_operator {
 struct bond_stiffness_operator bond_stiffness_operator_make(struct bonds *b, struct particles *p, bond_force_fn *force,
                                                             const struct loads *loads, real spacing);
 
-/* Frees the square roots of the masses in *body, which bond_stiffness_operator_make has allocated; the bonds, particles
- * and loads stay with the caller. */
-void bond_stiffness_operator_free(struct bond_stiffness_operator *body);
+/* Frees the square roots of the masses in *bond_operator, which bond_stiffness_operator_make has allocated; the bonds,
+ * particles and loads stay with the caller. */
+void bond_stiffness_operator_free(struct bond_stiffness_operator *bond_operator);
 
 /* Computes result = M^-1/2 K M^-1/2 displacement [1/s^2] with the mass matrix M and the tangent stiffness K of a body
  * of bonds. The product of K with a vector d is the difference of the bond forces at the positions X + s d and at the

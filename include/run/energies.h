@@ -24,8 +24,9 @@ real points_strain_energy(const struct particles *p, const struct material *m, c
  * point_list[point_count] (indices): 1/2 sum sigma : C^-1 : sigma V with stress sigma, elastic stiffness C and volume V
  * of each point, without the part of the stress that bonds carry. m: array of the materials; partial: that part
  * (partial stress), NULL for none. */
-real points_strain_energy_of_list(const struct particles *p, const struct material *m,
-                                  const struct partial_stress *partial, const int32_t *point_list, int64_t point_count);
+real points_strain_energy_of_listed_points(const struct particles *p, const struct material *m,
+                                           const struct partial_stress *partial, const int32_t *point_list,
+                                           int64_t point_count);
 
 /* Returns the plastic work of the material points of p [J]: sum V (sigma_y a + H a^2/2) with the yield stress sigma_y,
  * the hardening modulus H and the accumulated plastic strain a. For materials with a flow law it is the plastic work
@@ -48,11 +49,11 @@ void particles_linear_momentum(const struct particles *p, const struct grid *con
 
 /* Computes the state of each neighbourhood of the bonds b at the current positions of p, before forces, stresses or
  * energies of state-based peridynamics are computed: pressure (force by dilatation), spring stiffness (force by
- * extension) and rotation. Does nothing for bond-based models. s: bond law, which determines the model. */
-static inline void families_compute_pressure_stiffness_and_rotation(struct bonds *b, struct particles *p,
-                                                                    const struct bond_source *s)
+ * extension) and rotation. Does nothing for bond-based models. source: bond law, which determines the model. */
+static inline void families_compute_pressure_rotation_and_stiffness(struct bonds *b, struct particles *p,
+                                                                    const struct bond_source *source)
 {
-    if (s->modulus) state_precompute_table[p->dim][s->rotates ? PD_MOSPD : PD_OSPD](b, p);
+    if (source->modulus) state_precompute_table[p->dim][source->rotates ? PD_MOSPD : PD_OSPD](b, p);
 }
 
 /* Computes the stress [Pa] of all peridynamic particles from their bonds in b at the present positions, and stores it

@@ -8,7 +8,7 @@
 /* Reduces elastic[m].trigger [Pa], the stress at which material points of material m convert to peridynamic particles,
  * to the conversion stress of the weakest particle of this material. Does nothing unless the strength of particles is
  * random (p->strength). elastic: array of the constants of all materials, changed in place; p: particles of the run. */
-void conversion_stress_reduce_to_weakest_particle(struct elastic *elastic, const struct particles *p);
+void conversion_stresses_set_by_weakest_particles(struct elastic *elastic, const struct particles *p);
 
 /* Returns the wave impedances that absorbing boundaries use, an array [MOVERS][materials]: for each material and for
  * each method that moves its particles (bonds, grid or mesh). Release it with memory_free. Returns NULL if the scene s

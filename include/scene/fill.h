@@ -28,8 +28,8 @@ status body_lattice_compute_first_site_position(const struct scene *s, int body,
 /* Finds the cells of the grid hollow->box in which all lattice sites (possible particle positions) are inside the body
  * with the index `body_index` of scene s. Sets hollow->whole[cell] to 1 for these cells, else to 0, in an array that is
  * allocated here and that the caller releases with memory_free. hollow->box must be set before. */
-void body_mark_cells_with_all_sites_inside(struct cells_without_particles *hollow, const struct scene *s,
-                                           int body_index);
+void body_flag_cells_with_all_lattice_sites_inside(struct cells_without_particles *empty_cells, const struct scene *s,
+                                                   int body_index);
 
 /* Compares the distances between neighbours in the particle list of each body with the particle spacing of scene s. p:
  * particles that were read from the lists. Returns REFUSED, with a message, if they differ so much that a list seems to

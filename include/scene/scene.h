@@ -289,7 +289,7 @@ static inline bool scene_bonds_can_break(const struct scene *s)
 }
 
 /* Returns true if at least one material of the scene s has bulk viscosity. */
-static inline bool scene_has_viscosity(const struct scene *s)
+static inline bool scene_any_material_has_bulk_viscosity(const struct scene *s)
 {
     bool viscous = false;
     for (int m = 0; m < s->materials; m++) viscous |= material_has_viscosity(&s->material[m]);

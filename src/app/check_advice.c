@@ -273,7 +273,8 @@ static void advise_levels(const struct run *run, FILE *out)
 static void advise_formulas(const struct run *run, FILE *out)
 {
     for (int m = 0; m <= PULL_MOMENTS; m++) {
-        if (loads_check_formulas_are_finite(&run->loads, &run->part, run->scene->duration * m / PULL_MOMENTS) == OK)
+        if (loads_check_formula_values_are_finite(&run->loads, &run->part, run->scene->duration * m / PULL_MOMENTS) ==
+            OK)
             continue;
         fprintf(out, "accuracy       %s; the run will stop at that time\n", status_message());
         return;
@@ -286,10 +287,10 @@ static void advise_formulas(const struct run *run, FILE *out)
 static void pulled_span(const struct load *l, const struct particles *p, int d, real t, real *least, real *most)
 {
     if (l->boundary->kind != BOUNDARY_VELOCITY || !(l->boundary->components & 1 << d) || l->boundary->rotates) return;
-    if (boundary_check_displacement_has_closed_form(l->boundary) != OK) return;
+    if (boundary_check_velocity_has_closed_form_integral(l->boundary) != OK) return;
     for (int64_t k = 0; k < l->n; k += 1 + l->n / PULL_PLACES) {
         real u[DIM_MAX];
-        load_displacement_of_particle(l, p, k, t, u);
+        load_prescribed_displacement_of_particle(l, p, k, t, u);
         *least = real_min(*least, u[d]), *most = real_max(*most, u[d]);
     }
 }

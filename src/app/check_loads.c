@@ -82,7 +82,7 @@ static struct instant instant_of(const struct load *l, const struct particles *p
     const struct boundary *b = l->boundary;
     real most;
     if (b->frozen) return (struct instant){duration, "at the end"};
-    if (boundary_formula_uses_time(b)) {
+    if (boundary_formula_depends_on_time(b)) {
         const real worst = largest_at(l, p, load_force_on_particle, duration);
         return (struct instant){worst, worst < duration ? "when it is largest" : "at the end"};
     }
@@ -269,7 +269,7 @@ static void say_mean_displacement(const struct particles *part, const struct loa
 {
     real mean[DIM_MAX] = {0}, u[DIM_MAX];
     for (int64_t k = 0; k < l->n; k++) {
-        load_displacement_of_particle(l, part, k, t, u);
+        load_prescribed_displacement_of_particle(l, part, k, t, u);
         for (int d = 0; d < part->dim; d++) mean[d] += u[d] / (real)l->n;
     }
     if (!isfinite(mean[0] + mean[1] + mean[2])) {
@@ -286,7 +286,7 @@ static void say_displacement(const struct scene *scene, const struct particles *
 {
     const bool explicit = scene->solver == SOLVER_EXPLICIT, frozen = l->boundary->frozen;
     const real end = frozen ? INFINITY : scene->duration;
-    const real most = frozen ? end : largest_at(l, part, load_displacement_of_particle, end);
+    const real most = frozen ? end : largest_at(l, part, load_prescribed_displacement_of_particle, end);
     printf("; by ");
     if (most < end) {
         say_mean_displacement(part, l, most);

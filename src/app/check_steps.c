@@ -36,7 +36,7 @@ static int tips_of_cracks(const struct fracture_state *fracture)
 
 static bool is_sif_driven(const struct run *run)
 {
-    return tips_of_cracks(run->fracture) > 0 && sif_growth_reason_direction_undetermined(run, NULL) == NULL;
+    return tips_of_cracks(run->fracture) > 0 && sif_growth_reason_direction_is_undetermined(run, NULL) == NULL;
 }
 
 /* Returns the distance from a crack tip to the end of the body in a straight line [m]. side: 1 for the distance ahead
@@ -103,7 +103,7 @@ void print_load_step_settings(const struct run *run)
             "cracks         grow where bonds exceed their critical stretch, about 2 spacings in each increment%s%s\n",
             tips == 0 ? "; the scene has no pre-crack that could be extended by the hoop stress"
                       : "; they are not extended by the hoop stress, because ",
-            tips == 0 ? "" : sif_growth_reason_direction_undetermined(run, NULL));
+            tips == 0 ? "" : sif_growth_reason_direction_is_undetermined(run, NULL));
 }
 
 /* ---- advice ------------------------------------------------------------------------------------------------------ */
@@ -267,7 +267,7 @@ status load_steps_estimate_run_cost(struct cost *c, struct run *run)
     TRY(run_find_equilibrium_for_cost_estimate(run, first));
     c->step = thread_cpu_clock_seconds() - began;
     c->equilibria = run->scene->steps.number + advances_of(run) * equilibria_of_advance(run);
-    if (run_predict_largest_stretch_to_critical_ratio(run, first, &c->overload_at, &c->overload) != OK) c->overload = 0;
+    if (run_predict_largest_ratio_to_critical_stretch(run, first, &c->overload_at, &c->overload) != OK) c->overload = 0;
     c->most = c->make + SLOWER * c->step * c->equilibria + c->output;
     c->run = c->make + LEAST_SHARE * (c->most - c->make), c->least = c->run, c->basis = COST_FIRST;
     return OK;

@@ -147,14 +147,14 @@ static status run_engine(struct run *e, const struct scene *s, struct output *ou
     if (a->resume && !a->quiet && e->clock.step >= e->clock.steps)
         fprintf(stderr, "the run in %s is finished: no step is left, and only its summary is written again\n",
                 printable_name(out->folder).text);
-    output_remove_vtkhdf_of_all_frames(out);
+    output_remove_single_vtkhdf_with_all_frames(out);
     e->report->setup_seconds = wall_clock_seconds() - opened + made - start;
     status ran = run_advance_to_end_time(e);
     const double run = wall_clock_seconds();
     if (ran == OK) ran = run_repeat_with_mpm_only_for_pulse_probe(e);
     e->report->setup_seconds += wall_clock_seconds() - run;
     if (ran == OK || ran == INTERRUPTED) {
-        const status temporal = output_write_vtkhdf_of_all_frames(out, s->text);
+        const status temporal = output_write_single_vtkhdf_with_all_frames(out, s->text);
         if (temporal != OK) ran = temporal;
     }
     struct error_bar bar[ERROR_BARS_MOST];

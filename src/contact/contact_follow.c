@@ -90,8 +90,8 @@ static void rows_touch(const struct contact *c, const struct particles *p, struc
     int64_t n = 0;
     for (int64_t row = 0; row < c->rows; row++)
         if (contact_list_particle_may_receive_force(c, row)) list[n++] = c->particle[row];
-    loads_set_particles_with_contact_forces(l, p, list, n);
-    active_bond_rows_activate_rows_of_particles(b, p, l, list, n);
+    loads_store_list_of_possible_contact_particles(l, p, list, n);
+    active_bond_row_blocks_activate_for_particles(b, p, l, list, n);
     memory_free(list);
 }
 

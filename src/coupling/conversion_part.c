@@ -47,7 +47,7 @@ static void meet_others(void *context, const int32_t *list, int64_t n)
 
 bool conversion_flag_points_near_contact(struct run *run)
 {
-    if (run->scene->active_set) active_bond_rows_update_after_step(&run->bonds, &run->part, &run->loads);
+    if (run->scene->active_set) active_bond_row_blocks_update_after_step(&run->bonds, &run->part, &run->loads);
     if (run->clock.step % APPROACH_STEPS != 0 && !scene_has_load_steps(run->scene)) return false;
     if (run->coupling->approaches) {
         lagrangian_mesh_update_point_motion(run->frame, &run->part, &run->loads);

@@ -305,7 +305,7 @@ static status make_particles(struct run *run)
     if (!run->frame->hollow.absent)
         TRY(scene_prepend_location_to_error_message(s, run_check_memory_suffices(s, &run->part, &run->source)));
     TRY(bodies_fill_with_particles(&run->part, s, &run->frame->hollow, run->optional));
-    conversion_stress_reduce_to_weakest_particle(run->tables.elastic, &run->part);
+    conversion_stresses_set_by_weakest_particles(run->tables.elastic, &run->part);
     return scene_prepend_location_to_error_message(
         s, run_check_memory_suffices(s, &run->part, &run->source)); /* with the actual number of particles */
 }
@@ -341,15 +341,15 @@ static status make_forces(struct run *run, struct predecessor *before)
 {
     const struct scene *s = run->scene;
     TRY(scene_prepend_location_to_error_message(
-        s, bodies_choose_material_mesh_or_background_grid(run->frame, run->grid, &run->part, s)));
+        s, bodies_choose_lagrangian_mesh_or_background_grid(run->frame, run->grid, &run->part, s)));
     if (!scene_is_dynamic(s)) run->boundary = NEW("engine.boundary", s->boundaries, struct boundary);
     if (scene_is_single_equilibrium(s))
         static_boundaries_make_from_dynamic(run->boundary, s->boundary, s->boundaries, s->duration, 1);
     else if (run->boundary)
         array_copy(run->boundary, s->boundary, s->boundaries, sizeof *run->boundary);
-    TRY(scene_prepend_location_to_error_message(s, loads_make(&run->loads, run->boundary ? run->boundary : s->boundary,
-                                                              s->boundaries, &run->part, s->spacing,
-                                                              run->source.family.cutoff, run->optional)));
+    TRY(scene_prepend_location_to_error_message(
+        s, loads_make_from_boundaries(&run->loads, run->boundary ? run->boundary : s->boundary, s->boundaries,
+                                      &run->part, s->spacing, run->source.family.cutoff, run->optional)));
     if (has_peridynamics(s))
         TRY(scene_prepend_location_to_error_message(
             s, loads_check_distance_between_mirrors(&run->loads, run->source.family.cutoff)));

@@ -100,7 +100,7 @@ status run_replace_particles_for_coarsening_levels(struct run *run, const uint8_
 {
     if (run->report->out) {
         TRY(output_wait_until_frame_is_written(run->report->out));
-        output_discard_stored_particle_order_by_id(run->report->out);
+        output_discard_cached_frame_particle_order(run->report->out);
     }
     cells_without_particles_update_from_levels(run->frame, cell_level);
     TRY(run_replace(run));

@@ -31,7 +31,7 @@ static status refine(struct run *run)
     uint8_t *level =
         mesh_levels_choose_level_of_each_cell(run->frame, &run->part, &run->loads, run->clock.step, run->mass);
     if (!level) return OK;
-    const status s = mesh_cells_to_become_finest_lack_particles(&run->frame->mesh, level)
+    const status s = mesh_any_new_finest_cell_lacks_particles(&run->frame->mesh, level)
                          ? run_replace_particles_for_coarsening_levels(run, level)
                          : OK;
     if (s == OK) mesh_levels_change_cell_levels(run, level);

@@ -27,7 +27,8 @@ static void warn_of_held(const struct scene *s, const struct load *l, const stru
 /* Returns true if load l prescribes a motion whose displacement is known at all times. */
 static bool motion_known(const struct load *l)
 {
-    return l->boundary->kind == BOUNDARY_VELOCITY && boundary_check_displacement_has_closed_form(l->boundary) == OK;
+    return l->boundary->kind == BOUNDARY_VELOCITY &&
+           boundary_check_velocity_has_closed_form_integral(l->boundary) == OK;
 }
 
 /* Returns the components in which loads a and b prescribe different displacements of one particle of p, as bits (bit d
@@ -40,8 +41,8 @@ static unsigned components_apart(const struct scene *s, const struct particles *
     for (int m = 1; m <= MOMENTS_OF_SUPPORTS; m++) {
         real u[DIM_MAX], w[DIM_MAX];
         const real t = scene_is_single_equilibrium(s) ? INFINITY : s->duration * m / MOMENTS_OF_SUPPORTS;
-        load_displacement_of_particle(a, p, j, t, u);
-        load_displacement_of_particle(b, p, k, t, w);
+        load_prescribed_displacement_of_particle(a, p, j, t, u);
+        load_prescribed_displacement_of_particle(b, p, k, t, w);
         for (int d = 0; d < s->dim; d++)
             if (fabs(u[d] - w[d]) > 1e-6 * (fabs(u[d]) + fabs(w[d]))) apart |= 1u << d;
     }

@@ -288,11 +288,11 @@ static void load_figures_at(const struct scene *s, const struct particles *p, co
     if (kind == BOUNDARY_TRACTION || kind == BOUNDARY_PRESSURE || kind == BOUNDARY_BODY_FORCE)
         f->stress = real_max(f->stress, load_stress_at(s, p, l, k, t));
     if (kind != BOUNDARY_VELOCITY || l->boundary->rotates ||
-        boundary_check_displacement_has_closed_form(l->boundary) != OK)
+        boundary_check_velocity_has_closed_form_integral(l->boundary) != OK)
         return;
     real u[DIM_MAX];
-    load_displacement_of_particle(l, p, k, l->boundary->frozen ? INFINITY : t,
-                                  u); /* frozen: in the pseudo-time of a solver */
+    load_prescribed_displacement_of_particle(l, p, k, l->boundary->frozen ? INFINITY : t,
+                                             u); /* frozen: in the pseudo-time of a solver */
     for (int d = 0; d < s->dim; d++) f->least[d] = real_min(f->least[d], u[d]), f->most[d] = real_max(f->most[d], u[d]);
 }
 

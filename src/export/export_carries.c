@@ -59,7 +59,7 @@ static status carries_materials(const struct scene *s, bool bond_style)
         return lammps_refuse(
             s, "a strength that scatters in space cannot be exported to the atom types of LAMMPS; remove scatter");
     if (s->damping > 0) return lammps_refuse(s, "damping cannot be exported to LAMMPS; set damping: 0");
-    if (scene_has_viscosity(s))
+    if (scene_any_material_has_bulk_viscosity(s))
         return lammps_refuse(s, "viscosity: bulk viscosity cannot be exported to LAMMPS; remove this key");
     if (s->growths > 0) return lammps_refuse(s, "growth: LAMMPS has no cracks with prescribed growth; remove this key");
     return OK;

@@ -169,7 +169,7 @@ static const struct export_file files[] = {{"plate.data", put_data},
 static status file_export(const struct export_file *f, struct lammps_export *x, const struct lammps_types *t)
 {
     const struct path path = path_join(x->request->folder, f->name),
-                      aside = file_register_and_name_temporary(path.text);
+                      aside = file_register_temporary_and_return_path(path.text);
     unlink(aside.text); /* a link of this name is not followed */
     FILE *to = fopen(aside.text, "wx");
     if (!to) return file_report_write_failure(path.text, errno);

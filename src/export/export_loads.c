@@ -86,9 +86,9 @@ void lammps_compute_initial_velocity_of_particle(const struct lammps_export *exp
         const struct boundary *b = l->load[k].boundary;
         if (is_force(&l->load[k]) || !(exported->loads[particle] >> k & 1)) continue;
         const struct prescribed_motion by =
-            prescribed_motion_make(b, dim, 0.5 * exported->e->clock.dt, exported->e->clock.dt);
+            boundary_prescribed_motion_in_step(b, dim, 0.5 * exported->e->clock.dt, exported->e->clock.dt);
         for (int d = 0; d < dim; d++)
-            if (b->components >> d & 1) velocity[d] = prescribed_velocity_at(&by, NULL, d, false);
+            if (b->components >> d & 1) velocity[d] = prescribed_velocity_component_at_position(&by, NULL, d, false);
     }
 }
 

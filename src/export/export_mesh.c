@@ -119,7 +119,7 @@ status export_check_file_may_be_written(const char *path, const char *format_sig
 
 status export_write_file_and_rename(const char *path, status (*write_contents)(FILE *to, void *context), void *context)
 {
-    const struct path aside = file_register_and_name_temporary(path);
+    const struct path aside = file_register_temporary_and_return_path(path);
     unlink(aside.text); /* a link of this name is not followed */
     FILE *to = fopen(aside.text, "wx");
     if (!to) return file_report_write_failure(path, errno);

@@ -252,8 +252,8 @@ static void grids_remap(struct run *run, const struct grid_contact_side *side)
     timer_add_elapsed_to_section(&run->timers, TIMER_GRID);
 }
 
-void grid_map_points_to_nodes(struct grid_method *mpm, struct particles *p, const struct kernels *kernels,
-                              struct timers *timers)
+void grid_transfer_mass_momentum_forces_to_nodes(struct grid_method *mpm, struct particles *p,
+                                                 const struct kernels *kernels, struct timers *timers)
 {
     if (!grid_holds(p)) {
         for (int k = 0; k < mpm->fields; k++) grid_clear_constraints(&mpm->field[k].grid);

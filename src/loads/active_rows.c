@@ -128,7 +128,7 @@ static void active_set_follow(struct bonds *b, const struct particles *p, const 
     set->resumed = false;
 }
 
-void active_bond_rows_update_after_step(struct bonds *b, const struct particles *p, const struct loads *l)
+void active_bond_row_blocks_update_after_step(struct bonds *b, const struct particles *p, const struct loads *l)
 {
     if (b->active.is_current) {
         active_set_follow(b, p, l);
@@ -138,8 +138,8 @@ void active_bond_rows_update_after_step(struct bonds *b, const struct particles 
     active_set_rebuild_active_block_list(&b->active);
 }
 
-void active_bond_rows_activate_rows_of_particles(struct bonds *b, const struct particles *p, const struct loads *l,
-                                                 const int32_t *particle_list, int64_t particle_count)
+void active_bond_row_blocks_activate_for_particles(struct bonds *b, const struct particles *p, const struct loads *l,
+                                                   const int32_t *particle_list, int64_t particle_count)
 {
     bool any = false;
     if (!b->active.is_current) return;

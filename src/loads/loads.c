@@ -24,7 +24,7 @@ static void loads_list(struct loads *l, const struct particles *p)
     l->loaded = NEW("loads.loaded", p->n + LANES, uint8_t);
     for (int b = 0; b < l->n; b++)
         for (int64_t k = 0; k < l->load[b].n; k++) l->loaded[l->load[b].particle[k]] = LOADED;
-    loads_flag_particles_at_clamped_mirrors(l, p);
+    loads_flag_clamped_mirror_particles_to_move_late(l, p);
     l->list = NEW("loads.list", most < p->n ? most : p->n, int32_t);
     for (int64_t i = 0; i < p->n; i++)
         if (l->loaded[i]) l->list[l->listed++] = (int32_t)i;
@@ -57,8 +57,8 @@ static void loads_divide_components(struct loads *l, int64_t particles, int dim)
     memory_free(taken);
 }
 
-status loads_make(struct loads *l, const struct boundary *boundary, int boundaries, struct particles *p, real spacing,
-                  real mirror_reach, int optional_arrays)
+status loads_make_from_boundaries(struct loads *l, const struct boundary *boundary, int boundaries, struct particles *p,
+                                  real spacing, real mirror_reach, int optional_arrays)
 {
     INVARIANT(boundaries <= BOUNDARIES_MAX);
     memset(l, 0, sizeof *l);
@@ -71,21 +71,21 @@ status loads_make(struct loads *l, const struct boundary *boundary, int boundari
     loads_divide_components(l, p->n, p->dim);
     for (int b = 0; b < boundaries; b++)
         TRY(status_message_prepend_location(
-            boundary[b].place, load_find_pressure_faces(&l->load[b], boundary, boundaries, b, p, spacing)));
+            boundary[b].place, load_find_free_faces_under_pressure(&l->load[b], boundary, boundaries, b, p, spacing)));
     for (int b = 0; b < boundaries; b++)
-        TRY(status_message_prepend_location(boundary[b].place,
-                                            load_prepare_time_varying_particle_factors(&l->load[b], p)));
+        TRY(status_message_prepend_location(boundary[b].place, load_prepare_particle_load_factors(&l->load[b], p)));
     TRY(absorbing_boundaries_check_for_overlap(l, p));
     loads_merge_equal_particle_lists(l, p->dim);
-    TRY(loads_make_mirror_images(l, p, mirror_reach, optional_arrays));
+    TRY(loads_append_mirror_images_of_particles(l, p, mirror_reach, optional_arrays));
     loads_list(l, p);
     return OK;
 }
 
-/* Replaces the particles of p on which contact acts (mark TOUCHES in l->loaded) by the indices list[n], in ascending
- * order, copied. Rebuilds l->list, all marked particles in ascending order; particles that have no mark left are
- * removed from it. */
-void loads_set_particles_with_contact_forces(struct loads *l, const struct particles *p, const int32_t *list, int64_t n)
+/* Replaces the particles of p on which contact acts (mark TOUCHES in l->loaded) by the indices particle_list[n], in
+ * ascending order, copied. Rebuilds l->particle_list, all marked particles in ascending order; particles that have no
+ * mark left are removed from it. */
+void loads_store_list_of_possible_contact_particles(struct loads *l, const struct particles *p,
+                                                    const int32_t *particle_list, int64_t n)
 {
     if (!l->loaded && n == 0) return;
     if (!l->loaded) l->loaded = NEW("loads.loaded", p->n + LANES, uint8_t);
@@ -94,10 +94,10 @@ void loads_set_particles_with_contact_forces(struct loads *l, const struct parti
     int32_t *all = BARE("loads.list", had + n, int32_t);
     l->listed = 0;
     for (int64_t k = 0; k < had; k++) l->loaded[old[k]] &= (uint8_t)~TOUCHES;
-    for (int64_t k = 0; k < n; k++) l->loaded[list[k]] |= TOUCHES;
+    for (int64_t k = 0; k < n; k++) l->loaded[particle_list[k]] |= TOUCHES;
     for (int64_t k = 0, m = 0; k < had || m < n;) {
-        const int32_t i = m == n || (k < had && old[k] < list[m]) ? old[k] : list[m];
-        k += k < had && old[k] == i, m += m < n && list[m] == i;
+        const int32_t i = m == n || (k < had && old[k] < particle_list[m]) ? old[k] : particle_list[m];
+        k += k < had && old[k] == i, m += m < n && particle_list[m] == i;
         if (l->loaded[i]) all[l->listed++] = i;
     }
     memory_free(l->list);
@@ -106,10 +106,10 @@ void loads_set_particles_with_contact_forces(struct loads *l, const struct parti
 
 void loads_free(struct loads *l)
 {
-    loads_particle_factors_free(l);
+    loads_particle_load_factors_free(l);
     absorbing_dashpots_free(l);
     for (int b = 0; b < l->n; b++) {
-        load_time_varying_particle_factors_free(&l->load[b]);
+        load_time_varying_load_factors_free(&l->load[b]);
         memory_free(l->load[b].particle);
         memory_free(l->load[b].prescribes);
     }
@@ -143,7 +143,7 @@ static void drive(struct loads *l, struct load *load, struct particles *p, const
         particle_reference_position(p, i, X);
         for (int d = 0; d < p->dim; d++) {
             if (!(load->prescribes[k] >> d & 1)) continue;
-            const real target = prescribed_velocity_at(by, X, d, false), before = p->v[d][i];
+            const real target = prescribed_velocity_component_at_position(by, X, d, false), before = p->v[d][i];
             real needed = p->mass[i] * (target - before) / dt_velocity, reaction = needed - p->f[d][i];
             load->reaction[d] -= p->f[d][i]; /* without the driven particles' inertia: a load cell's reading */
             if (b->frozen && boundary_motion_varies_in_space(b))
@@ -210,7 +210,8 @@ static void displacement_update(struct load *load, const struct particles *p, co
         for (int64_t k = 0; k < n; k++) {
             real X[DIM_MAX] = {0};
             if (load->n > 0) particle_reference_position(p, load->particle[k], X);
-            sum += displaces ? prescribed_displacement_at(&by->to, X, d) : prescribed_velocity_at(by, X, d, false);
+            sum += displaces ? prescribed_displacement_component_at_position(&by->to, X, d)
+                             : prescribed_velocity_component_at_position(by, X, d, false);
         }
         if (n > 0) load->displacement[d] = displaces ? sum / (real)n : load->displacement[d] + sum / (real)n * by->dt;
     }
@@ -229,7 +230,7 @@ void loads_apply_forces_and_motion_constraints(struct loads *l, struct particles
     for (int c = 0; c < l->n; c++) { /* after all forces, which reactions include */
         struct load *load = &l->load[c];
         if (load->boundary->kind != BOUNDARY_VELOCITY && load->boundary->kind != BOUNDARY_MIRROR) continue;
-        const struct prescribed_motion by = loads_prescribed_motion(l, c, p->dim, t, dt);
+        const struct prescribed_motion by = loads_prescribed_motion_of_boundary_in_step(l, c, p->dim, t, dt);
         displacement_update(load, p, &by);
         drive(l, load, p, &by, dt_velocity);
     }
@@ -251,7 +252,8 @@ static void velocities_set(struct loads *l, const struct load *load, struct part
         particle_reference_position(p, i, X);
         for (int d = 0; d < p->dim; d++) {
             if (!(load->prescribes[k] >> d & 1)) continue;
-            const real target = prescribed_velocity_at(by, X, d, false), given = p->mass[i] * (target - p->v[d][i]);
+            const real target = prescribed_velocity_component_at_position(by, X, d, false),
+                       given = p->mass[i] * (target - p->v[d][i]);
             l->impulse[d] += given;
             l->constraint_work +=
                 given * 0.5 * (target + (1 + l->damped.velocities) * p->v[d][i]) * (1 + l->damped.increments);
@@ -281,7 +283,7 @@ static bool positions_set(const struct load *load, struct particles *p, const st
         particle_reference_position(p, i, X);
         for (int d = 0; d < p->dim; d++) {
             if (!(load->prescribes[k] >> d & 1)) continue;
-            const real at = X[d] + prescribed_displacement_at(&by->to, X, d), off = p->x[d][i] - at;
+            const real at = X[d] + prescribed_displacement_component_at_position(&by->to, X, d), off = p->x[d][i] - at;
             if (!on_grid && !(fabs(off) <= OFF_PLACE * spacing)) continue;
             moved = moved || (on_grid && off != 0);
             p->x[d][i] = at;
@@ -290,7 +292,7 @@ static bool positions_set(const struct load *load, struct particles *p, const st
     return moved;
 }
 
-void loads_add_grid_reactions(struct loads *l, const struct grid *g, real dt_velocity)
+void loads_add_reactions_at_grid_nodes(struct loads *l, const struct grid *g, real dt_velocity)
 {
     const real inverse = 1 / dt_velocity;
     loads_add_absorbed_energy_and_impulse(l, &g->absorbed);
@@ -306,12 +308,12 @@ void loads_add_grid_reactions(struct loads *l, const struct grid *g, real dt_vel
             l->load[g->mirror_node[q].load].reaction[d] += g->mirror_node[q].reaction[d] / dt_velocity;
 }
 
-bool loads_impose_prescribed_motion(struct loads *l, struct particles *p, real t, real dt)
+bool loads_impose_prescribed_motion_on_particles(struct loads *l, struct particles *p, real t, real dt)
 {
     bool moved = false;
     for (int c = 0; c < l->n; c++) {
         struct load *load = &l->load[c];
-        const struct prescribed_motion by = prescribed_motion_make(load->boundary, p->dim, t, dt);
+        const struct prescribed_motion by = boundary_prescribed_motion_in_step(load->boundary, p->dim, t, dt);
         if (load->boundary->kind != BOUNDARY_VELOCITY) continue;
         velocities_set(l, load, p, &by);
         if (load->boundary->displaces) moved = positions_set(load, p, &by, l->spacing) || moved;

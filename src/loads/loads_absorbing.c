@@ -248,8 +248,8 @@ static real *field_of(struct absorbing *a, int64_t n)
     return a->field;
 }
 
-void loads_add_grid_dashpots(struct loads *l, struct grid *g, const struct particles *p, const struct kernels *k,
-                             real half_width)
+void loads_append_dashpots_to_grid(struct loads *l, struct grid *g, const struct particles *p, const struct kernels *k,
+                                   real half_width)
 {
     struct absorbing *a = &l->absorbing;
     int64_t n = 0;
@@ -305,7 +305,7 @@ static void mesh_face(const struct absorbing *a, const struct load *load, const 
     }
 }
 
-void loads_add_mesh_dashpots(struct loads *l, struct mesh *mesh, const struct particles *p)
+void loads_append_dashpots_to_mesh(struct loads *l, struct mesh *mesh, const struct particles *p)
 {
     struct grid *g = &mesh->grid;
     g->dashpots = 0;

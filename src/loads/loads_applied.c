@@ -75,7 +75,7 @@ static bool is_borrowed(const struct loads *l, int b, int d)
     return false;
 }
 
-void loads_particle_factors_free(struct loads *l)
+void loads_particle_load_factors_free(struct loads *l)
 {
     for (int b = l->n; b-- > 0;)
         for (int d = DIM_MAX; d-- > 0;) {
@@ -209,7 +209,7 @@ void loads_add_applied_forces(struct loads *l, struct particles *p, real t, real
 {
     real factor[BOUNDARIES_MAX], given;
     struct push a;
-    loads_update_mean_particle_factors_for_forces(l, p, t, dt_velocity);
+    loads_update_time_mean_load_factors_for_forces(l, p, t, dt_velocity);
     for (int b = 0; b < l->n; b++) {
         const struct load *load = &l->load[b];
         factor[b] = load->moving ? 1 : kick_factor(&load->boundary->time, t, dt_velocity);
@@ -236,7 +236,7 @@ void loads_add_work_of_applied_forces(struct loads *l, struct particles *p, real
 {
     real factor[BOUNDARIES_MAX], done;
     struct push a;
-    loads_update_mean_particle_factors_for_work(l, p, t, dt);
+    loads_update_time_mean_load_factors_for_work(l, p, t, dt);
     for (int b = 0; b < l->n; b++) {
         const struct load *load = &l->load[b];
         factor[b] = load->moving ? 1 : drift_factor(&load->boundary->time, t, dt);

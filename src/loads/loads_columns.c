@@ -393,8 +393,8 @@ void exposed_face_compute_particle_areas(struct exposed_face *f, const struct bo
             face_add(f, &of.columns, k, b, p, selected, column_area(&of.columns, b, p->dim), extrapolate_traction);
 }
 
-void boundary_face_mark_particles_in_layer(const struct boundary *b, const struct particles *p, const uint8_t *selected,
-                                           real spacing, uint8_t *in_layer)
+void boundary_face_flag_particles_within_depth(const struct boundary *b, const struct particles *p,
+                                               const uint8_t *selected, real spacing, uint8_t *in_layer)
 {
     for (struct faced f = {0}; faced_next(&f, b, p, selected, spacing);) {
         const struct columns *c = &f.columns;

@@ -2,8 +2,8 @@
  *
  * The prescribed velocity in a step is the difference of the prescribed positions at its start and end, divided by the
  * step. Rotating particles thus stay on their circles however long a step is. Positions of displaced particles are also
- * set exactly at the end of a step (loads_impose_prescribed_motion, walls of the mesh), so that round-off does not
- * accumulate. */
+ * set exactly at the end of a step (loads_impose_prescribed_motion_on_particles, walls of the mesh), so that round-off
+ * does not accumulate. */
 #include <math.h>
 
 #include "loads/loads.h"
@@ -25,16 +25,19 @@ static void rotation_matrix(const struct boundary *b, int dim, real angle, real 
 /* ---- displacements ----------------------------------------------------------------------------------------------- */
 
 /* Returns the displacements that boundary b prescribes at time t [s], prepared for evaluation at many positions by
- * prescribed_displacement_at: evaluates the function of time and the rotation once. dim: dimension of the body. */
-struct prescribed_displacement prescribed_displacement_make(const struct boundary *b, int dim, real t)
+ * prescribed_displacement_component_at_position: evaluates the function of time and the rotation once. dim: dimension
+ * of the body. */
+struct prescribed_displacement boundary_prescribed_displacement_at_time(const struct boundary *b, int dim, real t)
 {
-    struct prescribed_displacement s = {.boundary = b, .dim = dim, .t = boundary_formula_time_frozen_or_clamped(b, t)};
+    struct prescribed_displacement s = {
+        .boundary = b, .dim = dim, .t = boundary_time_at_which_formulas_are_evaluated(b, t)};
     s.factor = b->displaces ? time_function_value(&b->time, t) : time_function_integral(&b->time, t);
     if (b->rotates) rotation_matrix(b, dim, b->rate * s.factor, s.turned);
     return s;
 }
 
-real prescribed_displacement_at(const struct prescribed_displacement *prescribed, const real *X, int component)
+real prescribed_displacement_component_at_position(const struct prescribed_displacement *prescribed, const real *X,
+                                                   int component)
 {
     const struct boundary *b = prescribed->boundary;
     const struct expression *formula = &b->formula[component];
@@ -47,19 +50,20 @@ real prescribed_displacement_at(const struct prescribed_displacement *prescribed
     return sum;
 }
 
-void load_displacement_of_particle(const struct load *l, const struct particles *p, int64_t k, real t,
-                                   real *displacement)
+void load_prescribed_displacement_of_particle(const struct load *l, const struct particles *p, int64_t index_in_load,
+                                              real t, real *displacement)
 {
-    const struct prescribed_displacement by = prescribed_displacement_make(l->boundary, p->dim, t);
+    const struct prescribed_displacement by = boundary_prescribed_displacement_at_time(l->boundary, p->dim, t);
     real X[DIM_MAX];
-    particle_reference_position(p, l->particle[k], X);
+    particle_reference_position(p, l->particle[index_in_load], X);
     for (int d = 0; d < p->dim; d++)
-        displacement[d] = l->boundary->components >> d & 1 ? prescribed_displacement_at(&by, X, d) : 0;
+        displacement[d] =
+            l->boundary->components >> d & 1 ? prescribed_displacement_component_at_position(&by, X, d) : 0;
 }
 
-status boundary_check_displacement_has_closed_form(const struct boundary *b)
+status boundary_check_velocity_has_closed_form_integral(const struct boundary *b)
 {
-    if (b->kind != BOUNDARY_VELOCITY || b->displaces || b->frozen || !boundary_formula_uses_time(b)) return OK;
+    if (b->kind != BOUNDARY_VELOCITY || b->displaces || b->frozen || !boundary_formula_depends_on_time(b)) return OK;
     return status_set(
         REFUSED,
         "boundary %s: a velocity that is a formula of t cannot be used with this solver or mpm.frame, which need the "
@@ -70,21 +74,22 @@ status boundary_check_displacement_has_closed_form(const struct boundary *b)
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
 
 /* Returns the motion that boundary b prescribes in a step: the step from t - dt/2 to t + dt/2 [s]. It is prepared for
- * evaluation at many positions by prescribed_velocity_at. dim: dimension of the body. */
-struct prescribed_motion prescribed_motion_make(const struct boundary *b, int dim, real t, real dt)
+ * evaluation at many positions by prescribed_velocity_component_at_position. dim: dimension of the body. */
+struct prescribed_motion boundary_prescribed_motion_in_step(const struct boundary *b, int dim, real t, real dt)
 {
     struct prescribed_motion s = {
         .boundary = b, .dim = dim, .t = t, .dt = dt, .factor = time_function_value(&b->time, t)};
     if (!b->rotates && !b->displaces) return s;
-    s.from = prescribed_displacement_make(b, dim, real_max(0, t - 0.5 * dt));
-    s.to = prescribed_displacement_make(b, dim, t + 0.5 * dt);
+    s.from = boundary_prescribed_displacement_at_time(b, dim, real_max(0, t - 0.5 * dt));
+    s.to = boundary_prescribed_displacement_at_time(b, dim, t + 0.5 * dt);
     return s;
 }
 
-struct prescribed_motion loads_prescribed_motion(const struct loads *l, int boundary_number, int dim, real t, real dt)
+struct prescribed_motion loads_prescribed_motion_of_boundary_in_step(const struct loads *l, int boundary_number,
+                                                                     int dim, real t, real dt)
 {
     const struct boundary *b = l->load[boundary_number].boundary;
-    return prescribed_motion_make(b, dim, l->ended && b->displaces && t > dt ? t - dt : t, dt);
+    return boundary_prescribed_motion_in_step(b, dim, l->ended && b->displaces && t > dt ? t - dt : t, dt);
 }
 
 /* Returns component d of the displacement in a step with prescribed rotation: (R_to R_from^T - 1) arm [m]. arm[dim]:
@@ -99,20 +104,21 @@ static real rotation_increment(const struct prescribed_motion *s, const real *ar
     return sum;
 }
 
-real prescribed_velocity_at(const struct prescribed_motion *motion, const real *X, int component,
-                            bool at_present_position)
+real prescribed_velocity_component_at_position(const struct prescribed_motion *motion, const real *X, int component,
+                                               bool at_present_position)
 {
     const struct boundary *b = motion->boundary;
     real arm[DIM_MAX] = {0}, increment = 0;
     if (b->displaces)
-        return (prescribed_displacement_at(&motion->to, X, component) -
-                prescribed_displacement_at(&motion->from, X, component)) /
+        return (prescribed_displacement_component_at_position(&motion->to, X, component) -
+                prescribed_displacement_component_at_position(&motion->from, X, component)) /
                motion->dt;
     if (!b->rotates)
         return motion->factor * b->value[component] *
-               (b->formula[component].n > 0 ? expression_evaluate(&b->formula[component], X, motion->dim,
-                                                                  boundary_formula_time_frozen_or_clamped(b, motion->t))
-                                            : 1);
+               (b->formula[component].n > 0
+                    ? expression_evaluate(&b->formula[component], X, motion->dim,
+                                          boundary_time_at_which_formulas_are_evaluated(b, motion->t))
+                    : 1);
     for (int k = 0; k < motion->dim; k++) arm[k] = X[k] - b->centre[k];
     if (at_present_position) return rotation_increment(motion, arm, component) / motion->dt;
     for (int k = 0; k < motion->dim; k++)
@@ -131,10 +137,10 @@ enum { MOMENTS = 1000, PLACES = 64 }; /* numbers of times and of particles at wh
 static real formula_speed(const struct load *l, const struct particles *p, int64_t k, real t)
 {
     real before[DIM_MAX], u[DIM_MAX], most = 0;
-    load_displacement_of_particle(l, p, k, 0, before);
+    load_prescribed_displacement_of_particle(l, p, k, 0, before);
     for (int m = 1; m <= MOMENTS; m++) {
         real increment2 = 0;
-        load_displacement_of_particle(l, p, k, t * m / MOMENTS, u);
+        load_prescribed_displacement_of_particle(l, p, k, t * m / MOMENTS, u);
         for (int d = 0; d < p->dim; d++) increment2 += square(u[d] - before[d]), before[d] = u[d];
         most = real_max(most, sqrt(increment2) / (t / MOMENTS));
     }
@@ -165,7 +171,7 @@ static real velocity_jump_at(const struct load *l, const struct particles *p, in
     particle_reference_position(p, i, X);
     for (int d = 0; d < p->dim; d++) {
         if (!(l->boundary->components >> d & 1)) continue;
-        const real v = prescribed_velocity_at(by, X, d, false);
+        const real v = prescribed_velocity_component_at_position(by, X, d, false);
         jump2 += square(v - p->v[d][i]), driven2 += square(v), own2 += square(p->v[d][i]);
     }
     return l->boundary->rotates ? fabs(sqrt(driven2) - sqrt(own2)) : sqrt(jump2);
@@ -179,7 +185,7 @@ real load_largest_prescribed_minus_initial_velocity(const struct load *l, const 
     for (int m = 0; m < MOMENTS + b->time.n; m++) {
         const real at = m < MOMENTS ? t_end * m / (MOMENTS - 1) : b->time.t[m - MOMENTS];
         if (!(at >= 0 && at <= t_end)) continue;
-        const struct prescribed_motion by = prescribed_motion_make(b, p->dim, at, t_end / MOMENTS);
+        const struct prescribed_motion by = boundary_prescribed_motion_in_step(b, p->dim, at, t_end / MOMENTS);
         for (int64_t k = 0; k < l->n; k += 1 + l->n / PLACES) most = real_max(most, velocity_jump_at(l, p, k, &by));
     }
     return most;
@@ -205,8 +211,9 @@ static real velocity_change_at(const struct load *l, const struct particles *p, 
     particle_reference_position(p, l->particle[k], X);
     for (int d = 0; d < p->dim; d++) {
         if (!(l->boundary->components >> d & 1)) continue;
-        const real now = prescribed_velocity_at(&by[1], X, d, false);
-        const real then = own ? p->v[d][l->particle[k]] : prescribed_velocity_at(&by[0], X, d, false);
+        const real now = prescribed_velocity_component_at_position(&by[1], X, d, false);
+        const real then =
+            own ? p->v[d][l->particle[k]] : prescribed_velocity_component_at_position(&by[0], X, d, false);
         change2 += square(now - then), now2 += square(now), then2 += square(then);
     }
     return l->boundary->rotates ? fabs(sqrt(now2) - sqrt(then2)) : sqrt(change2);
@@ -224,8 +231,8 @@ real load_largest_prescribed_velocity_change(const struct load *l, const struct 
         if (!(moment >= 0 && moment <= t_end)) continue;
         real lag = real_max(time_span, step);
         for (int n = 0; n < LAGS; n++, lag *= 0.6) {
-            const struct prescribed_motion by[] = {prescribed_motion_make(b, p->dim, at - lag, dt),
-                                                   prescribed_motion_make(b, p->dim, at, dt)};
+            const struct prescribed_motion by[] = {boundary_prescribed_motion_in_step(b, p->dim, at - lag, dt),
+                                                   boundary_prescribed_motion_in_step(b, p->dim, at, dt)};
             for (int64_t k = 0; k < l->n; k += boundary_motion_varies_in_space(b) ? 1 + l->n / PLACES : l->n)
                 most = real_max(most, velocity_change_at(l, p, k, by));
         }
@@ -243,15 +250,18 @@ real loads_largest_prescribed_velocity_difference(const struct load *load, const
         return INFINITY;
     for (int m = 0; m < MOMENTS; m++) {
         const real at = t_end * m / (MOMENTS - 1), dt = t_end / MOMENTS;
-        const struct prescribed_motion by[] = {prescribed_motion_make(load->boundary, p->dim, at, dt),
-                                               prescribed_motion_make(other_load->boundary, p->dim, at, dt)};
+        const struct prescribed_motion by[] = {
+            boundary_prescribed_motion_in_step(load->boundary, p->dim, at, dt),
+            boundary_prescribed_motion_in_step(other_load->boundary, p->dim, at, dt)};
         real X[2][DIM_MAX], apart2 = 0;
         particle_reference_position(p, load->particle[0], X[0]),
             particle_reference_position(p, other_load->particle[0], X[1]);
         for (int d = 0; d < p->dim; d++)
             if (both >> d & 1)
-                apart2 += square(prescribed_velocity_at(&by[0], X[0], d, false) - p->v[d][load->particle[0]] -
-                                 prescribed_velocity_at(&by[1], X[1], d, false) + p->v[d][other_load->particle[0]]);
+                apart2 += square(prescribed_velocity_component_at_position(&by[0], X[0], d, false) -
+                                 p->v[d][load->particle[0]] -
+                                 prescribed_velocity_component_at_position(&by[1], X[1], d, false) +
+                                 p->v[d][other_load->particle[0]]);
         most = real_max(most, sqrt(apart2));
     }
     return most;

@@ -62,7 +62,7 @@ static void mirror_make(struct loads *l, int which, struct particles *p, real re
     }
 }
 
-void loads_update_mirror_images(const struct loads *l, struct particles *p)
+void loads_update_mirror_images_of_particles(const struct loads *l, struct particles *p)
 {
     for (int64_t k = 0; k < l->images; k++) { /* all sources first: corners have mirror images of images */
         const int axis = l->load[l->image[k].load].boundary->axis;
@@ -150,7 +150,8 @@ status loads_check_distance_between_mirrors(const struct loads *l, real bond_len
                    b[k].name, fabs(b[k].at - b[m].at), b[m].name, bond_length, bond_length - l->spacing));
 }
 
-status loads_make_mirror_images(struct loads *l, struct particles *p, real mirror_reach, int optional_arrays)
+status loads_append_mirror_images_of_particles(struct loads *l, struct particles *p, real mirror_reach,
+                                               int optional_arrays)
 {
     const struct boundary *boundary = l->n ? l->load[0].boundary : NULL;
     TRY(mirrors_differ(boundary, l->n, l->spacing));
@@ -162,11 +163,11 @@ status loads_make_mirror_images(struct loads *l, struct particles *p, real mirro
         mirror_make(l, b, p, mirror_reach, optional_arrays);
     }
     l->reach = mirror_reach;
-    loads_update_mirror_images(l, p);
+    loads_update_mirror_images_of_particles(l, p);
     return OK;
 }
 
-void loads_flag_particles_at_clamped_mirrors(struct loads *l, const struct particles *p)
+void loads_flag_clamped_mirror_particles_to_move_late(struct loads *l, const struct particles *p)
 {
     for (int b = 0; b < l->n; b++) {
         const struct boundary *clamp = l->load[b].boundary;

@@ -23,7 +23,7 @@ static real formula_at(const struct boundary *b, int d, const struct particles *
     real X[DIM_MAX];
     if (formula_of(b, d)->n == 0) return 1;
     particle_reference_position(p, i, X);
-    return expression_evaluate(formula_of(b, d), X, p->dim, boundary_formula_time_frozen_or_clamped(b, t));
+    return expression_evaluate(formula_of(b, d), X, p->dim, boundary_time_at_which_formulas_are_evaluated(b, t));
 }
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
@@ -41,16 +41,16 @@ static status formula_finite(const struct load *l, const struct particles *p, re
                               "boundary %s: its formula has no finite value at (%.4g, %.4g, %.4g) m and t = %.4g s; "
                               "check its divisions and powers",
                               b->name, p->X[0][i], p->dim > 1 ? p->X[1][i] : 0, p->dim > 2 ? p->X[2][i] : 0,
-                              boundary_formula_time_frozen_or_clamped(b, t));
+                              boundary_time_at_which_formulas_are_evaluated(b, t));
         }
     return OK;
 }
 
-status loads_check_formulas_are_finite(const struct loads *l, const struct particles *p, real t)
+status loads_check_formula_values_are_finite(const struct loads *l, const struct particles *p, real t)
 {
     for (int b = 0; b < l->n; b++) {
         const struct boundary *by = l->load[b].boundary;
-        if (boundary_formula_uses_time(by))
+        if (boundary_formula_depends_on_time(by))
             TRY(status_message_prepend_location(by->place, formula_finite(&l->load[b], p, t, FAILED)));
     }
     return OK;
@@ -70,14 +70,14 @@ static void shares_part(struct load *l, const struct particles *p, bool with, re
     }
 }
 
-status load_prepare_time_varying_particle_factors(struct load *l, const struct particles *p)
+status load_prepare_particle_load_factors(struct load *l, const struct particles *p)
 {
     const struct boundary *b = l->boundary;
     bool any = false;
     for (int d = 0; d < p->dim; d++) any |= b->formula[d].n > 0;
     if (any) TRY(formula_finite(l, p, 0, REFUSED));
     if (!boundary_applies_force(b) || l->n == 0) return OK;
-    l->moving = l->surface || (boundary_formula_uses_time(b) && !b->frozen);
+    l->moving = l->surface || (boundary_formula_depends_on_time(b) && !b->frozen);
     if (any) shares_part(l, p, !l->moving, b->frozen_at);
     for (int d = 0; d < p->dim && l->moving; d++) {
         l->base[d] = NEW("loads.base", l->n, real);
@@ -86,7 +86,7 @@ status load_prepare_time_varying_particle_factors(struct load *l, const struct p
     return OK;
 }
 
-void load_time_varying_particle_factors_free(struct load *l)
+void load_time_varying_load_factors_free(struct load *l)
 {
     for (int d = 0; d < DIM_MAX; d++) memory_free(l->base[d]);
     load_surface_free(l->surface);
@@ -125,7 +125,8 @@ static void moving_update(struct loads *l, const struct particles *p, real t, re
     }
 }
 
-void loads_update_mean_particle_factors_for_forces(struct loads *l, const struct particles *p, real t, real dt_velocity)
+void loads_update_time_mean_load_factors_for_forces(struct loads *l, const struct particles *p, real t,
+                                                    real dt_velocity)
 {
     moving_update(l, p, t, dt_velocity, 1);
 }
@@ -135,7 +136,7 @@ void loads_update_mean_particle_factors_for_forces(struct loads *l, const struct
  * the formula. The result is the mean of the present shares, used in the velocity update before, and the shares of the
  * velocity update after it. Call after the position update, since the shares after it depend on the new positions. dt:
  * time step [s]. */
-void loads_update_mean_particle_factors_for_work(struct loads *l, const struct particles *p, real t, real dt)
+void loads_update_time_mean_load_factors_for_work(struct loads *l, const struct particles *p, real t, real dt)
 {
     moving_update(l, p, t + dt, dt, 0.5);
 }
@@ -144,12 +145,13 @@ void loads_update_mean_particle_factors_for_work(struct loads *l, const struct p
 
 /* Computes the force of load l on its particle number k (of p) at time t [s], from the reference position of the
  * particle, in force[dim] [N]. */
-void load_force_on_particle(const struct load *l, const struct particles *p, int64_t k, real t, real *force)
+void load_force_on_particle(const struct load *l, const struct particles *p, int64_t index_in_load, real t, real *force)
 {
     const struct boundary *b = l->boundary;
     const real factor = b->frozen ? 1 : time_function_value(&b->time, t);
     for (int d = 0; d < p->dim; d++) {
-        const real share = l->moving ? l->base[d][k] * formula_at(b, d, p, l->particle[k], t) : l->share[d][k];
+        const real share = l->moving ? l->base[d][index_in_load] * formula_at(b, d, p, l->particle[index_in_load], t)
+                                     : l->share[d][index_in_load];
         force[d] = factor * b->value[d] * share;
     }
 }
@@ -172,9 +174,11 @@ void load_compute_total_force_and_mean_displacement(struct load *l, const struct
     }
 }
 
-void load_prescribed_value_at_particle(const struct load *l, const struct particles *p, int64_t k, real t, real *value)
+void load_prescribed_value_at_particle(const struct load *l, const struct particles *p, int64_t index_in_load, real t,
+                                       real *value)
 {
     const struct boundary *b = l->boundary;
     const real factor = b->frozen ? 1 : time_function_value(&b->time, t);
-    for (int d = 0; d < p->dim; d++) value[d] = factor * b->value[d] * formula_at(b, d, p, l->particle[k], t);
+    for (int d = 0; d < p->dim; d++)
+        value[d] = factor * b->value[d] * formula_at(b, d, p, l->particle[index_in_load], t);
 }

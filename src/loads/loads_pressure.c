@@ -104,8 +104,8 @@ static bool pressure_shares(struct load *l, struct particles *p, real *const *ar
     return l->n > 0;
 }
 
-status load_find_pressure_faces(struct load *l, const struct boundary *boundary, int boundaries, int boundary_number,
-                                struct particles *p, real spacing)
+status load_find_free_faces_under_pressure(struct load *l, const struct boundary *boundary, int boundaries,
+                                           int boundary_number, struct particles *p, real spacing)
 {
     const struct boundary *b = &boundary[boundary_number];
     const bool follows = b->follow && p->dim > 1; /* in 1D there is nothing to follow */

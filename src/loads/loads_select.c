@@ -117,7 +117,7 @@ static void select_absorbing(struct load *l, const uint8_t *selected, struct par
 static void select_layer(struct load *l, const uint8_t *selected, struct particles *p, real spacing)
 {
     uint8_t *taken = NEW("loads.layer", p->n, uint8_t);
-    boundary_face_mark_particles_in_layer(l->boundary, p, selected, spacing, taken);
+    boundary_face_flag_particles_within_depth(l->boundary, p, selected, spacing, taken);
     load_set_particle_list_from_selected_flags(l, taken, p);
     memory_free(taken);
 }

@@ -38,7 +38,7 @@ static real static_displacement(const struct prescribed_displacement *by, const 
 {
     real X[DIM_MAX] = {0};
     if (k >= 0) particle_reference_position(p, l->particle[k], X);
-    return prescribed_displacement_at(by, X, d);
+    return prescribed_displacement_component_at_position(by, X, d);
 }
 
 void loads_compute_prescribed_static_displacements(struct loads *l, const struct particles *p, real ramp_time,
@@ -48,7 +48,7 @@ void loads_compute_prescribed_static_displacements(struct loads *l, const struct
         struct load *load = &l->load[c];
         const struct boundary *b = load->boundary;
         if (b->kind != BOUNDARY_VELOCITY) continue;
-        const struct prescribed_displacement by = prescribed_displacement_make(b, p->dim, ramp_time);
+        const struct prescribed_displacement by = boundary_prescribed_displacement_at_time(b, p->dim, ramp_time);
         for (int d = 0; d < p->dim; d++) {
             real sum = 0;
             if (!(b->components >> d & 1)) continue;
@@ -82,7 +82,7 @@ static void moment(const struct loads *l, const struct particles *p, real *turni
     }
 }
 
-real loads_add_inertia_relief(struct loads *l, const struct particles *p)
+real loads_add_inertia_relief_and_return_moment_ratio(struct loads *l, const struct particles *p)
 {
     real mass = 0, inertia = 0, turning, most;
     memset(l->centre, 0, sizeof l->centre);
@@ -119,7 +119,8 @@ void loads_extract_static_reactions_from_forces(struct loads *l, struct particle
         memset(load->reaction, 0, sizeof load->reaction);
         load->held_work = 0;
         if (load->boundary->kind != BOUNDARY_VELOCITY) continue;
-        const struct prescribed_displacement by = prescribed_displacement_make(load->boundary, p->dim, INFINITY);
+        const struct prescribed_displacement by =
+            boundary_prescribed_displacement_at_time(load->boundary, p->dim, INFINITY);
         const bool by_place = works_by_place(load->boundary);
         for (int64_t k = 0; k < load->n; k++)
             for (int d = 0; d < p->dim; d++) {
@@ -132,7 +133,7 @@ void loads_extract_static_reactions_from_forces(struct loads *l, struct particle
     }
 }
 
-void loads_compute_static_work(struct loads *l, const struct particles *p)
+void loads_compute_work_in_static_equilibrium(struct loads *l, const struct particles *p)
 {
     l->work = l->constraint_work = 0;
     for (int c = 0; c < l->n; c++) {

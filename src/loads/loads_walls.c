@@ -232,11 +232,12 @@ static struct wall wall_at(const struct driven_by *by, int64_t I, const real *x,
 {
     const struct boundary *b = by->now.boundary;
     const bool drives = b->kind == BOUNDARY_VELOCITY, first = by->now.t <= by->now.dt;
-    const real velocity = drives ? prescribed_velocity_at(&by->now, x, d, !reference) : 0;
-    const real place = b->displaces && reference ? prescribed_displacement_at(&by->now.to, x, d) : NAN;
+    const real velocity = drives ? prescribed_velocity_component_at_position(&by->now, x, d, !reference) : 0;
+    const real place =
+        b->displaces && reference ? prescribed_displacement_component_at_position(&by->now.to, x, d) : NAN;
     real change = 0;
     if (drives && !first && (b->rotates || b->displaces || b->formula[d].n > 0))
-        change = velocity - prescribed_velocity_at(&by->before, x, d, !reference);
+        change = velocity - prescribed_velocity_component_at_position(&by->before, x, d, !reference);
     else if (drives && !first)
         change = (by->now.factor - by->before.factor) * b->value[d];
     return (struct wall){(int32_t)I, (int16_t)d, (int16_t)which, velocity,
@@ -307,8 +308,8 @@ static void driven_by_all(const struct loads *l, int dim, real t, real dt, bool 
 {
     const real anywhere[DIM_MAX] = {0};
     for (int b = 0; b < l->n; b++) {
-        by[b].now = loads_prescribed_motion(l, b, dim, t, dt);
-        by[b].before = t > dt ? prescribed_motion_make(l->load[b].boundary, dim, t - dt, dt) : by[b].now;
+        by[b].now = loads_prescribed_motion_of_boundary_in_step(l, b, dim, t, dt);
+        by[b].before = t > dt ? boundary_prescribed_motion_in_step(l->load[b].boundary, dim, t - dt, dt) : by[b].now;
         by[b].uniform = !boundary_motion_varies_in_space(l->load[b].boundary);
         for (int d = 0; d < dim && by[b].uniform; d++) by[b].wall[d] = wall_at(&by[b], 0, anywhere, d, b, reference);
     }
@@ -354,7 +355,7 @@ void loads_prescribe_grid_velocities(struct loads *l, struct constrained_set *dr
     constrained_mark_overruled(l, driven_nodes, g);
     driven_by_all(l, g->dim, t, dt, false, by);
     constrained_walls(driven_nodes, g, NULL, by, false);
-    loads_add_grid_dashpots(l, g, p, k, half_width);
+    loads_append_dashpots_to_grid(l, g, p, k, half_width);
 }
 
 /* ---- walls of the mesh ------------------------------------------------------------------------------------------- */
@@ -409,11 +410,11 @@ void loads_find_driven_mesh_nodes(struct loads *l, struct mesh *mesh, const stru
     for (int b = 0; b < l->n; b++)
         if (l->load[b].boundary->kind == BOUNDARY_VELOCITY) mesh_driven(l, b, mesh, p);
     constrained_mark_overruled(l, &l->constrained_mesh, &mesh->grid);
-    loads_add_mesh_dashpots(l, mesh, p);
+    loads_append_dashpots_to_mesh(l, mesh, p);
 }
 
-void loads_find_driven_coarse_nodes(const struct loads *l, struct constrained_set *driven_nodes, struct grid *g,
-                                    const struct particles *p)
+void loads_find_driven_nodes_of_coarse_cells(const struct loads *l, struct constrained_set *driven_nodes,
+                                             struct grid *g, const struct particles *p)
 {
     if (constrained_is_current(driven_nodes, g)) return;
     constrained_find(l, driven_nodes, g, NULL, p, true);

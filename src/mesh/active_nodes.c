@@ -100,7 +100,7 @@ void active_nodes_activate_at_bonded_or_loaded_points(struct mesh *mesh)
     active_set_rebuild_active_block_list(&mesh->active);
 }
 
-void active_nodes_activate_all_blocks(struct mesh *mesh)
+void active_nodes_activate_all_node_blocks(struct mesh *mesh)
 {
     mesh->active.is_current = false;
     array_fill_bytes(mesh->active.level, 1, mesh->active.blocks, 1);
@@ -125,7 +125,7 @@ static void mesh_find_levels(struct mesh *mesh, const struct loads *l)
     active_nodes_activate_at_bonded_or_loaded_points(mesh); /* makes the list */
 }
 
-void active_nodes_update_list_of_active_blocks(struct mesh *mesh, const struct loads *l)
+void active_nodes_update_list_of_active_node_blocks(struct mesh *mesh, const struct loads *l)
 {
     struct active_set *set = &mesh->active;
     if (!set->is_current) {

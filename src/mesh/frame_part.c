@@ -136,8 +136,8 @@ static void frames_mark(struct particles *part, struct lagrangian_mesh *frame)
         if (frame->choice[part->body[i]].reference) part->flag[i] |= FLAG_MESHED;
 }
 
-status bodies_choose_material_mesh_or_background_grid(struct lagrangian_mesh *reference, struct grid_method *mpm,
-                                                      struct particles *p, const struct scene *s)
+status bodies_choose_lagrangian_mesh_or_background_grid(struct lagrangian_mesh *reference, struct grid_method *mpm,
+                                                        struct particles *p, const struct scene *s)
 {
     reference->bodies = s->bodies;
     reference->spacing = s->spacing;
@@ -229,7 +229,7 @@ status lagrangian_mesh_make_for_run(struct run *run, const struct mesh_source *s
     TRY(mesh_make(&reference->mesh, &run->part, g, &reference->source));
     /* a mesh rebuilt after a restart has no mirrors, though its box is unchanged */
     run->loads.constrained_mesh.count[0] = 0;
-    mesh_levels_store_coarsening_limits_by_thickness(reference, run->scene, run->part.n_body);
+    mesh_levels_store_coarsest_levels_for_thickness(reference, run->scene, run->part.n_body);
     lagrangian_mesh_list_bonded_or_loaded_points(reference, &run->part, &run->bonds, &run->loads);
     return OK;
 }
@@ -288,9 +288,9 @@ static void nodes_walls(struct lagrangian_mesh *reference, const struct loads *l
  * times as long. */
 static void nodes_react(struct loads *loads, struct lagrangian_mesh *frame, real dt_velocity, int due)
 {
-    loads_add_grid_reactions(loads, &frame->mesh.grid, dt_velocity);
+    loads_add_reactions_at_grid_nodes(loads, &frame->mesh.grid, dt_velocity);
     for (int level = 1; level <= due; level++)
-        loads_add_grid_reactions(loads, &frame->levels.at[level].mesh.grid, dt_velocity * (real)(1 << level));
+        loads_add_reactions_at_grid_nodes(loads, &frame->levels.at[level].mesh.grid, dt_velocity * (real)(1 << level));
 }
 
 void lagrangian_mesh_move_nodes(struct lagrangian_mesh *reference, struct particles *p, struct loads *loads,
@@ -311,16 +311,16 @@ void lagrangian_mesh_move_nodes(struct lagrangian_mesh *reference, struct partic
     if (p->mesh_stress[0]) mesh_points_flow(&reference->mesh, p, reference->elastic, clock->dt, reference->finite);
     lagrangian_mesh_move_bonded_or_loaded_points(reference, p);
     if (reference->active_set && reference->levels.n == 0)
-        active_nodes_update_list_of_active_blocks(&reference->mesh, loads);
+        active_nodes_update_list_of_active_node_blocks(&reference->mesh, loads);
 }
 
 void lagrangian_mesh_update_point_motion(struct lagrangian_mesh *reference, struct particles *p,
                                          const struct loads *loads)
 {
     if (reference->mesh.points == 0) return;
-    mesh_levels_prolong_motion_near_particles(&reference->levels);
+    mesh_levels_prolong_motion_near_particles_only(&reference->levels);
     mesh_points_move(&reference->mesh, p);
-    loads_update_mirror_images(loads, p);
+    loads_update_mirror_images_of_particles(loads, p);
 }
 
 void lagrangian_mesh_update_point_motion_and_stress(struct lagrangian_mesh *reference, struct particles *p,
@@ -337,7 +337,7 @@ void lagrangian_mesh_update_motion_of_listed_points(struct lagrangian_mesh *refe
 {
     if (reference->mesh.points == 0) return;
     mesh_listed_move(&reference->mesh, p, point_list, point_count);
-    loads_update_mirror_images(loads, p);
+    loads_update_mirror_images_of_particles(loads, p);
 }
 
 bool lagrangian_mesh_update_after_point_conversion(struct lagrangian_mesh *reference, struct particles *p,
@@ -364,7 +364,7 @@ void lagrangian_mesh_insert_points(struct lagrangian_mesh *reference, struct par
             own[m++] = inserted_points[k];
     if (m > 0) {
         *energy_lost += mesh_insert_points_and_return_lost_energy(&reference->mesh, p, own, m);
-        active_nodes_activate_all_blocks(&reference->mesh);
+        active_nodes_activate_all_node_blocks(&reference->mesh);
     }
     memory_free(own);
 }

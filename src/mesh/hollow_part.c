@@ -172,7 +172,7 @@ status cells_without_particles_predict_from_scene(struct cells_without_particles
     TRY(box_find(&hollow->box, s));
     const int64_t least = s->fill == FILL_NEEDED ? 0 : PAYS >> hollow->box.dim;
     if (hollow->box.n <= least) return OK;
-    body_mark_cells_with_all_sites_inside(hollow, s, 0);
+    body_flag_cells_with_all_lattice_sites_inside(hollow, s, 0);
     hollow->absent = NEW("hollow.absent", hollow->box.n, uint8_t);
 #pragma omp parallel for schedule(dynamic, 4096) reduction(+ : absent)
     for (int64_t I = 0; I < hollow->box.n; I++) {
@@ -191,7 +191,7 @@ status cells_without_particles_predict_from_scene(struct cells_without_particles
 
 /* Returns true if a cell whose particles were not created now has level 0, the finest, so that the run must be set up
  * again with more particles. new_cell_level[mesh->grid.n]: level of each cell of the mesh, 0: finest. */
-bool mesh_cells_to_become_finest_lack_particles(const struct mesh *mesh, const uint8_t *new_cell_level)
+bool mesh_any_new_finest_cell_lacks_particles(const struct mesh *mesh, const uint8_t *new_cell_level)
 {
     for (int64_t I = 0; I < mesh->grid.n && mesh->absent; I++)
         if (mesh->absent[I] && new_cell_level[I] == 0) return true;
@@ -236,7 +236,7 @@ bool initial_finest_cells_have_all_particles(struct lagrangian_mesh *reference, 
         reference->hollow.absent = NULL, reference->lacks = true;
         return false;
     }
-    reference->lacks = mesh_cells_to_become_finest_lack_particles(&reference->mesh, cell_level);
+    reference->lacks = mesh_any_new_finest_cell_lacks_particles(&reference->mesh, cell_level);
     if (!reference->lacks) return true;
     uint8_t *absent = absent_with(reference, cell_level, 0, 0);
     for (int64_t J = 0; J < reference->hollow.box.n; J++) reference->hollow.absent[J] &= absent[J];

@@ -88,13 +88,13 @@ void mesh_levels_copy_motion_to_ghost_nodes(struct mesh_levels *l)
     for (int level = 1; level <= l->n; level++) mesh_levels_copy_motion_to_ghosts_of_one_level(l, level);
 }
 
-void mesh_levels_prolong_motion_to_fine_nodes(struct mesh_levels *l)
+void mesh_levels_prolong_motion_to_all_finest_nodes(struct mesh_levels *l)
 {
     mesh_levels_copy_motion_to_ghost_nodes(l);
     if (l->n > 0) mesh_levels_interpolate_motion_to_fine_nodes(l, true);
 }
 
-void mesh_levels_prolong_motion_near_particles(struct mesh_levels *l)
+void mesh_levels_prolong_motion_near_particles_only(struct mesh_levels *l)
 {
     mesh_levels_copy_motion_to_ghost_nodes(l);
     if (l->n > 0) mesh_levels_interpolate_motion_to_fine_nodes(l, false);

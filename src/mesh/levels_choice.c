@@ -124,13 +124,13 @@ static real spacings_across(const struct scene *s, const struct particles *p,
  * each cell, if scene s may have coarse cells: it is dynamic, has a mesh and allows coarse levels, and with automatic
  * levels has at least PAYS particles. Otherwise reference->room remains NULL. particle_count: number of particles of
  * the body, including those not created. */
-void mesh_levels_store_coarsening_limits_by_thickness(struct lagrangian_mesh *reference, const struct scene *s,
-                                                      int64_t particle_count)
+void mesh_levels_store_coarsest_levels_for_thickness(struct lagrangian_mesh *reference, const struct scene *s,
+                                                     int64_t particle_count)
 {
     if (!scene_is_dynamic(s) || reference->mesh.points == 0 || s->levels == 0) return;
     if (s->levels == LEVELS_AUTO && particle_count < PAYS) return;
     reference->room = NEW("engine.room", reference->mesh.grid.n, uint8_t);
-    reference->room_most = mesh_compute_cell_coarsening_limit_by_thickness(&reference->mesh, reference->source.mirror,
+    reference->room_most = mesh_compute_coarsest_cell_levels_for_thickness(&reference->mesh, reference->source.mirror,
                                                                            reference->source.mirrors, reference->room);
 }
 

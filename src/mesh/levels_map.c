@@ -216,9 +216,10 @@ void mesh_levels_extend_marks_to_whole_coarse_cells(const struct mesh_levels *l,
     }
 }
 
-void mesh_levels_set_postpone_and_refine_distances(struct mesh_levels *l, int postpone_distance, int refine_distance)
+void mesh_levels_set_conversion_and_refine_distances(struct mesh_levels *l, int conversion_delay_distance,
+                                                     int refine_distance)
 {
-    l->safe_cells = postpone_distance, l->roomy_cells = refine_distance;
+    l->safe_cells = conversion_delay_distance, l->roomy_cells = refine_distance;
     mesh_levels_classify_cells_by_distance_to_coarse(l);
 }
 

@@ -228,7 +228,7 @@ static void next_levels(struct lagrangian_mesh *reference, const struct particle
     if (!any_merges(l, level)) return;
     const real most =
         ROUGH * (lagrangian_mesh_kinetic_energy(reference) + lagrangian_mesh_strain_energy(reference, p)) / mass;
-    mesh_levels_prolong_motion_to_fine_nodes(l);
+    mesh_levels_prolong_motion_to_all_finest_nodes(l);
     while (mesh_levels_limit_coarsening_by_energy_loss(l, level, most, limit))
         mesh_levels_compute_coarsest_admissible_levels(l, p, demand, limit, level);
 }
@@ -237,7 +237,8 @@ void mesh_levels_update_lists_of_loaded_nodes(struct lagrangian_mesh *reference,
                                               const struct bonds *bonds, struct loads *loads)
 {
     struct mesh_levels *l = &reference->levels;
-    for (int k = 1; k <= l->n; k++) loads_find_driven_coarse_nodes(loads, &l->at[k].held, &l->at[k].mesh.grid, p);
+    for (int k = 1; k <= l->n; k++)
+        loads_find_driven_nodes_of_coarse_cells(loads, &l->at[k].held, &l->at[k].mesh.grid, p);
     lagrangian_mesh_list_bonded_or_loaded_points(reference, p, bonds, loads);
 }
 
@@ -284,10 +285,10 @@ status mesh_levels_make_coarse_cells(struct run *run, bool levels_from_checkpoin
      * horizon more */
     const real reach = (s->model == MODEL_BOND ? 1.0 : 1.5) * s->horizon;
     const int safe = (int)ceil(reach) + 1;
-    mesh_levels_set_postpone_and_refine_distances(&reference->levels, safe, safe + (int)ceil(0.5 * s->horizon));
+    mesh_levels_set_conversion_and_refine_distances(&reference->levels, safe, safe + (int)ceil(0.5 * s->horizon));
     for (int k = 1; k <= reference->levels.n; k++)
-        loads_find_driven_coarse_nodes(&run->loads, &reference->levels.at[k].held, &reference->levels.at[k].mesh.grid,
-                                       &run->part);
+        loads_find_driven_nodes_of_coarse_cells(&run->loads, &reference->levels.at[k].held,
+                                                &reference->levels.at[k].mesh.grid, &run->part);
     if (levels_from_checkpoint) return OK;
     uint8_t *demand = demand_make(reference, &run->part, &run->loads, ZONE_MORE);
     uint8_t *stressed = stressed_cells(reference, SPLITS, true),

@@ -33,13 +33,13 @@ static void outside_mark(const struct mesh *mesh, const struct mirror_plane *mir
         for (int c = 0; c < 1 << mesh->grid.dim && mesh->slits.split[I]; c++) mark[I - mesh->corner[c]] = 1;
 }
 
-int mesh_compute_cell_coarsening_limit_by_thickness(const struct mesh *mesh, const struct mirror_plane *mirror,
-                                                    int mirror_count, uint8_t *highest_level)
+int mesh_compute_coarsest_cell_levels_for_thickness(const struct mesh *mesh, const struct mirror_plane *mirror,
+                                                    int mirror_count, uint8_t *coarsest_level)
 {
     const int64_t n = mesh->grid.n;
     uint8_t *outside = NEW("mesh.outside", 2 * n, uint8_t), *inside = outside + n;
     int most = 0;
-    array_fill_bytes(highest_level, 0, n, 1);
+    array_fill_bytes(coarsest_level, 0, n, 1);
     for (int level = 1; level <= LEVELS_MAX && most == level - 1; level++) {
         const int half = (CELLS_ACROSS << level) / 2 - 1;
         outside_mark(mesh, mirror, mirror_count, outside);
@@ -47,7 +47,7 @@ int mesh_compute_cell_coarsening_limit_by_thickness(const struct mesh *mesh, con
         for (int64_t I = 0; I < n; I++) inside[I] = !outside[I] && !beyond_mirror(&mesh->grid, I, mirror, mirror_count);
         grid_mark_cells_near_marked_cells(&mesh->grid, inside, half);
         for (int64_t I = 0; I < n; I++)
-            if (inside[I] && highest_level[I] == level - 1) highest_level[I] = (uint8_t)level, most = level;
+            if (inside[I] && coarsest_level[I] == level - 1) coarsest_level[I] = (uint8_t)level, most = level;
     }
     memory_free(outside);
     return most;

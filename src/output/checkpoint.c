@@ -91,7 +91,7 @@ static status state_write(struct output *o, const char *path, const char *scene_
 {
     static const int32_t version = CHECKPOINT_VERSION;
     struct hdf f;
-    hdf_create(&f, file_register_and_name_temporary(path).text, false);
+    hdf_create(&f, file_register_temporary_and_return_path(path).text, false);
     hdf_create_group(&f, "/Cleave");
     hdf_write_scalar_attribute(&f, "/Cleave", "version", HDF_I32, &version);
     hdf_write_rows(&f, "/Cleave/scene", HDF_U8, (int64_t)strlen(scene_text), 1, scene_text);

@@ -161,7 +161,7 @@ const char *file_describe_damage(const char *path)
     return fault;
 }
 
-const char *file_describe_damage_if_readable(const char *path)
+const char *file_describe_damage_ignoring_read_errors(const char *path)
 {
     const char *fault = file_describe_damage(path);
     return fault == unread ? NULL : fault;

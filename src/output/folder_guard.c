@@ -32,10 +32,11 @@ static status entries_guard(const struct folder_kind *kind, const char *folder)
                       found, kind->what);
 }
 
-status folder_check_writable(const struct folder_kind *kind, const char *folder, const char *scene_text, bool *exists)
+status folder_check_writable(const struct folder_kind *kind, const char *folder, const char *scene_text,
+                             bool *exists_and_is_of_kind)
 {
     const struct path sign = path_join(folder, kind->sign);
-    *exists = false;
+    *exists_and_is_of_kind = false;
     if (strlen(folder) + PATH_NAME_ROOM >= PATH_ROOM)
         return status_set(REFUSED, "-o: the folder's name is too long; choose a shorter one");
     for (size_t k = 0; k < COUNT_OF(kind->inner) && kind->inner[k]; k++) {
@@ -45,6 +46,6 @@ status folder_check_writable(const struct folder_kind *kind, const char *folder,
                 REFUSED, "%s is a symbolic link, so a %s would remove and write files elsewhere; choose another -o",
                 inner.text, kind->what);
     }
-    *exists = path_is_file(sign.text) && kind->is_sign(sign.text, scene_text);
-    return *exists ? OK : entries_guard(kind, folder);
+    *exists_and_is_of_kind = path_is_file(sign.text) && kind->is_sign(sign.text, scene_text);
+    return *exists_and_is_of_kind ? OK : entries_guard(kind, folder);
 }

@@ -133,6 +133,6 @@ static int column_called(const struct history *h, const char *name)
 int history_find_column(const struct history *h, const char *name)
 {
     const int column = column_called(h, name);
-    const char *other = column < 0 ? renamed_result_find_new_or_former_name(name) : NULL;
+    const char *other = column < 0 ? renamed_result_swap_former_and_current_name(name) : NULL;
     return other ? column_called(h, other) : column;
 }

@@ -127,7 +127,7 @@ static status folder_check(const char *folder, const char *scene_text, enum outp
     TRY(file_read_whole(path_join(folder, "scene.yaml").text, &text, &length));
     const bool same = length == strlen(text) && scene_texts_describe_same_scene(text, scene_text);
     *other = !same && mode != OUTPUT_OVERWRITE;
-    const status checked = *other ? scene_texts_refuse_with_first_difference(folder, text, scene_text) : OK;
+    const status checked = *other ? scene_texts_report_first_different_line(folder, text, scene_text) : OK;
     memory_free(text);
     return checked;
 }
@@ -292,7 +292,7 @@ static status frame_guard(const char *path)
 static status rigid_guard(const char *path)
 {
     static const char *const begin[] = {RIGID_FILE_BEGIN};
-    return file_check_is_from_cleave(path, begin, 1);
+    return file_check_has_known_beginning(path, begin, 1);
 }
 
 /* Checks the tables, frames and particles files in a folder that a run would write or remove. Returns REFUSED, with a
@@ -300,7 +300,7 @@ static status rigid_guard(const char *path)
 static status files_guard(const char *folder)
 {
     for (size_t k = 0; k < COUNT_OF(made); k++)
-        if (made[k].begin) TRY(file_check_is_from_cleave(path_join(folder, made[k].name).text, &made[k].begin, 1));
+        if (made[k].begin) TRY(file_check_has_known_beginning(path_join(folder, made[k].name).text, &made[k].begin, 1));
     TRY(folder_visit_selected_files(path_join(folder, "frames").text, is_frame, "", frame_guard));
     TRY(folder_visit_selected_files(path_join(folder, "frames").text, is_rigid_file, "", rigid_guard));
     return regions_each(folder, "", frame_guard);
@@ -381,7 +381,7 @@ void output_close(struct output *o)
     if (o->history) fclose(o->history);
     if (o->folder) folder_unlock(&o->lock, o->folder);
     memory_free(o->folder);
-    output_discard_stored_particle_order_by_id(o);
+    output_discard_cached_frame_particle_order(o);
     for (int k = 0; k <= o->n_series; k++) memory_free(o->series[k].entry);
     memory_free(o->frame_copy);
     *o = (struct output){0};

@@ -93,7 +93,7 @@ static void unfinished_replace(const char *from, const char *to)
     pthread_mutex_unlock(&unfinished_lock);
 }
 
-struct path file_register_and_name_temporary(const char *path)
+struct path file_register_temporary_and_return_path(const char *path)
 {
     const struct path aside = path_of_temporary_file(path);
     unfinished_replace(aside.text, "");
@@ -163,7 +163,7 @@ status file_check_replaceable(const char *path)
     return status_set(REFUSED, "%s is an input of this command and is not replaced; choose another -o", path);
 }
 
-status file_check_is_from_cleave(const char *path, const char *const *beginning, size_t beginning_count)
+status file_check_has_known_beginning(const char *path, const char *const *beginning, size_t beginning_count)
 {
     char first[64];
     bool ours = false;
@@ -274,7 +274,8 @@ status file_replace_by_temporary(const char *path)
 status file_write_whole_unsynced(const char *path, const void *bytes, size_t length)
 {
     if (input_file_was_read(path) && file_contents_equal_bytes(path, bytes, length)) return OK;
-    TRY(outcome(path, write_synced(file_register_and_name_temporary(path).text, O_CREAT | O_EXCL, bytes, length)));
+    TRY(outcome(path,
+                write_synced(file_register_temporary_and_return_path(path).text, O_CREAT | O_EXCL, bytes, length)));
     return file_rename(path);
 }
 

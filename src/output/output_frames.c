@@ -178,7 +178,7 @@ static bool series_shows(const struct frame_series *s, const struct particles *p
 }
 
 /* Selects the particles of `source` that the output frames of the series s show, in the order of their ids, and stores
- * them in s->rows. The selection is kept until output_discard_stored_particle_order_by_id, or until the number of
+ * them in s->rows. The selection is kept until output_discard_cached_frame_particle_order, or until the number of
  * particles changes. It is made again for each frame if the series has a region and there are material points of coarse
  * grid cells, which may change at any step. Returns false if memory is exhausted. */
 static bool rows_make(struct frame_series *s, const struct frame_contents *source)
@@ -201,7 +201,7 @@ static bool rows_make(struct frame_series *s, const struct frame_contents *sourc
     return made;
 }
 
-void output_discard_stored_particle_order_by_id(struct output *o)
+void output_discard_cached_frame_particle_order(struct output *o)
 {
     for (int k = 0; k <= o->n_series; k++) rows_free(&o->series[k]);
 }
@@ -235,7 +235,7 @@ static status frame_write(struct frame_job *job)
 {
     struct hdf f;
     if (job->particles.rows) TRY(particles_file_write(&job->particles, &job->broken));
-    hdf_create(&f, file_register_and_name_temporary(job->path.text).text, job->compress);
+    hdf_create(&f, file_register_temporary_and_return_path(job->path.text).text, job->compress);
     write_marks(&f, job);
     particles_file_link_fields_into_frame(&f, &job->particles, job->fields);
     for (int k = 0; k < FRAME_FIELDS; k++)
@@ -357,7 +357,7 @@ static void particles_file_look(struct particles_seen *seen, const char *folder,
     particles_file_compose_name(s, seen->name, sizeof seen->name, number);
     const struct path path = path_join(folder, seen->name);
     seen->number = number;
-    seen->fault = file_describe_damage_if_readable(path.text);
+    seen->fault = file_describe_damage_ignoring_read_errors(path.text);
     seen->known =
         !seen->fault && path_is_file(path.text) && particles_file_read_content_hash(path.text, &seen->content);
     if (seen->known && number == s->particles.number && seen->content != s->particles.content)
@@ -386,7 +386,7 @@ static bool frame_is_lost(const char *path, const struct frame_entry *e, const s
 {
     real time = NAN;
     int64_t content = 0;
-    const char *fault = file_describe_damage_if_readable(path);
+    const char *fault = file_describe_damage_ignoring_read_errors(path);
     if (fault) return snprintf(text, capacity, "%s", fault) > 0;
     if (!path_is_file(path)) return false;
     if (particles->fault)

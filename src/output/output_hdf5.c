@@ -320,7 +320,7 @@ void hdf_write_text(struct hdf *hdf, const char *name, const char *text)
            good(hdf, H5Pclose(list)) && good(hdf, H5Sclose(space)) && good(hdf, H5Tclose(type)));
 }
 
-void hdf_write_text_list(struct hdf *hdf, const char *name, const char *text)
+void hdf_write_text_as_list_of_one_string(struct hdf *hdf, const char *name, const char *text)
 {
     const hsize_t one = 1;
     hid_t type = -1, space = -1, list = -1, transfer = -1, set = -1;

@@ -128,7 +128,7 @@ static void write_texts(struct hdf *hdf, const struct temporal *a, const char *s
     hdf_create_group(hdf, "/VTKHDF/Steps/FieldDataSizes");
     for (int k = 0; k < 2; k++) {
         snprintf(path, sizeof path, "/VTKHDF/FieldData/%s", name[k]);
-        hdf_write_text_list(hdf, path, text[k]);
+        hdf_write_text_as_list_of_one_string(hdf, path, text[k]);
         for (int step = 0; step < a->n; step++) number[step] = 0;
         snprintf(path, sizeof path, "/VTKHDF/Steps/FieldDataOffsets/%s", name[k]);
         hdf_write_rows(hdf, path, HDF_I64, a->n, 1, number);
@@ -146,7 +146,7 @@ static status temporal_write(const struct temporal *a, const char *path, const c
     static const int32_t version[2] = {2, 0};
     int64_t *number = NEW("temporal.number", 2 * (int64_t)a->n, int64_t);
     struct hdf f;
-    hdf_create(&f, file_register_and_name_temporary(path).text, false);
+    hdf_create(&f, file_register_temporary_and_return_path(path).text, false);
     hdf_create_group(&f, "/VTKHDF");
     hdf_write_attribute(&f, "/VTKHDF", "Version", HDF_I32, 2, version);
     hdf_write_text_attribute(&f, "/VTKHDF", "Type", "UnstructuredGrid");
@@ -179,7 +179,7 @@ static status series_temporal(struct output *o, const struct frame_series *serie
     return s;
 }
 
-void output_remove_vtkhdf_of_all_frames(const struct output *o)
+void output_remove_single_vtkhdf_with_all_frames(const struct output *o)
 {
     for (int k = 0; k <= o->n_series; k++) {
         char name[PATH_NAME_ROOM];
@@ -188,7 +188,7 @@ void output_remove_vtkhdf_of_all_frames(const struct output *o)
     }
 }
 
-status output_write_vtkhdf_of_all_frames(struct output *o, const char *scene_text)
+status output_write_single_vtkhdf_with_all_frames(struct output *o, const char *scene_text)
 {
     TRY(output_wait_until_frame_is_written(o));
     if (o->broken) return FAILED;

@@ -92,8 +92,8 @@ static void particles_write_contents(struct hdf *h, const struct particles_file 
     hdf_write_scalar_attribute(h, "/Cleave", "version", HDF_I32, &version);
     hdf_write_scalar_attribute(h, "/Cleave", "content", HDF_I64, &f->content);
     hdf_write_text(h, "/Cleave/scene", f->scene_text);
-    hdf_write_text_list(h, "/VTKHDF/FieldData/units", units);
-    hdf_write_text_list(h, "/VTKHDF/FieldData/scene", f->scene_text);
+    hdf_write_text_as_list_of_one_string(h, "/VTKHDF/FieldData/units", units);
+    hdf_write_text_as_list_of_one_string(h, "/VTKHDF/FieldData/scene", f->scene_text);
     particles_write_cells(h, f);
     for (int k = 0; k < FRAME_FIELDS; k++) {
         if (!is_inside(f, k)) continue;
@@ -107,7 +107,7 @@ status particles_file_write(const struct particles_file *f, bool *hdf5_failed)
     struct hdf h;
     int64_t content = 0;
     if (!particles_file_find_fault_and_content_hash(f->path.text, &content) && content == f->content) return OK;
-    hdf_create(&h, file_register_and_name_temporary(f->path.text).text, f->compress);
+    hdf_create(&h, file_register_temporary_and_return_path(f->path.text).text, f->compress);
     particles_write_contents(&h, f);
     TRY(hdf_close_or_remove_if_write_failed(&h, f->path.text, hdf5_failed));
     TRY(file_append_checksum_footer(f->path.text));

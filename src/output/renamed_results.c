@@ -19,14 +19,14 @@ static const struct {
     {"conversion.return_energy", "conversion.reversion_energy"},
 };
 
-const char *renamed_result_find_current_name(const char *name)
+const char *renamed_result_find_current_name(const char *former_name)
 {
     for (size_t k = 0; k < COUNT_OF(renamed); k++)
-        if (strcmp(name, renamed[k].old) == 0) return renamed[k].now;
+        if (strcmp(former_name, renamed[k].old) == 0) return renamed[k].now;
     return NULL;
 }
 
-const char *renamed_result_find_new_or_former_name(const char *name)
+const char *renamed_result_swap_former_and_current_name(const char *name)
 {
     for (size_t k = 0; k < COUNT_OF(renamed); k++)
         if (strcmp(name, renamed[k].now) == 0) return renamed[k].old;

@@ -72,7 +72,7 @@ static void key_path_of_line(const char *text, const char *line, char *path, siz
                  below ? below : "");
 }
 
-status scene_texts_refuse_with_first_difference(const char *folder, const char *former_text, const char *present_text)
+status scene_texts_report_first_different_line(const char *folder, const char *former_text, const char *present_text)
 {
     enum { SHOWN = 200 };
     static const char remedy[] = "repeat its options -s, or choose another -o or --overwrite";

@@ -236,7 +236,7 @@ static status summary_read_find(const char *folder, const char *key, char **text
 {
     struct reader r = {0};
     status s = summary_read_document(&r, folder, key, text);
-    const char *other = s == OK && r.found == NULL ? renamed_result_find_new_or_former_name(key) : NULL;
+    const char *other = s == OK && r.found == NULL ? renamed_result_swap_former_and_current_name(key) : NULL;
     if (other) { /* the document is sound, as read above */
         r = (struct reader){.at = *text};
         (void)value(&r, other, 0);

@@ -136,7 +136,8 @@ static status ffmpeg_end(struct ffmpeg *f, struct output_picture sheet, status f
 }
 
 status video_draw_and_encode_frames(struct output_picture output, int fps, const char *title, enum map map,
-                                    const struct view *view, const struct plotted_particles *cloud, int frame_count)
+                                    const struct view *view, const struct plotted_particles *frame_particles,
+                                    int frame_count)
 {
     struct ffmpeg f;
     struct path picture;
@@ -149,7 +150,7 @@ status video_draw_and_encode_frames(struct output_picture output, int fps, const
     for (int k = 0; s == OK && k < frame_count; k++) {
         interrupt_cleanup_register(LEAVING_FRAME, picture.text, 0);
         s = picture_draw_panels_of_frames((struct output_picture){picture.text, PICTURE_PNG}, title, map, view,
-                                          &cloud[k], 1);
+                                          &frame_particles[k], 1);
         if (s == OK) s = ffmpeg_feed(&f, picture.text);
         unlink(picture.text);
         interrupt_cleanup_register(LEAVING_FRAME, NULL, 0);

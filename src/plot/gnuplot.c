@@ -210,7 +210,8 @@ status gnuplot_open(struct gnuplot *g, const char *path, enum picture_format for
     return open_with_letters(g, path, format, width, height, 1);
 }
 
-status gnuplot_open_scaled(struct gnuplot *g, const char *path, enum picture_format format, int width, int height)
+status gnuplot_open_scaled_to_process_wide_size(struct gnuplot *g, const char *path, enum picture_format format,
+                                                int width, int height)
 {
     return open_with_letters(g, path, format, width, height, usual.width ? (double)usual.width / width : 1);
 }

@@ -182,7 +182,8 @@ void image_paint_particles_as_cubes(struct colour *pixel, int width, int height,
     const struct colour ghost = colour_mixed_with_white(colour_on_damage_scale(0), GHOST);
     for (int64_t i = 0; i < plotted->n; i++)
         paint_cube(&v, plotted, i, map == MAP_CRACKS ? ghost : plotted_particle_colour(view, plotted, i, map));
-    if (plotted->position[2]) image_paint_rigid_bodies_from_outside(pixel, v.depth, width, height, view, plotted, map);
+    if (plotted->position[2])
+        image_paint_rigid_bodies_with_depth_test(pixel, v.depth, width, height, view, plotted, map);
     if (map == MAP_CRACKS) {
         canvas_clear_depth(&v);
         for (int64_t i = 0; i < plotted->n; i++)

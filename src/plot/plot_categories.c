@@ -57,13 +57,13 @@ static bool *values_seen(int *last, const struct plotted_particles *cloud, int c
 }
 
 void categories_list_values_present_in_frames(struct categories *categories, const struct plot_field *field,
-                                              const char *folder, const struct plotted_particles *cloud,
+                                              const char *folder, const struct plotted_particles *frame_particles,
                                               int frame_count)
 {
     struct scene scene;
     const bool known = scene_read(&scene, path_join(folder, "scene.yaml").text, NULL, 0) == OK;
     int last = -1;
-    bool *seen = values_seen(&last, cloud, frame_count);
+    bool *seen = values_seen(&last, frame_particles, frame_count);
     *categories = (struct categories){0};
     for (int value = -1; value <= last; value++) {
         if (!seen[value + 1]) continue;

@@ -340,7 +340,7 @@ void plotted_particles_select_from_frame(struct plotted_particles *plotted, cons
     struct output_frame sized = *f;
     float *size = NULL;
     if (projection && has_lists(projection->scene))
-        size = frame_estimate_graded_particle_sizes(f, frame_particle_spacing(f));
+        size = frame_estimate_particle_sizes_if_graded(f, frame_particle_spacing(f));
     if (size && particles_are_on_lattice(f->X, f->dim, f->n)) sized.spacing = size;
     cloud_select(plotted, &sized, projection);
     memory_free(size);

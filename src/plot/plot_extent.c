@@ -188,7 +188,8 @@ static bool may_be_deformed(const struct output_frame *f, double spacing)
 }
 
 float *deformation_gradients_fit_to_displacements(const struct output_frame *f, double spacing,
-                                                  double displacement_factor, const struct scene *scene, uint8_t *apart)
+                                                  double displacement_factor, const struct scene *scene,
+                                                  uint8_t *separated_sides)
 {
     if (f->dim < 2 || !(spacing > 0) || !may_be_deformed(f, spacing / displacement_factor)) return NULL;
     struct pairs p = {.f = f,
@@ -207,7 +208,7 @@ float *deformation_gradients_fit_to_displacements(const struct output_frame *f, 
     {
         struct neighbour_list near = {0};
 #pragma omp for schedule(static)
-        for (int64_t i = 0; i < f->n; i++) apart[i] = (uint8_t)gradient_of(&p, &near, i, F + 9 * i);
+        for (int64_t i = 0; i < f->n; i++) separated_sides[i] = (uint8_t)gradient_of(&p, &near, i, F + 9 * i);
         memory_free(near.at);
     }
     cells_free(&p.cells);

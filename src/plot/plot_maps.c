@@ -49,15 +49,16 @@ static void plot_maps_draw_panel(FILE *to, const struct maps_layout *l, const st
 }
 
 status picture_draw_panels_of_frames(struct output_picture output, const char *title, enum map map,
-                                     const struct view *view, const struct plotted_particles *cloud, int frame_count)
+                                     const struct view *view, const struct plotted_particles *frame_particles,
+                                     int frame_count)
 {
     struct gnuplot g;
     char text[TITLE_LENGTH];
     title_append_count_of_particles_outside_view(text, title, view->outside);
     struct maps_content shown = {
-        .map = map, .view = view, .title = text, .format = output.format, .outside = cloud[0].position[2]};
+        .map = map, .view = view, .title = text, .format = output.format, .outside = frame_particles[0].position[2]};
     bool rigid = false;
-    for (int k = 0; k < frame_count; k++) rigid = rigid || view_shows_any_rigid_body(view, &cloud[k]);
+    for (int k = 0; k < frame_count; k++) rigid = rigid || view_shows_any_rigid_body(view, &frame_particles[k]);
     map_key_collect_entries(&shown.key, map, view, rigid);
     const double aspect = (view->to[1] - view->from[1]) / (view->to[0] - view->from[0]);
     TRY(maps_layout_check_panels_fit(&shown, frame_count, aspect));
@@ -66,12 +67,12 @@ status picture_draw_panels_of_frames(struct output_picture output, const char *t
     fputs("set multiplot\nunset grid\n", g.to);
     gnuplot_write_title(&g, text, l.title);
     map_key_draw(g.to, &l, &shown.key);
-    struct unit second = unit_with_si_prefix_for_largest_value(cloud[frame_count - 1].t, "s");
+    struct unit second = unit_with_si_prefix_for_largest_value(frame_particles[frame_count - 1].t, "s");
     for (int k = 0; k < frame_count; k++) {
-        plot_maps_draw_panel(g.to, &l, &shown, &cloud[k], &second, k, k + l.columns >= frame_count);
+        plot_maps_draw_panel(g.to, &l, &shown, &frame_particles[k], &second, k, k + l.columns >= frame_count);
         fputs("unset label\nunset object\n", g.to); /* drawn once for all panels */
     }
-    if (map_quantity_has_colour_bar(map)) map_colour_bar_draw(g.to, &l, &shown, cloud[frame_count - 1].n);
+    if (map_quantity_has_colour_bar(map)) map_colour_bar_draw(g.to, &l, &shown, frame_particles[frame_count - 1].n);
     fputs("unset multiplot\n", g.to);
     return gnuplot_close(&g);
 }

@@ -29,8 +29,8 @@ static void position_at_start(const struct rigid_placement *at, int dim, const d
     }
 }
 
-void rigid_body_find_nearest_particle_displacement(const struct region *shape, const struct rigid_placement *placement,
-                                                   const struct output_frame *f, real *displacement)
+void rigid_body_displacement_of_nearest_particle(const struct region *shape, const struct rigid_placement *placement,
+                                                 const struct output_frame *f, real *displacement)
 {
     real least = INFINITY;
     int64_t nearest = -1;
@@ -79,7 +79,7 @@ void plotted_particles_add_rigid_bodies(struct plotted_particles *plotted, const
     if (rigids_read_placements_of_frame(at, s->rigids, folder, frame_number)) {
         for (int b = 0; b < s->rigids && plotted->magnify != 1; b++) {
             real beside[DIM_MAX];
-            rigid_body_find_nearest_particle_displacement(&s->body[s->bodies + b].shape, &at[b], f, beside);
+            rigid_body_displacement_of_nearest_particle(&s->body[s->bodies + b].shape, &at[b], f, beside);
             for (int d = 0; d < f->dim; d++) at[b].x[d] += (plotted->magnify - 1) * beside[d];
         }
         plotted_particles_add_placed_rigid_bodies(plotted, s, at, low, high);
@@ -123,11 +123,11 @@ static bool misses_section(const struct plotted_rigid_body *r, const struct plot
     return below == 0 || below == corners;
 }
 
-void view_extend_to_rigid_bodies(struct view *v, const struct plotted_particles *cloud, int frame_count)
+void view_extend_to_rigid_bodies(struct view *v, const struct plotted_particles *frame_particles, int frame_count)
 {
     const double longest = fmax(v->to[0] - v->from[0], v->to[1] - v->from[1]);
     const double from[2] = {v->from[0], v->from[1]}, to[2] = {v->to[0], v->to[1]};
-    for (const struct plotted_particles *plotted = cloud; plotted < cloud + frame_count; plotted++)
+    for (const struct plotted_particles *plotted = frame_particles; plotted < frame_particles + frame_count; plotted++)
         for (int q = 0; q < plotted->rigids << plotted->dim; q++) {
             const struct plotted_rigid_body *r = &plotted->rigid[q >> plotted->dim];
             for (int a = 0; a < 2 && !misses_section(r, plotted); a++) {
@@ -196,8 +196,9 @@ static double brightness_at(const struct plotted_rigid_body *r, const double *x,
     return length > 0 ? (shade / length) * (0.6 + 0.4 * fmax(facing, 0) / sqrt(length)) : 1;
 }
 
-void image_paint_rigid_bodies_from_outside(struct colour *pixel, float *depth, int width, int height,
-                                           const struct view *v, const struct plotted_particles *plotted, enum map map)
+void image_paint_rigid_bodies_with_depth_test(struct colour *pixel, float *depth, int width, int height,
+                                              const struct view *v, const struct plotted_particles *plotted,
+                                              enum map map)
 {
     const int size[2] = {width, height};
     for (int b = 0; b < plotted->rigids; b++) {

@@ -35,7 +35,7 @@ static double size_of(const struct output_frame *f, int64_t i, const struct neig
     return size;
 }
 
-float *frame_estimate_graded_particle_sizes(const struct output_frame *f, double spacing)
+float *frame_estimate_particle_sizes_if_graded(const struct output_frame *f, double spacing)
 {
     if (f->dim < 2 || f->spacing || !(spacing > 0)) return NULL;
     const struct particles part = {.n = f->n, .n_all = f->n, .dim = f->dim, .X = {f->X[0], f->X[1], f->X[2]}};

@@ -107,31 +107,31 @@ static void view_widen_slender(struct view *v)
     }
 }
 
-struct view view_make_around_particles(const struct plotted_particles *cloud, int frame_count)
+struct view view_make_around_particles(const struct plotted_particles *frame_particles, int frame_count)
 {
     struct view v = {.top = 0.5};
     double longest = 0, reach = 0;
     for (int k = 0; k < 2; k++) {
-        const struct span s = span_along(cloud, frame_count, k);
+        const struct span s = span_along(frame_particles, frame_count, k);
         v.from[k] = s.from, v.to[k] = s.to;
         longest = fmax(longest, s.to - s.from);
     }
     for (int c = 0; c < frame_count; c++)
-        for (int64_t i = 0; i < cloud[c].n; i++) {
-            v.top = fmax(v.top, fmin(cloud[c].damage[i], 1));
-            if (cloud[c].size) reach = fmax(reach, 0.5 * cloud[c].size[i]);
+        for (int64_t i = 0; i < frame_particles[c].n; i++) {
+            v.top = fmax(v.top, fmin(frame_particles[c].damage[i], 1));
+            if (frame_particles[c].size) reach = fmax(reach, 0.5 * frame_particles[c].size[i]);
         }
     v.top = ceil(10 * v.top - 1e-3) / 10; /* the colour bar ends at a multiple of 0.1, at least 0.5 */
-    double margin = fmax(fmax(cloud[0].spacing, reach), 0.02 * longest);
+    double margin = fmax(fmax(frame_particles[0].spacing, reach), 0.02 * longest);
     if (!(margin > 0)) margin = 1e-3; /* a single particle: 1 mm around it */
     for (int k = 0; k < 2; k++) {
-        const double beside = k == 1 && cloud[0].tall > 0 ? 1.5 * cloud[0].tall : margin;
+        const double beside = k == 1 && frame_particles[0].tall > 0 ? 1.5 * frame_particles[0].tall : margin;
         v.from[k] -= beside, v.to[k] += beside;
     }
-    view_extend_to_rigid_bodies(&v, cloud, frame_count);
+    view_extend_to_rigid_bodies(&v, frame_particles, frame_count);
     view_widen_slender(&v);
     for (int c = 0; c < frame_count; c++)
-        v.outside = (int64_t)fmax((double)v.outside, (double)count_outside(&v, &cloud[c]));
+        v.outside = (int64_t)fmax((double)v.outside, (double)count_outside(&v, &frame_particles[c]));
     return v;
 }
 
@@ -164,14 +164,16 @@ static double magnitude_of(double *sample, const struct plotted_particles *plott
 }
 
 void view_set_field_and_colour_range(struct view *v, const struct plot_field *field,
-                                     const struct plotted_particles *cloud, int frame_count)
+                                     const struct plotted_particles *frame_particles, int frame_count)
 {
     double *sample = NEW("plot.sample", SAMPLE_MOST, double);
     double low = field->scale == FROM_LEAST ? INFINITY : 0, high = 0;
     for (int c = 0; c < frame_count && field->scale == FROM_LEAST; c++)
-        low =
-            fmin(low, bulk_of(sample, sample_values(sample, cloud[c].value, cloud[c].n), EXTREME, EXTREMES_LEAST).from);
-    for (int c = 0; c < frame_count; c++) high = fmax(high, magnitude_of(sample, &cloud[c], field->scale, low));
+        low = fmin(low, bulk_of(sample, sample_values(sample, frame_particles[c].value, frame_particles[c].n), EXTREME,
+                                EXTREMES_LEAST)
+                            .from);
+    for (int c = 0; c < frame_count; c++)
+        high = fmax(high, magnitude_of(sample, &frame_particles[c], field->scale, low));
     memory_free(sample);
     if (!isfinite(low)) low = 0;
     if (!(high > 0)) high = 1; /* all values are equal */
@@ -264,17 +266,17 @@ static status view_check_crop(const struct view *v, const struct view *around, c
                       around->to[1] / f, metre.name);
 }
 
-status view_make_for_request(struct view *v, const struct plot_request *r, const struct plotted_particles *cloud,
-                             int frame_count)
+status view_make_for_request(struct view *v, const struct plot_request *r,
+                             const struct plotted_particles *frame_particles, int frame_count)
 {
-    *v = view_make_around_particles(cloud, frame_count);
-    view_set_field_and_colour_range(v, r->projection.field, cloud, frame_count);
+    *v = view_make_around_particles(frame_particles, frame_count);
+    view_set_field_and_colour_range(v, r->projection.field, frame_particles, frame_count);
     const struct scene *scene = r->projection.scene;
     if (scene && scene->dim == 2) v->notches = scene->cracks, v->notch = scene->crack;
     const struct view around = *v;
     TRY(view_set_options(v, r));
-    TRY(view_check_crop(v, &around, r, cloud, frame_count));
-    count_beyond(v, cloud, frame_count);
+    TRY(view_check_crop(v, &around, r, frame_particles, frame_count));
+    count_beyond(v, frame_particles, frame_count);
     if (isfinite(v->to[0] - v->from[0]) && isfinite(v->to[1] - v->from[1])) return OK;
     return status_set(
         FAILED,

@@ -81,13 +81,14 @@ static double vector_at(const struct run *run, const struct load *l, int64_t k, 
     const struct boundary *b = boundary_of(run, l);
     const int32_t i = l->particle[k];
     if (b->displaces) {
-        load_displacement_of_particle(&(struct load){.boundary = b, .particle = l->particle}, p, k, t, vector);
+        load_prescribed_displacement_of_particle(&(struct load){.boundary = b, .particle = l->particle}, p, k, t,
+                                                 vector);
     } else if (b->kind == BOUNDARY_VELOCITY) {
         real X[DIM_MAX];
         particle_reference_position(p, i, X);
-        const struct prescribed_motion driving = prescribed_motion_make(b, p->dim, t, run->clock.dt);
+        const struct prescribed_motion driving = boundary_prescribed_motion_in_step(b, p->dim, t, run->clock.dt);
         for (int d = 0; d < p->dim; d++)
-            vector[d] = b->components >> d & 1 ? prescribed_velocity_at(&driving, X, d, true) : 0;
+            vector[d] = b->components >> d & 1 ? prescribed_velocity_component_at_position(&driving, X, d, true) : 0;
     } else if (b->kind == BOUNDARY_BODY_FORCE) {
         load_force_on_particle(l, p, k, t, vector);
         for (int d = 0; d < p->dim; d++) vector[d] /= b->by_mass ? p->mass[i] : p->volume0[i];

@@ -337,7 +337,7 @@ static status draw_collected(struct output_picture sheet, const struct scene_ove
 {
     struct gnuplot g;
     const struct maps_layout l = scene_layout(v, overlay, overlay->title && !overlay->title[0], plotted->position[2]);
-    TRY(gnuplot_open_scaled(&g, sheet.path, sheet.format, l.width, l.height));
+    TRY(gnuplot_open_scaled_to_process_wide_size(&g, sheet.path, sheet.format, l.width, l.height));
     fputs("unset grid\n", g.to);
     draw_scene_title(&g, overlay->engine->scene, &overlay->engine->part, overlay->title);
     fputs(data, g.to);

@@ -192,12 +192,12 @@ status diagnostics_save_or_load(struct diagnostics *diagnostics, struct archive 
  * speed [1]. */
 #define ENERGY_OF_ROUND_OFF 1e-24
 
-bool diagnostics_energy_is_round_off(const struct diagnostics *diagnostics, real mass, real wave_speed)
+bool diagnostics_energies_are_only_round_off(const struct diagnostics *diagnostics, real mass, real wave_speed)
 {
     return diagnostics->energy_scale < ENERGY_OF_ROUND_OFF * 0.5 * mass * square(wave_speed);
 }
 
-real diagnostics_excess_energy_released_by_bonds(const struct diagnostics *diagnostics)
+real diagnostics_bond_energy_release_beyond_stored(const struct diagnostics *diagnostics)
 {
     return real_max(0, -diagnostics->now.energy.fracture);
 }

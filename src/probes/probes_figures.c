@@ -209,7 +209,7 @@ struct energies probe_compute_energies_of_particles(const struct probe *probe, c
     const struct energies sums = {
         .kinetic = probe_kinetic_energy(probe, o->part),
         .strain = reproducible_sum(probe->n, bond_term, &s) +
-                  points_strain_energy_of_list(o->part, o->material, o->partial, probe->list, probe->n),
+                  points_strain_energy_of_listed_points(o->part, o->material, o->partial, probe->list, probe->n),
         .fracture = reproducible_sum(probe->n, fracture_term, &s),
     };
     memory_free(row_energy);

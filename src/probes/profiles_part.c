@@ -16,7 +16,7 @@ static const char *const profile_begin[] = {"s [m],", "x [m],"};
 static status profiles_put(void *folder, const char *name, const char *text, size_t length)
 {
     const struct path path = path_join(folder, name);
-    TRY(file_check_is_from_cleave(path.text, profile_begin, COUNT_OF(profile_begin)));
+    TRY(file_check_has_known_beginning(path.text, profile_begin, COUNT_OF(profile_begin)));
     return file_write_whole_unsynced(path.text, text, length);
 }
 
@@ -50,7 +50,7 @@ void profiles_warn_of_missing_files(const struct probes *probes, const struct ou
 static bool profile_remove(const char *path)
 {
     if (!path_exists(path)) return false;
-    return file_check_is_from_cleave(path, profile_begin, COUNT_OF(profile_begin)) != OK || unlink(path) == 0;
+    return file_check_has_known_beginning(path, profile_begin, COUNT_OF(profile_begin)) != OK || unlink(path) == 0;
 }
 
 void profiles_remove_files_of_earlier_run(const struct probes *probes, const struct output *out)

@@ -53,7 +53,8 @@ static void increment_predict(struct statics *s, const struct particles *p, cons
                               const struct loads *loads, real t, real *const *before)
 {
     struct prescribed_displacement by[BOUNDARIES_MAX];
-    for (int b = 0; b < loads->n; b++) by[b] = prescribed_displacement_make(loads->load[b].boundary, p->dim, t);
+    for (int b = 0; b < loads->n; b++)
+        by[b] = boundary_prescribed_displacement_at_time(loads->load[b].boundary, p->dim, t);
     for (int64_t k = 0; k < s->balance.n; k++) {
         real X[DIM_MAX] = {0};
         if (s->balance.held[k]) unknown_compute_reference_position(s, p, mesh, k, X);
@@ -61,7 +62,8 @@ static void increment_predict(struct statics *s, const struct particles *p, cons
             const int load = s->load[k * DIM_MAX + d];
             const real u = s->balance.u.of[d][k];
             if (s->balance.held[k] >> d & 1)
-                s->increment.of[d][k] = (load < 0 ? 0 : prescribed_displacement_at(&by[load], X, d)) - u;
+                s->increment.of[d][k] =
+                    (load < 0 ? 0 : prescribed_displacement_component_at_position(&by[load], X, d)) - u;
         }
     }
     const real growth = load_growth(s, p, t, before);
@@ -134,7 +136,7 @@ status equilibrium_solve_without_work_account(struct run *run, real pseudo_time,
 {
     struct statics *s = run->statics;
     TRY(check_stop(run->report, &run->clock));
-    TRY(loads_check_formulas_are_finite(&run->loads, &run->part, pseudo_time));
+    TRY(loads_check_formula_values_are_finite(&run->loads, &run->part, pseudo_time));
     applied_forces_compute(s, &run->part, &run->loads, pseudo_time);
     if (s->fragments_stale) unconstrained_fragments_find(run);
     increment_predict(s, &run->part, &run->frame->mesh, &run->loads, pseudo_time, present_applied_forces);
@@ -154,13 +156,13 @@ static status solve_at(struct run *run, real t, bool *crossed)
     struct work_account account;
     const int64_t asked = s->balance.directions;
     const real lost = s->balance.lost;
-    TRY(loads_check_formulas_are_finite(&run->loads, &run->part, t));
+    TRY(loads_check_formula_values_are_finite(&run->loads, &run->part, t));
     statics_move_rigid_bodies_and_search_contacts(run, t);
     work_account_store_initial_equilibrium(&account, s, &run->part);
     const status found = equilibrium_solve_without_work_account(run, t, account.applied);
     run_move_to_solution_and_update_plastic_state(run);
     lagrangian_mesh_update_point_motion_and_stress(run->frame, &run->part, &run->loads);
-    loads_update_mirror_images(&run->loads, &run->part);
+    loads_update_mirror_images_of_particles(&run->loads, &run->part);
     const bool touched = statics_contact_existed_before_or_exists_now(s, run->contact);
     const real worked = run->loads.work + run->loads.constraint_work,
                range = work_account_add_work_and_estimate_error(&account, s, &run->part, &run->loads,

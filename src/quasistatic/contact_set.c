@@ -56,7 +56,7 @@ void statics_contact_search_before_first_solution(struct run *run)
 {
     if (!run->statics->has_contact) return;
     run->contact->marked = true;
-    loads_update_mirror_images(&run->loads, &run->part);
+    loads_update_mirror_images_of_particles(&run->loads, &run->part);
     if (!run->contact->made || !run->contact->touch) statics_contact_search(run, CARRIED);
 }
 
@@ -119,7 +119,7 @@ bool statics_update_contacts_and_test_unchanged(void *run)
     struct contact *c = e->contact;
     if (!e->statics->has_contact) return true;
     unknowns_apply_displacements(s, &e->part, &e->frame->mesh, &s->balance.u);
-    loads_update_mirror_images(&e->loads, &e->part);
+    loads_update_mirror_images_of_particles(&e->loads, &e->part);
     const int64_t changed = contact_search_is_needed(c, &e->part)
                                 ? 1 + statics_contact_search(e, 0)
                                 : contact_select_linear_springs_count_changes(c, &e->part, 0);

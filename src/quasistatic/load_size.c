@@ -24,12 +24,13 @@ real statics_norm_of_prescribed_loads(const struct run *run, real t)
     real sum = 0, forces = 0;
     for (int b = 0; b < run->loads.n; b++) {
         const struct load *l = &run->loads.load[b];
-        const struct prescribed_displacement by = prescribed_displacement_make(l->boundary, run->part.dim, t);
+        const struct prescribed_displacement by =
+            boundary_prescribed_displacement_at_time(l->boundary, run->part.dim, t);
         for (int64_t k = 0; k < l->n; k++) {
             real X[DIM_MAX], f[DIM_MAX];
             particle_reference_position(&run->part, l->particle[k], X);
             for (int d = 0; d < run->part.dim && l->boundary->kind == BOUNDARY_VELOCITY; d++)
-                if (l->prescribes[k] >> d & 1) sum += square(prescribed_displacement_at(&by, X, d));
+                if (l->prescribes[k] >> d & 1) sum += square(prescribed_displacement_component_at_position(&by, X, d));
             if (!boundary_applies_force(l->boundary)) continue;
             load_force_on_particle(l, &run->part, k, t, f);
             forces += dot(f, f, run->part.dim);

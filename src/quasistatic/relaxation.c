@@ -99,7 +99,7 @@ static void damp_velocities(struct particles *p, const struct loads *loads, int 
 #pragma omp parallel for schedule(static)
         for (int64_t i = 0; i < p->n; i++) p->gradient[k][i] *= keep;
     }
-    loads_update_mirror_images(loads, p);
+    loads_update_mirror_images_of_particles(loads, p);
 }
 
 status grid_relaxation_step(struct run *run, bool *is_in_equilibrium)

@@ -78,7 +78,7 @@ static void velocities_scale(struct particles *p, struct mesh *mesh, const struc
         for (int64_t i = 0; i < p->n; i++) p->v[d][i] *= share;
         for (int64_t I = 0; mesh->points > 0 && I < g->n; I++) g->velocity[d][I] *= share;
     }
-    loads_update_mirror_images(loads, p);
+    loads_update_mirror_images_of_particles(loads, p);
 }
 
 /* Returns the kinetic energy [J] of the particles `part` and of the mesh of the reference frame `frame`. */

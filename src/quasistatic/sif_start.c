@@ -82,7 +82,7 @@ static void sif_tips_start(struct run *run)
     }
 }
 
-const char *sif_growth_reason_direction_undetermined(const struct run *run, struct crack_tip_plane *plane)
+const char *sif_growth_reason_direction_is_undetermined(const struct run *run, struct crack_tip_plane *plane)
 {
     const struct scene *s = run->scene;
     struct crack_tip_plane unused;
@@ -103,7 +103,7 @@ const char *sif_growth_reason_direction_undetermined(const struct run *run, stru
 status sif_growth_check_direction_is_determinable(const struct run *run)
 {
     if (!scene_has_load_steps(run->scene) || run->scene->steps.path != PATH_HOOP || run->scene->dim != 3) return OK;
-    const char *fault = sif_growth_reason_direction_undetermined(run, NULL);
+    const char *fault = sif_growth_reason_direction_is_undetermined(run, NULL);
     return fault ? status_set(REFUSED,
                               "steps.path: hoop (crack growth by the hoop stress) needs straight, parallel crack "
                               "fronts through the whole body, but %s; set steps.path: bonds or auto",
@@ -115,7 +115,7 @@ bool sif_cracks_find_tips_and_test_can_grow(struct run *run)
 {
     struct sif_cracks *cracks = &run->statics->sif;
     cracks->scene = run->scene, cracks->source = &run->source;
-    if (!cracks->plane.made) cracks->fault = sif_growth_reason_direction_undetermined(run, &cracks->plane);
+    if (!cracks->plane.made) cracks->fault = sif_growth_reason_direction_is_undetermined(run, &cracks->plane);
     if (cracks->fault) return false;
     if (!cracks->known) sif_tips_start(run);
     for (int k = 0; k < cracks->n; k++)

@@ -192,7 +192,7 @@ static void particles_place_between(struct particles *q, const struct particles 
 {
     for (int d = 0; d < p->dim; d++)
         for (int64_t i = 0; i < p->n; i++) q->x[d][i] = before[d][i] + share * (p->x[d][i] - before[d][i]);
-    loads_update_mirror_images(loads, q);
+    loads_update_mirror_images_of_particles(loads, q);
 }
 
 /* Adds to the fracture energy the energy that neighbourhoods of state-based models have lost by softening since the

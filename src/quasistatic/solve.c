@@ -204,8 +204,8 @@ static void solver_finish(struct run *run)
     for (int d = 0; d < p->dim; d++) array_fill_bytes(p->v[d], 0, p->n_all, sizeof(real));
     for (int k = 0; k < p->dim * p->dim && (run->optional & WITH_GRADIENT); k++)
         array_fill_bytes(p->gradient[k], 0, p->n_all, sizeof(real));
-    loads_update_mirror_images(&run->loads, p);
-    loads_compute_static_work(&run->loads, p);
+    loads_update_mirror_images_of_particles(&run->loads, p);
+    loads_compute_work_in_static_equilibrium(&run->loads, p);
     memset(run->loads.impulse, 0, sizeof run->loads.impulse);
     run->clock.t = run->scene->duration;
     run->clock.steps = run->clock.step;

@@ -66,7 +66,7 @@ static void forces_present(struct run *run)
 {
     const bool has_mesh = run->frame->mesh.points > 0;
     if (has_mesh) lagrangian_mesh_move_bonded_or_loaded_points(run->frame, &run->part);
-    loads_update_mirror_images(&run->loads, &run->part);
+    loads_update_mirror_images_of_particles(&run->loads, &run->part);
     loads_clear_forces_of_loaded_particles(&run->loads, &run->part);
     plastic_state_restore(
         &run->statics->plastic, &run->bonds, &run->part,

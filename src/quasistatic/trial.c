@@ -48,6 +48,7 @@ void trial_equilibrium_end(struct run *run, struct memory_archive *m, bool keep_
                        run->optional); /* a nested trial may have saved a different one */
     unknowns_apply_displacements(run->statics, &run->part, &run->frame->mesh, &run->statics->balance.u);
     lagrangian_mesh_update_point_motion_and_stress(run->frame, &run->part, &run->loads);
-    loads_update_mirror_images(&run->loads, &run->part); /* stretches of bonds to mirror images need their positions */
+    loads_update_mirror_images_of_particles(&run->loads,
+                                            &run->part); /* stretches of bonds to mirror images need their positions */
     reactions_compute_and_store(run->statics, &run->part, &run->loads);
 }

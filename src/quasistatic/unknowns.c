@@ -233,13 +233,14 @@ void reactions_compute_and_store(const struct statics *s, const struct particles
         struct load *l = &loads->load[b];
         if (boundary_applies_force(l->boundary)) load_compute_total_force_and_mean_displacement(l, p, s->t);
         if (l->boundary->kind != BOUNDARY_VELOCITY) continue;
-        const struct prescribed_displacement by = prescribed_displacement_make(l->boundary, p->dim, s->t);
+        const struct prescribed_displacement by = boundary_prescribed_displacement_at_time(l->boundary, p->dim, s->t);
         memset(l->reaction, 0, sizeof l->reaction);
         for (int d = 0; d < p->dim; d++) {
             real sum = 0, X[DIM_MAX] = {0};
             if (!(l->boundary->components >> d & 1)) continue;
             for (int64_t q = 0; q < l->n; q++)
-                particle_reference_position(p, l->particle[q], X), sum += prescribed_displacement_at(&by, X, d);
+                particle_reference_position(p, l->particle[q], X),
+                    sum += prescribed_displacement_component_at_position(&by, X, d);
             l->displacement[d] = l->n > 0 ? sum / (real)l->n : 0;
         }
     }

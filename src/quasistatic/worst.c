@@ -28,8 +28,8 @@ static void products(const struct run *run, real t, real u, real *product)
         const int64_t stride = 1 + l->n / LOAD_PARTICLES;
         for (int64_t k = 0; k < l->n && l->boundary->kind == BOUNDARY_VELOCITY; k += stride) {
             real x[DIM_MAX], y[DIM_MAX];
-            load_displacement_of_particle(l, &run->part, k, t, x);
-            load_displacement_of_particle(l, &run->part, k, u, y);
+            load_prescribed_displacement_of_particle(l, &run->part, k, t, x);
+            load_prescribed_displacement_of_particle(l, &run->part, k, u, y);
             product[DISPLACEMENTS] += (real)stride * dot(x, y, dim);
         }
         for (int64_t k = 0; k < l->n && boundary_applies_force(l->boundary); k += stride) {
@@ -138,7 +138,7 @@ static status worst_try(struct run *run, real t, real *at, real *ratio)
     return OK;
 }
 
-status run_predict_largest_stretch_to_critical_ratio(struct run *run, real first_load_time, real *load_time,
+status run_predict_largest_ratio_to_critical_stretch(struct run *run, real first_load_time, real *load_time,
                                                      real *ratio)
 {
     struct worst worst[SORTS] = {{NAN, NAN, NAN}, {NAN, NAN, NAN}};

@@ -81,8 +81,8 @@ void animation_write_rigid_body_motion_of_frame(struct html_page *p, const struc
         for (int b = 0; b < rigids; b++) {
             json_begin_object_or_list(&p->json, NULL, '{');
             real beside[DIM_MAX];
-            rigid_body_find_nearest_particle_displacement(&animation->scene->body[animation->scene->bodies + b].shape,
-                                                          &at[b], frame, beside);
+            rigid_body_displacement_of_nearest_particle(&animation->scene->body[animation->scene->bodies + b].shape,
+                                                        &at[b], frame, beside);
             write_vector(p, "x", at[b].x, animation->dim);
             write_vector(p, "beside", beside, animation->dim);
             json_begin_object_or_list(&p->json, "turn", '[');

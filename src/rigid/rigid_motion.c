@@ -31,7 +31,8 @@ void rigids_move_to_prescribed_positions(struct rigid_set *rigid, real t)
     for (int k = 0; k < rigid->n; k++) rigid_move_to_prescribed_position(&rigid->body[k], t);
 }
 
-void rigids_update_work_and_particle_impulse(struct rigid_set *rigid, real dt_velocity, real particle_impulse[DIM_MAX])
+void rigids_update_drive_work_and_contact_impulse(struct rigid_set *rigid, real dt_velocity,
+                                                  real particle_impulse[DIM_MAX])
 {
     for (int k = 0; k < rigid->n; k++) {
         rigid_add_work_of_prescribed_motion(&rigid->body[k]);

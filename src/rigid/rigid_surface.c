@@ -421,11 +421,11 @@ static struct path rigid_path(const char *folder, int number)
     return path_join(folder, name);
 }
 
-status rigids_write_surfaces_of_frame(struct rigid_set *rigid, const struct output *o, const struct particles *part)
+status rigids_write_surfaces_of_frame(struct rigid_set *rigid, const struct output *o, const struct particles *p)
 {
     const struct frame_series *s = &o->series[0];
     if (rigid->n == 0 || rigid->dim < 2 || s->frames == 0) return OK;
-    rigid_surfaces_make(rigid, part);
+    rigid_surfaces_make(rigid, p);
     TRY(compose(rigid_path(o->folder, s->frames - 1).text, rigid, s));
     return compose(path_join(o->folder, "rigid.vtp.series").text, NULL, s);
 }

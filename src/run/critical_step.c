@@ -22,7 +22,7 @@ struct bond_stiffness_operator bond_stiffness_operator_make(struct bonds *b, str
     return body;
 }
 
-void bond_stiffness_operator_free(struct bond_stiffness_operator *body) { memory_free(body->root); }
+void bond_stiffness_operator_free(struct bond_stiffness_operator *bond_operator) { memory_free(bond_operator->root); }
 
 /* Returns the largest absolute component of the displacement u/sqrt(m) over all particles of `body` [m]. u: [dim][n]
  * displacements times the square root of the mass. */
@@ -44,7 +44,7 @@ void bond_stiffness_operator_apply(void *context, const real *displacement, real
     for (int a = 0; a < p->dim; a++)
 #pragma omp parallel for schedule(static)
         for (int64_t i = 0; i < p->n; i++) p->x[a][i] = p->X[a][i] + scale * displacement[a * p->n + i] / body->root[i];
-    if (body->loads) loads_update_mirror_images(body->loads, p);
+    if (body->loads) loads_update_mirror_images_of_particles(body->loads, p);
     bond_forces(body->force, body->b, p, &bond_limit_never, NULL);
     for (int a = 0; a < p->dim; a++)
 #pragma omp parallel for schedule(static)

@@ -45,7 +45,7 @@ static status starts_at_rest(const struct boundary *b, const struct particles *p
 {
     for (int64_t k = 0; k < l->n; k++) {
         real u[DIM_MAX];
-        load_displacement_of_particle(l, p, k, 0, u);
+        load_prescribed_displacement_of_particle(l, p, k, 0, u);
         for (int d = 0; d < p->dim; d++)
             if (!(fabs(u[d]) <= DISPLACEMENT_TOLERANCE * spacing))
                 return status_set(REFUSED,

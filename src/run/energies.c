@@ -267,8 +267,9 @@ static void strain_block(const void *context, int64_t first, int64_t end, real *
     if (s->p->dim == 3) strain_block_in(s, first, end, sum, 3);
 }
 
-real points_strain_energy_of_list(const struct particles *p, const struct material *m,
-                                  const struct partial_stress *partial, const int32_t *point_list, int64_t point_count)
+real points_strain_energy_of_listed_points(const struct particles *p, const struct material *m,
+                                           const struct partial_stress *partial, const int32_t *point_list,
+                                           int64_t point_count)
 {
     int materials = 0;
     for (int64_t k = 0; k < point_count; k++)
@@ -284,7 +285,7 @@ real points_strain_energy_of_list(const struct particles *p, const struct materi
 
 real points_strain_energy(const struct particles *p, const struct material *m, const struct partial_stress *partial)
 {
-    return points_strain_energy_of_list(p, m, partial, p->list_free, p->n_free);
+    return points_strain_energy_of_listed_points(p, m, partial, p->list_free, p->n_free);
 }
 
 /* Returns the plastic work [J] of the material point in entry k of a list, without the share that its bonds carry.
@@ -330,6 +331,6 @@ void particles_linear_momentum(const struct particles *p, const struct grid *con
 void bonds_compute_particle_stress(struct bonds *b, struct particles *p, const struct bond_source *s,
                                    const struct kernels *kernels)
 {
-    families_compute_pressure_stiffness_and_rotation(b, p, s);
+    families_compute_pressure_rotation_and_stiffness(b, p, s);
     kernels->bond_stress(b, p);
 }

@@ -3,7 +3,7 @@
  * (point_pd_conversion_stress_threshold). */
 #include "run/make.h"
 
-void conversion_stress_reduce_to_weakest_particle(struct elastic *elastic, const struct particles *p)
+void conversion_stresses_set_by_weakest_particles(struct elastic *elastic, const struct particles *p)
 {
     for (int64_t i = 0; i < p->n && p->strength; i++) {
         struct elastic *m = &elastic[p->material[i]];

@@ -16,11 +16,11 @@ static bool cell_inside(const struct grid *box, const struct region *shape, int6
     return true;
 }
 
-void body_mark_cells_with_all_sites_inside(struct cells_without_particles *hollow, const struct scene *s,
-                                           int body_index)
+void body_flag_cells_with_all_lattice_sites_inside(struct cells_without_particles *empty_cells, const struct scene *s,
+                                                   int body_index)
 {
-    hollow->whole = NEW("hollow.whole", hollow->box.n, uint8_t);
+    empty_cells->whole = NEW("hollow.whole", empty_cells->box.n, uint8_t);
 #pragma omp parallel for schedule(dynamic, 4096)
-    for (int64_t I = 0; I < hollow->box.n; I++)
-        hollow->whole[I] = cell_inside(&hollow->box, &s->body[body_index].shape, I);
+    for (int64_t I = 0; I < empty_cells->box.n; I++)
+        empty_cells->whole[I] = cell_inside(&empty_cells->box, &s->body[body_index].shape, I);
 }

@@ -156,7 +156,7 @@ status check_loads_are_supported(struct reader *r, const struct yaml_node *root)
                 r, yaml_node_find(n, "rotation"),
                 "a static solver moves supports along straight lines only; use displacement in place of "
                 "rotation, or set solver: explicit");
-        if (formula && boundary_check_displacement_has_closed_form(load) != OK)
+        if (formula && boundary_check_velocity_has_closed_form_integral(load) != OK)
             return fault_report_at_node(
                 r, yaml_node_find(n, "velocity"),
                 "static solvers need the displacement, which a velocity as a formula of t does not give; give "

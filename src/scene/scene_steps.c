@@ -53,7 +53,7 @@ static status check_steps_loads(struct reader *r, const struct yaml_node *root)
                 r, yaml_node_find(n, "follow"),
                 "load steps apply loads to the undeformed body only; set follow: false, or solver: explicit");
         TRY(status_message_prepend_location(s->boundary[b].place,
-                                            boundary_check_displacement_has_closed_form(&s->boundary[b])));
+                                            boundary_check_velocity_has_closed_form_integral(&s->boundary[b])));
     }
     return OK;
 }

@@ -7,7 +7,7 @@
 
 void static_body_compute_bond_forces(const struct static_body *body)
 {
-    loads_update_mirror_images(body->loads, body->part);
+    loads_update_mirror_images_of_particles(body->loads, body->part);
     bond_forces(body->force, body->bonds, body->part, &bond_limit_never, NULL);
 }
 

@@ -166,7 +166,7 @@ static status loads_balanced(const struct static_body *body)
     for (int d = 0; d < body->part->dim; d++) TRY(force_balanced(l, d));
     if (body->part->dim != 2 || body->bodies != 1 || component_constrained(l, 0) || component_constrained(l, 1))
         return OK;
-    const real turning = loads_add_inertia_relief(l, body->part);
+    const real turning = loads_add_inertia_relief_and_return_moment_ratio(l, body->part);
     if (turning <= TURNING_MOST) return OK;
     return status_set(REFUSED,
                       "solver: no support keeps the body from turning, but the moment of the loads is %.3g of the "

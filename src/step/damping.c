@@ -104,7 +104,7 @@ static real slow_all(struct particles *p, const struct mesh *mesh, struct loads 
     }
     for (int c = 0; c < square(p->dim) && p->gradient[c]; c++) /* velocity gradients of APIC */
         for (int64_t i = 0; i < p->n; i++) p->gradient[c][i] *= factor;
-    loads_update_mirror_images(l, p);
+    loads_update_mirror_images_of_particles(l, p);
     return kinetic;
 }
 

@@ -433,7 +433,8 @@ static void reactions_add(struct loads *l, const struct grid *g)
 static void reactions_at_end(struct loads *l, const struct grid_method *grid, const struct lagrangian_mesh *frame,
                              const struct run_clock *clock)
 {
-    for (int k = 0; grid && k < grid->fields; k++) loads_add_grid_reactions(l, &grid->field[k].grid, clock->dt);
+    for (int k = 0; grid && k < grid->fields; k++)
+        loads_add_reactions_at_grid_nodes(l, &grid->field[k].grid, clock->dt);
     if (frame->mesh.points == 0) return;
     reactions_add(l, &frame->mesh.grid);
     for (int level = 1; level <= mesh_levels_coarsest_level_integrated_in_step(&frame->levels, clock->step); level++)
@@ -478,7 +479,7 @@ static real power_last(struct run *run, real *held)
 void history_sample_write_after_last_step(struct run *run)
 {
     real held = 0;
-    families_compute_pressure_stiffness_and_rotation(&run->bonds, &run->part, &run->source);
+    families_compute_pressure_rotation_and_stiffness(&run->bonds, &run->part, &run->source);
     if (run->source.limit.softening && !run->source.modulus) bonds_update_softening(&run->bonds, &run->part);
     lagrangian_mesh_update_point_motion_and_stress(run->frame, &run->part, &run->loads);
     sample_state(run);

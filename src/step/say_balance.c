@@ -31,7 +31,7 @@
 static void say_released(const struct scene *s, const struct diagnostics *diagnostics, struct warnings *to)
 {
     char text[320];
-    const real released = diagnostics_excess_energy_released_by_bonds(diagnostics);
+    const real released = diagnostics_bond_energy_release_beyond_stored(diagnostics);
     if (scene_is_single_equilibrium(s) || released <= ENERGY_DOUBTFUL * diagnostics->energy_scale) return;
     snprintf(
         text, sizeof text,
@@ -44,7 +44,7 @@ static void say_released(const struct scene *s, const struct diagnostics *diagno
 bool fracture_energy_warn_if_negative(const struct scene *s, const struct diagnostics *diagnostics, struct warnings *to)
 {
     char text[480];
-    const real released = diagnostics_excess_energy_released_by_bonds(diagnostics);
+    const real released = diagnostics_bond_energy_release_beyond_stored(diagnostics);
     const bool states = s->model == MODEL_OSPD || s->model == MODEL_MOSPD;
     if (!(released > RELEASED_NOTICED * diagnostics->energy_scale)) return false;
     snprintf(
@@ -207,7 +207,7 @@ void run_warn_of_unconserved_energy_and_momentum(struct run *run)
 {
     const struct diagnostics *diagnostics = run->diagnostics;
     const bool apic = run->scene->transfer == TRANSFER_APIC && run->part.n_free > 0;
-    const bool round_off = diagnostics_energy_is_round_off(diagnostics, run->mass, run->tables.wave_speed);
+    const bool round_off = diagnostics_energies_are_only_round_off(diagnostics, run->mass, run->tables.wave_speed);
     const real error = diagnostics->now.balance_error;
     char text[640];
     if (run->report->excerpt) return;

@@ -324,8 +324,8 @@ static status formula_check(const struct loads *l, const struct particles *p, co
     const real *impulse = l->impulse;
     if (!isfinite(impulse[0] + impulse[1] + impulse[2]))
         for (int half = -3; half <= 2; half++)
-            TRY(loads_check_formulas_are_finite(l, p, real_max(0, clock->t + 0.5 * half * clock->dt)));
-    return clock->step == clock->steps ? loads_check_formulas_are_finite(l, p, clock->t) : OK;
+            TRY(loads_check_formula_values_are_finite(l, p, real_max(0, clock->t + 0.5 * half * clock->dt)));
+    return clock->step == clock->steps ? loads_check_formula_values_are_finite(l, p, clock->t) : OK;
 }
 
 status run_check_stability_after_step(struct run *run)
@@ -367,7 +367,8 @@ static bool gains(const struct run_clock *clock, const struct diagnostics *diagn
 {
     const bool counts = clock->step >= ENERGY_STEPS || clock->dt > clock->dt_critical;
     return (counts && diagnostics->now.balance_error > ENERGY_FROM_NOWHERE) ||
-           diagnostics_excess_energy_released_by_bonds(diagnostics) > RELEASED_FROM_NOWHERE * diagnostics->energy_scale;
+           diagnostics_bond_energy_release_beyond_stored(diagnostics) >
+               RELEASED_FROM_NOWHERE * diagnostics->energy_scale;
 }
 
 /* Returns true if the time step of `clock` is above the critical one and velocities change sign in every step: kinetic
@@ -491,7 +492,7 @@ status run_check_last_sample_for_energy_divergence(struct run *run)
                           (long long)run->clock.step, run->clock.t);
     const struct diagnostics *diagnostics = run->diagnostics;
     const real excess = diagnostics->now.balance_error * diagnostics->energy_scale +
-                        diagnostics_excess_energy_released_by_bonds(diagnostics);
+                        diagnostics_bond_energy_release_beyond_stored(diagnostics);
     const bool last = run->clock.step == run->clock.steps && !scene_is_single_equilibrium(run->scene);
     char what[96], remedy[REMEDY_LENGTH];
     if (!run->report->sampling.due && !last) return OK;
@@ -509,7 +510,7 @@ status run_check_last_sample_for_energy_divergence(struct run *run)
     if (scene_is_dynamic(run->scene))
         large_motion_warn_of_non_follower_pressure(&run->stability->motion, &run->part, &run->loads, run->clock.t,
                                                    &run->warnings);
-    if (diagnostics_energy_is_round_off(diagnostics, run->mass, run->tables.wave_speed)) return OK;
+    if (diagnostics_energies_are_only_round_off(diagnostics, run->mass, run->tables.wave_speed)) return OK;
     if (!run->stability->released)
         run->stability->released = fracture_energy_warn_if_negative(run->scene, diagnostics, &run->warnings);
     if (swings(&run->clock, &diagnostics->now.energy)) {

@@ -81,7 +81,8 @@ static void zone_damp(struct run *run, struct step *now)
     if (!now->damps) return;
     run->damped +=
         interface_zone_damp_return_loss_by_old_velocity(&run->coupling->zone, &run->part, run->coupling->damping_share);
-    loads_update_mirror_images(&run->loads, &run->part); /* breaking bonds read the velocities of mirror images */
+    loads_update_mirror_images_of_particles(&run->loads,
+                                            &run->part); /* breaking bonds read the velocities of mirror images */
 }
 
 /* Stores the velocities of run before the forces of this step, from which the energy loss by bulk damping is
@@ -107,7 +108,7 @@ static void damping_begin(struct run *run, const struct step *now)
  * million particles, which exceed the cache. */
 static bool sweep_moves(const struct scene *s, const struct run_report *report)
 {
-    return !report->sampling.due && s->growths == 0 && !scene_has_viscosity(s);
+    return !report->sampling.due && s->growths == 0 && !scene_any_material_has_bulk_viscosity(s);
 }
 
 /* Returns the number of time steps between two tests of the stresses of particles against strength surfaces: the steps
@@ -160,8 +161,8 @@ static status move_grid(struct run *run, const struct step *now)
 {
     const bool any = run->part.n_free + run->part.n_grid_coupled > 0;
     viscosity_subtract_or_restore_pressure(run->viscosity, &run->part, true);
-    grid_map_points_to_nodes(run->grid, &run->part, &run->kernels,
-                             &run->timers); /* 1, 3: mass, momentum, force to nodes */
+    grid_transfer_mass_momentum_forces_to_nodes(run->grid, &run->part, &run->kernels,
+                                                &run->timers); /* 1, 3: mass, momentum, force to nodes */
     viscosity_subtract_or_restore_pressure(run->viscosity, &run->part, false);
     if (run->clock.step == 0) patch_test_store_largest_residual_force(run->probing, run->scene, &run->part, run->grid);
     TRY(grid_advance_material_points_one_step(run, now->middle)); /* 3, 4, 6, 7 */
@@ -188,10 +189,10 @@ static void move_frame(struct run *run, const struct step *now)
 static void step_hold(struct run *run, const struct step *now)
 {
     for (int k = 0; k < run->grid->fields; k++)
-        loads_add_grid_reactions(&run->loads, &run->grid->field[k].grid, now->dt_velocity);
-    if (loads_impose_prescribed_motion(&run->loads, &run->part, now->middle, run->clock.dt))
+        loads_add_reactions_at_grid_nodes(&run->loads, &run->grid->field[k].grid, now->dt_velocity);
+    if (loads_impose_prescribed_motion_on_particles(&run->loads, &run->part, now->middle, run->clock.dt))
         run->grid->sort_needed = SORT_ALL;
-    loads_update_mirror_images(&run->loads, &run->part);
+    loads_update_mirror_images_of_particles(&run->loads, &run->part);
     timer_add_elapsed_to_section(&run->timers, TIMER_GRID);
 }
 
@@ -260,7 +261,7 @@ status step(struct run *run)
     push_bonds(run, &now); /* 2, 5 */
     viscosity_add_bond_forces_and_pressure(run);
     push_contact(run->contact, &run->part, run->report, run->scene, &run->clock);
-    rigids_update_work_and_particle_impulse(run->rigid, now.dt_velocity, run->loads.impulse);
+    rigids_update_drive_work_and_contact_impulse(run->rigid, now.dt_velocity, run->loads.impulse);
     loads_apply_forces_and_motion_constraints(&run->loads, &run->part, now.middle, run->clock.dt, now.dt_velocity);
     timer_add_elapsed_to_section(&run->timers, TIMER_BONDS);
     history_sample_compute_energies(run);

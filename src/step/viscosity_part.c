@@ -14,7 +14,7 @@
  * number of nodes of the mesh. Returns true if the arrays exist. */
 static bool viscosity_made(struct viscosity *v, const struct scene *s, int64_t n, int64_t nodes)
 {
-    if (v->work || !scene_has_viscosity(s)) return v->work != NULL;
+    if (v->work || !scene_any_material_has_bulk_viscosity(s)) return v->work != NULL;
     v->material = s->material, v->cell = s->cell * s->spacing, v->small_strain = s->small_strain;
     for (int d = 0; d < s->dim; d++) {
         v->bonds[d] = NEW("viscosity.bonds", n, real), v->stress[d] = NEW("viscosity.stress", n, real);
@@ -285,7 +285,7 @@ real viscosity_time_step_factor(const struct scene *s, const struct loads *l, co
     real impedance = INFINITY;
     for (int m = 0; m < s->materials; m++)
         impedance = real_min(impedance, s->material[m].density * s->material[m].wave_speed);
-    for (int b = 0; b < l->n && scene_has_viscosity(s); b++)
+    for (int b = 0; b < l->n && scene_any_material_has_bulk_viscosity(s); b++)
         initial_speed = real_max(initial_speed, speed_of_load(&l->load[b], p, s->duration, impedance));
     for (int b = s->bodies; b < s->bodies + s->rigids; b++)
         initial_speed = real_max(initial_speed, sqrt(dot(s->body[b].velocity, s->body[b].velocity, s->dim)));

@@ -17,7 +17,7 @@ status scalar_results_check_replaceable(const char *folder)
 {
     static const char *const begin[] = {"figure,unit,"};
     if (study_folder_check_is_usable(folder) != OK) return OK; /* study_lock_folder reports the fault */
-    TRY(file_check_is_from_cleave(path_join(folder, "converge.csv").text, begin, COUNT_OF(begin)));
+    TRY(file_check_has_known_beginning(path_join(folder, "converge.csv").text, begin, COUNT_OF(begin)));
     TRY(picture_check_replaceable(convergence_picture_path(folder, "convergence").text));
     return picture_check_replaceable(convergence_picture_path(folder, "path").text);
 }

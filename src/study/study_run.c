@@ -152,7 +152,7 @@ static status case_guard(const struct study *s, const struct study_case *c)
         return status_set(REFUSED, "%s is a symbolic link, so results would be written elsewhere; choose another -o",
                           folder.text);
     TRY(file_check_replaceable(log.text));
-    return file_check_is_from_cleave(log.text, begin, COUNT_OF(begin));
+    return file_check_has_known_beginning(log.text, begin, COUNT_OF(begin));
 }
 
 /* Replaces the child process by the command word[], with its output to the descriptor `log`. The process has its own

@@ -166,7 +166,7 @@ status study_check_output_files_replaceable(const struct study *s, const struct 
     static const char *const begin[] = {"run,state"};
     const struct path pictures = path_join(s->folder, "pictures");
     if (study_folder_check_is_usable(s->folder) != OK) return OK; /* study_lock_folder reports the fault */
-    TRY(file_check_is_from_cleave(path_join(s->folder, "sweep.csv").text, begin, COUNT_OF(begin)));
+    TRY(file_check_has_known_beginning(path_join(s->folder, "sweep.csv").text, begin, COUNT_OF(begin)));
     char name[PICTURE_NAME_ROOM];
     study_picture_write_file_name(name, "map");
     TRY(picture_check_replaceable(path_join(pictures.text, name).text));

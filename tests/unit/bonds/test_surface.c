@@ -327,8 +327,9 @@ static void half_is_as_the_whole(void **state)
     for (int64_t i = 0; i < whole.p.n; i++) whole.p.X[0][i] -= 7 * CLOUD_SPACING;
     plan.count[0] = 7;
     particle_cloud_make(&half, &plan);
-    assert_int_equal(loads_make(&loads, mirror, 1, &half.p, CLOUD_SPACING, half.source.family.cutoff, 0), OK);
-    loads_update_mirror_images(&loads, &half.p);
+    assert_int_equal(
+        loads_make_from_boundaries(&loads, mirror, 1, &half.p, CLOUD_SPACING, half.source.family.cutoff, 0), OK);
+    loads_update_mirror_images_of_particles(&loads, &half.p);
     half.source.image = loads.image;
     cloud_source(&whole);
     cloud_source(&half);

@@ -179,7 +179,7 @@ static void check_points(const char *text)
         for (int c = 0; c < symmetric_tensor_component_count(e.part.dim); c++)
             e.part.stress[c][i] = cloud_between(&seed, -1e9, 1e9);
     bonded_points_update_strain_from_mesh_or_stress(&e.coupling->partial, e.frame, &e.part, e.scene->material);
-    families_compute_pressure_stiffness_and_rotation(&e.bonds, &e.part, &e.source);
+    families_compute_pressure_rotation_and_stiffness(&e.bonds, &e.part, &e.source);
     for (int64_t row = 0; row < e.bonds.rows; row++) {
         const int64_t i = e.bonds.particle[row];
         if (e.part.kind[i] != KIND_MPM || e.coupling->partial.index[i] < 0 ||

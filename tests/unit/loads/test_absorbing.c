@@ -36,7 +36,7 @@ static void test_kick(void **state)
     particle_cloud_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {5, 4}, .horizon = 3});
     struct particles *p = &c.p;
     for (int64_t i = 0; i < p->n; i++) p->material[i] = i % 3 == 0;
-    assert_ok(loads_make(&l, row, 2, p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
+    assert_ok(loads_make_from_boundaries(&l, row, 2, p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
     absorbing_dashpots_make(&l, p, all);
     assert_int_equal(l.absorbing.n, 5 * 2 + 4 * 2 - 4); /* two layers deep, for nodes */
     real right = -INFINITY, top = -INFINITY;

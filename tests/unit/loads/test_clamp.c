@@ -73,7 +73,7 @@ static void body_free(struct body *a)
 /* Computes the forces of run by the calls of a time step, without breaking bonds. */
 static void forces(struct run *run)
 {
-    loads_update_mirror_images(&run->loads, &run->part);
+    loads_update_mirror_images_of_particles(&run->loads, &run->part);
     bond_forces(run->kernels.bond_force, &run->bonds, &run->part, &run->source.limit, NULL);
 }
 

@@ -27,7 +27,7 @@ struct displaced {
 static void displaced_make(struct displaced *m, const struct boundary *b)
 {
     particle_cloud_make(&m->c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {7, 5}, .horizon = 3});
-    assert_ok(loads_make(&m->l, b, 1, &m->c.p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
+    assert_ok(loads_make_from_boundaries(&m->l, b, 1, &m->c.p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
     assert_true(m->l.load[0].n == m->c.p.n);
 }
 
@@ -57,13 +57,13 @@ static void test_values(void **state)
         for (int64_t k = 0; k < m.c.p.n; k += 11) {
             real u[DIM_MAX];
             const real place = formula ? square(m.c.p.X[0][k]) : 1;
-            load_displacement_of_particle(&m.l.load[0], &m.c.p, k, 2, u);
+            load_prescribed_displacement_of_particle(&m.l.load[0], &m.c.p, k, 2, u);
             assert_near(u[0], 0.5 * 3 * place, 1e-15 * 3); /* t/4 at 2 is 1/2, and so is its integral */
-            load_displacement_of_particle(&m.l.load[0], &m.c.p, k, 6, u);
+            load_prescribed_displacement_of_particle(&m.l.load[0], &m.c.p, k, 6, u);
             assert_near(u[0], (displaces ? 1 : 4) * 3 * place, 1e-15 * 12);
             assert_true(u[1] == 0);
         }
-        assert_ok(boundary_check_displacement_has_closed_form(&b));
+        assert_ok(boundary_check_velocity_has_closed_form_integral(&b));
         displaced_free(&m);
     }
     expression_free(&b.formula[0]);
@@ -84,8 +84,8 @@ static void test_turn_in_space(void **state)
                                .axis_of = {2, -3, 6},
                                .time = {.kind = TIME_CONSTANT}};
     const real axis[] = {2 / 7.0, -3 / 7.0, 6 / 7.0}, arm[] = {1.3, 0.4, -0.6}, angle = 0.7 * 1.9;
-    const struct prescribed_displacement by = prescribed_displacement_make(&b, 3, 1.9);
-    const struct prescribed_motion step = prescribed_motion_make(&b, 3, 1.9, 0.2);
+    const struct prescribed_displacement by = boundary_prescribed_displacement_at_time(&b, 3, 1.9);
+    const struct prescribed_motion step = boundary_prescribed_motion_in_step(&b, 3, 1.9, 0.2);
     const real along = dot(axis, arm, 3);
     real X[3], way[3];
     for (int d = 0; d < 3; d++) X[d] = b.centre[d] + arm[d];
@@ -93,8 +93,8 @@ static void test_turn_in_space(void **state)
         const int e = (d + 1) % 3, f = (d + 2) % 3;
         const real turned = axis[e] * arm[f] - axis[f] * arm[e];
         const real to = arm[d] * cos(angle) + turned * sin(angle) + axis[d] * along * (1 - cos(angle));
-        assert_near(prescribed_displacement_at(&by, X, d), to - arm[d], 1e-14);
-        way[d] = prescribed_velocity_at(&step, X, d, false);
+        assert_near(prescribed_displacement_component_at_position(&by, X, d), to - arm[d], 1e-14);
+        way[d] = prescribed_velocity_component_at_position(&step, X, d, false);
     }
     /* The chord of a step from 1.8 to 2 s, over the step. */
     const real across = sqrt(dot(arm, arm, 3) - square(along));
@@ -120,7 +120,7 @@ static void test_turn(void **state)
     for (int64_t k = 0; k < m.c.p.n; k++) {
         real u[DIM_MAX];
         const real x = m.c.p.X[0][k] - b.centre[0], y = m.c.p.X[1][k] - b.centre[1];
-        load_displacement_of_particle(&m.l.load[0], &m.c.p, k, 4, u); /* the integral of t/4 to 4 is 2 */
+        load_prescribed_displacement_of_particle(&m.l.load[0], &m.c.p, k, 4, u); /* the integral of t/4 to 4 is 2 */
         assert_near(u[0], -y - x, 1e-15 * 10 * CLOUD_SPACING);
         assert_near(u[1], x - y, 1e-15 * 10 * CLOUD_SPACING);
     }
@@ -138,17 +138,17 @@ static void test_formula_of_time(void **state)
     real u[DIM_MAX];
     by_x(&b.formula[0], true);
     displaced_make(&m, &b);
-    load_displacement_of_particle(&m.l.load[0], &m.c.p, 3, 5, u);
+    load_prescribed_displacement_of_particle(&m.l.load[0], &m.c.p, 3, 5, u);
     assert_true(m.c.p.X[0][3] != 0 && u[0] == 5 * m.c.p.X[0][3]);
-    assert_ok(boundary_check_displacement_has_closed_form(&b));
+    assert_ok(boundary_check_velocity_has_closed_form_integral(&b));
     displaced_free(&m);
     b.displaces = false;
-    assert_true(boundary_check_displacement_has_closed_form(&b) == REFUSED);
+    assert_true(boundary_check_velocity_has_closed_form_integral(&b) == REFUSED);
     assert_non_null(strstr(status_message(), "boundary grip: a velocity that is a formula of t"));
     b.frozen = true, b.frozen_at = 2, b.time = (struct time_function){.kind = TIME_STEP, .until = 1};
-    assert_ok(boundary_check_displacement_has_closed_form(&b));
+    assert_ok(boundary_check_velocity_has_closed_form_integral(&b));
     displaced_make(&m, &b);
-    load_displacement_of_particle(&m.l.load[0], &m.c.p, 3, 1, u);
+    load_prescribed_displacement_of_particle(&m.l.load[0], &m.c.p, 3, 1, u);
     assert_true(u[0] == 2 * m.c.p.X[0][3]);
     displaced_free(&m);
     expression_free(&b.formula[0]);
@@ -208,7 +208,7 @@ static void test_static(void **state)
         work -= 0.5 * (3 + (real)i) * u[0][i], mean += u[0][i] / (real)p->n;
     }
     loads_extract_static_reactions_from_forces(&m.l, p);
-    loads_compute_static_work(&m.l, p);
+    loads_compute_work_in_static_equilibrium(&m.l, p);
     assert_close(m.l.constraint_work, work, 1e-13);
     assert_close(m.l.load[0].displacement[0], mean, 1e-14);
     assert_true(p->f[0][3] == 0 && p->f[1][3] == 5);

@@ -45,7 +45,8 @@ static void sample_try(struct sample *a, const char *space, const char *body, co
              body, more, traction);
     if (scene_read_text(&a->s, text, strlen(text), "faces.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
     assert_ok(bodies_fill_with_particles(&a->p, &a->s, NULL, 0));
-    const status made = loads_make(&a->l, a->s.boundary, a->s.boundaries, &a->p, a->s.spacing, 3 * H, 0);
+    const status made =
+        loads_make_from_boundaries(&a->l, a->s.boundary, a->s.boundaries, &a->p, a->s.spacing, 3 * H, 0);
     if (refusal)
         status_check(made, REFUSED, refusal, __FILE__, __LINE__);
     else if (made != OK)

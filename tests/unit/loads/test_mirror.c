@@ -72,11 +72,11 @@ static void quarter_bodies(struct quarter *q, enum space space, enum surface_rul
         }
     find_twins(q);
     deform(&q->whole.p, pd_radius);
-    assert_int_equal(
-        loads_make(&q->loads, mirror, COUNT_OF(mirror), &q->part.p, CLOUD_SPACING, q->part.source.family.cutoff, 0),
-        OK);
+    assert_int_equal(loads_make_from_boundaries(&q->loads, mirror, COUNT_OF(mirror), &q->part.p, CLOUD_SPACING,
+                                                q->part.source.family.cutoff, 0),
+                     OK);
     deform(&q->part.p, pd_radius);
-    loads_update_mirror_images(&q->loads, &q->part.p);
+    loads_update_mirror_images_of_particles(&q->loads, &q->part.p);
     q->part.source.image = q->loads.image;
 }
 
@@ -332,7 +332,8 @@ static void points_make(struct points *s, struct particles *p, const struct boun
         s->g.anchor[d] = d < 2 ? offset * s->g.h : 0;
         from[d] = -20 * CLOUD_SPACING, to[d] = 20 * CLOUD_SPACING;
     }
-    assert_ok(loads_make(&s->loads, b, n, p, CLOUD_SPACING, 3 * CLOUD_SPACING, WITH_GRADIENT | WITH_STRETCH));
+    assert_ok(
+        loads_make_from_boundaries(&s->loads, b, n, p, CLOUD_SPACING, 3 * CLOUD_SPACING, WITH_GRADIENT | WITH_STRETCH));
     points_state(p);
     assert_ok(grid_extend_box(&s->g, from, to, 10000000, &changed));
 }
@@ -355,8 +356,8 @@ static void points_step(struct points *s, enum shape shape, enum transfer transf
     }
     k.g2p(&s->g, s->p, &s->t);
     for (int b = 0; b < s->loads.n; b++) memset(s->loads.load[b].reaction, 0, sizeof s->loads.load[b].reaction);
-    loads_add_grid_reactions(&s->loads, &s->g, s->t.dt_velocity);
-    loads_impose_prescribed_motion(&s->loads, s->p, 0, s->t.dt);
+    loads_add_reactions_at_grid_nodes(&s->loads, &s->g, s->t.dt_velocity);
+    loads_impose_prescribed_motion_on_particles(&s->loads, s->p, 0, s->t.dt);
 }
 
 static void points_free(struct points *s)
@@ -448,10 +449,10 @@ static void test_mirror_places(void **state)
     struct loads l;
     const real reach = 3.015 * CLOUD_SPACING;
     particle_cloud_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {6, 4, 1}, .horizon = 3.015});
-    assert_int_equal(loads_make(&l, strip, COUNT_OF(strip), &c.p, CLOUD_SPACING, reach, 0), OK);
+    assert_int_equal(loads_make_from_boundaries(&l, strip, COUNT_OF(strip), &c.p, CLOUD_SPACING, reach, 0), OK);
     for (int64_t i = 0; i < c.p.n; i++)
         for (int d = 0; d < 2; d++) c.p.x[d][i] = c.p.X[d][i] + 1e-13 * CLOUD_SPACING * sin((real)(i + d));
-    loads_update_mirror_images(&l, &c.p);
+    loads_update_mirror_images_of_particles(&l, &c.p);
     for (int64_t a = 0; a < l.images; a++)
         for (int64_t b = 0; b < l.images; b++) {
             const struct image *i = &l.image[a], *j = &l.image[b];

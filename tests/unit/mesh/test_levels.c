@@ -414,7 +414,7 @@ static void pulse_set(struct plate *b, real at, real width)
 /* Computes u[], the displacement of b at the nodes of level 0. */
 static void profile_of(struct plate *b, real *u)
 {
-    mesh_levels_prolong_motion_to_fine_nodes(&b->levels);
+    mesh_levels_prolong_motion_to_all_finest_nodes(&b->levels);
     memcpy(u, b->mesh.displacement[0], (size_t)b->mesh.grid.n * sizeof *u);
 }
 

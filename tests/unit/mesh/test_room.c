@@ -70,7 +70,7 @@ static void plates_and_strips(void **state)
         for (int dim = 2; dim <= 3; dim++) {
             struct body b;
             body_make(&b, dim, dim == 3 ? 56 : 130, thick, dim == 3 ? 50 : 0);
-            const int most = mesh_compute_cell_coarsening_limit_by_thickness(&b.mesh, NULL, 0, b.room),
+            const int most = mesh_compute_coarsest_cell_levels_for_thickness(&b.mesh, NULL, 0, b.room),
                       wide = level_for(dim == 3 ? 50 : 130);
             const int wanted = level_for(thick) < wide ? level_for(thick) : wide;
             assert_int_equal(most, wanted);
@@ -89,7 +89,7 @@ static void tubes(void **state)
         body_make(&b, 2, 80, 70, 0);
         for (int x = wall; x < 80 - wall; x++)
             for (int y = wall; y < 70 - wall; y++) b.mesh.kind[cell_at(&b, x, y, 0)] = CELL_EMPTY;
-        assert_int_equal(mesh_compute_cell_coarsening_limit_by_thickness(&b.mesh, NULL, 0, b.room), level_for(wall));
+        assert_int_equal(mesh_compute_coarsest_cell_levels_for_thickness(&b.mesh, NULL, 0, b.room), level_for(wall));
         assert_int_equal(b.room[cell_at(&b, wall / 2, 35, 0)], level_for(wall));
         body_free(&b);
     }
@@ -103,7 +103,7 @@ static void wedges(void **state)
     body_make(&b, 2, 200, 50, 0);
     for (int x = 0; x < 200; x++)
         for (int y = x / 4 + 1; y < 50; y++) b.mesh.kind[cell_at(&b, x, y, 0)] = CELL_EMPTY;
-    assert_int_equal(mesh_compute_cell_coarsening_limit_by_thickness(&b.mesh, NULL, 0, b.room),
+    assert_int_equal(mesh_compute_coarsest_cell_levels_for_thickness(&b.mesh, NULL, 0, b.room),
                      level_for(40)); /* 4 (40 - 1) + 40 cells */
     for (int x = 0; x < 200; x++)
         for (int level = 1; level <= LEVELS_MAX; level++) {
@@ -123,16 +123,16 @@ static void mirrors_and_slits(void **state)
     for (int half = 4; half <= 14; half += 5) {
         body_make(&b, 2, 90, half, 0);
         const struct mirror_plane plane = {.axis = 1, .outside = -1, .at = grid_node_position(&b.mesh.grid, 1, MARGIN)};
-        assert_int_equal(mesh_compute_cell_coarsening_limit_by_thickness(&b.mesh, NULL, 0, b.room), level_for(half));
-        assert_int_equal(mesh_compute_cell_coarsening_limit_by_thickness(&b.mesh, &plane, 1, b.room),
+        assert_int_equal(mesh_compute_coarsest_cell_levels_for_thickness(&b.mesh, NULL, 0, b.room), level_for(half));
+        assert_int_equal(mesh_compute_coarsest_cell_levels_for_thickness(&b.mesh, &plane, 1, b.room),
                          level_for(2 * half));
         body_free(&b);
     }
     body_make(&b, 2, 90, 24, 0);
-    assert_int_equal(mesh_compute_cell_coarsening_limit_by_thickness(&b.mesh, NULL, 0, b.room), 2);
+    assert_int_equal(mesh_compute_coarsest_cell_levels_for_thickness(&b.mesh, NULL, 0, b.room), 2);
     b.mesh.slits.first = b.mesh.grid.n, b.mesh.slits.split = NEW("test.split", b.mesh.grid.n, uint8_t);
     for (int x = 0; x < 90; x++) b.mesh.slits.split[cell_at(&b, x, 12, 0)] = 1;
-    assert_int_equal(mesh_compute_cell_coarsening_limit_by_thickness(&b.mesh, NULL, 0, b.room), 1);
+    assert_int_equal(mesh_compute_coarsest_cell_levels_for_thickness(&b.mesh, NULL, 0, b.room), 1);
     body_free(&b);
 }
 

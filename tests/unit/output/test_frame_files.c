@@ -125,10 +125,10 @@ static void frames_in_one_file(void **state)
     open_fresh(&o, "temporal");
     for (int k = 0; k < STEPS; k++) {
         make_particles(&p[k], 2, PARTICLES + 100 * k);
-        output_discard_stored_particle_order_by_id(&o);
+        output_discard_cached_frame_particle_order(&o);
         assert_int_equal(output_write_frame(&o, &p[k], 0.5 * k, k, scene_text), OK);
     }
-    assert_int_equal(output_write_vtkhdf_of_all_frames(&o, scene_text), OK);
+    assert_int_equal(output_write_single_vtkhdf_with_all_frames(&o, scene_text), OK);
     output_close(&o);
     assert_int_equal(stat("temporal/frames.vtkhdf", &file), 0);
     assert_true(file.st_size < 64 << 10);
@@ -169,7 +169,7 @@ static void frames_of_a_region(void **state)
     assert_int_equal(output_write_frame(&o, &p, 0, 0, scene_text), OK);
     for (int k = 0; k < 3; k++)
         assert_int_equal(output_begin_writing_frame_in_thread(&o, 1, &p, NULL, 0.5 * k, k, scene_text), OK);
-    assert_int_equal(output_write_vtkhdf_of_all_frames(&o, scene_text), OK);
+    assert_int_equal(output_write_single_vtkhdf_with_all_frames(&o, scene_text), OK);
     assert_true(o.series[0].frames == 1 && o.series[1].frames == 3 && o.series[1].entry[2].rows == inside);
     assert_int_equal(frame_read(&f, "regions/frames_half/000002.hdf"), OK);
     assert_true(f.n == inside && inside > 100 && inside < PARTICLES - 100 && f.t == 1);

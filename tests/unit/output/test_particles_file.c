@@ -122,11 +122,11 @@ static void one_file_while_particles_are_the_same(void **state)
     assert_int_equal(output_write_frame(&o, &p, 0, 0, scene_text), OK);
     assert_int_equal(stat("shared/frames/particles_000000.h5", &first), 0);
     for (int k = 1; k < 3; k++) {
-        output_discard_stored_particle_order_by_id(&o);
+        output_discard_cached_frame_particle_order(&o);
         p.v[0][7] += 1;
         assert_int_equal(output_write_frame(&o, &p, k, k, scene_text), OK);
     }
-    output_discard_stored_particle_order_by_id(&o);
+    output_discard_cached_frame_particle_order(&o);
     assert_int_equal(output_write_frame(&o, &more, 3, 3, scene_text), OK);
     assert_int_equal(stat("shared/frames/particles_000000.h5", &later), 0);
     assert_true(first.st_ino == later.st_ino && first.st_mtime == later.st_mtime && first.st_size == later.st_size);
@@ -201,7 +201,7 @@ static void foreign_file_is_left(void **state)
     assert_int_equal(output_remove_missing_frames_from_index(&o, &lost, text, sizeof text), OK);
     assert_int_equal(lost, 0);
     assert_int_equal(rename("foreign/frames/particles_000000.h5", "left/frames/particles_000000.h5"), 0);
-    output_discard_stored_particle_order_by_id(&o);
+    output_discard_cached_frame_particle_order(&o);
     assert_int_equal(output_remove_missing_frames_from_index(&o, &lost, text, sizeof text), OK);
     assert_int_equal(lost, 2);
     assert_non_null(
@@ -247,7 +247,7 @@ static void file_comes_back(void **state)
     for (int k = 0; k < 2; k++) assert_int_equal(output_write_frame(&o, &p, k, k, scene_text), OK);
     assert_listed(&o, 2, 0);
     assert_int_equal(rename(file, "away.h5"), 0);
-    output_discard_stored_particle_order_by_id(&o);
+    output_discard_cached_frame_particle_order(&o);
     assert_listed(&o, 0, 2);
     assert_int_equal(output_write_frame(&o, &p, 2, 2, scene_text), OK);
     assert_listed(&o, 1, 2);
@@ -272,7 +272,7 @@ static void complete_frames_are_read(void **state)
     assert_int_equal(output_write_frame(&o, &p, 0.5, 7, scene_text), OK);
     output_close(&o);
     hdf_open_for_reading(&from, "complete/frames/000000.hdf");
-    hdf_create(&to, file_register_and_name_temporary("complete.hdf").text, false);
+    hdf_create(&to, file_register_temporary_and_return_path("complete.hdf").text, false);
     const hid_t list = H5Pcreate(H5P_OBJECT_COPY);
     assert_true(H5Pset_copy_object(list, H5O_COPY_EXPAND_EXT_LINK_FLAG) >= 0);
     assert_true(H5Ocopy(from.file, "/VTKHDF", to.file, "/VTKHDF", list, H5P_DEFAULT) >= 0);
@@ -325,7 +325,7 @@ static void contact_where_it_is(void **state)
     assert_null(strstr(text, "000000.hdf:/VTKHDF/PointData/contact_force"));
     assert_non_null(strstr(text, "000001.hdf:/VTKHDF/PointData/contact_force"));
     memory_free(text);
-    assert_int_equal(output_write_vtkhdf_of_all_frames(&o, scene_text), OK);
+    assert_int_equal(output_write_single_vtkhdf_with_all_frames(&o, scene_text), OK);
     hdf_open_for_reading(&h, "touch/frames.vtkhdf");
     hdf_read_rows(&h, "/VTKHDF/PointData/contact_force", HDF_F32, 3000, all);
     assert_false(h.failed);

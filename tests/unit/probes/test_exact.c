@@ -254,13 +254,13 @@ static void flux_is_the_force_across(void **state)
     real flux[40], scale = 0;
     uint64_t seed = 3;
     particle_cloud_make(&c, &plan);
-    assert_ok(loads_make(&l, &wall, 1, p, CLOUD_SPACING, c.source.family.cutoff, 0));
+    assert_ok(loads_make_from_boundaries(&l, &wall, 1, p, CLOUD_SPACING, c.source.family.cutoff, 0));
     for (int i = 0; i < 40; i++) {
         p->x[0][i] = p->X[0][i] + cloud_between(&seed, -0.01, 0.01) * CLOUD_SPACING;
         p->kind[i] = i > 20 && i < 33 ? KIND_MPM : KIND_PD;
         p->stress[0][i] = i;
     }
-    loads_update_mirror_images(&l, p);
+    loads_update_mirror_images_of_particles(&l, p);
     c.source.image = l.image;
     cloud_bonds(&c);
     bar.n = 40, bar.order = NEW("order", 40, int32_t), bar.rank = NEW("rank", 40, int32_t);

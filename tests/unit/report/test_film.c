@@ -154,7 +154,7 @@ static void rigid_bodies_follow_the_nearest_particle(void **state)
     real X[2][3] = {{0, 4, 2}, {0, -1, 0}}, moved[2];
     float u[2][3] = {{0, 0.5F, 0}, {0, -0.25F, 0.125F}};
     const struct output_frame f = {.n = 3, .dim = 2, .X = {X[0], X[1]}, .u = {u[0], u[1]}};
-    rigid_body_find_nearest_particle_displacement(&shape, &at, &f, moved);
+    rigid_body_displacement_of_nearest_particle(&shape, &at, &f, moved);
     assert_true(moved[0] == 0.5 && moved[1] == -0.25);
 }
 
