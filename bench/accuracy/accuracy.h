@@ -72,7 +72,7 @@ struct accuracy_scene {
     struct bench_overrides set;
 };
 
-/* A problem with known solution, on which methods are compared, and the functions that run and measure it. */
+/* A problem with known solution, on which methods are compared, and the functions that the run and measure it. */
 struct accuracy_problem {
     const char *name, *title;
     const char *error;                    /* definition of the error, for captions */

@@ -132,8 +132,8 @@ static void compare_tips(struct result *x, int variant, int dim)
     x->angle_difference[variant] = fabs(x->angle[0] - x->angle[variant]);
 }
 
-/* Returns the median over the repetitions of run r of its loop time without the time spent on `part`, such as samples
- * or conversion [s]. */
+/* Returns the median over the repetitions of the run r of its loop time without the time spent on `part`, such as
+ * samples or conversion [s]. */
 static double median_without(const struct run_times *r, enum loop_part part, int repetitions)
 {
     double t[REPETITIONS];
@@ -141,7 +141,7 @@ static double median_without(const struct run_times *r, enum loop_part part, int
     return median_by_sorting(t, repetitions);
 }
 
-/* Returns the median over the repetitions of run r of the share of its loop time that is spent on conversion and
+/* Returns the median over the repetitions of the run r of the share of its loop time that is spent on conversion and
  * samples, hence neither on bonds nor on material points [1]. */
 static double median_rest(const struct run_times *r, int repetitions)
 {

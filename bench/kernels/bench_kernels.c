@@ -60,8 +60,8 @@ static status kernels_body_make(struct run *run, struct scene *s, int dim, const
     return bench_engine_run(run, 1, NULL); /* sorts the points and covers them with a grid */
 }
 
-/* Displaces one half of the body of run, which a crack cuts in two, by 0.02 spacings towards the other half, so that
- * the crack faces are in contact. */
+/* Displaces one half of the body of the run, which a crack cuts in two, by 0.02 spacings towards the other half, so
+ * that the crack faces are in contact. */
 static void faces_press(struct run *run)
 {
     real low, high;
@@ -112,8 +112,8 @@ static struct run *bonds_of(const struct job *j, struct ground *g)
     return &g->engine[j->model >= PD_OSPD ? STATES : j->model == PD_BOND_PLASTIC ? YIELDING : BONDS];
 }
 
-/* Calls the kernel of job j that gathers velocities from the grid and moves the material points of run. yields: true
- * to call it with the yielding material of the run, false with an elastic one. */
+/* Calls the kernel of job j that gathers velocities from the grid and moves the material points of the run. yields:
+ * true to call it with the yielding material of the run, false with an elastic one. */
 static void g2p_call(const struct job *j, struct run *run, bool yields)
 {
     struct elastic material = run->tables.elastic[0];
@@ -123,7 +123,7 @@ static void g2p_call(const struct job *j, struct run *run, bool yields)
     g2p_table[j->dim][j->shape][j->transfer](&run->grid->field[0].grid, &run->part, &t);
 }
 
-/* Sets the stresses of all material points of run beyond their yield stress and their plastic strain to 0, so that
+/* Sets the stresses of all material points of the run beyond their yield stress and their plastic strain to 0, so that
  * the next call of a kernel has to return the stresses to the yield surface. */
 static void points_stress(struct run *run)
 {

@@ -134,9 +134,9 @@ static status peer_engine(struct run *run, struct scene *s, const struct peer_ca
 
 /* ---- the input of LAMMPS ----------------------------------------------------------------------------------------- */
 
-/* Finds the bonds that the cracks of run cut, each pair of particles once, and returns their number. type[particles]:
- * gives each particle of such a bond a LAMMPS atom type of its own; types: number of types, incremented for each;
- * exclude: receives the LAMMPS commands that exclude these pairs. */
+/* Finds the bonds that the cracks of the run cut, each pair of particles once, and returns their number.
+ * type[particles]: gives each particle of such a bond a LAMMPS atom type of its own; types: number of types,
+ * incremented for each; exclude: receives the LAMMPS commands that exclude these pairs. */
 static int64_t cut_pairs(const struct run *run, int *type, int *types, FILE *exclude)
 {
     const struct particles *p = &run->part;

@@ -86,7 +86,7 @@ static void centre_of(const struct run *run, real *centre)
     for (int d = 0; d < run->part.dim; d++) centre[d] /= mass;
 }
 
-/* Removes the mean rotation of the body of run about centre[DIM_MAX] [m] from its velocities, because small-strain
+/* Removes the mean rotation of the body of the run about centre[DIM_MAX] [m] from its velocities, because small-strain
  * laws change the energy of rotating bodies. Exact only for bodies with the symmetry of those in this bench. */
 static void stop_turning(struct run *run, const real *centre)
 {

@@ -10,8 +10,8 @@ struct matrix {
     real *at;
 };
 
-/* Returns the matrix M^(-1/2) K M^(-1/2) of the body of run, which consists of bonds, with stiffness K and masses M.
- * It is computed column by column from finite differences of the forces and made symmetric. The caller releases its
+/* Returns the matrix M^(-1/2) K M^(-1/2) of the body of the run, which consists of bonds, with stiffness K and masses
+ * M. It is computed column by column from finite differences of the forces and made symmetric. The caller releases its
  * member `at` with memory_free. */
 static struct matrix matrix_of(struct run *run)
 {

@@ -140,7 +140,7 @@ static void lame(const void *context, const real *X, real *v)
     v[1] = -1e-3 * sin(k * X[0]) * cos(k * X[1]);
 }
 
-/* Returns the projection of the particle velocities of run on Lame's mode of a square: the sum of v . v_mode, with
+/* Returns the projection of the particle velocities of the run on Lame's mode of a square: the sum of v . v_mode, with
  * the velocities v_mode computed by `lame` [m^2/s^2]. */
 static double projection(struct run *run)
 {

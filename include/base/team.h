@@ -37,7 +37,7 @@ const char *machine_memory_limit_describe_source(void);
 /* Returns the number of physical cores that the process may use. */
 int machine_physical_core_count(void);
 
-/* Divides the cores that this process may use into `share_count` equal groups, for processes that run side by side:
+/* Divides the cores that this process may use into `share_count` equal groups, for processes that the run side by side:
  * cpu_core_partition_bind_calling_thread binds each of them to one group. Returns NULL if there are fewer cores than
  * groups, or only one group. Release with cpu_core_partition_free. */
 struct cpu_core_partition *cpu_core_partition_make(int share_count);

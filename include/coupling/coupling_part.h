@@ -24,14 +24,14 @@ struct coupling_state {
     struct region start_region;   /* peridynamic from the start; no solids: empty */
 };
 
-/* Sets how peridynamic particles and material points of run are coupled. If material points can convert, this is the
- * method that the input file names (partial stress: material points leave a part of their stress to bonds; hand-shake,
- * Zeng et al. 2022; ...), else hand-shake. Then computes for the present bonds the partial stresses of material points
- * (the parts of their stress that bonds carry) and the interface zone (material points beside peridynamic particles,
- * whose motion is damped). */
+/* Sets how peridynamic particles and material points of the run are coupled. If material points can convert, this is
+ * the method that the input file names (partial stress: material points leave a part of their stress to bonds;
+ * hand-shake, Zeng et al. 2022; ...), else hand-shake. Then computes for the present bonds the partial stresses of
+ * material points (the parts of their stress that bonds carry) and the interface zone (material points beside
+ * peridynamic particles, whose motion is damped). */
 void coupling_set_method_and_compute_partial_stress(struct run *run);
 
-/* Makes the mesh of run for the bodies in the reference frame (shape functions are evaluated in the undeformed
+/* Makes the mesh of the run for the bodies in the reference frame (shape functions are evaluated in the undeformed
  * state). The mesh includes the present partial stresses (parts of the stress that bonds carry), and pre-cracks as
  * slits (free surfaces). caller_sets_nodal_motion: true if the caller sets displacement and velocity of the nodes
  * afterwards, false to fit them to those of the particles. Returns REFUSED (unsuitable input) or FAILED (too many
@@ -55,7 +55,7 @@ void bonded_points_update_strain_from_mesh_or_stress(const struct partial_stress
                                                      const struct lagrangian_mesh *frame, struct particles *p,
                                                      const struct material *material);
 
-/* Decides whether each pre-crack of run becomes a slit, i.e. a free surface of the mesh, or cuts bonds along its
+/* Decides whether each pre-crack of the run becomes a slit, i.e. a free surface of the mesh, or cuts bonds along its
  * length, and makes particles peridynamic that are so from the start: particles near the ends of slits, with bonds cut
  * by a pre-crack, beside narrow voids, or in the region that the input file gives. Returns REFUSED, with a message, if
  * the input file requires slits where they are impossible. */
@@ -88,7 +88,7 @@ void convert_particles_beside_voids_to_peridynamic(struct particles *p, const st
  * then. */
 bool mesh_cannot_have_free_surfaces_at_voids(const struct grid *g, const struct scene *s);
 
-/* Adds warnings to `warning_list` for voids of bodies of run that are too narrow, so that the run treats them as
+/* Adds warnings to `warning_list` for voids of bodies of the run that are too narrow, so that the run treats them as
  * closed. These are voids whose two sides share nodes of the background grid, and such gaps between a body and a plane
  * of symmetry. In bodies made from particle lists or images, whose surfaces are not known, they are gaps of one or two
  * particles. total_lagrangian_possible: true if the body can be in the reference frame (shape functions in the
@@ -96,18 +96,18 @@ bool mesh_cannot_have_free_surfaces_at_voids(const struct grid *g, const struct 
 void warn_of_voids_treated_as_closed(const struct run *run, bool total_lagrangian_possible,
                                      struct warnings *warning_list);
 
-/* Adds warnings to `warning_list` for bodies of run that will pass through each other or stick together, and for
+/* Adds warnings to `warning_list` for bodies of the run that will pass through each other or stick together, and for
  * voids that are too narrow to stay open (warn_of_voids_treated_as_closed). */
 void warn_of_bodies_that_penetrate_or_stick_together(const struct run *run, struct warnings *warning_list);
 
-/* Marks the material points of run that are to become peridynamic particles because contact is near (FLAG_NEAR):
+/* Marks the material points of the run that are to become peridynamic particles because contact is near (FLAG_NEAR):
  * those near other bodies, and those beside crack faces that approach each other. Searches for such points in each load
  * step (static equilibrium), or once in APPROACH_STEPS time steps. In every step first updates the list of the blocks
  * of eight rows (the bonds of eight particles each) whose particles may move. Returns true if points beside crack faces
  * were searched for in this step, so that some may be marked. */
 bool conversion_flag_points_near_contact(struct run *run);
 
-/* Converts those material points of run whose flags require it (FLAG_LOST_BOND, FLAG_NEAR, FLAG_STRESSED) to
+/* Converts those material points of the run whose flags require it (FLAG_LOST_BOND, FLAG_NEAR, FLAG_STRESSED) to
  * peridynamic particles, and updates all that depends on it: bonds, contact, partial stresses (the parts of stresses
  * that bonds carry), interface zone (damped material points beside peridynamic particles) and mesh. broken_bond_count:
  * number of bonds broken in this step, each counted once for each of its particles; crack_faces_examined: value that
@@ -116,9 +116,9 @@ bool conversion_flag_points_near_contact(struct run *run);
 int64_t run_convert_flagged_points_to_peridynamic(struct run *run, int64_t broken_bond_count, bool crack_faces_examined,
                                                   bool bonds_weaken_gradually);
 
-/* Updates the mesh of run, and the strains of material points with state-based bonds to peridynamic particles, after
- * conversion. converted_count: number of particles that have become peridynamic; 0 if at most partial stresses (the
- * parts of stresses that bonds carry) have changed. Energy lost by removing points from the mesh is added to
+/* Updates the mesh of the run, and the strains of material points with state-based bonds to peridynamic particles,
+ * after conversion. converted_count: number of particles that have become peridynamic; 0 if at most partial stresses
+ * (the parts of stresses that bonds carry) have changed. Energy lost by removing points from the mesh is added to
  * run->damped.
  */
 void conversion_update_mesh_after_conversion(struct run *run, int64_t converted_count);
@@ -129,7 +129,7 @@ void conversion_update_mesh_after_conversion(struct run *run, int64_t converted_
  * Returns REFUSED, with a message, if one of these conditions is violated. Returns OK if the scene has no reversion. */
 status reversion_check_scene_allows_return_to_mpm(const struct scene *s);
 
-/* Turns peridynamic particles of run back into material points if their stress has been low for long enough and no
+/* Turns peridynamic particles of the run back into material points if their stress has been low for long enough and no
  * bond near them was ever cut (reversion_select_particles_to_become_mpm). Called before each step; examines the
  * particles only in step numbers that are multiples of a period. Does nothing if the input file has no reversion. */
 void reversion_convert_relaxed_particles_to_mpm(struct run *run);

@@ -101,8 +101,8 @@ struct hull_samples hull_sample_winding_number_statistics(const struct hull *hul
  * tree node are consecutive. Corners and faces must be set before. Part of hull_make_closed_surface. */
 void hull_build_face_search_tree(struct hull *hull);
 
-/* Computes area_vector, the area vector of face number `face` of hull: outward normal times area [m^2]; in 2D, where a
- * face is a segment, outward normal times length [m]. */
+/* Computes area_vector, the area vector of face number `face` of the hull: outward normal times area [m^2]; in 2D,
+ * where a face is a segment, outward normal times length [m]. */
 void hull_compute_face_area_vector(const struct hull *hull, int64_t face, real area_vector[DIM_MAX]);
 
 #endif

@@ -36,7 +36,7 @@ real run_estimate_peak_memory_if_all_peridynamic(const struct scene *s, const st
  * the run becomes unstable, no equilibrium is found, or a file cannot be written. */
 status run_advance_to_end_time(struct run *run);
 
-/* Adapts the coarsening levels of the mesh cells of run (0: finest; the edge of a cell doubles with each level) to
+/* Adapts the coarsening levels of the mesh cells of the run (0: finest; the edge of a cell doubles with each level) to
  * the present state, then makes one time step. Returns FAILED, with a message, if one of the two fails. */
 status run_adapt_mesh_and_advance_one_step(struct run *run);
 
@@ -50,16 +50,17 @@ status run_save_or_load_state(void *run, struct archive *a);
  * instruction set. Returns FAILED if the checkpoint belongs to another body or is inconsistent. */
 status run_load_checkpoint(void *run, struct archive *a);
 
-/* Runs the scene of run once more with material points alone, if it has a PULSE probe (wave packet at an interface).
- * The final velocities and the energy change of that run are stored; the probe compares run e with them. Call this
- * function at the end of run. Returns the status of the second run; OK if there is no PULSE probe. */
+/* Runs the scene of the run once more with material points alone, if it has a PULSE probe (wave packet at an
+ * interface). The final velocities and the energy change of that the run are stored; the probe compares run e with
+ * them. Call this function at the end of the run. Returns the status of the second run; OK if there is no PULSE probe.
+ */
 status run_repeat_with_mpm_only_for_pulse_probe(struct run *run);
 
-/* Checks the scene of run for input that is allowed but probably unintended, and adds warnings to run->warnings. Call
- * it once, before the first step. */
+/* Checks the scene of the run for input that is allowed but probably unintended, and adds warnings to run->warnings.
+ * Call it once, before the first step. */
 void run_warn_of_suspicious_input(struct run *run);
 
-/* Writes the files summary.json and, if bodies can break into fragments, fragments.csv of run for the steps done so
+/* Writes the files summary.json and, if bodies can break into fragments, fragments.csv of the run for the steps done so
  * far. Does nothing for a run without files. end_status: status with which the run ended; thread_count: number of
  * threads. Returns FAILED if a file cannot be written. */
 status run_write_summary_files(const struct run *run, status end_status, int thread_count);

@@ -75,9 +75,9 @@ int scene_first_body_of_joined_group(const struct scene *s, int group);
  * mirror nodes. */
 bool grid_has_mirror_plane_between_nodes(const struct grid *g, const struct scene *s);
 
-/* Sorts the material points of run into the cells of their background grids, extends the grids as needed, and selects
- * the peridynamic particles that a grid moves. position_not_finite: receives true if the position of a point is not
- * finite; nothing is sorted then. Returns FAILED, with a message, if the grid would have too many nodes. */
+/* Sorts the material points of the run into the cells of their background grids, extends the grids as needed, and
+ * selects the peridynamic particles that a grid moves. position_not_finite: receives true if the position of a point is
+ * not finite; nothing is sorted then. Returns FAILED, with a message, if the grid would have too many nodes. */
 status grid_sort_points_into_cells(struct run *run, bool *position_not_finite);
 
 /* Maps mass, momentum and forces of the material points of p to the nodes of the background grids of mpm. kernels:
@@ -85,13 +85,13 @@ status grid_sort_points_into_cells(struct run *run, bool *position_not_finite);
 void grid_transfer_mass_momentum_forces_to_nodes(struct grid_method *mpm, struct particles *p,
                                                  const struct kernels *kernels, struct timers *timers);
 
-/* Advances the material points of run on the background grids by one time step: moves the nodes under their forces,
+/* Advances the material points of the run on the background grids by one time step: moves the nodes under their forces,
  * with contact and boundary conditions, then updates positions, velocities, strain and stress of the points. t_middle:
  * time in the middle of the step [s]. Returns FAILED, with a message, if points that have left their cells need a grid
  * with too many nodes. */
 status grid_advance_material_points_one_step(struct run *run, real t_middle);
 
-/* Returns the power [W] of all forces on the material points of run that are on background grids: the sum of v . f
+/* Returns the power [W] of all forces on the material points of the run that are on background grids: the sum of v . f
  * over the nodes at the current positions. Nothing is moved, but the recorded reactions and work of the loads change.
  * t_middle: current time plus half a time step [s]. Returns 0 if no particles are on a grid. */
 real grid_power_of_forces_on_material_points(struct run *run, real t_middle);

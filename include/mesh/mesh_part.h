@@ -55,9 +55,9 @@ struct lagrangian_mesh {
     real speed;                      /* largest component of a nodal velocity [m/s] */
 };
 
-/* Adds a warning to *warning_list for each plane of symmetry of run that is neither on nodes of the grid or mesh nor
- * midway between nodes. Adds a warning, too, for each plane that the bodies in the reference frame (on the mesh) do not
- * reach. */
+/* Adds a warning to *warning_list for each plane of symmetry of the run that is neither on nodes of the grid or mesh
+ * nor midway between nodes. Adds a warning, too, for each plane that the bodies in the reference frame (on the mesh) do
+ * not reach. */
 void mirror_planes_warn_if_not_fitting_grid_or_mesh(const struct run *run, struct warnings *warning_list);
 
 /* Decides for each body of scene s (the input file) whether its material points move with a mesh fixed to the material
@@ -75,7 +75,7 @@ bool lagrangian_mesh_is_used_by_any_body(const struct lagrangian_mesh *reference
 bool lagrangian_mesh_can_be_made_for_scene(const struct lagrangian_mesh *reference, const struct particles *p,
                                            const struct scene *s, const struct grid_method *mpm);
 
-/* Makes the mesh of those bodies of run that move with a mesh (reference frame), and finds exposed points (material
+/* Makes the mesh of those bodies of the run that move with a mesh (reference frame), and finds exposed points (material
  * points with bonds, loads or mirror images) and loaded nodes. source: partial stresses (carried by bonds) and slits
  * (pre-cracks) of this mesh, its other members are ignored; caller_sets_motion: true if the caller sets displacement
  * and velocity of the nodes afterwards. Returns REFUSED or FAILED, with a message, as mesh_make does. Released by
@@ -207,7 +207,7 @@ void mesh_levels_describe_level_count(const struct levels_choice *c, const struc
 bool mesh_levels_given_by_scene_are_too_many(const struct levels_choice *c, const struct lagrangian_mesh *reference,
                                              const struct scene *s, char *reason, size_t capacity);
 
-/* Makes the coarse cells of run, whose time step must be known, with initial coarsening levels;
+/* Makes the coarse cells of the run, whose time step must be known, with initial coarsening levels;
  * levels_from_checkpoint: true if the levels follow from a checkpoint instead. Returns FAILED, with a message, if a
  * level would have too many nodes. Released by run_free_memory. */
 status mesh_levels_make_coarse_cells(struct run *run, bool levels_from_checkpoint);
@@ -223,7 +223,7 @@ bool mesh_levels_may_change_before_step(const struct mesh_levels *l, int64_t ste
 uint8_t *mesh_levels_choose_level_of_each_cell(struct lagrangian_mesh *reference, const struct particles *p,
                                                const struct loads *loads, int64_t step, real mass);
 
-/* Changes the coarsening levels of run. new_cell_level: for each cell of level 0 (the finest) the level of the cell
+/* Changes the coarsening levels of the run. new_cell_level: for each cell of level 0 (the finest) the level of the cell
  * to which it shall belong, as mesh_levels_choose_level_of_each_cell returns it. Cells that become level 0 must have
  * particles (mesh_any_new_finest_cell_lacks_particles). The energy that the change removes is added to run->damped.
  */

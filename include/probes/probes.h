@@ -136,9 +136,9 @@ void probes_warn_of_meaningless_sif(struct probes *probes, bool single_equilibri
  * before these flags are cleared. */
 void probes_update_break_spall_and_reaction_probes(struct probes *probes, const struct observed_run *o);
 
-/* Updates those probes of s in run o that search for bonds that just broke, and no others: BREAK probes (first broken
- * bond of a region) and SPALL probes (separated end of a bar). Load steps (sequences of static equilibria) call this
- * function each time bonds have broken. */
+/* Updates those probes of s in the run o that search for bonds that just broke, and no others: BREAK probes (first
+ * broken bond of a region) and SPALL probes (separated end of a bar). Load steps (sequences of static equilibria) call
+ * this function each time bonds have broken. */
 void probes_update_break_and_spall_probes(struct probes *probes, const struct observed_run *o);
 
 /* Calls emit(context, probe name, quantity name, value) for every result of every probe of s that summary.json reports,

@@ -25,7 +25,7 @@ real particles_largest_stress_component(const struct particles *p);
  * run_free_memory), and their number in probing->pulses. */
 void scene_list_initial_wave_pulses(const struct scene *s, struct probing *probing);
 
-/* Extends the cracks of run with prescribed or controlled growth by the growth of one time step, and cuts the bonds
+/* Extends the cracks of the run with prescribed or controlled growth by the growth of one time step, and cuts the bonds
  * that they cross. The speed and direction of a crack controlled by a SIF probe (stress-intensity factors) follow from
  * the factors of the probe. Returns the number of directed bonds cut. */
 int64_t cracks_grow_one_step_and_count_cut_bonds(struct run *run);

@@ -12,9 +12,9 @@ struct statics;
  * or a file cannot be written, INTERRUPTED, after a checkpoint, if the run is to stop. */
 status run_solve_single_equilibrium(struct run *run);
 
-/* Computes the load steps of the scene of run (`solver: static` with `steps`; a sequence of equilibria under changing
- * loads), from the present step to the last. Returns FAILED if an equilibrium is not found or a file cannot be written,
- * INTERRUPTED, after a checkpoint, if the run is to stop. */
+/* Computes the load steps of the scene of the run (`solver: static` with `steps`; a sequence of equilibria under
+ * changing loads), from the present step to the last. Returns FAILED if an equilibrium is not found or a file cannot be
+ * written, INTERRUPTED, after a checkpoint, if the run is to stop. */
 status run_solve_load_steps(struct run *run);
 
 /* Initialises run->solver, with which run_solve_single_equilibrium finds one static equilibrium under the loads at the
@@ -23,7 +23,7 @@ status run_solve_load_steps(struct run *run);
 status run_make_single_equilibrium_solver(struct run *run);
 
 /* Checks that the solver of load steps (sequences of static equilibria) can treat the bodies, loads and supports of the
- * scene of run. Returns REFUSED, with the reason, if it cannot. */
+ * scene of the run. Returns REFUSED, with the reason, if it cannot. */
 status load_steps_check_scene_is_supported(const struct run *run);
 
 /* Finds the equilibrium under the loads at time t [s], from which `cleave check` estimates the cost of a run. The run e
@@ -38,23 +38,23 @@ status run_find_equilibrium_for_cost_estimate(struct run *run, real t);
 status run_predict_largest_ratio_to_critical_stretch(struct run *run, real first_load_time, real *load_time,
                                                      real *ratio);
 
-/* Returns the load size of run at pseudo-time t [s], a measure that is proportional to the loads: the root of the sum
- * of squares of all prescribed displacements of particles and rigid bodies [m] or, if all of these are 0, of all
+/* Returns the load size of the run at pseudo-time t [s], a measure that is proportional to the loads: the root of the
+ * sum of squares of all prescribed displacements of particles and rigid bodies [m] or, if all of these are 0, of all
  * applied forces [N]. */
 real statics_norm_of_prescribed_loads(const struct run *run, real t);
 
-/* Returns the reason (a static text) why the growth direction of the cracks of run is not determined from their
+/* Returns the reason (a static text) why the growth direction of the cracks of the run is not determined from their
  * stress-intensity factors, or NULL if it is. The key `steps.path` of the scene may be a reason. plane: receives the
  * plane in which the crack tips move, valid only if NULL is returned; may be NULL if the caller does not need it. */
 const char *sif_growth_reason_direction_is_undetermined(const struct run *run, struct crack_tip_plane *plane);
 
-/* Checks the scene of run, if it is three-dimensional and demands crack growth by stress-intensity factors
+/* Checks the scene of the run, if it is three-dimensional and demands crack growth by stress-intensity factors
  * (`steps.path: hoop`). Returns REFUSED, with the reason, if the growth direction cannot be determined from them.
  * Returns OK for other scenes. */
 status sif_growth_check_direction_is_determinable(const struct run *run);
 
-/* Saves the state of run between two load steps (static equilibria) to the archive `a` (checkpoint file or memory) if
- * a->saving is set, else restores it from `a`. If a->scope is ARCHIVE_TRIAL, only the state that a trial equilibrium
+/* Saves the state of the run between two load steps (static equilibria) to the archive `a` (checkpoint file or memory)
+ * if a->saving is set, else restores it from `a`. If a->scope is ARCHIVE_TRIAL, only the state that a trial equilibrium
  * changes is saved or restored. Returns FAILED if an entry is missing or has another size. */
 status load_steps_save_or_load_state(struct run *run, struct archive *a);
 

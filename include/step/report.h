@@ -132,7 +132,7 @@ void warn_of_tips_above_rayleigh_speed(const struct crack_tips *t, const struct 
 void warn_when_bonds_first_yield(struct run_report *r, const struct bonds *b, const struct scene *s,
                                  struct warnings *warning_list);
 
-/* Computes the fields that the particles of run do not store (strain, density, plastic work, level of the coarse
+/* Computes the fields that the particles of the run do not store (strain, density, plastic work, level of the coarse
  * cell) and stores pointers to them in *extra, from which the frame is written. requested_field_bits: set of these
  * fields, as bits ASK_... (output/output.h). Before the call, the positions and stresses of all particles must be up to
  * date (run_update_particle_motion_and_stress), and extra->more, the material points of coarse cells, must be set. Call

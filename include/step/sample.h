@@ -42,7 +42,7 @@ real run_compute_elastic_energy(struct run *run);
  * support) probes. In a static run, must be called in equilibrium states only. */
 void run_update_break_and_reaction_probes(struct run *run);
 
-/* Records the bonds of run that broke in this step: updates the first break of the run and the BREAK probes (first
+/* Records the bonds of the run that broke in this step: updates the first break of the run and the BREAK probes (first
  * broken bond of a region) and SPALL probes (separated end of a bar), and warns if driven particles (with prescribed
  * motion) lose bonds. broken_bond_count: number of bonds that broke, each counted once for each of its particles. */
 void run_record_broken_bonds_of_step(struct run *run, int64_t broken_bond_count);

@@ -11,7 +11,7 @@
  * because their motion has diverged. */
 status step(struct run *run);
 
-/* Marks with FLAG_NEAR the material points of run, at their present positions, that are near other bodies; rigid
+/* Marks with FLAG_NEAR the material points of the run, at their present positions, that are near other bodies; rigid
  * bodies are at their positions of pseudo-time t [s]. Marked points become peridynamic at the next call of
  * load_step_convert_points_near_breaks_to_pd. present_pseudo_time: present pseudo-time [s], to whose positions rigid
  * bodies are moved back. Returns true if positions were examined; does nothing and returns false if no rigid body can

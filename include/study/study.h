@@ -156,12 +156,12 @@ const char *study_case_value_of_key(const struct study_case *c, const char *key)
 status study_write_memory_stream_to_file(const struct study *s, const char *name, FILE *stream, char **text,
                                          const size_t *length);
 
-/* Returns the run of study s whose results are used for run c: a run with an equal scene if the state of c is
+/* Returns the run of study s whose results are used for the run c: a run with an equal scene if the state of c is
  * CASE_SAME, else c itself. */
 const struct study_case *study_case_whose_results_are_used(const struct study *s, const struct study_case *c);
 
-/* Returns the path of the folder with the results of run c of study s; if the state of c is CASE_SAME, it is the folder
- * of the run with an equal scene. */
+/* Returns the path of the folder with the results of the run c of study s; if the state of c is CASE_SAME, it is the
+ * folder of the run with an equal scene. */
 struct path study_case_folder(const struct study *s, const struct study_case *c);
 
 /* ---- runs (study_run.c) ------------------------------------------------------------------------------------------ */

@@ -115,7 +115,7 @@ static void say_contact(const struct run *run)
     }
 }
 
-/* Prints how the first six pre-cracks of run are represented, as slits of the mesh (doubled nodes) or as cut bonds,
+/* Prints how the first six pre-cracks of the run are represented, as slits of the mesh (doubled nodes) or as cut bonds,
  * and the number of further pre-cracks, if any. */
 static void say_notches(const struct run *run)
 {
@@ -163,7 +163,7 @@ static void say_basis(const struct scene *scene, const struct cost *c)
 #define REST_BELOW 1.5
 #define REST_ABOVE 4.5
 
-/* Prints the run time of the static equilibrium of run on `threads` threads. The solver runs until it converges, so
+/* Prints the run time of the static equilibrium of the run on `threads` threads. The solver runs until it converges, so
  * that the number of its steps is not known in advance. Therefore prints the time of 1000 steps with a lower and an
  * upper bound, and an upper bound for the largest number of steps that the input file allows. c->step: measured time of
  * one step [s]. */
@@ -320,8 +320,8 @@ static void say_list(const struct warnings *lines, const char *heading)
     for (int k = 0; k < lines->n; k++) printf("%-15s%s\n", k == 0 ? heading : "", lines->text[k]);
 }
 
-/* Prints the remarks on the accuracy of the input file of run. *remarks: receives their number. Returns FAILED, with
- * a message, if there is no memory for them. */
+/* Prints the remarks on the accuracy of the input file of the run. *remarks: receives their number. Returns FAILED,
+ * with a message, if there is no memory for them. */
 static status say_accuracy(const struct run *run, int *remarks)
 {
     char *text = NULL;
@@ -359,7 +359,7 @@ static void say_verdict(const char *scene, int warnings, int remarks)
                warnings, remarks > 0 ? " and the remarks on accuracy" : "");
 }
 
-/* Prints the resolved settings of the input file of run run: particles, shapes, materials, positions at which shape
+/* Prints the resolved settings of the input file of the run run: particles, shapes, materials, positions at which shape
  * functions are evaluated, pre-cracks, loads, steps, contact. */
 static void say_settings(const struct run *run)
 {

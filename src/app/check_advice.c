@@ -117,9 +117,9 @@ static real two_digits_down(real value)
     return floor(value / digit + 1e-6) * digit;
 }
 
-/* Writes a remark to `out` for each body of run with a part that is thinner than FEATURE horizons. Most particles of
- * such a part are near a surface and lack neighbours within the horizon. Writes nothing for input files with the method
- * mpm (no bonds), and in 1D. */
+/* Writes a remark to `out` for each body of the run with a part that is thinner than FEATURE horizons. Most particles
+ * of such a part are near a surface and lack neighbours within the horizon. Writes nothing for input files with the
+ * method mpm (no bonds), and in 1D. */
 static void advise_features(const struct run *run, FILE *out)
 {
     const struct scene *s = run->scene;
@@ -137,8 +137,8 @@ static void advise_features(const struct run *run, FILE *out)
     }
 }
 
-/* Writes a remark to `out` for each solid that is subtracted from a body of run and is thinner than one spacing. Such
- * a hole cuts bonds but removes no row of particles. Solids from voxel images and bodies from particle lists are
+/* Writes a remark to `out` for each solid that is subtracted from a body of the run and is thinner than one spacing.
+ * Such a hole cuts bonds but removes no row of particles. Solids from voxel images and bodies from particle lists are
  * skipped, as their thickness is not known; also 1D input files. */
 static void advise_narrow_holes(const struct run *run, FILE *out)
 {
@@ -256,7 +256,7 @@ static void advise_shocks(const struct scene *s, FILE *out)
                 shock.remedy);
 }
 
-/* Writes a remark to `out` if the coarsest cells of run are larger than the largest cells with which the loads and
+/* Writes a remark to `out` if the coarsest cells of the run are larger than the largest cells with which the loads and
  * the thin parts of the body are resolved. Only for input files that prescribe the number of levels of coarse cells
  * (the edge doubles with each level). */
 static void advise_levels(const struct run *run, FILE *out)
@@ -268,7 +268,7 @@ static void advise_levels(const struct run *run, FILE *out)
         fprintf(out, "accuracy       %s\n", text);
 }
 
-/* Writes a remark to `out` if a formula of a load or support of run has no finite value at one of PULL_MOMENTS + 1
+/* Writes a remark to `out` if a formula of a load or support of the run has no finite value at one of PULL_MOMENTS + 1
  * times of the run. */
 static void advise_formulas(const struct run *run, FILE *out)
 {

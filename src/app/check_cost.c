@@ -41,7 +41,7 @@ static struct quartiles quartiles_of(double *spent, int n)
     return (struct quartiles){spent[n / 4], median, spent[n - 1 - n / 4]};
 }
 
-/* Makes time steps of run and measures the processor time of one step. Each measurement covers the steps from one
+/* Makes time steps of the run and measures the processor time of one step. Each measurement covers the steps from one
  * sample of the history to the next. *step: receives the quartiles of the measurements [s]. The first step, which has
  * cold caches, does not count. *bytes: receives the peak memory of this process after the first WINDOWS_LEAST
  * measurements [byte]: the number of measurements depends on the speed of the processor, and with conversion the memory
@@ -74,7 +74,7 @@ static status time_steps(struct run *run, struct quartiles *step, double *bytes)
     return OK;
 }
 
-/* Returns the processor time of one evaluation of the forces of run [s], the median of several. */
+/* Returns the processor time of one evaluation of the forces of the run [s], the median of several. */
 static double time_force(struct run *run)
 {
     double spent[PERIODS_MOST], all = 0;
@@ -87,8 +87,8 @@ static double time_force(struct run *run)
     return median_by_sorting(spent, n);
 }
 
-/* Returns the processor time of contact in one step of run at its present state [s]: search and forces, the median of
- * several. */
+/* Returns the processor time of contact in one step of the run at its present state [s]: search and forces, the median
+ * of several. */
 static double time_contact(struct run *run)
 {
     double spent[PERIODS_MOST], all = 0;
@@ -189,7 +189,7 @@ static double growth_of(struct cost *c, const struct scene *s, const struct run_
  * neighbours within the horizon) divided by that of a lattice cell [1]. */
 static double family_size(const struct family *f) { return f->full / f->cell_volume; }
 
-/* Returns an estimate of the time for writing the output of run [s]: all frames (outputs of all particles at one
+/* Returns an estimate of the time for writing the output of the run [s]: all frames (outputs of all particles at one
  * time) including the one at the start, two checkpoints, profiles and particle series. */
 static double output_seconds(const struct run *run)
 {
@@ -257,9 +257,9 @@ static double step_peridynamic(const struct run_arguments *a, double spacing)
     return seconds;
 }
 
-/* Estimates the time of run, if it is adaptive, with all its particles peridynamic: c->all_peridynamic [s]. Measures
- * first steps of such a run, or of one with larger particles if there are more than BONDS_MOST bonds. If c->run is only
- * an extrapolation, the upper bound c->most is raised to this time, or to INFINITY if it is unknown. */
+/* Estimates the time of the run, if it is adaptive, with all its particles peridynamic: c->all_peridynamic [s].
+ * Measures first steps of such a run, or of one with larger particles if there are more than BONDS_MOST bonds. If
+ * c->run is only an extrapolation, the upper bound c->most is raised to this time, or to INFINITY if it is unknown. */
 static void cost_peridynamic(struct cost *c, const struct run *run, const struct run_arguments *a)
 {
     const struct scene *s = run->scene;

@@ -35,7 +35,7 @@ static void hint_model(const struct scene *s, struct warnings *to)
                         s->model == MODEL_OSPD ? "ospd" : "mospd");
 }
 
-/* Returns an upper estimate of the stress in run [Pa]: REACHED (rho c v + traction) plus the stress of initial
+/* Returns an upper estimate of the stress in the run [Pa]: REACHED (rho c v + traction) plus the stress of initial
  * strains, with density rho, wave speed c and the range v of initial and prescribed velocities. Returns INFINITY if no
  * estimate is possible: for body forces, tables in time, formulas, rotating supports, and runs in which waves cross the
  * body more than PASSAGES times. */
@@ -66,7 +66,7 @@ static real stress_reached(const struct run *run)
     return REACHED * (density * run->tables.wave_speed * sqrt(speed2) + traction) + run->probing->strain_stress;
 }
 
-/* Adds a hint to *to for each body of run whose shape functions are evaluated at the present positions of its
+/* Adds a hint to *to for each body of the run whose shape functions are evaluated at the present positions of its
  * material points although the faster evaluation at reference positions is possible, and would not be refused by
  * mpm.frame: auto. */
 static void hint_frame(const struct run *run, struct warnings *to)
@@ -97,7 +97,7 @@ static bool has_notch(const struct scene *s)
     return notch;
 }
 
-/* Adds a hint to *to if the input file of run uses a peridynamic method although no bond can break, so that the
+/* Adds a hint to *to if the input file of the run uses a peridynamic method although no bond can break, so that the
  * method mpm suffices. Input files with rigid bodies are excepted, since material points do not support contact with
  * them. */
 static void hint_method(const struct run *run, struct warnings *to)
@@ -122,8 +122,8 @@ static void hint_method(const struct run *run, struct warnings *to)
                             reached, weakest, method);
 }
 
-/* Adds a hint to *to that names the planes about which the input file of run is symmetric, so that a part of the body
- * can be computed instead. Adds none without such planes. */
+/* Adds a hint to *to that names the planes about which the input file of the run is symmetric, so that a part of the
+ * body can be computed instead. Adds none without such planes. */
 static void hint_symmetry(const struct run *run, struct warnings *to)
 {
     static const char *const share[] = {"", "half", "a quarter", "an eighth"};

@@ -27,7 +27,7 @@ static int64_t layer_site(const struct layer_map *m, const struct particles *p, 
     return site;
 }
 
-/* Finds which lattice sites in the bounding box of body number `body` of run are filled by particles of this body.
+/* Finds which lattice sites in the bounding box of body number `body` of the run are filled by particles of this body.
  * Stores the result in m, with m->filled[sites] 1 or 0. Returns false, with nothing to release, for more than
  * CELLS_MOST sites. Otherwise the caller frees m->filled with memory_free. */
 static bool layer_map_make(struct layer_map *m, const struct run *run, int body)
@@ -93,8 +93,8 @@ static double site_layers(const struct layer_map *m, const int64_t *at)
     return least;
 }
 
-/* Returns the median number of particle layers across the thin parts of body number `body` of run. A particle is in a
- * thin part if the body has fewer than `most` layers there, counted along the axis with the smallest count. Returns
+/* Returns the median number of particle layers across the thin parts of body number `body` of the run. A particle is in
+ * a thin part if the body has fewer than `most` layers there, counted along the axis with the smallest count. Returns
  * INFINITY if less than the share SHARE_LEAST of the particles are in thin parts, or if the bounding box of the body
  * has more than CELLS_MOST lattice sites. */
 static double body_layers(const struct run *run, int body, double most)

@@ -11,8 +11,8 @@
  * counted. */
 enum { LOOKED_AT = 1024, LAYERS_MOST = 16 };
 
-/* Returns true if a particle of body number `body` of run is within PROBE spacings of the point X[dim] [m], so that X
- * counts as inside the body. Also returns true if more than ROOM particles are that near to X. */
+/* Returns true if a particle of body number `body` of the run is within PROBE spacings of the point X[dim] [m], so that
+ * X counts as inside the body. Also returns true if more than ROOM particles are that near to X. */
 static bool body_at(const struct run *run, int body, const real *X)
 {
     enum { ROOM = 64 };
@@ -24,7 +24,7 @@ static bool body_at(const struct run *run, int body, const real *X)
     return n > ROOM;
 }
 
-/* Returns the thickness of the body at particle i of run [particles]: the particles are counted along each axis
+/* Returns the thickness of the body at particle i of the run [particles]: the particles are counted along each axis
  * through particle i, up to LAYERS_MOST, and the smallest count is returned. An axis along which the body ends at a
  * plane of symmetry counts as LAYERS_MOST. */
 static int layers_at(const struct run *run, int64_t i)
@@ -50,7 +50,7 @@ static int layers_at(const struct run *run, int64_t i)
     return least;
 }
 
-/* Returns a measure of how thin body number `body` of run is: the smallest number L such that at least the share
+/* Returns a measure of how thin body number `body` of the run is: the smallest number L such that at least the share
  * THIN_SHARE of its particles have L or fewer layers of particles across the body; at most LAYERS_MOST. Tests a sample
  * of about LOOKED_AT particles. */
 static int thinnest(const struct run *run, int body)

@@ -168,12 +168,12 @@ static void face_beside_shape(void *context, int32_t i, int axis, int side, real
     f->off += area * side * normal[axis] * off;
 }
 
-/* Prints the area on which the pressure load number `which` of run acts, and how far this area is from the surface of
- * the body's shape. The pressure acts on faces of particles. Along a slanted or curved surface these form steps, whose
- * total area exceeds that of the surface, so each face is projected on the surface. Prints the sum of the projected
- * areas, and the mean distance of the faces from the surface: negative distances are below it. The radius of a bore
- * differs from that of its particles by this distance. Prints the area of the faces if the normals of the shape are not
- * known. */
+/* Prints the area on which the pressure load number `which` of the run acts, and how far this area is from the surface
+ * of the body's shape. The pressure acts on faces of particles. Along a slanted or curved surface these form steps,
+ * whose total area exceeds that of the surface, so each face is projected on the surface. Prints the sum of the
+ * projected areas, and the mean distance of the faces from the surface: negative distances are below it. The radius of
+ * a bore differs from that of its particles by this distance. Prints the area of the faces if the normals of the shape
+ * are not known. */
 static void say_pressed(const struct run *run, int which)
 {
     const struct load *l = &run->loads.load[which];
@@ -378,7 +378,7 @@ static real net_force(const struct loads *loads, const struct particles *p, cons
     return all;
 }
 
-/* Computes in *a the motion of the body of run by the net force of its loads, along the axes along which no support
+/* Computes in *a the motion of the body of the run by the net force of its loads, along the axes along which no support
  * holds it, by integration with the midpoint rule. Returns false if the loads balance along these axes, or if the input
  * file is static or has several bodies (is_single_body). */
 static bool drift_by_loads(const struct run *run, struct drift *a)
@@ -406,8 +406,8 @@ static bool drift_by_loads(const struct run *run, struct drift *a)
     return a->net > UNBALANCED * all && isfinite(a->net);
 }
 
-/* Writes to `out` the largest net force on the body of run along axis a->axis, along which no support holds the body,
- * and the motion of the body by this force. a: force and motion. */
+/* Writes to `out` the largest net force on the body of the run along axis a->axis, along which no support holds the
+ * body, and the motion of the body by this force. a: force and motion. */
 static void write_drift(const struct run *run, const struct drift *a, FILE *out)
 {
     fprintf(out,
@@ -426,7 +426,7 @@ void print_advice_on_unbalanced_loads(const struct run *run, FILE *out)
     fprintf(out, ": hold a face along %c, or balance the loads\n", "xyz"[a.axis]);
 }
 
-/* Prints the net force of the loads of run if they do not balance along an axis along which no support holds the
+/* Prints the net force of the loads of the run if they do not balance along an axis along which no support holds the
  * body, unless print_advice_on_unbalanced_loads writes about it. */
 static void say_balance_of_loads(const struct run *run)
 {

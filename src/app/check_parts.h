@@ -70,8 +70,8 @@ void print_tensile_strength_of_brittle_bonds(const struct scene *s, const struct
 
 /* ---- check_precracks.c ------------------------------------------------------------------------------------------- */
 
-/* Prints the length of the smallest pre-crack of run and its ratio to the horizon. Prints nothing unless the body is
- * plane and its bonds soften. */
+/* Prints the length of the smallest pre-crack of the run and its ratio to the horizon. Prints nothing unless the body
+ * is plane and its bonds soften. */
 void print_smallest_precrack_length(const struct run *run);
 
 /* Writes a remark to `out` for each 2D crack of scene s (the input file) whose two tips are less than FEATURE (4)
@@ -79,18 +79,18 @@ void print_smallest_precrack_length(const struct run *run);
  * counts as half of a crack of twice its length. fracture: holds the crack tips. */
 void print_advice_on_close_crack_tips(const struct scene *s, const struct fracture_state *fracture, FILE *out);
 
-/* Adds a hint to *warning_list for each 2D pre-crack of run that ends exactly on bonds, so that rounding decides
+/* Adds a hint to *warning_list for each 2D pre-crack of the run that ends exactly on bonds, so that rounding decides
  * whether it cuts them. */
 void hint_precrack_ends_exactly_on_bonds(const struct run *run, struct warnings *warning_list);
 
 /* ---- check_steps.c ----------------------------------------------------------------------------------------------- */
 
-/* Prints to standard output the number, control and tolerance of the load steps (successive static equilibria) of run
- * e, and the rule by which cracks grow if bonds can break. */
+/* Prints to standard output the number, control and tolerance of the load steps (successive static equilibria) of the
+ * run e, and the rule by which cracks grow if bonds can break. */
 void print_load_step_settings(const struct run *run);
 
-/* Writes a line to `out` for each setting of loads, supports or lengths of cracks of run that reduces the accuracy of
- * load steps (successive static equilibria). */
+/* Writes a line to `out` for each setting of loads, supports or lengths of cracks of the run that reduces the accuracy
+ * of load steps (successive static equilibria). */
 void print_load_step_accuracy_advice(const struct run *run, FILE *out);
 
 /* Estimates the cost of a run with load steps (successive static equilibria) from the time of its first equilibrium,
@@ -98,25 +98,26 @@ void print_load_step_accuracy_advice(const struct run *run, FILE *out);
 status load_steps_estimate_run_cost(struct cost *c, struct run *run);
 
 /* Prints the estimated run time of load steps (successive static equilibria) with `threads` threads, and a line if no
- * bond will break. cost: the estimate for run. */
+ * bond will break. cost: the estimate for the run. */
 void print_load_steps_cost(const struct run *run, const struct cost *cost, int threads);
 
 /* ---- check_shapes.c ---------------------------------------------------------------------------------------------- */
 
-/* Prints for each file from which the input file of run reads a solid whether its surface is closed, and the volume
+/* Prints for each file from which the input file of the run reads a solid whether its surface is closed, and the volume
  * that the surface encloses. */
 void print_shape_file_volumes(const struct run *run);
 
-/* Prints a line for each body of run that consists of several pieces without bonds between them (check_pieces.c). */
+/* Prints a line for each body of the run that consists of several pieces without bonds between them (check_pieces.c).
+ */
 void print_bodies_in_several_unbonded_pieces(const struct run *run);
 
 /* ---- check_layers.c ---------------------------------------------------------------------------------------------- */
 
 /* Returns the smallest edge, diameter or wall thickness [m] of the solid `solid`. An edge that ends at a plane of
- * symmetry of run counts with its mirror image. Returns INFINITY if the solid has none of these. */
+ * symmetry of the run counts with its mirror image. Returns INFINITY if the solid has none of these. */
 real solid_smallest_edge(const struct run *run, const struct solid *solid);
 
-/* Returns the number of particle layers across the thin parts of body number `body_index` of run, together with the
+/* Returns the number of particle layers across the thin parts of body number `body_index` of the run, together with the
  * bodies that interfaces join to it; INFINITY if it is not thin. A body of a single solid is thin if its smallest edge
  * is less than `max_layers` spacings; this number of spacings is returned. Any other body is thin if across at least
  * half of its particles it has fewer layers than max_layers / 2; the median number of layers there is returned. Returns
@@ -127,8 +128,8 @@ double count_particle_layers_across_thin_parts(const struct run *run, int body_i
  * stiff, or whose mesh cells are too soft, in bending. */
 void print_advice_on_incompressible_bodies(const struct run *run, FILE *out);
 
-/* Writes a line to `out` for each support of run that prescribes the motion of a layer of particles behind a face, a
- * horizon deep by default, if this layer stiffens a body of bonds in equilibrium by more than a few percent. */
+/* Writes a line to `out` for each support of the run that prescribes the motion of a layer of particles behind a face,
+ * a horizon deep by default, if this layer stiffens a body of bonds in equilibrium by more than a few percent. */
 void print_advice_on_stiffening_by_prescribed_layers(const struct run *run, FILE *out);
 
 /* ---- check_levels.c ---------------------------------------------------------------------------------------------- */
@@ -137,13 +138,13 @@ void print_advice_on_stiffening_by_prescribed_layers(const struct run *run, FILE
  * they are used or not. */
 void print_coarse_cell_sizes_and_counts(const struct run *run);
 
-/* Prints the memory and time that coarse cells of the mesh (larger cells, in which no particles are made) save in run
- * e. cost: measured cost of the run. */
+/* Prints the memory and time that coarse cells of the mesh (larger cells, in which no particles are made) save in the
+ * run e. cost: measured cost of the run. */
 void print_coarse_cells_saving(const struct run *run, const struct cost *cost);
 
 /* ---- check_sections.c -------------------------------------------------------------------------------------------- */
 
-/* Writes a line to `out` for each narrow part of a body of run whose width is no whole number of spacings, so that
+/* Writes a line to `out` for each narrow part of a body of the run whose width is no whole number of spacings, so that
  * the particles make it too wide or too narrow. The line states the nearest spacings that divide the width. */
 void print_advice_on_widths_of_narrow_parts(const struct run *run, FILE *out);
 
@@ -162,20 +163,21 @@ struct length_text length_text_with_unit(real length, int digits, real spacing);
 
 /* ---- check_loads.c ----------------------------------------------------------------------------------------------- */
 
-/* Prints a line for each load and support of run run: its number of particles, area, force and moment. */
+/* Prints a line for each load and support of the run run: its number of particles, area, force and moment. */
 void print_loads_and_supports(const struct run *run);
 
-/* Writes a line to `out` if the loads on a single body of run do not balance along an axis along which no support
+/* Writes a line to `out` if the loads on a single body of the run do not balance along an axis along which no support
  * holds it, and act until the end of the run. The line states the velocity and the displacement that the body gains by
  * them, and a remedy. */
 void print_advice_on_unbalanced_loads(const struct run *run, FILE *out);
 
-/* Prints for the loaded or supported face of boundary b of run run: the fraction of its area that is not perpendicular
- * to the axis of the boundary, the mean angle between normal and axis there, and a region that excludes this part of
- * the face. If the face lies in several planes and the boundary has no region, prints instead where it lies. */
+/* Prints for the loaded or supported face of boundary b of the run run: the fraction of its area that is not
+ * perpendicular to the axis of the boundary, the mean angle between normal and axis there, and a region that excludes
+ * this part of the face. If the face lies in several planes and the boundary has no region, prints instead where it
+ * lies. */
 void print_oblique_fraction_of_loaded_face(const struct run *run, const struct boundary *b);
 
-/* Prints the volume of the particles and the volume of the shape for those bodies of run that are not boxes
+/* Prints the volume of the particles and the volume of the shape for those bodies of the run that are not boxes
  * (check_filled.c). */
 void print_volume_filled_by_particles(const struct run *run);
 
@@ -188,7 +190,7 @@ void hint_keys_without_effect(const struct scene *s, struct warnings *warning_li
 
 /* ---- check_signs.c ----------------------------------------------------------------------------------------------- */
 
-/* Adds a line to *warning_list for each load of run whose sign is probably not intended, and for each setting whose
+/* Adds a line to *warning_list for each load of the run whose sign is probably not intended, and for each setting whose
  * size is probably not intended. */
 void hint_implausible_load_signs_and_magnitudes(const struct run *run, struct warnings *warning_list);
 
@@ -210,14 +212,14 @@ void print_stiffness_error_of_thin_part(const struct scene *s, enum surface_rule
  * 1D. */
 void print_advice_on_stiffness_of_particle_lists(const struct run *run, FILE *out);
 
-/* Returns true if the set-up of run (bodies, loads, cracks) equals its mirror image in the plane normal to axis
+/* Returns true if the set-up of the run (bodies, loads, cracks) equals its mirror image in the plane normal to axis
  * `normal_axis` through the middle of its particles. *plane_position receives the position of this plane along the axis
  * [m] (check_symmetry.c). */
 bool run_is_symmetric_about_mid_plane(const struct run *run, int normal_axis, real *plane_position);
 
 /* ---- check_hints.c ----------------------------------------------------------------------------------------------- */
 
-/* Adds a line to *warning_list for each setting of the input file of run that costs more than necessary or has no
+/* Adds a line to *warning_list for each setting of the input file of the run that costs more than necessary or has no
  * effect, and for each end of a crack that is exactly on bonds. The run must not have taken a step. */
 void hint_needless_cost_and_unused_settings(const struct run *run, struct warnings *warning_list);
 

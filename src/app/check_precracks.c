@@ -62,7 +62,7 @@ static int body_of(const struct scene *scene, const struct particles *part, int3
     return scene->body[part->body[i]].joined;
 }
 
-/* Returns the number of bonds of run whose cut depends on the exact length of crack c at its corner `end` (0 or 1).
+/* Returns the number of bonds of the run whose cut depends on the exact length of crack c at its corner `end` (0 or 1).
  * Crack c cuts these bonds if it is longer by 1e-7 of its length, but not if it is shorter by as much. Bonds are pairs
  * of particles of one body within the horizon. found[capacity]: work array for the indices of particles near the
  * end. */

@@ -39,7 +39,7 @@ static void hint_pushed(const struct scene *s, struct warnings *to)
 }
 
 /* Adds a hint to *to for each value of friction, gravity, damping (in dynamic problems) and width of a crack in the
- * input file of run that exceeds a limit such as FRICTION_MOST, above which no real solid is known. */
+ * input file of the run that exceeds a limit such as FRICTION_MOST, above which no real solid is known. */
 static void hint_sizes(const struct run *run, struct warnings *to)
 {
     const struct scene *s = run->scene;
@@ -65,8 +65,8 @@ static void hint_sizes(const struct run *run, struct warnings *to)
                                 k + 1, s->crack[k].width, longest);
 }
 
-/* Adds a hint to *to if the frames of run (outputs of all particles at one time) together take more than FRAMES_MANY
- * (10 GB) on the disk. */
+/* Adds a hint to *to if the frames of the run (outputs of all particles at one time) together take more than
+ * FRAMES_MANY (10 GB) on the disk. */
 static void hint_frames(const struct run *run, struct warnings *to)
 {
     const double steps = (double)run->clock.steps, frames = run->scene->frames < steps ? run->scene->frames : steps;

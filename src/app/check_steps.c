@@ -123,7 +123,7 @@ static void print_missed_peak(const struct scene *s, real t, FILE *out)
             t, s->steps.number, number);
 }
 
-/* Writes a remark to `out` if loads of run act before the first load step. Writes another one if loads decrease
+/* Writes a remark to `out` if loads of the run act before the first load step. Writes another one if loads decrease
  * although the control of the load steps requires growing loads. In load control, also writes one on a peak of the
  * loads between two load steps, the one that is farthest above the loads of the nearest steps. */
 static void advise_growth(const struct run *run, FILE *out)
@@ -160,8 +160,8 @@ static void advise_growth(const struct run *run, FILE *out)
     if (missed > PEAK_MISSED * most) print_missed_peak(s, peak, out);
 }
 
-/* Writes a remark to `out` for each crack tip of run with less than FEW spacings of crack behind it, or less than FEW
- * spacings of body ahead of it. */
+/* Writes a remark to `out` for each crack tip of the run with less than FEW spacings of crack behind it, or less than
+ * FEW spacings of body ahead of it. */
 static void advise_lengths(const struct run *run, FILE *out)
 {
     const real h = run->scene->spacing;
@@ -194,7 +194,7 @@ static int support_width(const struct scene *scene, const struct particles *part
     return high - low > to - from - 0.5 * h ? 0 : (int)lround((high - low) / h) + 1;
 }
 
-/* Writes a remark to `out` for each support of run that holds more than PIN_MOST particles side by side along an
+/* Writes a remark to `out` for each support of the run that holds more than PIN_MOST particles side by side along an
  * axis, so that the body cannot turn as on a pin or roller, but at most GRIP_LEAST, too few for a grip. Supports on
  * whole faces and rotating ones are skipped. */
 static void advise_supports(const struct run *run, FILE *out)
@@ -225,7 +225,7 @@ void print_load_step_accuracy_advice(const struct run *run, FILE *out)
 
 /* ---- cost -------------------------------------------------------------------------------------------------------- */
 
-/* Returns an estimate of the number of equilibria that one crack increment of run requires. It is LED_EQUILIBRIA if
+/* Returns an estimate of the number of equilibria that one crack increment of the run requires. It is LED_EQUILIBRIA if
  * the direction of cracks follows from stress-intensity factors. Otherwise it follows from the number of bonds in an
  * increment and the number of pairs of bonds that break per equilibrium: PAIRS_AT_ONCE in 2D, the number that the scene
  * allows in 3D. */
@@ -245,7 +245,7 @@ static double equilibria_of_advance(const struct run *run)
     return 1 + SPACINGS * 0.5 * neighbours * reach * wide / at_once;
 }
 
-/* Returns an estimate of the number of crack increments in run run: the number of load steps if the steps are
+/* Returns an estimate of the number of crack increments in the run run: the number of load steps if the steps are
  * controlled by the released energy, else the distance that all crack tips can grow, divided by the length of an
  * increment. Returns 0 if no bond can break. */
 static double advances_of(const struct run *run)

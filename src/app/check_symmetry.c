@@ -13,7 +13,7 @@
 
 #define NEAR_ENOUGH 1e-6 /* tolerance of positions [spacings], of vectors as a share of the largest component [1] */
 
-/* Returns the index of the particle of run at the position X[dim] [m]; -1 if there is none or more than one. */
+/* Returns the index of the particle of the run at the position X[dim] [m]; -1 if there is none or more than one. */
 static int64_t particle_at(const struct run *run, const real *X)
 {
     int32_t found[4];
@@ -117,7 +117,7 @@ static bool loads_agree(const struct particles *p, const struct loads *loads, in
     return same;
 }
 
-/* Finds the mirror image of each particle of run in the plane normal to `axis` at the coordinate `at` [m].
+/* Finds the mirror image of each particle of the run in the plane normal to `axis` at the coordinate `at` [m].
  * twin[particles]: receives the index of the mirror image of each particle. Returns false if a particle has no image.
  * Also returns false if a particle is on the plane and thus its own image, because an input file of one half would have
  * to cut it. */
@@ -201,7 +201,7 @@ static bool growths_agree(const struct scene *s, const struct particles *part, i
 }
 
 /* Returns true if the plane normal to `axis` at the coordinate `at` [m] crosses no ring (circle around a crack tip)
- * over which a probe of run integrates stress-intensity factors. */
+ * over which a probe of the run integrates stress-intensity factors. */
 static bool rings_clear(const struct run *run, int axis, real at)
 {
     const struct observed_run seen = observed_run_make_read_only_view(run);

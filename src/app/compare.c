@@ -81,9 +81,10 @@ static double interval(const struct times *t)
     return t->n > 1 ? (t->list[t->n - 1].time - t->list[0].time) / (t->n - 1) : INFINITY;
 }
 
-/* Finds the latest frame (output at one time) of run A for which run B has a frame at the same time. Times are the same
- * if they differ by at most SAME_TIME times the shorter of the mean intervals between frames of A and B. a, b: frames
- * of A and B. Stores the index of the frame of A in *i and of B in *j. Returns false if there is no such pair. */
+/* Finds the latest frame (output at one time) of the run A for which run B has a frame at the same time. Times are the
+ * same if they differ by at most SAME_TIME times the shorter of the mean intervals between frames of A and B. a, b:
+ * frames of A and B. Stores the index of the frame of A in *i and of B in *j. Returns false if there is no such pair.
+ */
 static bool last_common(const struct times *a, const struct times *b, int *i, int *j)
 {
     double near = SAME_TIME * fmin(interval(a), interval(b));
@@ -132,7 +133,7 @@ static struct difference field_difference(float *const *a, float *const *b, int 
 
 /* Prints a row of the table of fields: label and unit, then from d the largest and the root-mean-square difference, the
  * largest value of the field, and the reference position of the particle with the largest difference. f: output frame
- * (state at one time) of run A, from which this position is read. */
+ * (state at one time) of the run A, from which this position is read. */
 static void print_field(const char *label, const char *unit, const struct output_frame *f, struct difference d)
 {
     char text[KEY_LENGTH];

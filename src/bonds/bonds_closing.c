@@ -9,7 +9,7 @@
 
 /* Returns the stretch [1] at the present positions of the particles p of the bond with index q in row `row` of b (bonds
  * of one particle). The bond may be broken. */
-static real entry_stretch(const struct bonds *b, const struct particles *p, int64_t row, int64_t q)
+static real bond_stretch_also_if_broken(const struct bonds *b, const struct particles *p, int64_t row, int64_t q)
 {
     real length2 = 0;
     for (int d = 0; d < p->dim; d++) length2 += square(p->x[d][b->nbr[q]] - p->x[d][b->particle[row]]);
@@ -39,12 +39,13 @@ static void ended_bond_release(struct bonds *b, int64_t row, int64_t q)
 /* Updates whether the bond with index q in row `row` of b (bonds of one particle) presses, if it has ended. pairs:
  * micro-moduli by pair of materials. Returns the number of changes, 0 or 1. Other arguments:
  * bonds_update_ended_bonds_that_press. */
-static int bond_update(struct bonds *b, const struct particles *p, const struct bond_source *source,
-                       const struct material_pair_table *pairs, int64_t row, int64_t q)
+static int ended_bond_update_whether_it_presses(struct bonds *b, const struct particles *p,
+                                                const struct bond_source *source,
+                                                const struct material_pair_table *pairs, int64_t row, int64_t q)
 {
     const bool presses = ended_bond_presses(b, row / LANES, q);
     if (!presses && (b->w[q] != 0 || !bond_is_softening(b, row / LANES, q))) return 0;
-    if (presses == (entry_stretch(b, p, row, q) < 0)) return 0;
+    if (presses == (bond_stretch_also_if_broken(b, p, row, q) < 0)) return 0;
     if (presses)
         ended_bond_release(b, row, q);
     else
@@ -60,7 +61,8 @@ int64_t bonds_update_ended_bonds_that_press(struct bonds *b, const struct partic
     struct material_pair_table pairs = material_pair_table_compute_micro_moduli(source);
     for (int64_t row = 0; row < b->rows; row++)
         for (int64_t k = 0; b->broken[row] > 0 && k < b->column_count[row / LANES]; k++)
-            changes += bond_update(b, p, source, &pairs, row, (b->column[row / LANES] + k) * LANES + row % LANES);
+            changes += ended_bond_update_whether_it_presses(b, p, source, &pairs, row,
+                                                            (b->column[row / LANES] + k) * LANES + row % LANES);
     memory_free(pairs.ratio);
     return changes;
 }
@@ -76,7 +78,7 @@ struct bond_overlap bonds_find_overlap_at_cracks(const struct bonds *b, const st
             const struct bond *bond = &it.bond;
             const int pair = p->material[i] * limit->materials + p->material[bond->nbr];
             if (bond->w != 0 || bond->nbr < i) continue;
-            const real stretch = entry_stretch(b, p, row, bond->entry);
+            const real stretch = bond_stretch_also_if_broken(b, p, row, bond->entry);
             if (!(stretch < -limit->softening[pair].onset)) continue;
             found.pairs++;
             found.deepest = real_max(found.deepest, -stretch / fabs(bond->inverse_length));

@@ -56,7 +56,7 @@ static void put_conversion(const struct run *run, struct json *j)
     json_end_object_or_list(j, '}');
 }
 
-/* Saves the state of conversion of run to the archive a if a->saving, else restores it. The strains of material
+/* Saves the state of conversion of the run to the archive a if a->saving, else restores it. The strains of material
  * points with bonds to peridynamic particles are not saved, but recomputed from the mesh on restoring. Returns FAILED
  * if the archive cannot be read or written or lacks the state. */
 static status coupling_state_of(struct run *run, struct archive *a)

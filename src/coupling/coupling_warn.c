@@ -105,7 +105,7 @@ static int touching(const struct particles *p, const struct cells *cells, int bo
     return pairs;
 }
 
-/* Adds a warning to `to` if bodies of run touch at the start without being joined, and names them. Bodies touch if
+/* Adds a warning to `to` if bodies of the run touch at the start without being joined, and names them. Bodies touch if
  * particles of both are within 1.5 spacings or the cutoff (largest bond length), whichever is smaller, and have the
  * same velocity. */
 static void warn_of_touch(const struct run *run, struct warnings *to)

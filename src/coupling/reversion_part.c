@@ -41,7 +41,7 @@ status reversion_check_scene_allows_return_to_mpm(const struct scene *s)
     return why ? status_set(REFUSED, "conversion.reversion: true is impossible: %s", why) : OK;
 }
 
-/* Returns the sum of the elastic and kinetic energies of the bodies of run at the present positions [J], those of
+/* Returns the sum of the elastic and kinetic energies of the bodies of the run at the present positions [J], those of
  * bonds, material points and mesh included. */
 static real energy_now(struct run *run)
 {
@@ -54,7 +54,7 @@ static real energy_now(struct run *run)
 
 /* Turns n peridynamic particles into material points, with bonds, mesh and interface zone updated. list[n]: indices of
  * the particles. The change of elastic and kinetic energy that this causes is added to the quantity
- * conversion.reversion_energy of run [J]. */
+ * conversion.reversion_energy of the run [J]. */
 static void revert_listed(struct run *run, const int32_t *list, int64_t n)
 {
     const real before = energy_now(run);

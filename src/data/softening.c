@@ -75,10 +75,8 @@ real softening_normalised_dissipated_energy(const struct softening_curve *c, rea
 /* ---- uniform strain ---------------------------------------------------------------------------------------------- */
 
 enum { DIRECTIONS = 128, BISECTIONS = 40 }; /* directions of a quadrature over bonds; steps of a bisection */
-enum {
-    HEIGHTS = 48,
-    TURNS = 48
-};                         /* directions of an octant: heights above a plane times directions round its normal */
+/* Numbers of directions of an octant: heights above a plane, and directions round its normal. */
+enum { HEIGHTS = 48, TURNS = 48 };
 enum { ITERATIONS = 100 }; /* largest number of secant iterations for the strains of shear in space */
 #define STRAIN_ERROR 1e-7  /* difference of two such strains that counts as 0, in units of s_0 */
 #define GROWTH 1.01        /* factor between two strains of the search for a peak */

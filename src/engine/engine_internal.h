@@ -11,8 +11,8 @@
  * pointers to them in *e. */
 void run_components_allocate(struct run *run);
 
-/* Releases all parts of run (contact, cracks, mesh, probes and others) and what they own. Parts that were not created
- * are skipped. */
+/* Releases all parts of the run (contact, cracks, mesh, probes and others) and what they own. Parts that were not
+ * created are skipped. */
 void run_components_free(struct run *run);
 
 /* A run that is to be replaced by a run of the same scene with other particles, and the map between the particles of
@@ -46,7 +46,7 @@ void run_transfer_particles_from_predecessor(struct run *run, struct predecessor
  * of predecessor->run. run_transfer_particles_from_predecessor must have been called before. */
 void run_transfer_broken_bonds_from_predecessor(struct run *run, const struct predecessor *predecessor);
 
-/* Saves the state of loads and of all parts of run (contact, cracks, mesh, probes and others) to the archive a if
+/* Saves the state of loads and of all parts of the run (contact, cracks, mesh, probes and others) to the archive a if
  * a->saving is true, else restores it from a. Each part saves only the state that a->scope selects: all, or what a
  * trial equilibrium changes, for example. Returns FAILED if an entry is missing or has another size. */
 status run_components_save_or_load_state(struct run *run, struct archive *a);

@@ -178,7 +178,7 @@ static void make_mirrors(const struct scene *s, const struct loads *loads, struc
     source->crack = tables->cracks.crack, source->cracks = tables->cracks.n, source->crack_of = tables->cracks.of;
 }
 
-/* Converts the initial peridynamic particles and creates the bonds of run. before: run from which broken bonds are
+/* Converts the initial peridynamic particles and creates the bonds of the run. before: run from which broken bonds are
  * transferred, or NULL. Returns REFUSED or FAILED, with a message, if surface weights or pre-cracks cannot be made. */
 static status make_bonds(struct run *run, struct predecessor *before)
 {
@@ -267,7 +267,7 @@ static enum pd_model law_of(const struct scene *s, const struct bond_source *sou
     return source->yield.stretch ? PD_BOND_PLASTIC : source->limit.softening ? PD_BOND_SOFT : PD_BOND;
 }
 
-/* Computes the critical time step and the time step of run, or copies both from the run `before`, which e replaces.
+/* Computes the critical time step and the time step of the run, or copies both from the run `before`, which e replaces.
  * before: NULL if there is none. Returns REFUSED, with a message, if no time step is possible. */
 static status make_time(struct run *run, const struct predecessor *before)
 {
@@ -290,8 +290,8 @@ static void make_contact(struct contact *c, const struct scene *s, const struct 
                  s->contact_stiffness, source, rigid->shape, rigid->body, s->rigids);
 }
 
-/* Creates the materials, kernels and particles of run. Returns REFUSED, with a message, if there is not enough memory
- * or a body cannot be filled with particles. */
+/* Creates the materials, kernels and particles of the run. Returns REFUSED, with a message, if there is not enough
+ * memory or a body cannot be filled with particles. */
 static status make_particles(struct run *run)
 {
     const struct scene *s = run->scene;
@@ -310,8 +310,8 @@ static status make_particles(struct run *run)
         s, run_check_memory_suffices(s, &run->part, &run->source)); /* with the actual number of particles */
 }
 
-/* Creates crack tips, crack growth, static solver, diagnostics and probes of run. Returns REFUSED, with a message, if
- * the scene does not allow the growth of a crack by stress-intensity factors, the static solver or a probe as it is
+/* Creates crack tips, crack growth, static solver, diagnostics and probes of the run. Returns REFUSED, with a message,
+ * if the scene does not allow the growth of a crack by stress-intensity factors, the static solver or a probe as it is
  * specified. */
 static status make_probes(struct run *run)
 {
@@ -334,7 +334,7 @@ static status make_probes(struct run *run)
     return scene_prepend_location_to_error_message(s, probes_make(&run->probing->probes, s->probe, s->probes, &o));
 }
 
-/* Creates loads, bonds, rigid bodies, contact, coupling and mesh of run, and computes the time step. Call it after
+/* Creates loads, bonds, rigid bodies, contact, coupling and mesh of the run, and computes the time step. Call it after
  * make_particles. before: run that e replaces, or NULL. Returns REFUSED or FAILED, with a message, if one of them is
  * impossible in the scene. */
 static status make_forces(struct run *run, struct predecessor *before)

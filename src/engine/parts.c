@@ -13,7 +13,7 @@ static const struct part *const parts[] = {&part_grid,        &part_frame,    &p
                                            &part_diagnostics, &part_probing,  &part_damping, &part_viscosity,
                                            &part_stability,   &part_report,   NULL};
 
-/* Returns the address of the pointer in run to the structure of the part p (contact, mesh, probes and so on). p->at
+/* Returns the address of the pointer in the run to the structure of the part p (contact, mesh, probes and so on). p->at
  * is the offset of this pointer in struct run. */
 static void **part_place(struct run *run, const struct part *p) { return (void **)((char *)run + p->at); }
 

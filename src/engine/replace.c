@@ -10,7 +10,7 @@
 #include "step/report.h"
 #include "engine_internal.h"
 
-/* Releases mesh, partial stress, interface zone and neighbour search of run, which is about to be replaced. The new
+/* Releases mesh, partial stress, interface zone and neighbour search of the run, which is about to be replaced. The new
  * run computes them from particles and scene, and for large bodies there is no memory for both. Displacements and
  * velocities of the mesh nodes are kept. */
 static void leave_derived(struct run *run)
@@ -36,7 +36,7 @@ static void swap_arrays(real **a, real **b, int dim)
     }
 }
 
-/* Moves displacements and velocities of all mesh nodes, and the coarse cells, from run `old` to run, which replaces
+/* Moves displacements and velocities of all mesh nodes, and the coarse cells, from the run `old` to run, which replaces
  * it. Both runs have the same nodes. */
 static void nodes_take(struct run *run, struct run *old)
 {
@@ -56,8 +56,8 @@ static void nodes_take(struct run *run, struct run *old)
                                                     run->scene->material);
 }
 
-/* Moves from run `old` to run, which replaces it, the state that the state functions of struct part do not transfer:
- * motion of nodes, output files, timers and warnings. `old` keeps none of it. */
+/* Moves from the run `old` to run, which replaces it, the state that the state functions of struct part do not
+ * transfer: motion of nodes, output files, timers and warnings. `old` keeps none of it. */
 static void rest_take(struct run *run, struct run *old)
 {
     nodes_take(run, old);
@@ -68,9 +68,9 @@ static void rest_take(struct run *run, struct run *old)
     *old->report = (struct run_report){.out = NULL};
 }
 
-/* Replaces the content of run by a new run with the hollow cells of its frame (cells inside a body without particles)
- * and the state of the previous run. The state of parts is transferred through an archive in memory. Returns FAILED or
- * REFUSED, with a message, if the new run cannot be made. */
+/* Replaces the content of the run by a new run with the hollow cells of its frame (cells inside a body without
+ * particles) and the state of the previous run. The state of parts is transferred through an archive in memory. Returns
+ * FAILED or REFUSED, with a message, if the new run cannot be made. */
 static status run_replace(struct run *run)
 {
     struct run *old = NEW("replace.old", 1, struct run);

@@ -20,7 +20,7 @@ static void rings_find(struct lagrangian_mesh *f, struct probes *p, const struct
         f->rings += probes_locate_sif_contour(p, k, seen, f->ring[f->rings].place, &f->ring[f->rings].radius);
 }
 
-/* Adapts the coarsening levels of the mesh cells of run (0: finest; the edge doubles with each level) to cracks and
+/* Adapts the coarsening levels of the mesh cells of the run (0: finest; the edge doubles with each level) to cracks and
  * stress. If cells that become finer lack particles, the run is first replaced by a run that has these particles.
  * Returns FAILED or REFUSED, with a message, if that is not possible; OK otherwise, also if nothing has changed. */
 static status refine(struct run *run)

@@ -19,8 +19,8 @@
 
 /* ---- physical results -------------------------------------------------------------------------------------------- */
 
-/* Writes name, method, status, numbers of steps and particles, and times of run to the JSON object j. s: status with
- * which the run has ended; message: its error message, "" without one. */
+/* Writes name, method, status, numbers of steps and particles, and times of the run to the JSON object j. s: status
+ * with which the run has ended; message: its error message, "" without one. */
 static void put_run(struct json *j, const struct run *run, status s, const char *message)
 {
     static const char *const method[] = {[METHOD_PD] = "pd", [METHOD_MPM] = "mpm", [METHOD_ADAPTIVE] = "adaptive"};

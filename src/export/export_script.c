@@ -160,8 +160,8 @@ static void test_write(FILE *to, int64_t steps)
             (long long)steps, (long long)steps);
 }
 
-/* Returns the number of time steps from each frame (output of all particles) of run to the next if it is the same for
- * all frames, else 0. frames: number of frames. */
+/* Returns the number of time steps from each frame (output of all particles) of the run to the next if it is the same
+ * for all frames, else 0. frames: number of frames. */
 static int64_t frame_distance(const struct run *run, int64_t frames)
 {
     const int64_t first = report_step_number_of_frame(run->scene, &run->clock, 1);

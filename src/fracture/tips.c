@@ -135,7 +135,7 @@ static bool merging_would_shorten(const struct flood *f, int keep, int gone)
 }
 
 /* Merges the cracks to which the touching particles i and j belong, in f, the assignment of damaged particles to
- * cracks. Two cracks that both start at ends of pre-cracks, that run side by side, or of which the longer one would
+ * cracks. Two cracks that both start at ends of pre-cracks, that the run side by side, or of which the longer one would
  * become shorter, stay separate. Otherwise a crack that starts at no pre-crack is merged into one that does, or, if
  * neither starts at a pre-crack, the later crack into the earlier one. */
 static void flood_join(struct flood *f, int32_t i, int32_t j)

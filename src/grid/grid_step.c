@@ -92,7 +92,7 @@ static status points_sort(struct grid_method *mpm, const struct particles *p, en
     return OK;
 }
 
-/* Updates the list of active points of run (active_points.h), so that transfers skip cells that are still at rest.
+/* Updates the list of active points of the run (active_points.h), so that transfers skip cells that are still at rest.
  * Does nothing if the scene switches this off, if no point is at rest any more, or with several grids, points that
  * rotate in groups, particles coupled to the grid, or a static solver. */
 static void update_active_points(struct run *run)
@@ -171,9 +171,9 @@ static struct grid_contact_side *meeting_find(struct grid_method *mpm, struct pa
     return side;
 }
 
-/* Advances the velocities of all grid nodes of run under forces, contact, prescribed velocities (walls) and mirrors.
- * side: grids of the bodies for contact, from meeting_find; NULL: no contact; middle: time in the middle of the step
- * [s]; dt: duration of the velocity update [s]. */
+/* Advances the velocities of all grid nodes of the run under forces, contact, prescribed velocities (walls) and
+ * mirrors. side: grids of the bodies for contact, from meeting_find; NULL: no contact; middle: time in the middle of
+ * the step [s]; dt: duration of the velocity update [s]. */
 static void grids_move(struct run *run, const struct grid_contact_side *side, real middle, real dt)
 {
     struct grid_method *mpm = run->grid;
@@ -226,9 +226,9 @@ static void field_set_flight(struct grid_field *f, const struct corotating_group
         memset(g->ahead, 0, sizeof g->ahead);
 }
 
-/* Adds the change of the nodal velocities to the points of run and maps the momentum of the points to the nodes again
- * (modified update stress last, MUSL). side: data of each grid for contact between bodies, from meeting_find; NULL: no
- * contact. */
+/* Adds the change of the nodal velocities to the points of the run and maps the momentum of the points to the nodes
+ * again (modified update stress last, MUSL). side: data of each grid for contact between bodies, from meeting_find;
+ * NULL: no contact. */
 static void grids_remap(struct run *run, const struct grid_contact_side *side)
 {
     const struct transfer_data grid_coupled = grid_coupled_data(run->grid);
@@ -312,7 +312,7 @@ status grid_advance_material_points_one_step(struct run *run, real t_middle)
     return points_enter_cells(run->grid, p, run->coupling_kind);
 }
 
-/* Returns the power of the forces on the grids of run at the start of a step [W]: the sum of P . f/m over the nodes
+/* Returns the power of the forces on the grids of the run at the start of a step [W]: the sum of P . f/m over the nodes
  * before they move, with the nodal momentum P, nodal mass m, and f the change of momentum per time by forces, contact
  * and walls. t_middle: time in the middle of the step [s]. Returns 0 if no particle is on a grid. */
 real grid_power_of_forces_on_material_points(struct run *run, real t_middle)

@@ -103,7 +103,7 @@ static void warn_of_plane_apart(const struct lagrangian_mesh *reference, const s
             b->name, s->body[body].name);
 }
 
-/* Adds warnings to warning_list of planes of symmetry of run that do not fit the nodes. On a background grid these
+/* Adds warnings to warning_list of planes of symmetry of the run that do not fit the nodes. On a background grid these
  * planes are neither on a node nor midway between two; with a mesh of the undeformed body, the body does not reach them
  * at the start of a dynamic run. Measured with inputs/bar_converge.yaml: displacements are 11 to 24 % off if mirrors
  * are 0.15 and 0.25 of a cell from a node, with 50 to 200 points per metre; half the spacing reduces the error by at

@@ -242,8 +242,8 @@ void mesh_levels_update_lists_of_loaded_nodes(struct lagrangian_mesh *reference,
     lagrangian_mesh_list_bonded_or_loaded_points(reference, p, bonds, loads);
 }
 
-/* Changes the coarsening levels of the cells of run to level[I] (0: finest; I: index of the finest cell). The kinetic
- * and strain energy that the change loses is added to run->damped, so that the energy balance includes it. */
+/* Changes the coarsening levels of the cells of the run to level[I] (0: finest; I: index of the finest cell). The
+ * kinetic and strain energy that the change loses is added to run->damped, so that the energy balance includes it. */
 static void change(struct run *run, const uint8_t *level)
 {
     struct lagrangian_mesh *reference = run->frame;

@@ -12,7 +12,7 @@ static void frame_free_all(struct run *run)
     coarse_cell_points_free(&f->shown);
 }
 
-/* Writes to the summary j the number of cells of each coarsening level (0: finest) of run, and how often the levels
+/* Writes to the summary j the number of cells of each coarsening level (0: finest) of the run, and how often the levels
  * have changed. Writes nothing if no coarse cells are possible. */
 static void put_levels(const struct run *run, struct json *j)
 {

@@ -64,7 +64,7 @@ struct acting {
     bool varies;
 };
 
-/* Returns the boundary condition of the scene of run from which the load l was made. It is not always l->boundary,
+/* Returns the boundary condition of the scene of the run from which the load l was made. It is not always l->boundary,
  * since static solvers replace prescribed displacements in it by velocities. */
 static const struct boundary *boundary_of(const struct run *run, const struct load *l)
 {
@@ -72,7 +72,7 @@ static const struct boundary *boundary_of(const struct run *run, const struct lo
     return number < run->scene->boundaries ? &run->scene->boundary[number] : l->boundary;
 }
 
-/* Computes vector[dim], the force density, displacement or velocity that the load l of run prescribes for its
+/* Computes vector[dim], the force density, displacement or velocity that the load l of the run prescribes for its
  * particle number k at time t [s], in the SI unit of this kind of load (such as Pa). Returns its magnitude in this
  * unit. For a pressure the vector has the direction of the force. */
 static double vector_at(const struct run *run, const struct load *l, int64_t k, double t, real *vector)
@@ -103,9 +103,9 @@ static double vector_at(const struct run *run, const struct load *l, int64_t k, 
     return force > 0 ? pressure : 0;
 }
 
-/* Returns the largest magnitude of load l of run at time t [s] and the number of particles on which it is not 0. Only
- * every `every`-th particle of the load is evaluated. on[i]: 1 if particle i is included, else 0; if `on` is NULL, all
- * particles are included. */
+/* Returns the largest magnitude of load l of the run at time t [s] and the number of particles on which it is not 0.
+ * Only every `every`-th particle of the load is evaluated. on[i]: 1 if particle i is included, else 0; if `on` is NULL,
+ * all particles are included. */
 static struct acting acting_at(const struct run *run, const struct load *l, const uint8_t *on, double t, int64_t every)
 {
     struct acting a = {.t = t};
@@ -132,7 +132,7 @@ static void face_on(void *context, int32_t particle, int axis, int side, real ar
     ((uint8_t *)context)[particle] |= area > 0;
 }
 
-/* Returns an allocated array with 1 for each particle of run that has a face under the pressure load l, else 0. A
+/* Returns an allocated array with 1 for each particle of the run that has a face under the pressure load l, else 0. A
  * pressure is distributed over two layers of particles, of which only the outer layer has a face. The caller releases
  * the array with memory_free. */
 static uint8_t *faces_of_pressure(const struct run *run, const struct load *l)
@@ -147,9 +147,9 @@ static uint8_t *faces_of_pressure(const struct run *run, const struct load *l)
     return on;
 }
 
-/* Returns the state of load l of run at the time at which its magnitude is largest, among evenly spaced times and the
- * characteristic times of its time function. on[i]: 1 if particle i is included, else 0; if `on` is NULL, all particles
- * are included. */
+/* Returns the state of load l of the run at the time at which its magnitude is largest, among evenly spaced times and
+ * the characteristic times of its time function. on[i]: 1 if particle i is included, else 0; if `on` is NULL, all
+ * particles are included. */
 static struct acting acting_of(const struct run *run, const struct load *l, const uint8_t *on)
 {
     enum { MOMENTS = 32, LOOKED_AT = 400 };

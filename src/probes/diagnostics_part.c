@@ -61,8 +61,8 @@ static int64_t driven_bonds(const struct bonds *b, const struct particles *p)
     return broken;
 }
 
-/* Writes the JSON object "crack" of run to j: time and position of the first breaks, growth, angle and speeds of the
- * longest crack, and the list of all crack tips. */
+/* Writes the JSON object "crack" of the run to j: time and position of the first breaks, growth, angle and speeds of
+ * the longest crack, and the list of all crack tips. */
 static void put_crack(struct json *j, const struct run *run)
 {
     const struct crack_tip *longest = tips_find_tip_with_largest_growth(&run->fracture->tips);

@@ -9,7 +9,7 @@
 
 /* ---- every step -------------------------------------------------------------------------------------------------- */
 
-/* Counts the separate groups of bonds of run o that break in this step in the region of the probe of kind BREAK
+/* Counts the separate groups of bonds of the run o that break in this step in the region of the probe of kind BREAK
  * (first bond break). If there are any, also stores time, load step and position as those of the first break; must not
  * be called after the first break. Bonds of particles with prescribed motion do not count. */
 static void step_break(struct probe *probe, const struct observed_run *o)
@@ -21,8 +21,8 @@ static void step_break(struct probe *probe, const struct observed_run *o)
     probe->memory.first_step = o->load_step;
 }
 
-/* Updates the memory of the probe of kind REACTION (force on a support) from run o: the largest reaction force, with
- * its step and displacement, and the sum of squared forces over all steps. */
+/* Updates the memory of the probe of kind REACTION (force on a support) from the run o: the largest reaction force,
+ * with its step and displacement, and the sum of squared forces over all steps. */
 static void step_reaction(struct probe *probe, const struct observed_run *o)
 {
     const int dim = o->part->dim;
@@ -71,8 +71,8 @@ void probes_update_break_spall_and_reaction_probes(struct probes *probes, const 
 
 /* ---- every sample ------------------------------------------------------------------------------------------------ */
 
-/* Stores in value[0 .. dim - 1] the position of the crack tip of run o that the probe (kind TIP) follows [m], and in
- * value[dim] how far the crack has grown there [m]. Without a tip the position is NAN and the growth 0. */
+/* Stores in value[0 .. dim - 1] the position of the crack tip of the run o that the probe (kind TIP) follows [m], and
+ * in value[dim] how far the crack has grown there [m]. Without a tip the position is NAN and the growth 0. */
 static void sample_tip(const struct probe *probe, const struct observed_run *o, real *value)
 {
     const struct crack_tip *tip = probe_find_followed_crack_tip(probe, o->tips);
@@ -129,7 +129,7 @@ void probes_sample_position_dependent_values(struct probes *probes, const struct
     }
 }
 
-/* Returns true if the values of probe (a requested measurement) depend on velocities. Leap-frog provides velocities
+/* Returns true if the values of the probe (a requested measurement) depend on velocities. Leap-frog provides velocities
  * half a step before and after a sample only, so that the sample interpolates them. */
 static bool has_motion(const struct probe *probe)
 {
@@ -146,7 +146,7 @@ void probes_store_motion_before_step(struct probes *probes, const struct observe
 }
 
 /* Computes K_I and K_II [Pa m^0.5], J [J/m^2] and the relative difference of J between contours for the probe of
- * kind SIF (stress-intensity factors) of run o, and stores them in value[SIF_FIGURES] in this order; NAN for those
+ * kind SIF (stress-intensity factors) of the run o, and stores them in value[SIF_FIGURES] in this order; NAN for those
  * that are not meaningful. t_velocity: time of the current velocities [s]. */
 static void sample_sif(struct probe *probe, const struct observed_run *o, real t_velocity, real *value)
 {
@@ -154,15 +154,15 @@ static void sample_sif(struct probe *probe, const struct observed_run *o, real t
     for (int f = 0; f < SIF_FIGURES; f++) value[f] = sif_probe_last_sample_value_or_nan(probe, f);
 }
 
-/* Stores in value[dim] the reaction force [N] of the boundary of probe of kind REACTION (force on a support), as
- * computed in the last step of run o. */
+/* Stores in value[dim] the reaction force [N] of the boundary of the probe of kind REACTION (force on a support), as
+ * computed in the last step of the run o. */
 static void sample_force(const struct probe *probe, const struct observed_run *o, real *value)
 {
     real displacement[DIM_MAX];
     probe_compute_reaction_of_supports(probe, o->loads, o->part->dim, value, displacement);
 }
 
-/* Stores in value[dim .. 2 dim - 1] the velocity [m/s] of the particle of probe of kind POINT (one particle) at the
+/* Stores in value[dim .. 2 dim - 1] the velocity [m/s] of the particle of the probe of kind POINT (one particle) at the
  * time of the sample. p: all particles. */
 static void sample_velocity(const struct probe *probe, const struct particles *p, real *value)
 {

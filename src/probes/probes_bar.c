@@ -22,10 +22,10 @@ static int64_t probes_bar_rank(const struct bar *b, const struct particles *p, i
     return p->X[0][i] < b->exact.left ? -1 : b->n;
 }
 
-/* Adds the forces of all intact bonds of bar b in run o, each bond once, to the arrays from which the stress follows.
- * between[n + 1]: the force of a bond is added after its left particle and subtracted at its right one, so that prefix
- * sums are the forces of the bonds that cross each particle [N]. end[n]: half the force of the bonds that end at each
- * particle [N]. */
+/* Adds the forces of all intact bonds of bar b in the run o, each bond once, to the arrays from which the stress
+ * follows. between[n + 1]: the force of a bond is added after its left particle and subtracted at its right one, so
+ * that prefix sums are the forces of the bonds that cross each particle [N]. end[n]: half the force of the bonds that
+ * end at each particle [N]. */
 static void add_bonds(const struct bar *b, const struct observed_run *o, real *between, real *end)
 {
     const struct bonds *bonds = o->bonds;
@@ -184,8 +184,8 @@ struct column bar_probe_value_column(enum exact_form closed_form, int value_numb
     return c;
 }
 
-/* Computes the errors of the bar b in run o against the closed form and stores them at their indices (enum figure) in
- * value[FIGURES]: L1 (mean |error|) and L2 (root mean square) of stress, of Young's modulus times strain, and of
+/* Computes the errors of the bar b in the run o against the closed form and stores them at their indices (enum figure)
+ * in value[FIGURES]: L1 (mean |error|) and L2 (root mean square) of stress, of Young's modulus times strain, and of
  * velocity, and L2 of displacement. */
 static void errors(const struct bar *b, const struct observed_run *o, real *value)
 {
@@ -238,7 +238,7 @@ static real mean_between(const struct bar *b, const struct particles *p, const r
     return n > 0 ? sum / (real)n : NAN;
 }
 
-/* Computes positions of stress fronts of bar b in run o, and stresses and strains of the plateaus behind them, and
+/* Computes positions of stress fronts of bar b in the run o, and stresses and strains of the plateaus behind them, and
  * stores them at their indices (enum figure) in value[FIGURES]. Entries of fronts that do not exist at this time are
  * not changed. */
 static void fronts(const struct bar *b, const struct observed_run *o, real *value)

@@ -9,8 +9,8 @@
 
 static const char *const form_names[EXACT_FORMS] = {"step bar", "plastic bar", "pulse", "manufactured"};
 
-/* Returns REFUSED, with a message that consists of the name of probe (a requested measurement), its closed form, and
- * the reason `what`. */
+/* Returns REFUSED, with a message that consists of the name of the probe (a requested measurement), its closed form,
+ * and the reason `what`. */
 static status refuse(const struct probe *probe, const char *what)
 {
     return status_set(REFUSED, "probe \"%s\": %s: %s", probe->request.name, form_names[probe->request.form], what);
@@ -43,7 +43,7 @@ static void find_order(struct bar *b, const struct particles *p)
     memory_free(sorted);
 }
 
-/* Finds the particles of run o that form the bar of probe (kind EXACT: comparison with a closed-form solution),
+/* Finds the particles of the run o that form the bar of the probe (kind EXACT: comparison with a closed-form solution),
  * allocates its arrays, and stores its ends and material constants. Returns REFUSED, with a message, unless the scene
  * is one row of at least three particles in 1D, of one material, and without a gap above 2.5 spacings. */
 static status find_bar(struct probe *probe, const struct observed_run *o)
@@ -90,9 +90,9 @@ static bool acts_on(const struct load *l, int32_t particle)
     return false;
 }
 
-/* Stores the reflection factor of both ends of the bar of probe (a requested measurement): 1 (fixed) at a plane of
- * symmetry or where a support of run o holds the outermost particle, else -1 (free). Returns REFUSED, with a message,
- * if a boundary drives the bar with a velocity. */
+/* Stores the reflection factor of both ends of the bar of the probe (a requested measurement): 1 (fixed) at a plane of
+ * symmetry or where a support of the run o holds the outermost particle, else -1 (free). Returns REFUSED, with a
+ * message, if a boundary drives the bar with a velocity. */
 static status find_ends(struct probe *probe, const struct observed_run *o)
 {
     struct bar *b = probe->bar;
@@ -144,7 +144,7 @@ static int probes_bar_make_count_of(const struct observed_run *o, enum boundary_
     return n;
 }
 
-/* Finds the traction of run o on one end of the bar of probe (a requested measurement) and stores the end in
+/* Finds the traction of the run o on one end of the bar of the probe (a requested measurement) and stores the end in
  * exact.loaded and the stress in exact.load, positive in tension [Pa]. Returns REFUSED, with a message, unless there
  * is exactly one traction, on a free end, constant in time and not 0. */
 static status find_traction(struct probe *probe, const struct observed_run *o)
@@ -167,8 +167,8 @@ static status find_traction(struct probe *probe, const struct observed_run *o)
     return OK;
 }
 
-/* Stores the ends of the bar of probe (a requested measurement), and the traction or the initial pulses that its
- * closed form requires. Returns REFUSED, with a message, for loads, initial motion or materials of run o that the
+/* Stores the ends of the bar of the probe (a requested measurement), and the traction or the initial pulses that its
+ * closed form requires. Returns REFUSED, with a message, for loads, initial motion or materials of the run o that the
  * closed form does not describe. */
 static status find_load(struct probe *probe, const struct observed_run *o)
 {

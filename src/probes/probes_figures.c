@@ -60,7 +60,7 @@ struct column particle_probe_value_column(const struct particles *p, int value_n
     return c;
 }
 
-/* Returns the plastic strain of particle i of run o: for a peridynamic particle with plastic bonds the mean plastic
+/* Returns the plastic strain of particle i of the run o: for a peridynamic particle with plastic bonds the mean plastic
  * path of its bonds, else the plastic strain of the material point. */
 static real plastic_strain_reading(const struct observed_run *o, int64_t i)
 {
@@ -128,8 +128,8 @@ void probe_compute_reaction_of_supports(const struct probe *probe, const struct 
 
 /* ---- sums over a region ------------------------------------------------------------------------------------------ */
 
-/* Arguments of the functions that return the contribution of one particle to a sum over the particles of probe q in run
- * o. component: axis, for momentum; unused otherwise. */
+/* Arguments of the functions that return the contribution of one particle to a sum over the particles of probe q in the
+ * run o. component: axis, for momentum; unused otherwise. */
 struct region_sum {
     const struct probe *q;
     const struct observed_run *o;
@@ -226,8 +226,8 @@ void probe_compute_momentum_of_particles(const struct probe *probe, const struct
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 
-/* Function that receives the results of one probe q (a requested measurement) in run o, and its context. It is called
- * as emit(context, name of the probe, name of the result, value). */
+/* Function that receives the results of one probe q (a requested measurement) in the run o, and its context. It is
+ * called as emit(context, name of the probe, name of the result, value). */
 struct emitter {
     void (*emit)(void *context, const char *probe, const char *quantity, real value);
     void *context;

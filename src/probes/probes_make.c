@@ -22,7 +22,7 @@ static void column_add(struct probes *probes, struct probe *probe, const char *q
     probe->columns++;
 }
 
-/* Appends dim columns of probe (a requested measurement) to the history s, one for each component of a vector. The
+/* Appends dim columns of the probe (a requested measurement) to the history s, one for each component of a vector. The
  * name of a column consists of `prefix` and the axis x, y or z; unit: unit of all columns. */
 static void columns_by_axis(struct probes *probes, struct probe *probe, const char *prefix, int dim, const char *unit)
 {
@@ -33,7 +33,7 @@ static void columns_by_axis(struct probes *probes, struct probe *probe, const ch
     }
 }
 
-/* Appends the columns of probe (a requested measurement), which depend on its kind and on the quantities that
+/* Appends the columns of the probe (a requested measurement), which depend on its kind and on the quantities that
  * particles p have, to the history s, and stores the index of the first column in probe->first. Some kinds of probe
  * have no columns, only values in the summary. */
 static void columns_add(struct probes *probes, struct probe *probe, const struct particles *p)
@@ -86,7 +86,7 @@ static void columns_add(struct probes *probes, struct probe *probe, const struct
 
 /* ---- binding to particles ---------------------------------------------------------------------------------------- */
 
-/* Makes the particle of run o nearest to the point of probe of kind POINT (one particle) its only particle, in
+/* Makes the particle of the run o nearest to the point of the probe of kind POINT (one particle) its only particle, in
  * probe->list, which probes_free releases. Returns REFUSED, with a message, if the point is outside the bodies. */
 static status bind_point(struct probe *probe, const struct observed_run *o)
 {
@@ -100,9 +100,9 @@ static status bind_point(struct probe *probe, const struct observed_run *o)
                       particles_describe_bounding_box(o->part).text);
 }
 
-/* Makes the particles of run o nearest to the stations of probe of kind LINE (points along a line) its particles, in
- * probe->list (probes_free releases it), -1 for stations outside the bodies. Stations are equidistant points from one
- * end of the line to the other. Returns REFUSED, with a message, if all are outside. */
+/* Makes the particles of the run o nearest to the stations of the probe of kind LINE (points along a line) its
+ * particles, in probe->list (probes_free releases it), -1 for stations outside the bodies. Stations are equidistant
+ * points from one end of the line to the other. Returns REFUSED, with a message, if all are outside. */
 static status bind_line(struct probe *probe, const struct observed_run *o)
 {
     int dim = o->part->dim, inside = 0;
@@ -123,7 +123,7 @@ static status bind_line(struct probe *probe, const struct observed_run *o)
         probe->request.name, particles_describe_bounding_box(o->part).text);
 }
 
-/* Makes the particles of run o in the region of probe (a requested measurement) its particles, in probe->list
+/* Makes the particles of the run o in the region of the probe (a requested measurement) its particles, in probe->list
  * (probes_free releases it); those on the surface of the region, up to round-off, are included. Returns REFUSED, with a
  * message, if there is none. */
 static status bind_region(struct probe *probe, const struct observed_run *o)
@@ -143,8 +143,8 @@ static status bind_region(struct probe *probe, const struct observed_run *o)
         probe->request.name);
 }
 
-/* Returns REFUSED, with a message, unless the boundary of run o that REACTION probe q names prescribes a motion or, in
- * load steps, a force; else OK. If no boundary has this name, the message lists those that a probe can name. */
+/* Returns REFUSED, with a message, unless the boundary of the run o that REACTION probe q names prescribes a motion or,
+ * in load steps, a force; else OK. If no boundary has this name, the message lists those that a probe can name. */
 static status bind_support(const struct probe *probe, const struct observed_run *o)
 {
     char known[512] = "";
@@ -168,8 +168,8 @@ static status bind_support(const struct probe *probe, const struct observed_run 
                       probe->request.name, probe->request.boundary, used > 0 ? known : "none");
 }
 
-/* Sets probe->growth to the index of the growing crack of run o that GROWTH probe q measures: the crack that the probe
- * names, or the first one if it names none. Always returns OK. */
+/* Sets probe->growth to the index of the growing crack of the run o that GROWTH probe q measures: the crack that the
+ * probe names, or the first one if it names none. Always returns OK. */
 static status bind_growth(struct probe *probe, const struct observed_run *o)
 {
     for (int k = o->growths - 1; k >= 0; k--)
@@ -177,8 +177,8 @@ static status bind_growth(struct probe *probe, const struct observed_run *o)
     return OK; /* the scene reader has checked that the boundary exists */
 }
 
-/* Binds probe q (a requested measurement) to the particles, supports or cracks of run o that it measures, by its kind.
- * Returns REFUSED, with a message, if there are none or the probe does not fit the scene. */
+/* Binds probe q (a requested measurement) to the particles, supports or cracks of the run o that it measures, by its
+ * kind. Returns REFUSED, with a message, if there are none or the probe does not fit the scene. */
 static status probe_bind(struct probe *probe, const struct observed_run *o)
 {
     switch (probe->request.kind) {
@@ -227,9 +227,9 @@ static void support_name(const struct probes *probes, const char *boundary, char
     snprintf(name, NAME_MAX_LENGTH, "%s%.54s", taken ? "reaction_" : "", boundary);
 }
 
-/* Appends to s a probe of kind REACTION (force on a support) for each boundary of run o that prescribes a motion and
- * that no probe of the scene measures, so that history.csv has the force of every support, and its displacement unless
- * it is at rest. These probes have no values in the summary. */
+/* Appends to s a probe of kind REACTION (force on a support) for each boundary of the run o that prescribes a motion
+ * and that no probe of the scene measures, so that history.csv has the force of every support, and its displacement
+ * unless it is at rest. These probes have no values in the summary. */
 static void supports_observe(struct probes *probes, const struct observed_run *o)
 {
     for (int k = 0; o->loads && k < o->loads->n; k++) {

@@ -3,7 +3,7 @@
 #include "base/memory.h"
 #include "probes_parts.h"
 
-/* Copies the values of the vector field from[dim][particles] at the particles of probe (a requested measurement) to
+/* Copies the values of the vector field from[dim][particles] at the particles of the probe (a requested measurement) to
  * to[dim][probe->n]. Arrays to[d] that are NULL are allocated. */
 static void copy_listed(const struct probe *probe, real *const *from, real **to, int dim)
 {

@@ -93,19 +93,20 @@ void particle_compute_probe_values(const struct observed_run *o, int64_t particl
 /* ---- motion at the time of a sample (probes_motion.c) ------------------------------------------------------------ */
 
 /* Copies the positions (at time o->t) and velocities (at time o->t_velocity) of the particles that probe q observes in
- * run o to probe->motion. Must be called before the time step. */
+ * the run o to probe->motion. Must be called before the time step. */
 void probe_motion_store_before_step(struct probe *probe, const struct observed_run *o);
 
-/* Computes the velocities of the particles of probe in run o at the time of the sample (line of history.csv). Call it
- * after the time step. Interpolates between the velocities that probe_motion_store_before_step has copied and the
- * present ones; after the last step, extrapolates them and uses the present positions. present_velocity_time: time of
- * the present velocities, and a factor on the result that removes half a step of damping. Does nothing if no velocities
- * were copied, as for equilibria; probe_particle_velocity_component then returns the present velocities. */
+/* Computes the velocities of the particles of the probe in the run o at the time of the sample (line of history.csv).
+ * Call it after the time step. Interpolates between the velocities that probe_motion_store_before_step has copied and
+ * the present ones; after the last step, extrapolates them and uses the present positions. present_velocity_time: time
+ * of the present velocities, and a factor on the result that removes half a step of damping. Does nothing if no
+ * velocities were copied, as for equilibria; probe_particle_velocity_component then returns the present velocities. */
 void probe_motion_interpolate_to_sample_time(struct probe *probe, const struct observed_run *o,
                                              const struct velocity_time *present_velocity_time);
 
-/* Discards the positions and velocities of probe that are interpolated to the time of a sample (line of history.csv),
- * so that probe_particle_position_component and probe_particle_velocity_component return the present values again. */
+/* Discards the positions and velocities of the probe that are interpolated to the time of a sample (line of
+ * history.csv), so that probe_particle_position_component and probe_particle_velocity_component return the present
+ * values again. */
 void probe_motion_discard_interpolation(struct probe *probe);
 
 /* Frees the copies of positions and velocities that probe_motion_store_before_step has made in the probe. */
@@ -159,7 +160,7 @@ struct energies {
     real kinetic, strain, fracture; /* [J] */
 };
 
-/* Returns the kinetic, strain and fracture energy [J] of the particles of probe (a measurement during the run). o:
+/* Returns the kinetic, strain and fracture energy [J] of the particles of the probe (a measurement during the run). o:
  * the current state of the run. */
 struct energies probe_compute_energies_of_particles(const struct probe *probe, const struct observed_run *o);
 
@@ -178,12 +179,12 @@ struct pulse_amplitudes {
     real reflected, transmitted, energy_change;
 };
 
-/* Stores the largest initial speed of the body of run o as the incident amplitude of the PULSE probe q (amplitudes of a
- * wave packet). Returns REFUSED, with a message, if nothing moves at the start. */
+/* Stores the largest initial speed of the body of the run o as the incident amplitude of the PULSE probe q (amplitudes
+ * of a wave packet). Returns REFUSED, with a message, if nothing moves at the start. */
 status pulse_probe_store_incident_amplitude(struct probe *probe, const struct observed_run *o);
 
 /* Returns the results of the PULSE probe q (amplitudes of a wave packet): the amplitudes of the reflected and the
- * transmitted wave divided by the incident amplitude, and the relative energy change of run o minus that of the
+ * transmitted wave divided by the incident amplitude, and the relative energy change of the run o minus that of the
  * baseline, the same run with material points alone (subtracted only if o->baseline is not NULL). */
 struct pulse_amplitudes pulse_probe_compute_amplitudes(const struct probe *probe, const struct observed_run *o);
 
@@ -219,7 +220,7 @@ enum { SIF_FIGURES = 4, SIF_CONTOURS_MAX = 16 };
 /* Names and units of the quantities that a SIF probe reports: K_I, K_II, J, contour_spread. */
 extern const struct column sif_figure[SIF_FIGURES];
 
-/* Finds in run o the crack tip of the SIF probe q (stress-intensity factors), its integration contours, and the
+/* Finds in the run o the crack tip of the SIF probe q (stress-intensity factors), its integration contours, and the
  * material around the tip, and stores them in probe->sif. Release with sif_probe_free. Returns REFUSED, with a message,
  * if the body is not plane, no pre-crack ends inside a body, or the contours are too narrow, leave the body, or contain
  * another crack tip or material. */
@@ -234,8 +235,8 @@ void sif_probe_free(struct sif_tracked *tracked);
 void sif_probe_store_motion_before_step(struct probe *probe, const struct observed_run *o);
 
 /* Computes K_I, K_II and J of the SIF probe q (stress-intensity factors) and their relative differences between its
- * integration contours. The values are those of run o at the time of the sample (line of history.csv) and are stored in
- * probe->memory.factors. velocity_time: time of the present velocities [s]. */
+ * integration contours. The values are those of the run o at the time of the sample (line of history.csv) and are
+ * stored in probe->memory.factors. velocity_time: time of the present velocities [s]. */
 void sif_probe_compute_intensity_factors(struct probe *probe, const struct observed_run *o, real velocity_time);
 
 /* Returns true if the stress-intensity factors of SIF probe q at its last sample (line of history.csv) are reliable:
@@ -259,7 +260,7 @@ static inline real sif_probe_last_sample_value_or_nan(const struct probe *probe,
 extern const struct column rigid_figure[RIGID_FIGURES];
 
 /* Stores in q the angular momentum and the kinetic energy of the particles of the RIGID probe q (conservation in a body
- * that moves rigidly) at the start of run o. Returns REFUSED, with a message, if the run is not in a plane. */
+ * that moves rigidly) at the start of the run o. Returns REFUSED, with a message, if the run is not in a plane. */
 status rigid_probe_store_initial_motion(struct probe *probe, const struct observed_run *o);
 
 /* Computes the rotation angle value[0] of the body of a RIGID probe (conservation in a body that moves rigidly) [rad],
@@ -295,12 +296,12 @@ status bar_probe_find_bar_and_load(struct probe *probe, const struct observed_ru
 void bar_probe_free_bar(struct bar *bar);
 
 /* Computes displacement [m], velocity [m/s], stress by bond flux (force of all bonds across a section, divided by its
- * area) [Pa] and strain of all particles of the body `bar` of run o along x. Stores them in the arrays `displacement`,
- * `velocity`, `flux` and `strain` of *bar, in the order of the particles from left to right. */
+ * area) [Pa] and strain of all particles of the body `bar` of the run o along x. Stores them in the arrays
+ * `displacement`, `velocity`, `flux` and `strain` of *bar, in the order of the particles from left to right. */
 void bar_probe_measure_fields(struct bar *bar, const struct observed_run *o);
 
-/* Computes the stress by bond flux of each particle of `bar` in run o, flux[n] by rank from left to right [Pa]: the sum
- * of the forces of all bonds that cross the centre of the particle, divided by the cross section of the bar. A bond
+/* Computes the stress by bond flux of each particle of `bar` in the run o, flux[n] by rank from left to right [Pa]: the
+ * sum of the forces of all bonds that cross the centre of the particle, divided by the cross section of the bar. A bond
  * counts fully for particles strictly between its two ends and by half for the particles at its ends. Bonds to mirror
  * images (copies of particles beyond planes of symmetry) are included. Material points have their Cauchy stress
  * instead. */
@@ -330,8 +331,8 @@ enum { BAR_READINGS = 12 };
 /* Names and units of the columns of the profile of a bar. */
 extern const struct column bar_reading[BAR_READINGS];
 
-/* Computes one line of the profile (table of values along the bar, beside the closed-form solution) of `bar` in run o,
- * for one particle, and stores it in value[BAR_READINGS], in the order of bar_reading[]. rank_from_left: position of
+/* Computes one line of the profile (table of values along the bar, beside the closed-form solution) of `bar` in the run
+ * o, for one particle, and stores it in value[BAR_READINGS], in the order of bar_reading[]. rank_from_left: position of
  * the particle in the order from left to right, from 0. */
 void bar_probe_compute_profile_line(const struct bar *bar, const struct observed_run *o, int64_t rank_from_left,
                                     real *value);

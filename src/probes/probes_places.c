@@ -6,7 +6,7 @@
 
 const char *const axis_name[DIM_MAX] = {"x", "y", "z"};
 
-/* Returns the largest distance from a particle at which a position counts as inside a body of run o [m]: half the
+/* Returns the largest distance from a particle at which a position counts as inside a body of the run o [m]: half the
  * diagonal of a lattice cell times 1.5, to allow for particles that are not on a lattice. */
 static real nearest_reach(const struct observed_run *o) { return 0.75 * sqrt(o->part->dim) * o->spacing; }
 

@@ -19,8 +19,8 @@ static void profile_header(FILE *file, const struct particles *p)
     fputc('\n', file);
 }
 
-/* Writes to file a CSV row for each station of probe of kind LINE (equidistant points of the line) that is inside a
- * body of run o: distance from the first station [m], position, and the values of the nearest particle. */
+/* Writes to file a CSV row for each station of the probe of kind LINE (equidistant points of the line) that is inside a
+ * body of the run o: distance from the first station [m], position, and the values of the nearest particle. */
 static void profile_rows(FILE *file, const struct probe *probe, const struct observed_run *o)
 {
     const struct particles *p = o->part;
@@ -39,8 +39,8 @@ static void profile_rows(FILE *file, const struct probe *probe, const struct obs
     }
 }
 
-/* Writes the profile of probe of kind EXACT (closed-form solution of a bar) to file as CSV, with a header: computed
- * and exact values of all particles of run o from left to right. */
+/* Writes the profile of the probe of kind EXACT (closed-form solution of a bar) to file as CSV, with a header: computed
+ * and exact values of all particles of the run o from left to right. */
 static void bar_rows(FILE *file, const struct probe *probe, const struct observed_run *o)
 {
     real value[BAR_READINGS];
@@ -55,7 +55,7 @@ static void bar_rows(FILE *file, const struct probe *probe, const struct observe
     }
 }
 
-/* Writes the profile of the LINE or EXACT probe q (a requested measurement) of run o to file as CSV, with a header
+/* Writes the profile of the LINE or EXACT probe q (a requested measurement) of the run o to file as CSV, with a header
  * line. */
 static void profile_text(FILE *file, const struct probe *probe, const struct observed_run *o)
 {
@@ -67,8 +67,8 @@ static void profile_text(FILE *file, const struct probe *probe, const struct obs
     profile_rows(file, probe, o);
 }
 
-/* Writes the file name `<probe>_NNNNNN.csv` of the profile of probe (a requested measurement) to name[PROFILE_NAME],
- * with the number `frame`. A slash in the name of the probe becomes an underscore. */
+/* Writes the file name `<probe>_NNNNNN.csv` of the profile of the probe (a requested measurement) to
+ * name[PROFILE_NAME], with the number `frame`. A slash in the name of the probe becomes an underscore. */
 static void profile_name(char *name, const struct probe *probe, int frame)
 {
     snprintf(name, PROFILE_NAME, "%.*s_%06d.csv", NAME_MAX_LENGTH, probe->request.name, frame);
@@ -92,9 +92,9 @@ bool probes_compose_profile_file_name(const struct probes *probes, int which, in
     return false;
 }
 
-/* Composes the profile of probe (a requested measurement) of run o at frame number `frame` and passes file name and
- * text to put(context, name, text, length), which writes them. Returns FAILED, with a message, if memory is exhausted;
- * else the status of put. */
+/* Composes the profile of the probe (a requested measurement) of the run o at frame number `frame` and passes file name
+ * and text to put(context, name, text, length), which writes them. Returns FAILED, with a message, if memory is
+ * exhausted; else the status of put. */
 static status profile_put(const struct probe *probe, const struct observed_run *o, probe_file_fn *put, void *context,
                           int frame)
 {

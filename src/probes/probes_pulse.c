@@ -4,7 +4,7 @@
 #include "base/memory.h"
 #include "probes_parts.h"
 
-/* Returns how far the reference position of particle i of p is beyond the interface of probe of kind PULSE (wave at
+/* Returns how far the reference position of particle i of p is beyond the interface of the probe of kind PULSE (wave at
  * an interface), along the direction of its wave [m]; negative before the interface. */
 static real ahead(const struct probe *probe, const struct particles *p, int64_t i)
 {
@@ -22,7 +22,7 @@ static real speed(const struct particles *p, const struct baseline *baseline, in
     return sqrt(speed2);
 }
 
-/* Returns the largest speed of the particles of p on one side of the interface of probe of kind PULSE (wave at an
+/* Returns the largest speed of the particles of p on one side of the interface of the probe of kind PULSE (wave at an
  * interface) [m/s]: before it (side -1), beyond it (1), or on both sides (0). baseline: velocities that are subtracted
  * first; NULL: none. */
 static real probes_pulse_fastest(const struct probe *probe, const struct particles *p, const struct baseline *baseline,

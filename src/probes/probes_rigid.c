@@ -61,8 +61,8 @@ static void turn_block(const void *context, int64_t first, int64_t end, real *su
     }
 }
 
-/* Returns the angle [rad] of the best-fit rotation R of the particles of probe (indices in p), which minimises sum m
- * |x - R X|^2 (Kabsch 1976, in the plane), with reference positions X and current positions x relative to the centres
+/* Returns the angle [rad] of the best-fit rotation R of the particles of the probe (indices in p), which minimises sum
+ * m |x - R X|^2 (Kabsch 1976, in the plane), with reference positions X and current positions x relative to the centres
  * of mass. Also computes the angular momentum *spin and its scale *spin_scale = sum |m x x v| [kg m^2/s], and the
  * kinetic energy *kinetic [J]. */
 static real probes_rigid_turn(const struct probe *probe, const struct particles *p, real *spin, real *spin_scale,
@@ -89,7 +89,7 @@ status rigid_probe_store_initial_motion(struct probe *probe, const struct observ
 }
 
 /* Computes the largest absolute principal stress, *stress, and the largest in-plane shear stress, *shear, of the
- * particles of probe (indices in p) [Pa]. */
+ * particles of the probe (indices in p) [Pa]. */
 static void stresses(const struct probe *probe, const struct particles *p, real *stress, real *shear)
 {
     *stress = *shear = 0;
@@ -111,7 +111,7 @@ static void rigid_most(struct rigid_memory *m, const real *value, int first, int
     for (int k = first; k < end; k++) m->most[k] = isnan(value[k]) ? NAN : real_max(m->most[k], fabs(value[k]));
 }
 
-/* Computes the results of probe of kind RIGID (rigid-body motion) of run o from the positions of its particles:
+/* Computes the results of the probe of kind RIGID (rigid-body motion) of the run o from the positions of its particles:
  * value[0], the rotation angle of the body [rad]; value[1], the largest absolute principal stress of any of its
  * particles [Pa]; value[2], the largest in-plane shear stress [Pa]. The angle continues beyond half a turn if the body
  * rotates by less than half a turn between samples. */

@@ -47,8 +47,8 @@ static bool given(real value) { return value > 0; }
 
 /* ---- binding ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the index of the crack tip of run o that request r refers to: the tip whose origin is nearest to its position
- * `at`, within SAME_TIP spacings, or the first tip if r has no `at`. Returns -1 if there is none. */
+/* Returns the index of the crack tip of the run o that request r refers to: the tip whose origin is nearest to its
+ * position `at`, within SAME_TIP spacings, or the first tip if r has no `at`. Returns -1 if there is none. */
 static int tip_meant(const struct probe_request *r, const struct observed_run *o)
 {
     int nearest = -1;
@@ -62,8 +62,8 @@ static int tip_meant(const struct probe_request *r, const struct observed_run *o
     return nearest;
 }
 
-/* Returns the index of the growing crack of run o that starts at most SAME_TIP spacings from the tip of the probe w (a
- * requested measurement), or -1 if there is none. */
+/* Returns the index of the growing crack of the run o that starts at most SAME_TIP spacings from the tip of the probe w
+ * (a requested measurement), or -1 if there is none. */
 static int growth_meant(const struct sif_tracked *tracked, const struct observed_run *o)
 {
     for (int k = 0; k < o->growths; k++) {
@@ -73,7 +73,7 @@ static int growth_meant(const struct sif_tracked *tracked, const struct observed
     return -1;
 }
 
-/* Returns REFUSED, with a message, if the probe with request r controls the growth of a crack of run o but measures
+/* Returns REFUSED, with a message, if the probe with request r controls the growth of a crack of the run o but measures
  * (w) the tip of another one. The input file (scene) must then give the key `at`, which selects the tip. */
 static status own_growth(const struct sif_tracked *tracked, const struct probe_request *r, const struct observed_run *o)
 {
@@ -89,8 +89,8 @@ static status own_growth(const struct sif_tracked *tracked, const struct probe_r
 }
 
 /* Finds for w position and direction of the crack tip of a probe of kind SIF (stress-intensity factors), from the
- * request r or from a pre-crack of run o, and the growing crack that starts there. Returns REFUSED, with a message, if
- * position or direction is unknown, or if the probe controls the growth of a crack at another tip. */
+ * request r or from a pre-crack of the run o, and the growing crack that starts there. Returns REFUSED, with a message,
+ * if position or direction is unknown, or if the probe controls the growth of a crack at another tip. */
 static status find_tip(struct sif_tracked *tracked, const struct probe_request *r, const struct observed_run *o)
 {
     tracked->follows = tip_meant(r, o);
@@ -113,8 +113,9 @@ static status find_tip(struct sif_tracked *tracked, const struct probe_request *
 }
 
 /* Lists in tracked->crack the cracks across which particles must not contribute to each other's gradients: the
- * pre-cracks of run o and, unless one of them ends at the tip, a straight crack behind the tip. Sets tracked->tip.face,
- * the crack face to which particles exactly on the crack belong. sif_probe_free releases the list. */
+ * pre-cracks of the run o and, unless one of them ends at the tip, a straight crack behind the tip. Sets
+ * tracked->tip.face, the crack face to which particles exactly on the crack belong. sif_probe_free releases the list.
+ */
 static void make_cracks(struct sif_tracked *tracked, const struct observed_run *o)
 {
     const struct sif_tip *t = &tracked->tip;
@@ -139,7 +140,7 @@ static void make_cracks(struct sif_tracked *tracked, const struct observed_run *
     tracked->rule.sight = (struct sight){.crack = tracked->crack, .cracks = o->cracks + !ends, .bonds = o->bonds};
 }
 
-/* Returns true if a circle of radius `radius` [m] around tip t is not completely inside the body of run o. The part
+/* Returns true if a circle of radius `radius` [m] around tip t is not completely inside the body of the run o. The part
  * near the crack faces, which may be open, more than OPEN_ANGLE pi from the direction ahead, is not tested. position:
  * receives a point of the circle without a particle nearby, if there is one [m]. */
 static bool ring_leaves(const struct sif_tip *t, real radius, const struct observed_run *o, real position[2])
@@ -154,7 +155,7 @@ static bool ring_leaves(const struct sif_tip *t, real radius, const struct obser
     return false;
 }
 
-/* Returns a crack tip of run o, other than that of the probe w (a requested measurement), whose distance from it is
+/* Returns a crack tip of the run o, other than that of the probe w (a requested measurement), whose distance from it is
  * less than `radius` [m], or NULL if there is none. */
 static const struct crack_tip *other_tip_within(const struct sif_tracked *tracked, real radius,
                                                 const struct observed_run *o)
@@ -167,9 +168,9 @@ static const struct crack_tip *other_tip_within(const struct sif_tracked *tracke
     return NULL;
 }
 
-/* Returns the outer radius of the contour of the probe w of kind SIF (stress-intensity factors) of run o whose request
- * r gives none: OUTER spacings or, if r gives no other radius either, the first of 0.9, 0.8 .. 0.5 times this value
- * that stays in the body and contains no other tip [m]. */
+/* Returns the outer radius of the contour of the probe w of kind SIF (stress-intensity factors) of the run o whose
+ * request r gives none: OUTER spacings or, if r gives no other radius either, the first of 0.9, 0.8 .. 0.5 times this
+ * value that stays in the body and contains no other tip [m]. */
 static real default_outer_radius(const struct sif_tracked *tracked, const struct probe_request *r,
                                  const struct observed_run *o)
 {
@@ -181,9 +182,9 @@ static real default_outer_radius(const struct sif_tracked *tracked, const struct
     return most;
 }
 
-/* Sets the integration contours of the probe w of kind SIF (stress-intensity factors) of run o: contour[0], from which
- * the results are computed, then further ones for comparison, which have the radii of request r, or 0.6, 0.8 and 1
- * times the outer radius of contour[0]. Sets tracked->reach to the largest outer radius. */
+/* Sets the integration contours of the probe w of kind SIF (stress-intensity factors) of the run o: contour[0], from
+ * which the results are computed, then further ones for comparison, which have the radii of request r, or 0.6, 0.8 and
+ * 1 times the outer radius of contour[0]. Sets tracked->reach to the largest outer radius. */
 static void make_contours(struct sif_tracked *tracked, const struct probe_request *r, const struct observed_run *o)
 {
     const real outer = given(r->outer) ? r->outer : default_outer_radius(tracked, r, o),
@@ -197,7 +198,7 @@ static void make_contours(struct sif_tracked *tracked, const struct probe_reques
     for (int k = 0; k < tracked->contours; k++) tracked->reach = real_max(tracked->reach, tracked->contour[k].outer);
 }
 
-/* Returns REFUSED with a message: the largest contour of w leaves the body of run o at position[2] [m]. The message
+/* Returns REFUSED with a message: the largest contour of w leaves the body of the run o at position[2] [m]. The message
  * proposes an outer radius that fits: the largest of 0.9, 0.8 .. 0.1 times the present one. name: name of the probe. */
 static status refuse_leaving(const struct sif_tracked *tracked, const char *name, const struct observed_run *o,
                              const real position[2])
@@ -305,7 +306,7 @@ void sif_probe_free(struct sif_tracked *tracked)
 
 /* ---- present tip ------------------------------------------------------------------------------------------------- */
 
-/* Updates position, speed and direction of the tip of probe of kind SIF (stress-intensity factors) from run o.
+/* Updates position, speed and direction of the tip of the probe of kind SIF (stress-intensity factors) from the run o.
  * Returns true if the tip belongs to a crack that grows because bonds break. Returns false for tips at rest, and for
  * cracks that grow at a prescribed or controlled speed, since the position of their tip is known exactly. */
 static bool probes_sif_follow(struct probe *probe, const struct observed_run *o)
@@ -381,9 +382,9 @@ static void find_inertia(struct sif_tracked *tracked, const struct particles *p,
         }
 }
 
-/* Computes the accelerations that the loads of run o cause, force over mass of each particle, in tracked->body [m/s^2].
- * In static problems this includes the inertia relief, the inertia forces by which a free body is in equilibrium.
- * Returns true if such forces act within the largest contour. */
+/* Computes the accelerations that the loads of the run o cause, force over mass of each particle, in tracked->body
+ * [m/s^2]. In static problems this includes the inertia relief, the inertia forces by which a free body is in
+ * equilibrium. Returns true if such forces act within the largest contour. */
 static bool find_body_force(struct sif_tracked *tracked, const struct observed_run *o)
 {
     const struct particles *p = o->part;

@@ -22,8 +22,8 @@ static int64_t probes_spall_column_of(const struct columns *c, real X)
     return k < 0 ? 0 : k >= c->n ? c->n - 1 : k;
 }
 
-/* Allocates in *c the columns of body number `body` of run o: slices along x, one spacing wide. Returns false if there
- * are fewer than two. Release with probes_spall_columns_free in both cases. */
+/* Allocates in *c the columns of body number `body` of the run o: slices along x, one spacing wide. Returns false if
+ * there are fewer than two. Release with probes_spall_columns_free in both cases. */
 static bool probes_spall_columns_make(struct columns *c, const struct observed_run *o, int body)
 {
     const struct particles *p = o->part;
@@ -59,9 +59,9 @@ static void count_across(int32_t *count, int64_t a, int64_t b)
     count[a < b ? b : a]--;
 }
 
-/* Counts the intact and the broken bonds of body number `body` of run o across each plane between columns (slices along
- * x), in c->intact and c->cut. Each bond counts once for each of its two particles. Stores the length of the longest
- * bond in c->longest [m]. */
+/* Counts the intact and the broken bonds of body number `body` of the run o across each plane between columns (slices
+ * along x), in c->intact and c->cut. Each bond counts once for each of its two particles. Stores the length of the
+ * longest bond in c->longest [m]. */
 static void columns_bonds(struct columns *c, const struct observed_run *o, int body)
 {
     const struct bonds *b = o->bonds;

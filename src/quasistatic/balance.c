@@ -147,7 +147,7 @@ status equilibrium_solve_without_work_account(struct run *run, real pseudo_time,
     return found == OK ? OK : equilibrium_failed(s, &run->part, &run->frame->mesh, run->clock.step + 1);
 }
 
-/* Finds the equilibrium of run at pseudo-time t [s] in a single solution, and updates work and energies of loads,
+/* Finds the equilibrium of the run at pseudo-time t [s] in a single solution, and updates work and energies of loads,
  * supports and solver. *crossed: set to true if faces have passed through each other, else to false. Returns FAILED,
  * with a message, if no equilibrium is found or a formula of a load is not finite. */
 static status solve_at(struct run *run, real t, bool *crossed)
@@ -178,7 +178,7 @@ static status solve_at(struct run *run, real t, bool *crossed)
     return found;
 }
 
-/* Finds the equilibria of run after each of `substeps` equal increments up to pseudo-time t [s]. Stops, and sets
+/* Finds the equilibria of the run after each of `substeps` equal increments up to pseudo-time t [s]. Stops, and sets
  * *crossed to true, as soon as faces have passed through each other; else sets *crossed to false. Returns FAILED, with
  * a message, if an equilibrium is not found. */
 static status solve_substeps(struct run *run, real t, int substeps, bool *crossed)
@@ -190,10 +190,10 @@ static status solve_substeps(struct run *run, real t, int substeps, bool *crosse
     return OK;
 }
 
-/* Finds the equilibrium of run at pseudo-time t [s]. If faces pass through each other, restores the initial state and
- * tries again with SUBSTEPS_FACTOR times as many substeps of the increment, at most TRIES_MOST attempts in all. Makes
- * only one attempt without contact, and for bodies that yield, because yielding cannot be undone. Returns FAILED, with
- * a message, if faces pass through each other in the last attempt, or if an equilibrium is not found. */
+/* Finds the equilibrium of the run at pseudo-time t [s]. If faces pass through each other, restores the initial state
+ * and tries again with SUBSTEPS_FACTOR times as many substeps of the increment, at most TRIES_MOST attempts in all.
+ * Makes only one attempt without contact, and for bodies that yield, because yielding cannot be undone. Returns FAILED,
+ * with a message, if faces pass through each other in the last attempt, or if an equilibrium is not found. */
 static status solve_whole(struct run *run, real t)
 {
     const real from = run->statics->t;
@@ -217,7 +217,7 @@ static status solve_whole(struct run *run, real t)
                       (long long)run->clock.step + 1, t);
 }
 
-/* Finds the equilibrium of run at `pseudo_time` [s] and stores the largest stretch ratio (stretch of a bond divided
+/* Finds the equilibrium of the run at `pseudo_time` [s] and stores the largest stretch ratio (stretch of a bond divided
  * by its critical stretch) in run->statics. Returns FAILED, with a message, if there is no equilibrium; INTERRUPTED,
  * before the solution, if the user has stopped the run, so that the checkpoint of the previous load step stays
  * valid. */

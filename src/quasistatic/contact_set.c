@@ -35,8 +35,8 @@ static int free_motions(const struct statics *s)
     return n;
 }
 
-/* Finds the unconstrained fragments of run (pieces of the body that can move rigidly without resistance) again after
- * contact has changed. Discards the preconditioner if the total number of their free motions has changed. */
+/* Finds the unconstrained fragments of the run (pieces of the body that can move rigidly without resistance) again
+ * after contact has changed. Discards the preconditioner if the total number of their free motions has changed. */
 static void unconstrained_update(struct run *run)
 {
     const int before = free_motions(run->statics);
@@ -72,8 +72,8 @@ int statics_rigid_motion_substep_count(const struct scene *s, const struct rigid
     return (int)real_min(SUBSTEPS_MOST, real_max(1, ceil(most / (SUBSTEP_MOST * s->spacing))));
 }
 
-/* Returns the sum of strain energy, contact energy and plastic work of bonds of run at the positions at which forces
- * were last computed [J]. */
+/* Returns the sum of strain energy, contact energy and plastic work of bonds of the run at the positions at which
+ * forces were last computed [J]. */
 static real energy_present(struct run *run)
 {
     return run_compute_elastic_energy(run) + contact_elastic_energy(run->contact, &run->part) +
@@ -85,7 +85,7 @@ bool statics_contact_existed_before_or_exists_now(const struct statics *s, const
     return s->in_contact || c->touching > 0;
 }
 
-/* Prepares contact of run for the solution at `pseudo_time` [s]: stores the energy before the solution, moves rigid
+/* Prepares contact of the run for the solution at `pseudo_time` [s]: stores the energy before the solution, moves rigid
  * bodies and searches for contacts. The stored energy includes contact energy only if anything was in contact before.
  * If anything is in contact now, finds the unconstrained fragments (pieces of the body that can move rigidly without
  * resistance) again, since contact may constrain them. */

@@ -16,7 +16,7 @@ bool crack_faces_are_in_contact(const struct contact *c);
  * steps, i.e. successive equilibria) or are in contact now. */
 bool statics_contact_existed_before_or_exists_now(const struct statics *s, const struct contact *contact);
 
-/* Searches for pairs in contact of run before its first solution. Does nothing in runs without contact and rigid
+/* Searches for pairs in contact of the run before its first solution. Does nothing in runs without contact and rigid
  * bodies, or if the search has been made. */
 void statics_contact_search_before_first_solution(struct run *run);
 
@@ -25,8 +25,8 @@ void statics_contact_search_before_first_solution(struct run *run);
  * substep; from 1 to 10000. */
 int statics_rigid_motion_substep_count(const struct scene *s, const struct rigid_set *rigid, real pseudo_time);
 
-/* Prepares the solution of run at the pseudo-time `pseudo_time` [s]: computes the energy stored before the solution,
- * moves rigid bodies to their positions at that time, and searches for contacts there. */
+/* Prepares the solution of the run at the pseudo-time `pseudo_time` [s]: computes the energy stored before the
+ * solution, moves rigid bodies to their positions at that time, and searches for contacts there. */
 void statics_move_rigid_bodies_and_search_contacts(struct run *run, real pseudo_time);
 
 /* Moves particles and nodes of the run to the displacements of the present solution and updates the set of active
@@ -38,11 +38,11 @@ bool statics_update_contacts_and_test_unchanged(void *run);
  * if `set_is_fixed` is true, else all pairs that overlap. run: a struct run. */
 void statics_contact_fix_active_set_or_use_overlaps(void *run, bool set_is_fixed);
 
-/* Completes the solution for an equilibrium of run run: adds the work done on rigid bodies in this solution to their
- * total work and, if anything is or was in contact, computes the energy that the solution has lost. load_work: work of
- * loads and supports in this solution [J]; solver_loss: energy lost in earlier solutions [J]. Returns the uncertainty
- * of the work of the rigid bodies [J]: the difference between the work with the mean of the initial and final contact
- * force and the work with one of these forces. */
+/* Completes the solution for an equilibrium of the run run: adds the work done on rigid bodies in this solution to
+ * their total work and, if anything is or was in contact, computes the energy that the solution has lost. load_work:
+ * work of loads and supports in this solution [J]; solver_loss: energy lost in earlier solutions [J]. Returns the
+ * uncertainty of the work of the rigid bodies [J]: the difference between the work with the mean of the initial and
+ * final contact force and the work with one of these forces. */
 real rigid_body_work_add_and_estimate_error(struct run *run, real load_work, real solver_loss);
 
 /* Raises the largest contact force so far [N], which `rigid` stores for each of its `rigid_body_count` rigid bodies, to

@@ -103,7 +103,7 @@ static int64_t breaks_most(const struct scene *s, real front)
 
 /* ---- increments -------------------------------------------------------------------------------------------------- */
 
-/* Makes one crack increment of run (a short growth of the crack) as a trial at the present pseudo-time: breaks the
+/* Makes one crack increment of the run (a short growth of the crack) as a trial at the present pseudo-time: breaks the
  * bonds with the largest stretch ratios in batches, finds the equilibrium after each batch, and appends the bonds to
  * run->statics->next. a->cost: receives the energy that the bonds cost [J]; a->release: the energy that the body
  * releases, divided by the square of the load size (norm of prescribed displacements or forces). In 3D, bonds that the
@@ -144,7 +144,7 @@ static bool pre_crack_unbroken(const struct crack_tips *t, const struct statics 
     return any && statics->behind.cost == 0;
 }
 
-/* Determines the next crack increment of run under the present loads. SIF-driven tips (growth direction from
+/* Determines the next crack increment of the run under the present loads. SIF-driven tips (growth direction from
  * stress-intensity factors) determine it, if there are any. Otherwise, or if bonds elsewhere exceed their critical
  * stretch, it is found by a trial in which bonds break and which is undone. stressed: smallest stretch ratio (stretch
  * divided by critical stretch) for which the trial is made. Returns FAILED, with a message, if a trial equilibrium is
@@ -178,7 +178,7 @@ static status increment_find_now(struct run *run, real stressed)
  * made (s->behind), else STRESSED. */
 static real stretch_ratio_of_trial(const struct statics *s) { return s->behind.cost > 0 ? STRESSED_FURTHER : STRESSED; }
 
-/* Determines the next crack increment of run at the load size (norm of prescribed displacements or forces) at which
+/* Determines the next crack increment of the run at the load size (norm of prescribed displacements or forces) at which
  * it will be made, by the secant method. Needed where the strain is not proportional to the load size, as supports or
  * rigid bodies move before anything is in contact: the energy release grows with the square of the strain. The bonds
  * may be stretched less at that load size than a trial under the present loads requires. Afterwards restores the
@@ -209,7 +209,7 @@ static status increment_find_at_due(struct run *run)
     return found == OK && s->next.n == 0 ? increment_find_now(run, stretch_ratio_of_trial(s)) : found;
 }
 
-/* Finds the bonds of the next crack increment of run (run->statics->next) and the load size (norm of prescribed
+/* Finds the bonds of the next crack increment of the run (run->statics->next) and the load size (norm of prescribed
  * displacements or forces) at which it is made. If anything is in contact, evaluates the increment again at that load
  * size, because the energy release is then not proportional to the square of the load size. Returns FAILED, with a
  * message, if a trial equilibrium is not found. */

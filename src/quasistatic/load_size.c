@@ -17,8 +17,9 @@ static real rigid_displacement2(const struct rigid_set *r, int n, real t)
     return sum;
 }
 
-/* Returns the load size of run at pseudo-time t [s], a measure proportional to the loads: the norm of the prescribed
- * displacements of supports and rigid bodies [m], or, if these do not move, the norm of the applied forces [N]. */
+/* Returns the load size of the run at pseudo-time t [s], a measure proportional to the loads: the norm of the
+ * prescribed displacements of supports and rigid bodies [m], or, if these do not move, the norm of the applied forces
+ * [N]. */
 real statics_norm_of_prescribed_loads(const struct run *run, real t)
 {
     real sum = 0, forces = 0;

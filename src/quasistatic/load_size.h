@@ -7,7 +7,7 @@
 #include "quasistatic/statics.h"
 #include "run/run.h"
 
-/* Returns the pseudo-time [s] at which the load size of run, a measure proportional to the loads
+/* Returns the pseudo-time [s] at which the load size of the run, a measure proportional to the loads
  * (statics_norm_of_prescribed_loads), equals `load_size` [m or N]. It is found by the secant method from the present
  * pseudo-time. */
 real statics_find_pseudo_time_at_load_size(const struct run *run, real load_size);

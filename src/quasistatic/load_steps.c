@@ -48,15 +48,15 @@ static real increment_load(const struct statics *s, const struct diagnostics *di
                                          : s->due;
 }
 
-/* Updates the probes and the largest forces on rigid bodies of run for the present equilibrium. Call for states that
- * the loads have reached, not for trials. */
+/* Updates the probes and the largest forces on rigid bodies of the run for the present equilibrium. Call for states
+ * that the loads have reached, not for trials. */
 static void state_sample(struct run *run)
 {
     run_update_break_and_reaction_probes(run);
     rigid_bodies_update_largest_contact_forces(run->rigid, run->scene->rigids);
 }
 
-/* Finds the equilibrium of run at the load size `size` (norm of prescribed displacements [m] or of applied forces
+/* Finds the equilibrium of the run at the load size `size` (norm of prescribed displacements [m] or of applied forces
  * [N]). The corresponding pseudo-time is limited to the range least .. most [s]. Returns FAILED, with a message, if
  * there is no equilibrium. */
 static status go_to_size(struct run *run, real size, real least, real most)
@@ -65,11 +65,11 @@ static status go_to_size(struct run *run, real size, real least, real most)
                                     real_min(real_max(statics_find_pseudo_time_at_load_size(run, size), least), most));
 }
 
-/* Finds the equilibrium of run at pseudo-time t [s], then determines the next crack increment. If the largest stretch
- * ratio (stretch divided by critical stretch) at t exceeds FAR_BEYOND, uses an earlier pseudo-time at which it is about
- * NEAR_LIMIT, because the body would have broken before t: at t, bonds would yield that otherwise do not, and large
- * energies would hide the energy that an increment releases. Returns FAILED, with a message, if an equilibrium is not
- * found. */
+/* Finds the equilibrium of the run at pseudo-time t [s], then determines the next crack increment. If the largest
+ * stretch ratio (stretch divided by critical stretch) at t exceeds FAR_BEYOND, uses an earlier pseudo-time at which it
+ * is about NEAR_LIMIT, because the body would have broken before t: at t, bonds would yield that otherwise do not, and
+ * large energies would hide the energy that an increment releases. Returns FAILED, with a message, if an equilibrium is
+ * not found. */
 static status approach_loads(struct run *run, real t)
 {
     struct statics *s = run->statics;
@@ -93,7 +93,7 @@ static status approach_loads(struct run *run, real t)
     return crack_increment_find_by_trial_equilibria(run);
 }
 
-/* Makes the next crack increment of run while loads can only grow, and determines the increment after it. The load
+/* Makes the next crack increment of the run while loads can only grow, and determines the increment after it. The load
  * size (norm of prescribed displacements [m] or of applied forces [N]) of the increment is the larger of
  * increment_load and *size, the load size of the previous increment; *size receives it. Updates the probes and the
  * largest forces on the rigid bodies there. from, t: range of the pseudo-time [s]. Returns FAILED, with a message, if
@@ -119,7 +119,7 @@ static status increment_under_loads(struct run *run, real *size, real from, real
     return crack_increment_find_by_trial_equilibria(run);
 }
 
-/* Makes a load step of run under load control: increases the loads to those of pseudo-time t [s], and makes all
+/* Makes a load step of the run under load control: increases the loads to those of pseudo-time t [s], and makes all
  * crack increments whose load sizes are smaller. The pseudo-time never decreases. Returns FAILED, with a message, if
  * an equilibrium is not found. */
 static status step_by_load(struct run *run, real t)
@@ -139,7 +139,7 @@ static status step_by_load(struct run *run, real t)
     }
 }
 
-/* Makes a load step of run under energy control, where loads may fall: makes one crack increment, then finds the
+/* Makes a load step of the run under energy control, where loads may fall: makes one crack increment, then finds the
  * equilibrium at the pseudo-time at which the loads suffice for the next increment. If this is more than `most` [s]
  * from now, the step ends after `most`, without a further increment. Returns FAILED, with a message, if an equilibrium
  * is not found. */
@@ -179,9 +179,9 @@ static real time_of_opening(const struct particles *p, const struct statics *s, 
     return now > 0 ? s->t * wanted / now : otherwise;
 }
 
-/* Makes a load step of run under control of the opening: increases the opening (change of distance between two gauge
- * particles) by one step, and makes all crack increments for which the loads suffice until then. Returns FAILED, with
- * a message, if an equilibrium is not found. */
+/* Makes a load step of the run under control of the opening: increases the opening (change of distance between two
+ * gauge particles) by one step, and makes all crack increments for which the loads suffice until then. Returns FAILED,
+ * with a message, if an equilibrium is not found. */
 static status step_by_opening(struct run *run)
 {
     const struct scene_steps *s = &run->scene->steps;
@@ -218,7 +218,7 @@ static status step_by_opening(struct run *run)
 
 /* ---- the loop ---------------------------------------------------------------------------------------------------- */
 
-/* Prepares a load step of run, such that its results depend only on data of the checkpoint and a resumed run is
+/* Prepares a load step of the run, such that its results depend only on data of the checkpoint and a resumed run is
  * bitwise equal. Recomputes the free rigid motions of the unconstrained fragments from their present positions.
  * Discards a preconditioner that a resumed run could not rebuild: one made before bonds broke, or one with the
  * stiffness of contact, which depends on the positions at that time.
@@ -244,8 +244,8 @@ static status load_step_begin(struct run *run, real t)
     return increment && s->solutions > solutions ? crack_increment_find_by_trial_equilibria(run) : OK;
 }
 
-/* Makes the next load step of run run: if bonds soften, by load_step_solve_with_softening_bonds, else under the control
- * (load, energy or opening) of the scene. Returns FAILED, with a message, if an equilibrium is not found. */
+/* Makes the next load step of the run run: if bonds soften, by load_step_solve_with_softening_bonds, else under the
+ * control (load, energy or opening) of the scene. Returns FAILED, with a message, if an equilibrium is not found. */
 static status load_step(struct run *run)
 {
     const struct scene *s = run->scene;
@@ -366,8 +366,8 @@ static void warn_of_sliding(struct warnings *to, const real *slid, real spacing)
     }
 }
 
-/* Adds to run->warnings, and prints, the warnings about the final state of run run: closed crack faces, plastic flow,
- * sliding, and rigid bodies without contact. */
+/* Adds to run->warnings, and prints, the warnings about the final state of the run run: closed crack faces, plastic
+ * flow, sliding, and rigid bodies without contact. */
 static void warn_at_end(struct run *run)
 {
     real K[MODES];
@@ -383,7 +383,7 @@ static void warn_at_end(struct run *run)
                                     ROUND_OFF * run->statics->balance.largest);
 }
 
-/* Checks the loads on fragments of run that nothing constrains. Returns FAILED, with a message, if they are not in
+/* Checks the loads on fragments of the run that nothing constrains. Returns FAILED, with a message, if they are not in
  * balance. Under energy control, once bonds have broken, such a fragment means that the crack has severed the body:
  * then sets *apart to true, prints a warning, and returns OK. */
 static status check_constrained(struct run *run, bool *apart)

@@ -91,7 +91,7 @@ static real opening_search_next(struct opening_search *r, real t, real differ)
 /* Returns true if the opening `at` equals the opening `wanted` (both [m]) within the relative error `error`. */
 static bool opening_is_near(real at, real wanted, real error) { return fabs(at - wanted) <= error * fabs(wanted); }
 
-/* Finds the equilibrium of run, whose body yields, at which the opening (change of distance between two gauge
+/* Finds the equilibrium of the run, whose body yields, at which the opening (change of distance between two gauge
  * particles) equals `wanted` [m]. Each attempt starts from the state at the call, since plastic strains depend on the
  * path; that state is restored after an attempt that fails. t: first pseudo-time tried [s]. *at: receives the opening
  * of the last attempt [m], which the caller compares. Returns FAILED, with a message, if an equilibrium is not found.

@@ -66,7 +66,7 @@ static real reactions_norm(const struct loads *loads, int dim)
     return sqrt(sum);
 }
 
-/* Updates damping and residual of the dynamic relaxation of run. The damping rate is the critical one, 2 omega, of
+/* Updates damping and residual of the dynamic relaxation of the run. The damping rate is the critical one, 2 omega, of
  * the lowest mode. This mode resembles the displacement u, so that omega^2 = 2 U/sum m u^2 (Rayleigh quotient) with the
  * strain energy U; per time step it is at most 1. *done: set to true at equilibrium, else to false. */
 static void estimate(struct run *run, bool *done)

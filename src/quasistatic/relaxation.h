@@ -9,7 +9,7 @@
  * [s] in which a wave with the speed wave_speed [m/s] travels twice the length of the body, `body_length` [m]. */
 real grid_relaxation_ramp_time(real body_length, real wave_speed, real time_step);
 
-/* Makes one damped time step of run towards equilibrium on the grid (`solver: relaxation`). Sets *is_in_equilibrium
+/* Makes one damped time step of the run towards equilibrium on the grid (`solver: relaxation`). Sets *is_in_equilibrium
  * to true if the body has reached equilibrium, else leaves *is_in_equilibrium unchanged. Returns FAILED if the step
  * fails or is unstable. */
 status grid_relaxation_step(struct run *run, bool *is_in_equilibrium);

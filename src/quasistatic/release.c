@@ -87,9 +87,9 @@ static real kinetic_present(const struct particles *part, const struct lagrangia
     return particles_kinetic_energy(part) + lagrangian_mesh_kinetic_energy(frame);
 }
 
-/* Computes the motion of run after bonds have broken (dynamic release) in explicit time steps: undamped until no bond
- * has broken for CROSSINGS_QUIET times the time in which a wave crosses the body, then damped until the kinetic energy
- * is at most MOTION_SMALL times the elastic energy. Stops at the latest after CROSSINGS_MOST such times,
+/* Computes the motion of the run after bonds have broken (dynamic release) in explicit time steps: undamped until no
+ * bond has broken for CROSSINGS_QUIET times the time in which a wave crosses the body, then damped until the kinetic
+ * energy is at most MOTION_SMALL times the elastic energy. Stops at the latest after CROSSINGS_MOST such times,
  * CROSSINGS_DAMPED of them damped. *broken: receives the number of directed bonds that break (each bond counts twice).
  * Returns FAILED, with a message, if the motion diverges. */
 static status steps_in_time(struct run *run, int64_t *broken)
@@ -116,7 +116,7 @@ static status steps_in_time(struct run *run, int64_t *broken)
     return OK;
 }
 
-/* Returns the strain, contact and fracture energy of run minus the work of loads and supports [J]. */
+/* Returns the strain, contact and fracture energy of the run minus the work of loads and supports [J]. */
 static real energy_budget(struct run *run)
 {
     const real held = run_compute_elastic_energy(run) + contact_elastic_energy(run->contact, &run->part) +

@@ -122,14 +122,14 @@ void sif_cracks_free(struct sif_cracks *cracks);
 
 /* ---- increments (sif_cut.c) -------------------------------------------------------------------------------------- */
 
-/* Breaks the intact bonds of run that cross the last part of the pre-crack behind the tip `tip`; they add no fracture
- * energy. Needed after the tip has been moved off a row of particles, where round-off would decide which bonds it cuts
- * (sif_start.c). */
+/* Breaks the intact bonds of the run that cross the last part of the pre-crack behind the tip `tip`; they add no
+ * fracture energy. Needed after the tip has been moved off a row of particles, where round-off would decide which bonds
+ * it cuts (sif_start.c). */
 void sif_tip_break_bonds_across_precrack_behind(struct run *run, const struct sif_crack_tip *tip);
 
-/* Determines the next crack increment of the SIF-driven cracks (growth direction from stress-intensity factors) of run
- * e under the present loads. For each tip that can grow, a trial equilibrium (discarded afterwards) with the bonds of
- * its increment broken gives the energy that is released. Stores in run->statics the bonds to break (`next`), the
+/* Determines the next crack increment of the SIF-driven cracks (growth direction from stress-intensity factors) of the
+ * run e under the present loads. For each tip that can grow, a trial equilibrium (discarded afterwards) with the bonds
+ * of its increment broken gives the energy that is released. Stores in run->statics the bonds to break (`next`), the
  * energies (`ahead`), and the load size (`due`, a measure proportional to the loads) at which the increment releases as
  * much energy as it costs. Returns FAILED if an equilibrium is not found. */
 status sif_cracks_find_increment_by_trial_equilibria(struct run *run);
@@ -140,8 +140,8 @@ void sif_tips_move_those_in_crack_increment(struct sif_cracks *cracks, const str
 
 /* ---- start (sif_start.c) ----------------------------------------------------------------------------------------- */
 
-/* Finds, on the first call only, the tips of the pre-cracks of run and the plane in which they move. Returns true if
- * at least one tip can grow. Returns false if no tip can grow, or if the cracks of the input file are not SIF-driven
+/* Finds, on the first call only, the tips of the pre-cracks of the run and the plane in which they move. Returns true
+ * if at least one tip can grow. Returns false if no tip can grow, or if the cracks of the input file are not SIF-driven
  * (growth direction from stress-intensity factors); in the latter case run->statics->sif.fault is the reason. */
 bool sif_cracks_find_tips_and_test_can_grow(struct run *run);
 

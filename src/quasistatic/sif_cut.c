@@ -128,7 +128,7 @@ static int64_t segment_convert(const struct sif_cracks *cracks, struct particles
     return marked;
 }
 
-/* Determines the direction of growth of all SIF-driven tips of run that can grow, and converts the material points
+/* Determines the direction of growth of all SIF-driven tips of the run that can grow, and converts the material points
  * within a horizon of their next path segments to peridynamic particles. Since converted points change the equilibrium,
  * both are repeated until none is converted, at most CONVERSIONS_MOST times. Returns FAILED, with a message, if an
  * equilibrium is not found. */
@@ -148,7 +148,7 @@ static status tips_turn_all(struct run *run)
     return OK;
 }
 
-/* Breaks the bonds of list l in run and finds the equilibrium at the present pseudo-time. Stores in a->release the
+/* Breaks the bonds of list l in the run and finds the equilibrium at the present pseudo-time. Stores in a->release the
  * energy that the body releases, divided by the square of the load size (norm of prescribed displacements [m] or of
  * applied forces [N]). Returns FAILED, with a message, if there is no equilibrium. */
 static status list_break_try(struct run *run, const struct break_list *l, struct crack_increment *a)
@@ -161,7 +161,7 @@ static status list_break_try(struct run *run, const struct break_list *l, struct
     return tried;
 }
 
-/* Estimates tip->behind (cost and energy release of the previous crack increment) for a tip of run at the end of a
+/* Estimates tip->behind (cost and energy release of the previous crack increment) for a tip of the run at the end of a
  * pre-crack, which has not grown yet, as if an increment had led there. It is extrapolated backwards from the first
  * increment tip->ahead, whose bonds must be broken already, and from a trial of a second one straight ahead. Returns
  * FAILED, with a message, if an equilibrium is not found. */
@@ -182,7 +182,7 @@ static status behind_first_set(struct run *run, struct sif_crack_tip *tip)
     return tried;
 }
 
-/* Computes tip->ahead.release, the energy that the next increment of `tip` in run releases divided by the square of
+/* Computes tip->ahead.release, the energy that the next increment of `tip` in the run releases divided by the square of
  * the load size (norm of prescribed displacements or forces), by a trial in which the bonds in list l break and which
  * is then undone. For the first increment of the tip also estimates tip->behind, a fictitious increment before it.
  * Returns FAILED, with a message, if an equilibrium is not found. */
@@ -227,11 +227,11 @@ static void increment_choose(struct statics *s, struct break_list *list)
     s->due = crack_increments_load_size_at_joint_balance(&s->ahead, &s->behind);
 }
 
-/* If several tips of run are selected for the next crack increment, recomputes its energy release s->ahead.release by
- * a trial in which all their bonds break together, which releases more energy than one tip after the other. Divides the
- * result among the tips in proportion to their separate values, and updates s->due, the load size of the increment. If
- * a tip makes its first increment, s->due is not updated, since the fictitious previous increments were not computed in
- * this way. Returns FAILED, with a message, if an equilibrium is not found. */
+/* If several tips of the run are selected for the next crack increment, recomputes its energy release s->ahead.release
+ * by a trial in which all their bonds break together, which releases more energy than one tip after the other. Divides
+ * the result among the tips in proportion to their separate values, and updates s->due, the load size of the increment.
+ * If a tip makes its first increment, s->due is not updated, since the fictitious previous increments were not computed
+ * in this way. Returns FAILED, with a message, if an equilibrium is not found. */
 static status increment_try_together(struct run *run)
 {
     struct statics *s = run->statics;
@@ -251,7 +251,7 @@ static status increment_try_together(struct run *run)
     return tried;
 }
 
-/* Computes the next increment of `tip` in run run: its bonds, which are appended to `list`; its cost and energy
+/* Computes the next increment of `tip` in the run run: its bonds, which are appended to `list`; its cost and energy
  * release, tip->ahead; and tip->due, the load size (norm of prescribed displacements or forces) at which it is made.
  * tip->due is INFINITY if the tip does not grow: under compression (K_I < 0), or if there are no bonds ahead of it, so
  * that it has ended. Returns FAILED, with a message, if an equilibrium is not found. */

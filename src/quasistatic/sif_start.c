@@ -58,8 +58,8 @@ static bool tip_off_row(const struct crack_tip_plane *plane, const struct partic
     return true;
 }
 
-/* Creates in run->statics->sif the SIF-driven tips (directed by stress-intensity factors) of the pre-cracks of run that
- * end in the body. */
+/* Creates in run->statics->sif the SIF-driven tips (directed by stress-intensity factors) of the pre-cracks of the run
+ * that end in the body. */
 static void sif_tips_start(struct run *run)
 {
     struct sif_cracks *cracks = &run->statics->sif;

@@ -43,10 +43,9 @@
 #define FIRST_SHARE 1e-3   /* share of the energy of a load step that the first one dissipates */
 #define AT_SURFACE 1.002   /* ratio of stress to strength at which an equilibrium ends [1] */
 
-/* ITERATIONS_MOST: largest number of secant iterations in which the residual
- * of an equilibrium does not halve. TRIES_MOST: largest number of attempts at a
- * load step, each with half the energy of the previous one. GROWTHS_MOST: largest number of increases of the factor on
- * the displacements. */
+/* ITERATIONS_MOST: largest number of secant iterations in which the residual of an equilibrium does not halve.
+ * TRIES_MOST: largest number of attempts at a load step, each with half the energy of the previous one. GROWTHS_MOST:
+ * largest number of increases of the factor on the displacements. */
 enum { ITERATIONS_MOST = 400, TRIES_MOST = 5, GROWTHS_MOST = 200 };
 
 /* Largest growth of the stretch of a bond in a part of the path between two equilibria, in units of the stretch over
@@ -143,7 +142,7 @@ static void cracks_close_and_open(struct statics *s, const struct search *f)
     s->fragments_stale = true;
 }
 
-/* Finds the equilibrium that ends a load step of run with softening bonds, by the search f. Repeats two parts: a
+/* Finds the equilibrium that ends a load step of the run with softening bonds, by the search f. Repeats two parts: a
  * solution with fixed largest stretches of the bonds, which fix their stiffnesses, and a new choice of these stretches
  * from the solution (secants_choose). The tolerance of the solutions is reduced as the stretches converge. Returns
  * FAILED, with a message, if no equilibrium is found. */
@@ -219,7 +218,7 @@ static void family_losses_add(struct bonds *b, const struct particles *p, const 
     for (int d = 0; d < p->dim; d++) memory_free(midway.x[d]), memory_free(end.x[d]);
 }
 
-/* Searches for the equilibrium that ends a load step of run. spent: energy that bonds shall dissipate in the step
+/* Searches for the equilibrium that ends a load step of the run. spent: energy that bonds shall dissipate in the step
  * [J]; INFINITY if the loads are those of pseudo-time t [s]. With given loads, work that exceeds the growth of
  * energies counts as lost in motion, which is not resolved. If the search fails, restores the state before it and
  * returns the status of the search: FAILED, with a message, if there is no equilibrium. */
@@ -261,7 +260,7 @@ real softening_materials_least_toughness(const struct scene *s, const struct bon
     return least;
 }
 
-/* Makes one load step of run, whose bonds soften. Under energy control the bonds dissipate a given energy in each
+/* Makes one load step of the run, whose bonds soften. Under energy control the bonds dissipate a given energy in each
  * step; if no equilibrium is found, the step is repeated with a half, a quarter .. of it, in at most TRIES_MOST
  * attempts. The first step dissipates only the fraction FIRST_SHARE, since on a coarse lattice the loads may be largest
  * where bonds begin to soften. pseudo_time: end of the step under other controls [s]. Returns FAILED, with a message,

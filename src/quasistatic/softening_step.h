@@ -4,7 +4,7 @@
 
 #include "run/run.h"
 
-/* Makes one load step (static equilibrium under increased loads) of run, whose bonds soften. With the control
+/* Makes one load step (static equilibrium under increased loads) of the run, whose bonds soften. With the control
  * `energy`, bonds dissipate the energy `steps.energy` in the step, and the size of the loads follows from it; with the
  * control `load`, the pseudo-time becomes `pseudo_time` [s]. Breaks the bonds that have no stiffness left. Returns
  * FAILED if no equilibrium is found, INTERRUPTED if the run is to stop. */

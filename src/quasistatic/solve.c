@@ -14,8 +14,8 @@
 #include "step/sample.h"
 #include "loads/mirrors.h"
 
-/* Returns what the solvers of a static equilibrium need of run run: pointers to its particles, bonds and loads, which
- * the solvers change, and its force function, materials, spacing and tolerance. */
+/* Returns what the solvers of a static equilibrium need of the run run: pointers to its particles, bonds and loads,
+ * which the solvers change, and its force function, materials, spacing and tolerance. */
 static struct static_body static_body_of(struct run *run)
 {
     return (struct static_body){&run->part,
@@ -195,8 +195,8 @@ static void warn_of_closed_faces(const struct scene *s, const struct particles *
     warnings_add_and_print(to, text);
 }
 
-/* Completes the static solution of run run: sets velocities to 0 and the time to the end of the duration, and updates
- * work, stresses, probes and warnings. */
+/* Completes the static solution of the run run: sets velocities to 0 and the time to the end of the duration, and
+ * updates work, stresses, probes and warnings. */
 static void solver_finish(struct run *run)
 {
     struct particles *p = &run->part;
@@ -241,7 +241,7 @@ static status not_converged(const struct static_solver *s, real tolerance, int64
         (long long)step, s->residual, tolerance);
 }
 
-/* Makes one iteration of the solver of run for bonds, or one damped time step on the grid. *done: set to true at
+/* Makes one iteration of the solver of the run for bonds, or one damped time step on the grid. *done: set to true at
  * equilibrium. Returns FAILED, with a message, if the step fails. */
 static status solve_step(struct run *run, bool *done)
 {

@@ -246,7 +246,7 @@ static void matrix_scale(struct block_matrix *a)
     for (int64_t k = 0; k < n && most > 0; k++) a->block[k] /= most;
 }
 
-/* Returns the stiffness matrix of the present bonds, cells and contacts of run, divided by its largest entry.
+/* Returns the stiffness matrix of the present bonds, cells and contacts of the run, divided by its largest entry.
  * statics_preconditioner_free frees it. */
 static struct block_matrix *matrix_make(const struct run *run)
 {

@@ -13,7 +13,7 @@
 #include "probes/diagnostics.h"
 #include "solver/solver.h"
 
-/* Frees the state of load steps of run. It is the callback `free` of struct part. */
+/* Frees the state of load steps of the run. It is the callback `free` of struct part. */
 static void statics_free_all(struct run *run) { statics_free(run->statics), sif_cracks_free(&run->statics->sif); }
 
 #define STEP_SPACINGS_MOST 0.5 /* growth of a crack in a load step without a warning [spacings] */
@@ -59,8 +59,8 @@ static void warn_of_large_steps(const struct scene *s, real of_spacing, struct w
 }
 
 /* Adds warnings to *to. In load steps it warns of bonds that yield, and of steps that dissipate too much energy; for a
- * single equilibrium, of keys of the input file (scene) of run that the solution ignores or treats differently. It is
- * the callback `warn` of struct part. */
+ * single equilibrium, of keys of the input file (scene) of the run that the solution ignores or treats differently. It
+ * is the callback `warn` of struct part. */
 static void warn_of_solver(const struct run *run, struct warnings *to)
 {
     const struct scene *s = run->scene;
@@ -91,8 +91,8 @@ static void warn_of_solver(const struct run *run, struct warnings *to)
             s->duration);
 }
 
-/* Writes the results of load steps of run to the summary j: control, steps, equilibria, energy released. Does nothing
- * for other runs. It is the callback `summary` of struct part. */
+/* Writes the results of load steps of the run to the summary j: control, steps, equilibria, energy released. Does
+ * nothing for other runs. It is the callback `summary` of struct part. */
 static void put_load_steps(const struct run *run, struct json *j)
 {
     static const char *const control[] = {

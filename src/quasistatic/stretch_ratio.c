@@ -169,11 +169,11 @@ static void bond_record_break(struct bonds *b, struct particles *p, struct bond_
     bond_break_entry(b, p, &limit, record->row, record->entry);
 }
 
-/* Breaks the bonds of run with the largest ratios of stretch to critical stretch, and appends them to the list of the
- * next crack increment: at most about max_pairs bonds, with ratios within the fraction `ratio_tolerance` of the largest
- * one. Adds their energy at the critical stretch to *added_energy [J] and their crack area to *added_crack_area [m^2].
- * The energy that state-based models lose is divided equally among the broken bonds, after division by the mean square
- * of their ratios, as in a linear body. Returns the number of directed bonds broken, two for each bond. */
+/* Breaks the bonds of the run with the largest ratios of stretch to critical stretch, and appends them to the list of
+ * the next crack increment: at most about max_pairs bonds, with ratios within the fraction `ratio_tolerance` of the
+ * largest one. Adds their energy at the critical stretch to *added_energy [J] and their crack area to *added_crack_area
+ * [m^2]. The energy that state-based models lose is divided equally among the broken bonds, after division by the mean
+ * square of their ratios, as in a linear body. Returns the number of directed bonds broken, two for each bond. */
 int64_t bonds_break_overstretched(struct run *run, real ratio_tolerance, int64_t max_pairs, real *added_energy,
                                   real *added_crack_area)
 {

@@ -11,7 +11,7 @@
  * break if it exceeds 1. limit: critical stretches. */
 real bonds_largest_stretch_ratio(const struct bonds *b, const struct particles *p, const struct bond_limit *limit);
 
-/* Breaks the intact bonds of run with the largest ratios of stretch to critical stretch: those whose ratio differs
+/* Breaks the intact bonds of the run with the largest ratios of stretch to critical stretch: those whose ratio differs
  * from the largest one by at most the fraction `ratio_tolerance` [1]. No more than `max_pairs` pairs of particles are
  * separated, plus pairs whose ratio equals that of the last one up to round-off. Appends the bonds to the list of the
  * next crack increment (statics.next). Adds their energy at the critical stretch to *added_energy [J], and the crack
@@ -20,7 +20,7 @@ real bonds_largest_stretch_ratio(const struct bonds *b, const struct particles *
 int64_t bonds_break_overstretched(struct run *run, real ratio_tolerance, int64_t max_pairs, real *added_energy,
                                   real *added_crack_area);
 
-/* Breaks all bonds of the list l in run. Each adds its energy at the critical stretch (member `held` of its record)
+/* Breaks all bonds of the list l in the run. Each adds its energy at the critical stretch (member `held` of its record)
  * to the fracture energy, even if its present stretch differs. The difference from its present energy is added to the
  * energy lost by the solver and by the run. */
 void bonds_break_listed(struct run *run, const struct break_list *l);

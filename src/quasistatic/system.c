@@ -60,7 +60,7 @@ static void applied_add(const struct statics *s, const struct loads *loads, stru
         for (int64_t k = 0; k < loads->listed; k++) p->f[d][loads->list[k]] += s->applied[d][loads->list[k]];
 }
 
-/* Computes the forces on particles and mesh nodes of run at their present positions: of bonds, contact, loads and
+/* Computes the forces on particles and mesh nodes of the run at their present positions: of bonds, contact, loads and
  * cells, as in a time step (step.c) without motion. */
 static void forces_present(struct run *run)
 {

@@ -14,7 +14,7 @@ void statics_equation_system_make(struct run *run);
  * force norm remain in *s, for the next system. */
 void statics_equation_system_free(struct statics *s);
 
-/* Moves particles and mesh nodes of run to the displacements of the last solution. If the body can yield, also
+/* Moves particles and mesh nodes of the run to the displacements of the last solution. If the body can yield, also
  * computes the forces at these positions, which updates the plastic state of bonds and material points. */
 void run_move_to_solution_and_update_plastic_state(struct run *run);
 

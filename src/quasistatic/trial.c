@@ -10,7 +10,7 @@
 #include "rigid/rigid_part.h"
 #include "loads/mirrors.h"
 
-/* Saves all data of run that a trial equilibrium changes to the archive a if a->saving is true, else restores them
+/* Saves all data of the run that a trial equilibrium changes to the archive a if a->saving is true, else restores them
  * from it. Positions of mirror images and mesh points are left out, since they follow from the other data. Returns
  * FAILED, with a message, if an entry is missing. */
 static status trial_archive(struct run *run, struct archive *a)

@@ -16,9 +16,9 @@ enum { LOAD_TIMES = 64, LOAD_PARTICLES = 1024 }; /* load times, and particles of
 /* The two sorts of loads: prescribed displacements of supports and rigid bodies [m], applied forces [N]. */
 enum { DISPLACEMENTS, FORCES, SORTS };
 
-/* Computes the scalar products of the loads of run at time t with its loads at time u [s]: product[DISPLACEMENTS] for
- * the prescribed displacements [m^2], product[FORCES] for the applied forces [N^2]. Of each load about LOAD_PARTICLES
- * particles, evenly spaced, represent all. */
+/* Computes the scalar products of the loads of the run at time t with its loads at time u [s]: product[DISPLACEMENTS]
+ * for the prescribed displacements [m^2], product[FORCES] for the applied forces [N^2]. Of each load about
+ * LOAD_PARTICLES particles, evenly spaced, represent all. */
 static void products(const struct run *run, real t, real u, real *product)
 {
     const int dim = run->part.dim;
@@ -97,7 +97,7 @@ static int64_t load_times(const struct loads *loads, real end, real *t)
     return n;
 }
 
-/* Finds the times at which the loads of run are largest, point most against the largest loads, and are most
+/* Finds the times at which the loads of the run are largest, point most against the largest loads, and are most
  * perpendicular to them. Stores the times [s] in worst[SORTS] and scalar products of the loads in found[SORTS],
  * separately for prescribed displacements and for applied forces. */
 static void worst_times_find(const struct run *run, struct worst *worst, struct found *found)
@@ -127,7 +127,7 @@ status run_find_equilibrium_for_cost_estimate(struct run *run, real t)
     return unconstrained_fragments_check_force_balance(run->statics, &run->part, true, run->clock.step + 1);
 }
 
-/* Finds the equilibrium of run at time t [s]; does nothing if t is NAN. If the largest ratio of stretch to critical
+/* Finds the equilibrium of the run at time t [s]; does nothing if t is NAN. If the largest ratio of stretch to critical
  * stretch there exceeds *ratio, stores it in *ratio and t in *at. Returns FAILED, with a message, if there is no
  * equilibrium. */
 static status worst_try(struct run *run, real t, real *at, real *ratio)

@@ -91,7 +91,7 @@ static bool in_mesh(const struct lagrangian_mesh *frame, int64_t i)
     return frame->mesh.points > 0 && frame->mesh.place[i] >= 0;
 }
 
-/* Computes the displacement gradients of all particles of run, H[dim dim][n] [1], from mesh nodes, bonds or near
+/* Computes the displacement gradients of all particles of the run, H[dim dim][n] [1], from mesh nodes, bonds or near
  * points. Allocates the arrays H[k], which the caller frees with memory_free. */
 static void gradients_make(const struct run *run, real **H)
 {
@@ -209,8 +209,8 @@ static uint8_t *point_levels_make(const struct lagrangian_mesh *frame, const str
 
 /* ---- a frame ----------------------------------------------------------------------------------------------------- */
 
-/* Computes the fields of an output frame of run that particles do not store (strain, density, plastic work, level of
- * cells) and stores pointers to them in *extra, from which the frame is written. requested_field_bits: set of these
+/* Computes the fields of an output frame of the run that particles do not store (strain, density, plastic work, level
+ * of cells) and stores pointers to them in *extra, from which the frame is written. requested_field_bits: set of these
  * fields, as bits ASK_... (output/output.h). Release them with frame_fields_free. */
 void frame_fields_compute_requested(struct run *run, unsigned requested_field_bits, struct frame_extra *extra)
 {

@@ -141,7 +141,7 @@ static unsigned asked_of(const struct scene *scene, int k)
     return k > 0 && scene->series[k - 1].fields ? scene->series[k - 1].fields : scene->fields;
 }
 
-/* Writes a frame (output file of one time) of run for each series of frames in `due`, and for the body also rigid
+/* Writes a frame (output file of one time) of the run for each series of frames in `due`, and for the body also rigid
  * bodies and profiles. due: series of which a frame is to be written now, as bits: bit 0 for the whole body, bit k for
  * region k. Frames at t = 0 have no contact forces. Returns FAILED, with a message, if a value is not finite or a file
  * cannot be written. */
@@ -265,7 +265,7 @@ static void duration_text(char *text, size_t size, double seconds)
         snprintf(text, size, "%.1f h", seconds / 3600);
 }
 
-/* Prints the progress line of run on stderr if PROGRESS_SECONDS (in a file PROGRESS_SECONDS_FILE) have passed since
+/* Prints the progress line of the run on stderr if PROGRESS_SECONDS (in a file PROGRESS_SECONDS_FILE) have passed since
  * the previous line. Prints nothing if run->report->quiet is true. last: true after the last step, when the line is
  * always printed on a terminal. */
 static void progress(struct run *run, bool last)

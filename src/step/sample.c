@@ -211,7 +211,7 @@ static void momentum_at(const struct sampling *s, const struct velocity_time *no
     for (int d = 0; d < dim; d++) momentum[d] = now->scale * ((1 - share) * s->momentum[d] + share * momentum[d]);
 }
 
-/* Records stress, momentum, crack tips and probes of run at the present positions: all quantities of a sample (the
+/* Records stress, momentum, crack tips and probes of the run at the present positions: all quantities of a sample (the
  * values that a line of history.csv has) except energies. */
 static void sample_state(struct run *run)
 {
@@ -236,7 +236,7 @@ real run_compute_elastic_energy(struct run *run)
            lagrangian_mesh_strain_energy(run->frame, &run->part);
 }
 
-/* Computes the energies of a sample (a line of history.csv) of run at the present positions, except the kinetic
+/* Computes the energies of a sample (a line of history.csv) of the run at the present positions, except the kinetic
  * energy, in run->report->sampling.energy [J]. */
 static void sample_energies(struct run *run)
 {
@@ -255,7 +255,7 @@ static void sample_energies(struct run *run)
     probes_sample_energies(&run->probing->probes, &o);
 }
 
-/* Completes a sample of run with the quantities that require velocities after the step, and writes it as a line of
+/* Completes a sample of the run with the quantities that require velocities after the step, and writes it as a line of
  * history.csv. The number of peridynamic particles of the first sample is that of the start in the summary. now: time
  * of these velocities and factor on them; kinetic, work: kinetic energy and external work of the sample [J]. If an
  * energy is not finite, writes no line and sets run->stability->lost. */
@@ -292,7 +292,7 @@ static void keep_velocities(struct sampling *sampling, const struct particles *p
     }
 }
 
-/* Returns the correction that a sample of run subtracts from the kinetic energy [J]: the mean of m v^2/2 before and
+/* Returns the correction that a sample of the run subtracts from the kinetic energy [J]: the mean of m v^2/2 before and
  * after the velocity update of the step, minus m v_before . v_after/2, the value that leap-frog conserves. Absorbing
  * dashpots, which act during the update, are left out. */
 static real kick_now(const struct run *run)
@@ -441,7 +441,7 @@ static void reactions_at_end(struct loads *l, const struct grid_method *grid, co
         reactions_add(l, &frame->levels.at[level].mesh.grid);
 }
 
-/* Returns the power v . f [W] of the forces at the end of run. The forces are computed as in a further step, in
+/* Returns the power v . f [W] of the forces at the end of the run. The forces are computed as in a further step, in
  * which nothing moves, no bond breaks, and the loads keep their sums of energies and impulses; only reactions are
  * updated. The power includes the work on particles with prescribed motion, not that on nodes. *held: receives the
  * work that grid and mesh nodes with prescribed motion would do in this step [J]. */
@@ -473,7 +473,7 @@ static real power_last(struct run *run, real *held)
     return power - walls;
 }
 
-/* Writes the last line of history.csv (a sample of energies, probes and crack tips) of run after the last step. As
+/* Writes the last line of history.csv (a sample of energies, probes and crack tips) of the run after the last step. As
  * in all lines, the kinetic energy is m v- . v+/2, with the velocities v- and v+ before and after a velocity update,
  * here by the last forces. */
 void history_sample_write_after_last_step(struct run *run)

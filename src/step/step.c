@@ -39,7 +39,7 @@ static struct step step_begin(const struct run_clock *clock, real damping, struc
     return (struct step){.middle = clock->t + 0.5 * dt, decay, share, dt_velocity};
 }
 
-/* Records the bonds of run broken in this step and converts material points near them to peridynamic particles.
+/* Records the bonds of the run broken in this step and converts material points near them to peridynamic particles.
  * now->broken: number of these bonds; now->converted: receives the number of points. */
 static void conversion(struct run *run, struct step *now)
 {
@@ -50,7 +50,7 @@ static void conversion(struct run *run, struct step *now)
     timer_add_elapsed_to_section(&run->timers, TIMER_CONVERT);
 }
 
-/* Updates the pairs of particles of run that may be in contact, and sets in now->motion how peridynamic particles
+/* Updates the pairs of particles of the run that may be in contact, and sets in now->motion how peridynamic particles
  * move in this step. */
 static void motion_begin(struct run *run, struct step *now)
 {
@@ -62,7 +62,7 @@ static void motion_begin(struct run *run, struct step *now)
     timer_add_elapsed_to_section(&run->timers, TIMER_CONVERT);
 }
 
-/* Sorts the points of run on the grid into cells. Returns FAILED, with a message, if positions of points are not
+/* Sorts the points of the run on the grid into cells. Returns FAILED, with a message, if positions of points are not
  * finite or if a grid would need too many nodes. */
 static status sort(struct run *run)
 {
@@ -71,7 +71,7 @@ static status sort(struct run *run)
     return lost ? run_check_particles_for_divergence(run, true, false) : OK;
 }
 
-/* Damps the velocities of points of run in the interface zone (material points near peridynamic particles), before
+/* Damps the velocities of points of the run in the interface zone (material points near peridynamic particles), before
  * the forces of the step are computed. Adds the first half of the energy that this removes to run->damped; the second
  * half is added when the velocities after the step are known. Sets now->damps to true if the input file (scene) has
  * such damping. */
@@ -85,7 +85,7 @@ static void zone_damp(struct run *run, struct step *now)
                                             &run->part); /* breaking bonds read the velocities of mirror images */
 }
 
-/* Stores the velocities of run before the forces of this step, from which the energy loss by bulk damping is
+/* Stores the velocities of the run before the forces of this step, from which the energy loss by bulk damping is
  * computed. In the first step it also damps them over half a time step, because velocities are half a step behind
  * positions from then on. Does nothing without bulk damping. now->decay: product of damping rate and time step [1]. */
 static void damping_begin(struct run *run, const struct step *now)
@@ -118,7 +118,7 @@ static int64_t surface_interval(real horizon, real wave_speed, real dt)
     return 1 + (int64_t)(0.5 * horizon / (wave_speed * dt));
 }
 
-/* Computes the forces of the bonds of run and breaks the bonds beyond their limit. now->broken: receives the number
+/* Computes the forces of the bonds of the run and breaks the bonds beyond their limit. now->broken: receives the number
  * of broken bonds, each counted once for each of its two particles. If sweep_moves returns true, the loop over bonds
  * also moves the particles without loads. */
 static void push_bonds(struct run *run, struct step *now)
@@ -142,7 +142,7 @@ static void push_contact(struct contact *c, struct particles *p, const struct ru
     contact_record_first_and_last_contact_time(c, clock->t);
 }
 
-/* Moves the peridynamic particles of run that the loop over bonds has not moved: those with loads, or all if
+/* Moves the peridynamic particles of the run that the loop over bonds has not moved: those with loads, or all if
  * sweep_moves is false. Sets motion->diverged to true if a particle is faster than waves. */
 static void move_peridynamic(struct run *run, struct pd_motion *motion)
 {
@@ -154,8 +154,8 @@ static void move_peridynamic(struct run *run, struct pd_motion *motion)
     run->stability->diverged = motion->diverged;
 }
 
-/* Moves the grids of run and their material points. Numbers in the code are the steps of the algorithm listed at the
- * function `step`. Returns FAILED, with a message, if a grid would need too many nodes. now: quantities of this
+/* Moves the grids of the run and their material points. Numbers in the code are the steps of the algorithm listed at
+ * the function `step`. Returns FAILED, with a message, if a grid would need too many nodes. now: quantities of this
  * step. */
 static status move_grid(struct run *run, const struct step *now)
 {
@@ -173,7 +173,7 @@ static status move_grid(struct run *run, const struct step *now)
     return OK;
 }
 
-/* Computes the forces on nodes of the bodies of run in the reference frame (mesh of the undeformed body) and moves
+/* Computes the forces on nodes of the bodies of the run in the reference frame (mesh of the undeformed body) and moves
  * these nodes. Does nothing without such bodies. now: quantities of this step. */
 static void move_frame(struct run *run, const struct step *now)
 {
@@ -184,7 +184,7 @@ static void move_frame(struct run *run, const struct step *now)
     lagrangian_mesh_move_nodes(run->frame, &run->part, &run->loads, &run->clock, now->middle, now->dt_velocity);
 }
 
-/* Adds the reactions at nodes of run with prescribed velocity to their supports. Then sets velocities and positions
+/* Adds the reactions at nodes of the run with prescribed velocity to their supports. Then sets velocities and positions
  * of particles with prescribed motion to their values at the end of the step. now: quantities of this step. */
 static void step_hold(struct run *run, const struct step *now)
 {
@@ -232,7 +232,7 @@ bool load_step_convert_points_near_breaks_to_pd(struct run *run, int64_t broken_
     return now.converted > 0;
 }
 
-/* Makes one time step of run by the algorithm of Zeng et al. 2022, section 4, as corrected (MUSL, leap-frog
+/* Makes one time step of the run by the algorithm of Zeng et al. 2022, section 4, as corrected (MUSL, leap-frog
  * start). Its steps:
  *
  *     1  mass and momentum of material points to the nodes

@@ -28,8 +28,8 @@ enum { PRINTED_MOST = 24 };
 /* Returns by how much a result (a number in summary.json) of the study s changes if the time step is 10 % longer: b
  * log(1.1), with the slope b of the result over log(time step). The slope is fitted by least squares to the runs of all
  * spacing levels (runs with one particle spacing) with two runs or more, after the mean of the level is subtracted from
- * each result. c: means of the levels; value[k]: result of run k. Returns NAN if all runs have the same time step or
- * the scene is not dynamic. */
+ * each result. c: means of the levels; value[k]: result of the run k. Returns NAN if all runs have the same time step
+ * or the scene is not dynamic. */
 static double step_moves(const struct convergence_study *s, const struct convergence *c, const double *value)
 {
     double xx = 0, xy = 0;
@@ -45,7 +45,7 @@ static double step_moves(const struct convergence_study *s, const struct converg
 
 /* Returns the change of a result (a number in summary.json) of the study s if the horizon is one spacing longer: the
  * result of the run with the longer horizon, which has level -1, minus that of the first run of level 1, which has the
- * same spacing. value[k]: result of run k. Returns NAN if the study has no run with a longer horizon. */
+ * same spacing. value[k]: result of the run k. Returns NAN if the study has no run with a longer horizon. */
 static double horizon_moves(const struct convergence_study *s, const double *value)
 {
     double longer = NAN, own = NAN;

@@ -102,9 +102,9 @@ static void path_mean(const struct longest *l, int64_t i, double reach, double *
     for (int d = 0; d < 2; d++) at[d] = sum[d] / n;
 }
 
-/* Sends the paths of the longest crack tips of run k of the study s to gnuplot's stream `to`, as the data block $wK (K
- * is the number k) [m], each path as a separate line, without the steps from one row of bonds to the next. Extends the
- * bounding box *e [m] by them. Returns false if the run has no path of two positions, or no readable history. */
+/* Sends the paths of the longest crack tips of the run k of the study s to gnuplot's stream `to`, as the data block $wK
+ * (K is the number k) [m], each path as a separate line, without the steps from one row of bonds to the next. Extends
+ * the bounding box *e [m] by them. Returns false if the run has no path of two positions, or no readable history. */
 static bool send_path(FILE *to, const struct convergence_study *s, int k, struct extent *e)
 {
     struct history h;

@@ -29,8 +29,8 @@ static uint64_t overrides_hash(const struct scene_override *o, int n)
     return sum;
 }
 
-/* Returns the slot of s->slot, the hash table of run names, that contains `name`, or the empty slot in which it has to
- * be entered. */
+/* Returns the slot of s->slot, the hash table of the run names, that contains `name`, or the empty slot in which it has
+ * to be entered. */
 static int name_slot(const struct study *s, const char *name)
 {
     int at = (int)(study_hash_add_text(STUDY_HASH_START, name) % (uint64_t)s->slots);

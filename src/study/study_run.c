@@ -30,16 +30,17 @@ struct runner {
     struct study *study;
     struct study_options how;
     struct cpu_core_partition *shares; /* shares of the processor cores, one for each process */
-    int running, ended;                /* number of processes that run; that have ended */
+    int running, ended;                /* number of processes that the run; that have ended */
     bool stopped;                      /* the running processes have received a signal to stop */
     double since;                      /* time of this signal on wall_clock_seconds [s] */
 };
 
 /* ---- the command ------------------------------------------------------------------------------------------------- */
 
-/* Returns the words of the `cleave run` command for run c of a study, as an array ended by NULL. Stores in *pairs the
- * texts KEY=VALUE to which the words refer. The caller releases both with memory_free. scene: path of the scene file;
- * threads: number of threads as text, or NULL; folder: folder for the results; mode: --resume, --overwrite or NULL. */
+/* Returns the words of the `cleave run` command for the run c of a study, as an array ended by NULL. Stores in *pairs
+ * the texts KEY=VALUE to which the words refer. The caller releases both with memory_free. scene: path of the scene
+ * file; threads: number of threads as text, or NULL; folder: folder for the results; mode: --resume, --overwrite or
+ * NULL. */
 static char **command_words(const char *scene, const struct study_case *c, char *threads, char *folder, char *mode,
                             char **pairs)
 {
@@ -141,8 +142,8 @@ static struct path log_path(const struct study *s, const struct study_case *c)
 /* First line of the log of a run, by which Cleave recognises it. */
 static const char log_mark[] = "# log by cleave of a run of a study\n";
 
-/* Checks that the files of run c of a study may be written. Returns REFUSED, with a message, if the folder of the run
- * is a symbolic link, which may lead out of the folder of the study, or if the log of the run would replace a file
+/* Checks that the files of the run c of a study may be written. Returns REFUSED, with a message, if the folder of the
+ * run is a symbolic link, which may lead out of the folder of the study, or if the log of the run would replace a file
  * that Cleave did not write. s: the study. */
 static status case_guard(const struct study *s, const struct study_case *c)
 {
@@ -174,9 +175,9 @@ static _Noreturn void become_run(char **word, int log)
     _exit(FAILED);
 }
 
-/* Starts the process of run c of the study in r, with its output in a log. slot: number of the share of the processor
- * cores on which it runs. A run with results in its folder is resumed, or replaced with --overwrite. Returns REFUSED or
- * FAILED, with a message, if it cannot be started. */
+/* Starts the process of the run c of the study in r, with its output in a log. slot: number of the share of the
+ * processor cores on which it runs. A run with results in its folder is resumed, or replaced with --overwrite. Returns
+ * REFUSED or FAILED, with a message, if it cannot be started. */
 static status case_start(struct runner *r, struct study_case *c, int slot)
 {
     char threads[16], *pairs;
@@ -225,8 +226,8 @@ void study_read_reason_of_failure(char *line, size_t capacity, const char *folde
     memory_free(text);
 }
 
-/* Records the end of run c in r: its state and duration. Prints a line about the run, which after a failure contains
- * the last line of its log. Removes a log without text. ended: status of the process from waitpid. */
+/* Records the end of the run c in r: its state and duration. Prints a line about the run, which after a failure
+ * contains the last line of its log. Removes a log without text. ended: status of the process from waitpid. */
 static void case_end(struct runner *r, struct study_case *c, int ended)
 {
     const struct path log = log_path(r->study, c);

@@ -22,8 +22,8 @@ struct band {
     real width, growth, fracture;
 }; /* [m], [m], [J] */
 
-/* Returns the width of the new damage of run: its area over `growth`, that of both tips. Particles behind the ends of
- * the pre-crack, which are damaged from the start, are left out. */
+/* Returns the width of the new damage of the run: its area over `growth`, that of both tips. Particles behind the ends
+ * of the pre-crack, which are damaged from the start, are left out. */
 static real band_width(const struct run *run, real growth)
 {
     const struct particles *p = &run->part;

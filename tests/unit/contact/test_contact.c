@@ -229,7 +229,7 @@ static void check_third_law(const struct run *run)
     }
 }
 
-/* Compares the contact of run with plain sums over all particles. Law `pair`: forces and energy agree to round-off.
+/* Compares the contact of the run with plain sums over all particles. Law `pair`: forces and energy agree to round-off.
  * Law `surface`: the energy agrees within the error of the table of heights, 1e-6 spacings. */
 static void check_plain(struct run *run)
 {

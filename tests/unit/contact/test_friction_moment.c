@@ -95,7 +95,7 @@ static void forces_after(struct run *run, real dt)
     contact_compute_forces(run->contact, p, dt);
 }
 
-/* Moves the particles of run by a step dt [s]. Returns the mean power of friction at the velocities of this step,
+/* Moves the particles of the run by a step dt [s]. Returns the mean power of friction at the velocities of this step,
  * with the forces before and after the step [W]. drag[dim n]: friction forces [N], updated. */
 static real slide(struct run *run, real dt, real *drag)
 {

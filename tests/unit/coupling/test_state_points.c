@@ -40,7 +40,7 @@ static void engine_from(struct run *run, struct scene *s, const char *text)
 /* ---- gradient ---------------------------------------------------------------------------------------------------- */
 
 /* Returns component d of the position X[dim], rotated about z and randomly displaced; coordinates normal to a mirror of
- * run e are kept. seed: state of the random numbers. */
+ * the run e are kept. seed: state of the random numbers. */
 static real shaken(const struct run *run, const real *X, int d, uint64_t *seed)
 {
     const real angle = TURN_MOST * X[0] / 20e-3;
@@ -73,7 +73,7 @@ static real energy_of(struct run *run)
            mesh_strain(&run->frame->mesh, &run->part, run->frame->elastic, !run->scene->small_strain);
 }
 
-/* Compares the force *force on one component of a particle or node of run with the derivative of the energy by its
+/* Compares the force *force on one component of a particle or node of the run with the derivative of the energy by its
  * coordinate *place, by central differences. scale: largest force [N], to which the tolerance refers. */
 static void check_slope(struct run *run, real *place, const real *force, real scale)
 {

@@ -31,8 +31,8 @@ static void drop(struct run *run, struct scene *s)
     "boundary: [{mirror: {axis: x, at: 0}}]\ninitial: [{velocity_gradient: [400, 0, 0, 400]}]\n"                       \
     "contact: {between: none}\ntime: {step: 2e-8}\noutput: {frames: 0, samples: 1}\n"
 
-/* Returns the smallest critical stretch of the intact bonds of row `row` of run (bonds of one particle); INFINITY if
- * there is none. */
+/* Returns the smallest critical stretch of the intact bonds of row `row` of the run (bonds of one particle); INFINITY
+ * if there is none. */
 static real least_of(const struct run *run, int64_t row)
 {
     const struct particles *p = &run->part;

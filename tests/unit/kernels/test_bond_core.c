@@ -40,7 +40,7 @@ static real energy_now(struct run *run)
     return run->kernels.bond_energy(&run->bonds, &run->part, NULL);
 }
 
-/* Compresses the body of run along x to `share` times its length, and displaces each particle by up to 0.05
+/* Compresses the body of the run along x to `share` times its length, and displaces each particle by up to 0.05
  * spacings. */
 static void squeeze(struct run *run, real share)
 {

@@ -70,7 +70,7 @@ static void body_free(struct body *a)
     scene_free(&a->s);
 }
 
-/* Computes the forces of run by the calls of a time step, without breaking bonds. */
+/* Computes the forces of the run by the calls of a time step, without breaking bonds. */
 static void forces(struct run *run)
 {
     loads_update_mirror_images_of_particles(&run->loads, &run->part);
@@ -85,7 +85,7 @@ static real energy(struct run *run)
 
 /* ---- the operator ------------------------------------------------------------------------------------------------ */
 
-/* Returns the stiffness matrix -df/dx of run at the reference positions, n x n for n components, to be freed. */
+/* Returns the stiffness matrix -df/dx of the run at the reference positions, n x n for n components, to be freed. */
 static real *stiffness_of(struct run *run)
 {
     struct particles *p = &run->part;
@@ -124,8 +124,8 @@ static void check_operator(struct run *run, const char *name)
     memory_free(K);
 }
 
-/* Checks far from the reference positions that the energy of the rows of run changes along random motions by the work
- * of the forces. name: of the case, for messages. */
+/* Checks far from the reference positions that the energy of the rows of the run changes along random motions by the
+ * work of the forces. name: of the case, for messages. */
 static void check_gradient(struct run *run, const char *name)
 {
     struct particles *p = &run->part;
