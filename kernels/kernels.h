@@ -50,7 +50,8 @@ struct elastic {
 /* Returns the largest principal stress [Pa] at which material point i of p is marked for conversion to a peridynamic
  * particle. m: constants of its material. The stress is m->trigger, or, where strength is random, m->trigger_mean times
  * the strength of the point. */
-static inline real point_pd_conversion_stress_threshold(const struct elastic *m, const struct particles *p, int64_t i)
+static inline real point_stress_threshold_for_conversion_to_pd(const struct elastic *m, const struct particles *p,
+                                                               int64_t i)
 {
     return p->strength ? m->trigger_mean * p->strength[i] : m->trigger;
 }

@@ -20,7 +20,8 @@ struct elastic_run {
     {                                                                                                                  \
         struct elastic_run *a = context;                                                                               \
         (void)run, (void)k;                                                                                            \
-        whole_cells_compute_corner_forces(a->m, a->h, a->volume, u, f, &a->tension, D, FINITE, a->balanced);           \
+        full_cells_of_one_material_compute_corner_forces(a->m, a->h, a->volume, u, f, &a->tension, D, FINITE,          \
+                                                         a->balanced);                                                 \
     }                                                                                                                  \
     static void run_force_##D##_##FINITE(const struct mesh *mesh, struct mesh_cell_run *run, const struct elastic *m)  \
     {                                                                                                                  \

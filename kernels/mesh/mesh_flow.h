@@ -64,16 +64,17 @@ static ALWAYS_INLINE real point_elastic_energy_density(const struct particles *p
  * the mean over the points (of p) of the same cell and material. Values of materials without mean dilatation, and of
  * lanes without a cell, become 0. cell: eight cell indices, -1 for a lane without cell; m: elastic constants of all
  * materials. */
-static ALWAYS_INLINE void cells_replace_values_by_mean_minus_value(const struct mesh *mesh, const struct particles *p,
-                                                                   const struct elastic *m, const int32_t *cell,
-                                                                   lanes value[CORNERS_MAX], const int dim)
+static ALWAYS_INLINE void cells_replace_point_values_by_mean_minus_value(const struct mesh *mesh,
+                                                                         const struct particles *p,
+                                                                         const struct elastic *m, const int32_t *cell,
+                                                                         lanes value[CORNERS_MAX], const int dim)
 {
     static const int32_t none[CORNERS_MAX] = {-1, -1, -1, -1, -1, -1, -1, -1};
     for (int l = 0; l < LANES; l++) {
         real own[CORNERS_MAX];
         for (int q = 0; q < 1 << dim; q++) own[q] = value[q][l];
-        cell_replace_values_by_mean_minus_value(m, p->material,
-                                                cell[l] < 0 ? none : &mesh->point[(int64_t)cell[l] << dim], own, dim);
+        cell_replace_point_values_by_mean_minus_value(
+            m, p->material, cell[l] < 0 ? none : &mesh->point[(int64_t)cell[l] << dim], own, dim);
         for (int q = 0; q < 1 << dim; q++) value[q][l] = own[q];
     }
 }
@@ -93,33 +94,34 @@ static ALWAYS_INLINE bool cells_compute_mean_dilatation_correction(const struct 
     if (!any) return false;
     for (int q = 0; q < 1 << dim; q++) {
         lanes e[3][3];
-        cells_strain_at_point(s, q, e, dim);
+        cells_compute_strain_at_point(s, q, e, dim);
         change[q] = lanes_broadcast(0);
         for (int d = 0; d < dim; d++) change[q] += e[d][d] * (1.0 / dim);
     }
-    cells_replace_values_by_mean_minus_value(mesh, p, m, cell, change, dim);
+    cells_replace_point_values_by_mean_minus_value(mesh, p, m, cell, change, dim);
     return true;
 }
 
 /* Computes the stresses of the points number `point` (0 .. 2^dim - 1; particles of p) of eight mesh cells, one cell in
- * each vector lane. cell: eight cell indices, -1 for a lane without cell; s: strain of the cells; change: added to the
- * normal strains of the points [1], NULL: nothing; m: elastic constants of all materials; stress: receives symmetric
- * components [Pa], 0 in lanes without a point. apply_return_mapping: if true, applies the return mapping of load steps
- * (static equilibria), updates the plastic state of the points and returns 0; if false, returns the sum of the elastic
- * energies per volume of the points [J/m^3]. */
+ * each vector lane. cell: eight cell indices, -1 for a lane without cell; s: strain of the cells; added_normal_strain:
+ * added to the normal strains of the points [1], NULL: nothing; m: elastic constants of all materials; stress: receives
+ * symmetric components [Pa], 0 in lanes without a point. apply_return_mapping: if true, applies the return mapping of
+ * load steps (static equilibria), updates the plastic state of the points and returns 0; if false, returns the sum of
+ * the elastic energies per volume of the points [J/m^3]. */
 static ALWAYS_INLINE real cells_compute_point_stress(const struct mesh *mesh, const struct particles *p,
                                                      const struct elastic *m, const int32_t *cell,
-                                                     const struct mesh_cell *s, const lanes *change, const int point,
-                                                     lanes *stress, const int dim, const bool apply_return_mapping)
+                                                     const struct mesh_cell *s, const lanes *added_normal_strain,
+                                                     const int point, lanes *stress, const int dim,
+                                                     const bool apply_return_mapping)
 {
     lanes e[3][3];
     real sum = 0;
     unsigned with_law = 0;
-    cells_strain_at_point(s, point, e, dim);
-    for (int d = 0; d < dim && change; d++) e[d][d] += *change;
+    cells_compute_strain_at_point(s, point, e, dim);
+    for (int d = 0; d < dim && added_normal_strain; d++) e[d][d] += *added_normal_strain;
     for (int k = 0; k < symmetric_tensor_component_count(dim); k++) stress[k] = lanes_broadcast(0);
     for (int l = 0; l < LANES; l++) {
-        const int64_t i = mesh_point_of_cell(mesh, cell[l], point, dim);
+        const int64_t i = mesh_cell_get_particle_index_of_point(mesh, cell[l], point, dim);
         real own[SYM_MAX], strain[DIM_MAX * DIM_MAX];
         if (i < 0) continue;
         for (int a = 0; a < dim; a++)
@@ -158,9 +160,9 @@ static ALWAYS_INLINE void cells_add_point_stress_to_cell_sums(struct mesh_cell *
  * points yield, by return mapping at each point, into s->P and s->force [Pa]. Updates the plastic state of the points
  * in p. s: strain of the cells on entry; m: array of the elastic constants of all materials; cell: eight cell indices,
  * -1 for a lane without cell. */
-static ALWAYS_INLINE void cells_return_mapping(const struct mesh *mesh, const struct particles *p,
-                                               const struct elastic *m, const int32_t *cell, struct mesh_cell *s,
-                                               const int dim)
+static ALWAYS_INLINE void cells_compute_stress_by_return_mapping(const struct mesh *mesh, const struct particles *p,
+                                                                 const struct elastic *m, const int32_t *cell,
+                                                                 struct mesh_cell *s, const int dim)
 {
     const real share = 1.0 / (1 << dim);
     lanes change[CORNERS_MAX], stress[CORNERS_MAX][SYM_MAX];
@@ -175,7 +177,7 @@ static ALWAYS_INLINE void cells_return_mapping(const struct mesh *mesh, const st
         change[q] = lanes_broadcast(0);
         for (int d = 0; d < dim; d++) change[q] += stress[q][d] * (1.0 / dim);
     }
-    if (averaged) cells_replace_values_by_mean_minus_value(mesh, p, m, cell, change, dim);
+    if (averaged) cells_replace_point_values_by_mean_minus_value(mesh, p, m, cell, change, dim);
     for (int q = 0; q < 1 << dim; q++) {
         for (int d = 0; d < dim && averaged; d++) stress[q][d] += change[q];
         for (int k = 0; k < symmetric_tensor_component_count(dim); k++) stress[q][k] *= share;

@@ -12,13 +12,14 @@
 
 /* ---- whole cells ------------------------------------------------------------------------------------------------- */
 
-/* Defines cells_flow_1, _2 and _3, which call cells_return_mapping for dimension D. The functions are not inlined,
- * because return mapping point by point (mesh_flow.h) would use registers that the code for elastic cells needs. */
+/* Defines cells_flow_1, _2 and _3, which call cells_compute_stress_by_return_mapping for dimension D. The functions are
+ * not inlined, because return mapping point by point (mesh_flow.h) would use registers that the code for elastic cells
+ * needs. */
 #define FLOW(D)                                                                                                        \
     static NEVER_INLINE void cells_flow_##D(const struct mesh *mesh, const struct particles *p,                        \
                                             const struct elastic *m, const int32_t *cell, struct mesh_cell *s)         \
     {                                                                                                                  \
-        cells_return_mapping(mesh, p, m, cell, s, D);                                                                  \
+        cells_compute_stress_by_return_mapping(mesh, p, m, cell, s, D);                                                \
     }
 FLOW(1)
 FLOW(2)

@@ -46,7 +46,7 @@ struct mesh_cell {
 /* Replaces the values v[c] of a nodal variable at the 2^dim corners of eight cells by the amplitudes of the modes of
  * the cell, without their scale factor, in place: v[M] = sum_c sign(M, c) v[c] for every set of axes M (bit set), where
  * the sign is the product over the axes in M of -1 at the lower and 1 at the upper end. */
-static ALWAYS_INLINE void cell_transform_corner_values_to_modes(lanes *v, const int dim)
+static ALWAYS_INLINE void cells_transform_corner_values_to_mode_amplitudes(lanes *v, const int dim)
 {
     for (int d = 0; d < dim; d++)
         for (int c = 0; c < 1 << dim; c++)
@@ -57,8 +57,8 @@ static ALWAYS_INLINE void cell_transform_corner_values_to_modes(lanes *v, const 
 }
 
 /* Replaces values v[M] for all sets of axes M (bit sets) by values at the 2^dim corners of eight cells, in place: v[c]
- * = sum_M sign(M, c) v[M], the transpose of cell_transform_corner_values_to_modes. */
-static ALWAYS_INLINE void cell_transform_modes_to_corner_values(lanes *v, const int dim)
+ * = sum_M sign(M, c) v[M], the transpose of cells_transform_corner_values_to_mode_amplitudes. */
+static ALWAYS_INLINE void cells_transform_mode_amplitudes_to_corner_values(lanes *v, const int dim)
 {
     for (int d = 0; d < dim; d++)
         for (int c = 0; c < 1 << dim; c++)
@@ -185,8 +185,8 @@ static ALWAYS_INLINE real elastic_bulk_modulus_if_mean_dilatation(const struct e
  * eight cells, in the rotated axes of the cells. m: elastic constants; mode[M][i]: amplitudes of the modes [1]; M: set
  * of two or three axes, as bits. In the displacement gradient d_j u_i, mode {j, l} of component i appears times the
  * coordinate along l, and mode {1, 2, 3} of component i times the two other coordinates. */
-static ALWAYS_INLINE lanes cell_hourglass_mode_force(const struct elastic *m, lanes mode[CORNERS_MAX][3], const int M,
-                                                     const int i, const int dim)
+static ALWAYS_INLINE lanes cells_compute_force_on_hourglass_mode(const struct elastic *m, lanes mode[CORNERS_MAX][3],
+                                                                 const int M, const int i, const int dim)
 {
     const real averaged = elastic_bulk_modulus_if_mean_dilatation(m, dim), c11 = m->c11 - averaged,
                c12 = m->c12 - averaged;
@@ -212,7 +212,7 @@ static ALWAYS_INLINE void cell_compute_rotation_strain_and_modes(struct mesh_cel
     for (int i = 0; i < dim; i++) {
         lanes v[CORNERS_MAX];
         for (int c = 0; c < corners; c++) v[c] = u[c][i];
-        cell_transform_corner_values_to_modes(v, dim);
+        cells_transform_corner_values_to_mode_amplitudes(v, dim);
         SETS for (int M = 1; M < corners; M++) cell->mode[M][i] =
             v[M] * (1.0 / (h * (1 << (dim - __builtin_popcount(M)))));
         for (int b = 0; b < dim; b++) g[i][b] = cell->mode[1 << b][i];
@@ -240,8 +240,8 @@ static ALWAYS_INLINE real cell_point_coordinate_product_along_axes(const int axi
 /* Computes the strain `strain` [1] of eight cells at their material points number `point` (0 .. 2^dim - 1): the mean
  * strain in s plus the bending (hourglass) modes in s times the coordinates of the point in the cell (+-1/4). `strain`
  * may be unsymmetric; its symmetric part is the strain. */
-static ALWAYS_INLINE void cells_strain_at_point(const struct mesh_cell *cell, const int point, lanes strain[3][3],
-                                                const int dim)
+static ALWAYS_INLINE void cells_compute_strain_at_point(const struct mesh_cell *cell, const int point,
+                                                        lanes strain[3][3], const int dim)
 {
     for (int i = 0; i < dim; i++)
         for (int j = 0; j < dim; j++) {
@@ -273,7 +273,7 @@ static ALWAYS_INLINE void cell_compute_stress_and_hourglass_forces(const struct 
 {
     hooke_stress(m, cell->e, cell->P, dim);
     SETS for (int M = 1; M < 1 << dim; M++) if (M & (M - 1)) for (int i = 0; i < dim; i++) cell->force[M][i] =
-        cell_hourglass_mode_force(m, cell->mode, M, i, dim);
+        cells_compute_force_on_hourglass_mode(m, cell->mode, M, i, dim);
 }
 
 /* Returns for eight cells a bound [Pa] that exceeds m->trigger if a point may reach the strength surface at which it
@@ -375,7 +375,7 @@ static ALWAYS_INLINE void cell_compute_corner_forces(struct mesh_cell *cell, rea
             const lanes by = M & (M - 1) ? cell->force[M][i] : cell->P[i][M == 1 ? 0 : M == 2 ? 1 : 2];
             v[M] = by * (-volume / (h * (1 << (dim - __builtin_popcount(M)))));
         }
-        cell_transform_modes_to_corner_values(v, dim);
+        cells_transform_mode_amplitudes_to_corner_values(v, dim);
         for (int c = 0; c < corners; c++) f[c][i] = v[c];
     }
 }

@@ -8,7 +8,8 @@
 
 /* Returns the index of the particle that is material point number `point_number` (0 .. 2^dim - 1) of cell `cell` of the
  * mesh; -1 if the cell has no such point or if `cell` is -1. */
-static ALWAYS_INLINE int32_t mesh_point_of_cell(const struct mesh *mesh, int32_t cell, int point_number, const int dim)
+static ALWAYS_INLINE int32_t mesh_cell_get_particle_index_of_point(const struct mesh *mesh, int32_t cell,
+                                                                   int point_number, const int dim)
 {
     return cell < 0 ? -1 : mesh->point[((int64_t)cell << dim) + point_number];
 }
@@ -73,9 +74,9 @@ static ALWAYS_INLINE void law_points_store_lane_result_in_particle(const struct 
 
 /* Stores the stresses of eight material points in p->mesh_stress. point: particle numbers; selected_lane_bits: bit l is
  * set if the stress in lane l is to be stored; stress: symmetric components [Pa]. */
-static ALWAYS_INLINE void mesh_points_store_stress_of_lanes(const struct particles *p, const int32_t *point,
-                                                            unsigned selected_lane_bits, const lanes *stress,
-                                                            const int dim)
+static ALWAYS_INLINE void mesh_points_store_stress_of_selected_lanes(const struct particles *p, const int32_t *point,
+                                                                     unsigned selected_lane_bits, const lanes *stress,
+                                                                     const int dim)
 {
     for (int k = 0; k < symmetric_tensor_component_count(dim); k++)
         for (int l = 0; l < LANES; l++)
@@ -93,7 +94,7 @@ static NEVER_INLINE void cells_apply_flow_laws(const struct mesh *mesh, const st
 {
     struct law_points e;
     int32_t point[LANES];
-    for (int l = 0; l < LANES; l++) point[l] = mesh_point_of_cell(mesh, cell[l], point_number, dim);
+    for (int l = 0; l < LANES; l++) point[l] = mesh_cell_get_particle_index_of_point(mesh, cell[l], point_number, dim);
     while (yielding_lanes) {
         const uint8_t material = p->material[point[__builtin_ctz(yielding_lanes)]];
         unsigned own = 0;
@@ -106,7 +107,7 @@ static NEVER_INLINE void cells_apply_flow_laws(const struct mesh *mesh, const st
         for (int l = 0; l < LANES; l++)
             if (flowed >> l & 1)
                 law_points_store_lane_result_in_particle(p, &m[material], &e, l, point[l], stress, dim);
-        if (p->mesh_stress[0]) mesh_points_store_stress_of_lanes(p, point, own, stress, dim);
+        if (p->mesh_stress[0]) mesh_points_store_stress_of_selected_lanes(p, point, own, stress, dim);
     }
 }
 

@@ -12,7 +12,7 @@ static ALWAYS_INLINE void cell_points_mark(const struct mesh *mesh, struct parti
 {
     real R[9], e[CORNERS_MAX][DIM_MAX * DIM_MAX], s[SYM_MAX];
     mesh_compute_strains_at_points(mesh, I, R, e, dim, finite);
-    mesh_strains_replace_dilatation_by_cell_mean(mesh, p, m, I, e, dim);
+    mesh_replace_dilatation_in_strains_by_cell_mean(mesh, p, m, I, e, dim);
     for (int q = 0; q < 1 << dim; q++) {
         const int32_t i = mesh->point[(I << dim) + q];
         if (i < 0) continue;
@@ -54,7 +54,7 @@ static ALWAYS_INLINE lanes places_tension(const struct elastic *m, const struct 
     lanes most = lanes_broadcast(-INFINITY), e[3][3], P[3][3];
     SETS for (int q = 0; q < 1 << dim; q++)
     {
-        cells_strain_at_point(cell, q, e, dim);
+        cells_compute_strain_at_point(cell, q, e, dim);
         if (!there) cells_replace_dilatation_by_cell_mean(m, cell, e, dim);
         hooke_stress(m, e, P, dim);
         lanes bound = P[0][0];

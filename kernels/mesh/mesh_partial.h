@@ -29,7 +29,8 @@ static ALWAYS_INLINE void mesh_partial_cells_load_corner_displacements(const str
 /* Writes the strains and bending (hourglass) modes of eight cells in s as vectors v of cell_deformation_mode_count(dim)
  * numbers [1], one cell per lane: first the components of the mean strain (engineering shear strains), then the bending
  * modes. */
-static ALWAYS_INLINE void cell_write_strains_and_modes_as_vector(const struct mesh_cell *cell, lanes *v, const int dim)
+static ALWAYS_INLINE void cells_pack_strains_and_mode_amplitudes_in_vector(const struct mesh_cell *cell, lanes *v,
+                                                                           const int dim)
 {
     int n = symmetric_tensor_component_count(dim);
     for (int k = 0; k < n; k++) {
@@ -57,7 +58,8 @@ static ALWAYS_INLINE void symmetric_matrix_times_vector(const lanes *K, const la
 /* Adds to f [Pa] the forces of state-based bonds on the deformation modes of the cells in group number `group` of eight
  * partial cells of the mesh (cells with missing or bonded points): f += share^T pull for each material point with
  * bonds, with the reaction `pull` of its bonds (p->end_pull) and the derivatives `share` of the strain at the point by
- * the modes (mesh->end_share). f: one value for each mode of cell_write_strains_and_modes_as_vector, one cell per lane.
+ * the modes (mesh->end_share). f: one value for each mode of cells_pack_strains_and_mode_amplitudes_in_vector, one cell
+ * per lane.
  */
 static ALWAYS_INLINE void mesh_partial_cells_add_bond_forces(const struct mesh *mesh, const struct particles *p,
                                                              int64_t group, lanes *f, const int dim)
@@ -95,7 +97,7 @@ static ALWAYS_INLINE void mesh_partial_cells_compute_stress(const struct mesh *m
 {
     const int n = cell_deformation_mode_count(dim), half = n * (n + 1) / 2;
     lanes v[MODES_MAX], f[MODES_MAX];
-    cell_write_strains_and_modes_as_vector(cell, v, dim);
+    cells_pack_strains_and_mode_amplitudes_in_vector(cell, v, dim);
     symmetric_matrix_times_vector((const lanes *)mesh->stiffness + mesh->alike[group] * half, v, f, n);
     if (mesh->ends) mesh_partial_cells_add_bond_forces(mesh, p, group, f, dim);
     int k = symmetric_tensor_component_count(dim);

@@ -3,8 +3,8 @@
  *
  * Point number q of a cell is at a quarter or three quarters of the edge along every axis, next to corner q. Values are
  * interpolated from corners to points, and distributed from points to corners, along one axis after the other, as near
- * + (far - near)/4. The factor 1/4 is exact, so cell_interpolate_corners_to_points and
- * cell_interpolate_corners_to_one_point give equal bits. */
+ * + (far - near)/4. The factor 1/4 is exact, so cell_interpolate_corner_values_to_points and
+ * cell_interpolate_corner_values_to_one_point give equal bits. */
 #ifndef CLEAVE_KERNELS_MESH_POINT
 #define CLEAVE_KERNELS_MESH_POINT
 
@@ -18,7 +18,7 @@
 
 /* Replaces the values at the two ends of an edge by the linearly interpolated values at one quarter (*low) and three
  * quarters (*high) of the edge. */
-static ALWAYS_INLINE void interpolate_to_quarter_points(real *low, real *high)
+static ALWAYS_INLINE void edge_interpolate_end_values_to_quarter_points(real *low, real *high)
 {
     const real by = 0.25 * (*high - *low), near = *low + by;
     *high = *high - by;
@@ -28,16 +28,16 @@ static ALWAYS_INLINE void interpolate_to_quarter_points(real *low, real *high)
 /* Replaces the values value[2^dim] at the corners of a cell by the interpolated values at its 2^dim material points, in
  * place. The interpolation matrix is symmetric, so the function also distributes values of the points to the
  * corners. */
-static ALWAYS_INLINE void cell_interpolate_corners_to_points(real *value, const int dim)
+static ALWAYS_INLINE void cell_interpolate_corner_values_to_points(real *value, const int dim)
 {
     for (int d = 0; d < dim; d++)
         for (int c = 0; c < 1 << dim; c++)
-            if (!(c >> d & 1)) interpolate_to_quarter_points(&value[c], &value[c | 1 << d]);
+            if (!(c >> d & 1)) edge_interpolate_end_values_to_quarter_points(&value[c], &value[c | 1 << d]);
 }
 
 /* Returns the value at material point number `point` (0 .. 2^dim - 1) of a cell, interpolated linearly from the corners
  * of the cell. value: values at the 2^dim corners, overwritten. */
-static ALWAYS_INLINE real cell_interpolate_corners_to_one_point(real *value, int point, const int dim)
+static ALWAYS_INLINE real cell_interpolate_corner_values_to_one_point(real *value, int point, const int dim)
 {
     for (int d = 0; d < dim; d++)
         for (int c = 0; c < 1 << dim; c++)
@@ -73,7 +73,7 @@ static ALWAYS_INLINE void mesh_compute_displacement_gradients_at_points(const st
             for (int c = 0; c < 1 << dim; c++) v[c] *= c >> b & 1 ? -inverse : inverse;
             for (int d = 0; d < dim; d++)
                 for (int c = 0; c < 1 << dim; c++)
-                    if (d != b && !(c >> d & 1)) interpolate_to_quarter_points(&v[c], &v[c | 1 << d]);
+                    if (d != b && !(c >> d & 1)) edge_interpolate_end_values_to_quarter_points(&v[c], &v[c | 1 << d]);
             for (int q = 0; q < 1 << dim; q++) gradient[q][a * dim + b] = v[q];
         }
     }
@@ -124,8 +124,9 @@ static ALWAYS_INLINE bool cell_uses_mean_dilatation(const struct elastic *m, con
  * points of the cell that have the same material. This is the change that gives all these points the mean. value[q]
  * becomes 0 for materials without mean dilatation, and where there is no point. m: elastic constants of all materials;
  * material: number of the material of every particle; point: the 2^dim points of the cell, -1: none. */
-static ALWAYS_INLINE void cell_replace_values_by_mean_minus_value(const struct elastic *m, const uint8_t *material,
-                                                                  const int32_t *point, real *value, const int dim)
+static ALWAYS_INLINE void cell_replace_point_values_by_mean_minus_value(const struct elastic *m,
+                                                                        const uint8_t *material, const int32_t *point,
+                                                                        real *value, const int dim)
 {
     unsigned left = 0;
     for (int q = 0; q < 1 << dim; q++) {
@@ -151,18 +152,18 @@ static ALWAYS_INLINE void cell_replace_values_by_mean_minus_value(const struct e
 /* Replaces the traces of the strains of the points (particles of p) of cell `cell` of the mesh by their mean over the
  * points of the same material, where the points of this material have one dilatation (elastic.mean_dilatation). strain:
  * as from mesh_compute_strains_at_points; m: elastic constants of all materials. */
-static ALWAYS_INLINE void mesh_strains_replace_dilatation_by_cell_mean(const struct mesh *mesh,
-                                                                       const struct particles *p,
-                                                                       const struct elastic *m, int64_t cell,
-                                                                       real strain[CORNERS_MAX][DIM_MAX * DIM_MAX],
-                                                                       const int dim)
+static ALWAYS_INLINE void mesh_replace_dilatation_in_strains_by_cell_mean(const struct mesh *mesh,
+                                                                          const struct particles *p,
+                                                                          const struct elastic *m, int64_t cell,
+                                                                          real strain[CORNERS_MAX][DIM_MAX * DIM_MAX],
+                                                                          const int dim)
 {
     const int32_t *point = &mesh->point[cell << dim];
     real trace[CORNERS_MAX] = {0};
     if (!cell_uses_mean_dilatation(m, p->material, point, dim)) return;
     for (int q = 0; q < 1 << dim; q++)
         for (int d = 0; d < dim; d++) trace[q] += strain[q][d * (dim + 1)];
-    cell_replace_values_by_mean_minus_value(m, p->material, point, trace, dim);
+    cell_replace_point_values_by_mean_minus_value(m, p->material, point, trace, dim);
     for (int q = 0; q < 1 << dim; q++)
         for (int d = 0; d < dim; d++) strain[q][d * (dim + 1)] += trace[q] / dim;
 }

@@ -29,8 +29,8 @@ static ALWAYS_INLINE void cell_move(const struct mesh *mesh, struct particles *p
         real u[CORNERS_MAX], v[CORNERS_MAX];
         mesh_load_corner_values(mesh, mesh->displacement[a], I, u, dim);
         mesh_load_corner_values(mesh, mesh->grid.velocity[a], I, v, dim);
-        cell_interpolate_corners_to_points(u, dim);
-        cell_interpolate_corners_to_points(v, dim);
+        cell_interpolate_corner_values_to_points(u, dim);
+        cell_interpolate_corner_values_to_points(v, dim);
         for (int q = 0; q < 1 << dim; q++) {
             const int32_t i = point[q];
             if (i < 0 || !(places >> q & 1)) continue;
@@ -49,8 +49,8 @@ static ALWAYS_INLINE void point_move(const struct mesh *mesh, struct particles *
         real u[CORNERS_MAX], v[CORNERS_MAX];
         mesh_load_corner_values(mesh, mesh->displacement[a], I, u, dim);
         mesh_load_corner_values(mesh, mesh->grid.velocity[a], I, v, dim);
-        p->x[a][i] = p->X[a][i] + cell_interpolate_corners_to_one_point(u, q, dim);
-        p->v[a][i] = cell_interpolate_corners_to_one_point(v, q, dim);
+        p->x[a][i] = p->X[a][i] + cell_interpolate_corner_values_to_one_point(u, q, dim);
+        p->v[a][i] = cell_interpolate_corner_values_to_one_point(v, q, dim);
     }
 }
 
@@ -147,7 +147,7 @@ static ALWAYS_INLINE void group_ends_update(const struct mesh *mesh, struct part
     if (mesh->ends[group] == mesh->ends[group + 1]) return;
     mesh_partial_cells_load_corner_displacements(mesh, group, u, dim);
     cell_compute_rotation_strain_and_modes(&s, mesh->grid.h, u, dim, finite);
-    cell_write_strains_and_modes_as_vector(&s, v, dim);
+    cells_pack_strains_and_mode_amplitudes_in_vector(&s, v, dim);
     if (p->end_rotation[0]) cells_rotate(&s, rotation, dim, finite);
     for (int32_t k = mesh->ends[group]; k < mesh->ends[group + 1]; k++) {
         const struct mesh_end *end = &mesh->end[k];
@@ -194,7 +194,7 @@ static ALWAYS_INLINE void cell_pull(struct mesh *mesh, const struct particles *p
     for (int a = 0; a < dim; a++) {
         real f[CORNERS_MAX];
         for (int q = 0; q < 1 << dim; q++) f[q] = places >> q & 1 ? p->f[a][point[q]] : 0;
-        cell_interpolate_corners_to_points(f, dim);
+        cell_interpolate_corner_values_to_points(f, dim);
         for (int c = 0; c < 1 << dim; c++) mesh->grid.force[a][mesh_cell_corner_node(mesh, I, c)] += f[c];
     }
 }
@@ -264,7 +264,7 @@ static ALWAYS_INLINE void cell_stress(const struct mesh *mesh, struct particles 
 {
     real R[9], e[CORNERS_MAX][DIM_MAX * DIM_MAX];
     mesh_compute_strains_at_points(mesh, I, R, e, dim, finite);
-    mesh_strains_replace_dilatation_by_cell_mean(mesh, p, m, I, e, dim);
+    mesh_replace_dilatation_in_strains_by_cell_mean(mesh, p, m, I, e, dim);
     for (int q = 0; q < 1 << dim; q++) {
         const int32_t i = mesh->point[(I << dim) + q];
         if (i >= 0) store_point_stress(p, &m[p->material[i]], i, R, e[q], dim, finite);

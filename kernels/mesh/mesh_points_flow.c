@@ -31,13 +31,13 @@ static ALWAYS_INLINE void cells_step(const struct flow_step *f, const int32_t *c
         cells_compute_point_stress(f->mesh, f->p, f->elastic, cell, &s, averaged ? &change[q] : NULL, q, stress, dim,
                                    false);
         for (int l = 0; l < LANES; l++) {
-            point[l] = mesh_point_of_cell(f->mesh, cell[l], q, dim);
+            point[l] = mesh_cell_get_particle_index_of_point(f->mesh, cell[l], q, dim);
             if (point[l] < 0) continue;
             const struct elastic *m = &f->elastic[f->p->material[point[l]]];
             with_law |= (unsigned)(m->law && m->mode == LAW_EXPLICIT) << l;
         }
         if (f->dt == 0)
-            mesh_points_store_stress_of_lanes(f->p, point, with_law, stress, dim);
+            mesh_points_store_stress_of_selected_lanes(f->p, point, with_law, stress, dim);
         else if (with_law)
             cells_apply_flow_laws(f->mesh, f->p, f->elastic, cell, q, with_law, f->dt, stress, dim);
     }

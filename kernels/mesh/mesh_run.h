@@ -38,10 +38,11 @@ static ALWAYS_INLINE bool elastic_is_isotropic_in_2d(const struct elastic *m, co
  * without partial stresses) from the displacements u[c][i] [m]. m: elastic constants; h, volume: edge [m] and volume
  * [m^3] of a cell; tension: raised to an upper bound of the largest principal stress at the material points [Pa];
  * finite: true if strains are finite, false if small; stress_has_no_moment: result of elastic_is_isotropic_in_2d. */
-static ALWAYS_INLINE void whole_cells_compute_corner_forces(const struct elastic *m, real h, real volume,
-                                                            lanes u[CORNERS_MAX][3], lanes f[CORNERS_MAX][3],
-                                                            lanes *tension, const int dim, const bool finite,
-                                                            const bool stress_has_no_moment)
+static ALWAYS_INLINE void full_cells_of_one_material_compute_corner_forces(const struct elastic *m, real h, real volume,
+                                                                           lanes u[CORNERS_MAX][3],
+                                                                           lanes f[CORNERS_MAX][3], lanes *tension,
+                                                                           const int dim, const bool finite,
+                                                                           const bool stress_has_no_moment)
 {
     struct mesh_cell s;
     const bool rotates = finite && dim > 1;
@@ -54,7 +55,7 @@ static ALWAYS_INLINE void whole_cells_compute_corner_forces(const struct elastic
 
 /* Returns the vector `now` shifted by one lane, with the last entry of `before` in front: {before[WIDE - 1], now[0],
  * .., now[WIDE - 2]}. */
-static ALWAYS_INLINE lanes lanes_shift_in_last_lane(lanes before, lanes now)
+static ALWAYS_INLINE lanes lanes_shift_by_one_inserting_last_of_previous(lanes before, lanes now)
 {
 #if LANES_WIDE == 4
     return VECTOR_PICK(lanes_mask, before, now, 3, 4, 5, 6);
@@ -70,11 +71,11 @@ typedef void run_cells_force_fn(void *context, const struct mesh_cell_run *run, 
                                 lanes f[CORNERS_MAX][3]);
 
 /* Adds the forces of the cells of `run`, a row of consecutive cells along x, to the nodes of the mesh, cells at rest
- * left out. compute, context: computes the forces of WIDE cells. Neighbouring cells share nodes: the forces on the
- * upper corners along x of WIDE cells are shifted by one lane and added to those on the lower corners of the next
+ * left out. compute_forces, context: computes the forces of WIDE cells. Neighbouring cells share nodes: the forces on
+ * the upper corners along x of WIDE cells are shifted by one lane and added to those on the lower corners of the next
  * cells, so that each node is written once. */
 static ALWAYS_INLINE void mesh_cell_run_add_forces(const struct mesh *mesh, const struct mesh_cell_run *run,
-                                                   run_cells_force_fn *compute, void *context, const int dim)
+                                                   run_cells_force_fn *compute_forces, void *context, const int dim)
 {
     const struct grid *g = &mesh->grid;
     const int64_t row = run->cell / g->count[0], start = run->cell - row * g->count[0];
@@ -88,11 +89,12 @@ static ALWAYS_INLINE void mesh_cell_run_add_forces(const struct mesh *mesh, cons
         /* forces carried from cells at rest are 0 */
         if (mesh_eight_nodes_are_at_rest(levels, start + k / LANES * LANES)) continue;
         mesh_cell_run_load_corner_displacements(mesh, run, k, u, dim);
-        compute(context, run, k, u, f);
+        compute_forces(context, run, k, u, f);
         for (int c = 0; c < 1 << dim; c += 2)
             for (int i = 0; i < dim; i++) {
                 real *to = g->force[i] + I + mesh->corner[c];
-                lanes_store(to, lanes_load(to) + (f[c][i] + lanes_shift_in_last_lane(carried[c][i], f[c + 1][i])));
+                lanes_store(to, lanes_load(to) + (f[c][i] + lanes_shift_by_one_inserting_last_of_previous(
+                                                                carried[c][i], f[c + 1][i])));
                 carried[c][i] = f[c + 1][i];
             }
     }

@@ -11,7 +11,7 @@ static ALWAYS_INLINE void cell_add_mean_dilatation(struct particles *p, const st
 {
     real change[MEAN_POINTS];
     for (int k = 0; k < n; k++) change[k] = t->dilatation[list[k]];
-    points_replace_values_by_mean_minus_value(p, t, list, n, change);
+    points_replace_values_by_cell_mean_minus_value(p, t, list, n, change);
     for (int k = 0; k < n; k++) {
         const struct elastic *m = &t->elastic[p->material[list[k]]];
         const real trace = share * t->dt * change[k], pressure = (m->c11 + (dim - 1) * m->c12) * trace / dim;

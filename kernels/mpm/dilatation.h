@@ -60,9 +60,9 @@ static ALWAYS_INLINE bool points_all_share_mean_dilatation(const struct particle
  * weighted by volume, over the points of the same body and material. t: elastic constants of the materials. value[k]
  * becomes 0 for materials without mean dilatation. Not inlined, so that the code for other materials contains none of
  * it. */
-static NEVER_INLINE void points_replace_values_by_mean_minus_value(const struct particles *p,
-                                                                   const struct transfer_data *t, const int32_t *list,
-                                                                   int n, real *value)
+static NEVER_INLINE void points_replace_values_by_cell_mean_minus_value(const struct particles *p,
+                                                                        const struct transfer_data *t,
+                                                                        const int32_t *list, int n, real *value)
 {
     uint64_t left = n < MEAN_POINTS ? ((uint64_t)1 << n) - 1 : UINT64_MAX;
     while (left) {

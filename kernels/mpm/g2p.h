@@ -116,9 +116,9 @@ static ALWAYS_INLINE void points_update_rotation(struct particles *p, const int3
  * to the nodes a second time, remap.h), else 1. The value is -1 for points with bonds; for all points if
  * t->momentum_only or t->second_map is set, or if weights are computed at positions shifted by g->ahead, where nodes
  * may have no other velocity. point: indices of the points. */
-static ALWAYS_INLINE row_of_points points_minus_one_if_moved_by_remapped_velocity(const struct grid *g,
-                                                                                  const struct transfer_data *t,
-                                                                                  const int32_t *point, const int dim)
+static ALWAYS_INLINE row_of_points points_sign_minus_if_moved_by_remapped_velocity(const struct grid *g,
+                                                                                   const struct transfer_data *t,
+                                                                                   const int32_t *point, const int dim)
 {
     const bool all = t->momentum_only || t->second_map || grid_weights_use_half_step_ahead_positions(g, dim);
     row_of_points bonded = points_broadcast(all ? -1 : 1);
@@ -129,7 +129,7 @@ static ALWAYS_INLINE row_of_points points_minus_one_if_moved_by_remapped_velocit
 /* Computes velocity[dim] [m/s] and velocity gradient L[dim dim] [1/s] at the points of stencil s (node weights of a few
  * points of cell c), by interpolation from the nodes of g. shape, transfer: shape function and transfer scheme;
  * negative_if_remapped: negative in lanes of points that move with the velocities after remapping
- * (points_minus_one_if_moved_by_remapped_velocity). Nodes are summed row by row (along x). */
+ * (points_sign_minus_if_moved_by_remapped_velocity). Nodes are summed row by row (along x). */
 static ALWAYS_INLINE void points_interpolate_velocity(const struct grid *g, const struct grid_cell *c,
                                                       const struct cell_stencil *s,
                                                       const row_of_points negative_if_remapped, row_of_points *velocity,
@@ -167,7 +167,7 @@ static ALWAYS_INLINE void points_interpolate_velocity(const struct grid *g, cons
 /* Computes velocity[dim] [m/s] and velocity gradient L[dim dim] [1/s] at the points of stencil s (node weights of a few
  * points of cell c) by interpolation from the nodes of g, for linear shapes in 2D and 3D. transfer: FLIP or APIC;
  * negative_if_remapped: negative in lanes of points that move with the velocities after remapping
- * (points_minus_one_if_moved_by_remapped_velocity). */
+ * (points_sign_minus_if_moved_by_remapped_velocity). */
 static ALWAYS_INLINE void points_interpolate_velocity_linear(const struct grid *g, const struct grid_cell *c,
                                                              const struct cell_stencil *s,
                                                              const row_of_points negative_if_remapped,
@@ -178,10 +178,11 @@ static ALWAYS_INLINE void points_interpolate_velocity_linear(const struct grid *
     for (int d = 0; d < dim; d++) {
         const real *straining = transfer == TRANSFER_APIC ? g->velocity[d] : g->momentum[d];
         row_of_points slope[DIM_MAX];
-        velocity[d] = corners_interpolate_value_and_slope(g, straining + c->node, s->t, slope, dim);
+        velocity[d] = cell_corners_interpolate_value_and_gradient(g, straining + c->node, s->t, slope, dim);
         for (int e = 0; e < dim; e++) L[d * dim + e] = slope[e] * (1 / g->h);
         if (strained == (1 << POINTS) - 1) continue;
-        const row_of_points moved = corners_interpolate_value_and_slope(g, g->velocity[d] + c->node, s->t, slope, dim);
+        const row_of_points moved =
+            cell_corners_interpolate_value_and_gradient(g, g->velocity[d] + c->node, s->t, slope, dim);
         velocity[d] = points_choose_by_sign(negative_if_remapped, velocity[d], moved);
     }
 }
@@ -204,7 +205,7 @@ static ALWAYS_INLINE void g2p_gather_velocity_and_gradient(struct points_motion 
 {
     struct cell_stencil s;
     cell_stencil_compute_weights(&s, g, c, p, list, n, t->half_width, dim, shape);
-    const row_of_points bonded = points_minus_one_if_moved_by_remapped_velocity(g, t, s.point, dim);
+    const row_of_points bonded = points_sign_minus_if_moved_by_remapped_velocity(g, t, s.point, dim);
     if (HAS_CORNERS(dim, shape))
         points_interpolate_velocity_linear(g, c, &s, bonded, m->velocity, m->L, dim, transfer);
     else
@@ -241,7 +242,7 @@ static NEVER_INLINE void points_average_dilatation_rates_by_material(const struc
         const row_of_points rate = points_dilatation_rate(&motion[k / AT_ONCE(dim)], dim);
         for (int l = 0; l < points_count_of_next_batch(n - k, dim); l++) change[k + l] = rate[l];
     }
-    points_replace_values_by_mean_minus_value(p, t, list, n, change);
+    points_replace_values_by_cell_mean_minus_value(p, t, list, n, change);
     for (int k = 0; k < n; k += AT_ONCE(dim)) {
         row_of_points more;
         for (int l = 0; l < POINTS; l++)
@@ -342,7 +343,7 @@ static ALWAYS_INLINE void points_store_velocity_gradient(struct particles *p, co
 static ALWAYS_INLINE void g2p_prefetch_point(const struct particles *p, const int32_t *list, int k, const int dim)
 {
     int64_t i;
-    if (!point_ahead_needs_prefetch(list, k, &i)) return;
+    if (!point_ahead_starts_new_cache_line(list, k, &i)) return;
     prefetch_cache_line(p->volume + i);
     for (int d = 0; d < dim; d++) prefetch_cache_line(p->x[d] + i);
     for (int c = 0; c < dim * (dim + 1) / 2; c++) prefetch_cache_line(p->stress[c] + i);

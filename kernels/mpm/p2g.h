@@ -6,7 +6,7 @@
  *
  * with mass m, velocity v, force f and volume V of a point, the stress sigma_given that it transmits to the
  * grid, and the shape function N of node I. For APIC (Jiang et al. 2015) and for points that rotate
- * (rotating_group_velocity_gradients), v + L (x_I - x_p) replaces v. Reads about 120 bytes per point in 2D;
+ * (rotating_group_velocity_gradients_of_points), v + L (x_I - x_p) replaces v. Reads about 120 bytes per point in 2D;
  * the nodes of a block stay in cache. */
 #ifndef CLEAVE_KERNELS_P2G
 #define CLEAVE_KERNELS_P2G
@@ -31,27 +31,28 @@ static ALWAYS_INLINE int symmetric_component_index(int axis, int other_axis, con
 }
 
 /* Adds to the nodal forces in `sum` (sums over the points of a cell) the forces by the antisymmetric part of the stress
- * of point number `at` of stencil s (node weights of a few points): f_a = -V sum_b skew_ab grad_b N, with the volume V
- * of the point and the shape function N. Does nothing unless the point has bonds of a state-based model
+ * of point number `point_in_stencil` of stencil s (node weights of a few points): f_a = -V sum_b skew_ab grad_b N, with
+ * the volume V of the point and the shape function N. Does nothing unless the point has bonds of a state-based model
  * (partial_stress.c). p: particles; t: inputs of the transfer; row: weights and slopes of a row of nodes at this point;
  * shape: shape function. */
-static ALWAYS_INLINE void p2g_add_skew_stress_force(cell_sums sum, const struct particles *p,
-                                                    const struct transfer_data *t, const struct cell_stencil *s,
-                                                    const struct node_row_weights *row, int at, const int dim,
-                                                    const enum shape shape)
+static ALWAYS_INLINE void
+p2g_add_skew_stress_force_to_nodal_sums(cell_sums sum, const struct particles *p, const struct transfer_data *t,
+                                        const struct cell_stencil *s, const struct node_row_weights *row,
+                                        int point_in_stencil, const int dim, const enum shape shape)
 {
     static const int first[DIM_MAX] = {0, 1, 2}, second[DIM_MAX] = {1, 2, 0};
-    const int64_t i = s->point[at];
+    const int64_t i = s->point[point_in_stencil];
     real skew[DIM_MAX];
     if (dim == 1 || t->momentum_only || !point_compute_skew_stress_transmitted_to_grid(p, t->partial, i, skew, dim))
         return;
-    FOR_TOUCHED(s, at, dim, shape)
+    FOR_TOUCHED(s, point_in_stencil, dim, shape)
     {
         row_of_nodes grad[DIM_MAX];
         for (int e = 0; e < dim; e++)
-            grad[e] = e < ROW_DIMS(dim, shape)
-                          ? row->D[e] * stencil_point_row_transverse_weight(s, at, k1, k2, dim, shape)
-                          : row->N * stencil_point_row_transverse_weight_slope(s, at, k1, k2, e, dim, shape);
+            grad[e] =
+                e < ROW_DIMS(dim, shape)
+                    ? row->D[e] * stencil_point_row_transverse_weight(s, point_in_stencil, k1, k2, dim, shape)
+                    : row->N * stencil_point_row_transverse_weight_slope(s, point_in_stencil, k1, k2, e, dim, shape);
         for (int c = 0; c < dim * (dim - 1) / 2; c++) {
             const real force = skew[c] * p->volume[i];
             sum[1 + dim + first[c]][PATCH(dim, shape)] -= force * grad[second[c]];
@@ -85,8 +86,9 @@ static ALWAYS_INLINE bool points_extrapolate_velocity_to_nodes(const struct tran
 /* Loads the stresses that the n points `list` of p (n <= AT_ONCE, points processed together) transmit to the grid,
  * without the part that bonds carry, and the volumes of the points into *s. Lanes from n on repeat points of the list
  * (points_list_index_of_lane). t: inputs of the transfer; if t->momentum_only is set, the stresses are 0. */
-static ALWAYS_INLINE void points_load_stress(struct points_stress *s, const struct particles *p,
-                                             const struct transfer_data *t, const int32_t *list, int n, const int dim)
+static ALWAYS_INLINE void points_load_stress_for_transfer_to_grid(struct points_stress *s, const struct particles *p,
+                                                                  const struct transfer_data *t, const int32_t *list,
+                                                                  int n, const int dim)
 {
     const int components = dim * (dim + 1) / 2;
     points_copy_list_indices_to_lanes(s->point, list, n, dim);
@@ -115,64 +117,70 @@ static ALWAYS_INLINE void points_load_quantities_to_transfer(struct points_trans
         q->v[d] = points_load(p->v[d], s->point, dim), q->f[d] = points_load(p->f[d], s->point, dim);
     for (int c = 0; c < dim * (dim + 1) / 2; c++) q->pull[c] = s->stress[c] * s->volume;
     if (extrapolate_velocity && transfer == TRANSFER_FLIP)
-        rotating_group_velocity_gradients(t, s->point, 0.5 * t->dt, q->slope, dim);
+        rotating_group_velocity_gradients_of_points(t, s->point, 0.5 * t->dt, q->slope, dim);
     for (int k = 0; k < dim * dim && transfer == TRANSFER_APIC; k++)
         q->slope[k] = points_load(p->gradient[k], s->point, dim);
 }
 
-/* Adds mass, momentum and force of point number `at` of stencil s (node weights of a few points of p) to `sum`, the
- * nodal sums over the points of its cell of grid g. q: quantities of the points (points_load_quantities_to_transfer);
- * t: inputs of the transfer, with the shape function `shape`; extrapolate_velocity: true if points extrapolate their
- * velocity to nodes by a velocity gradient. */
-static ALWAYS_INLINE void p2g_add_point(cell_sums sum, const struct grid *g, const struct particles *p,
-                                        const struct transfer_data *t, const struct cell_stencil *s,
-                                        const struct points_transfer_quantities *q, int at, const int dim,
-                                        const enum shape shape, const bool extrapolate_velocity)
+/* Adds mass, momentum and force of point number `point_in_stencil` of stencil s (node weights of a few points of p) to
+ * `sum`, the nodal sums over the points of its cell of grid g. q: quantities of the points
+ * (points_load_quantities_to_transfer); t: inputs of the transfer, with the shape function `shape`;
+ * extrapolate_velocity: true if points extrapolate their velocity to nodes by a velocity gradient. */
+static ALWAYS_INLINE void p2g_add_one_point_to_nodal_sums(cell_sums sum, const struct grid *g,
+                                                          const struct particles *p, const struct transfer_data *t,
+                                                          const struct cell_stencil *s,
+                                                          const struct points_transfer_quantities *q,
+                                                          int point_in_stencil, const int dim, const enum shape shape,
+                                                          const bool extrapolate_velocity)
 {
     const int along = ROW_DIMS(dim, shape);
-    const struct node_row_weights row = stencil_row_weights_of_point(s, at, g->h, dim, shape);
-    const row_of_nodes mass = q->mass[at] * row.N;
+    const struct node_row_weights row = stencil_row_weights_of_point(s, point_in_stencil, g->h, dim, shape);
+    const row_of_nodes mass = q->mass[point_in_stencil] * row.N;
     row_of_nodes momentum[DIM_MAX], force[DIM_MAX], pull[SYM_MAX], far[DIM_MAX];
     for (int e = 0; e < along && extrapolate_velocity; e++)
-        far[e] = stencil_point_distances_to_row_nodes(s, at, g->h, e, dim, shape);
-    for (int k = 0; k < dim * (dim + 1) / 2; k++) pull[k] = q->pull[k][at] * row.N;
+        far[e] = stencil_point_distances_to_row_nodes(s, point_in_stencil, g->h, e, dim, shape);
+    for (int k = 0; k < dim * (dim + 1) / 2; k++) pull[k] = q->pull[k][point_in_stencil] * row.N;
 #pragma GCC unroll 3
     for (int d = 0; d < dim; d++) {
-        row_of_nodes speed = nodes_broadcast(q->v[d][at]);
-        for (int e = 0; e < along && extrapolate_velocity; e++) speed += q->slope[d * dim + e][at] * far[e];
+        row_of_nodes speed = nodes_broadcast(q->v[d][point_in_stencil]);
+        for (int e = 0; e < along && extrapolate_velocity; e++)
+            speed += q->slope[d * dim + e][point_in_stencil] * far[e];
         momentum[d] = mass * speed;
-        force[d] = q->f[d][at] * row.N;
-        for (int e = 0; e < along; e++) force[d] -= q->pull[symmetric_component_index(d, e, dim)][at] * row.D[e];
+        force[d] = q->f[d][point_in_stencil] * row.N;
+        for (int e = 0; e < along; e++)
+            force[d] -= q->pull[symmetric_component_index(d, e, dim)][point_in_stencil] * row.D[e];
     }
-    FOR_TOUCHED(s, at, dim, shape)
+    FOR_TOUCHED(s, point_in_stencil, dim, shape)
     {
-        const real weight = stencil_point_row_transverse_weight(s, at, k1, k2, dim, shape);
+        const real weight = stencil_point_row_transverse_weight(s, point_in_stencil, k1, k2, dim, shape);
         const int k = PATCH(dim, shape);
         sum[0][k] += mass * weight;
         for (int d = 0; d < dim; d++) {
             row_of_nodes carried = momentum[d], pushed = sum[1 + dim + d][k] + force[d] * weight;
             for (int e = along; e < dim; e++) {
                 if (extrapolate_velocity)
-                    carried += q->slope[d * dim + e][at] * mass *
-                               stencil_point_distance_to_row(s, at, g->h, e, e == 1 ? k1 : k2, dim, shape);
+                    carried +=
+                        q->slope[d * dim + e][point_in_stencil] * mass *
+                        stencil_point_distance_to_row(s, point_in_stencil, g->h, e, e == 1 ? k1 : k2, dim, shape);
                 pushed -= pull[symmetric_component_index(d, e, dim)] *
-                          stencil_point_row_transverse_weight_slope(s, at, k1, k2, e, dim, shape);
+                          stencil_point_row_transverse_weight_slope(s, point_in_stencil, k1, k2, e, dim, shape);
             }
             sum[1 + d][k] += carried * weight;
             sum[1 + dim + d][k] = pushed;
         }
     }
-    if (__builtin_expect(p->end_moment[0] != NULL, 0)) p2g_add_skew_stress_force(sum, p, t, s, &row, at, dim, shape);
+    if (__builtin_expect(p->end_moment[0] != NULL, 0))
+        p2g_add_skew_stress_force_to_nodal_sums(sum, p, t, s, &row, point_in_stencil, dim, shape);
 }
 
-/* Prefetches the data of p that p2g_add_points will read of the point list[k + ORDER_AHEAD], once per cache line. t:
- * inputs of the transfer. */
+/* Prefetches the data of p that p2g_add_batch_of_points_to_nodal_sums will read of the point list[k + ORDER_AHEAD],
+ * once per cache line. t: inputs of the transfer. */
 static ALWAYS_INLINE void p2g_prefetch_point(const struct particles *p, const struct transfer_data *t,
                                              const int32_t *list, int k, const int dim, const enum transfer transfer)
 {
     int64_t i;
-    points_prefetch_motion(p, t->turn, list, k, dim);
-    if (!point_ahead_needs_prefetch(list, k, &i)) return;
+    points_prefetch_mass_position_velocity_and_spin(p, t->turn, list, k, dim);
+    if (!point_ahead_starts_new_cache_line(list, k, &i)) return;
     prefetch_cache_line(p->volume + i);
     for (int d = 0; d < dim; d++) prefetch_cache_line(p->f[d] + i);
     for (int c = 0; c < dim * (dim + 1) / 2; c++) prefetch_cache_line(p->stress[c] + i);
@@ -199,7 +207,7 @@ static ALWAYS_INLINE void points_average_mean_stress(const struct particles *p, 
         *(points_anywhere *)(change + k * AT_ONCE(dim)) = mean;
     }
     if (!points_all_share_mean_dilatation(p, list, n))
-        points_replace_values_by_mean_minus_value(p, t, list, n, change);
+        points_replace_values_by_cell_mean_minus_value(p, t, list, n, change);
     else if (!t->elastic[p->material[list[0]]].mean_dilatation)
         return;
     else {
@@ -214,11 +222,10 @@ static ALWAYS_INLINE void points_average_mean_stress(const struct particles *p, 
  * g to `sum`, the nodal sums over the points of this cell. stress: stress of these points; t: inputs of the transfer,
  * with the shape function `shape` and the scheme `transfer`; extrapolate_velocity: true if points extrapolate their
  * velocity to nodes (points_extrapolate_velocity_to_nodes). */
-static ALWAYS_INLINE void p2g_add_points(cell_sums sum, const struct grid *g, const struct grid_cell *c,
-                                         const struct particles *p, const struct transfer_data *t,
-                                         const struct points_stress *stress, const int32_t *list, int n, const int dim,
-                                         const enum shape shape, const enum transfer transfer,
-                                         const bool extrapolate_velocity)
+static ALWAYS_INLINE void p2g_add_batch_of_points_to_nodal_sums(
+    cell_sums sum, const struct grid *g, const struct grid_cell *c, const struct particles *p,
+    const struct transfer_data *t, const struct points_stress *stress, const int32_t *list, int n, const int dim,
+    const enum shape shape, const enum transfer transfer, const bool extrapolate_velocity)
 {
     struct cell_stencil s;
     struct points_transfer_quantities q;
@@ -227,17 +234,18 @@ static ALWAYS_INLINE void p2g_add_points(cell_sums sum, const struct grid *g, co
     points_load_quantities_to_transfer(&q, p, t, stress, dim, transfer, extrapolate_velocity);
     for (int at = 0; at < n; at++) {
         p2g_prefetch_point(p, t, list, at, dim, transfer);
-        p2g_add_point(sum, g, p, t, &s, &q, at, dim, shape, extrapolate_velocity);
+        p2g_add_one_point_to_nodal_sums(sum, g, p, t, &s, &q, at, dim, shape, extrapolate_velocity);
     }
 }
 
 /* Adds mass, momentum and force of the points list[n] of p in one cell to the nodes of the grid g. t: inputs of the
  * transfer, with the shape function `shape` and the scheme `transfer`; average_mean_stress: true if the points of a
  * cell get the average of their mean stresses (transfer_uses_mean_dilatation). */
-static ALWAYS_INLINE void p2g_add_points_of_cell(const struct grid *g, const struct particles *p,
-                                                 const struct transfer_data *t, const int32_t *list, int n,
-                                                 const int dim, const enum shape shape, const enum transfer transfer,
-                                                 const bool average_mean_stress)
+static ALWAYS_INLINE void p2g_add_points_of_cell_to_grid_nodes(const struct grid *g, const struct particles *p,
+                                                               const struct transfer_data *t, const int32_t *list,
+                                                               int n, const int dim, const enum shape shape,
+                                                               const enum transfer transfer,
+                                                               const bool average_mean_stress)
 {
     enum { MOST = MEAN_POINTS / POINTS };
     const struct grid_cell c = cell_containing_point(g, p, list[0], dim, shape);
@@ -249,17 +257,19 @@ static ALWAYS_INLINE void p2g_add_points_of_cell(const struct grid *g, const str
     for (int from = 0; from < n; from += most) {
         const int some = int_min(n - from, most);
         for (int k = 0; k < some; k += AT_ONCE(dim))
-            points_load_stress(&stress[k / AT_ONCE(dim)], p, t, list + from + k,
-                               points_count_of_next_batch(some - k, dim), dim);
+            points_load_stress_for_transfer_to_grid(&stress[k / AT_ONCE(dim)], p, t, list + from + k,
+                                                    points_count_of_next_batch(some - k, dim), dim);
         if (average_mean_stress) points_average_mean_stress(p, t, list + from, stress, some, dim);
         for (int k = 0; k < some; k += AT_ONCE(dim)) {
             const struct points_stress *own = &stress[k / AT_ONCE(dim)];
             const int points = points_count_of_next_batch(some - k, dim);
             const bool continued = points_extrapolate_velocity_to_nodes(t, dim, transfer);
             if (HAS_CORNERS(dim, shape) && continued) /* a loop of its own, without tests */
-                p2g_add_points(sum, g, &c, p, t, own, list + from + k, points, dim, shape, transfer, true);
+                p2g_add_batch_of_points_to_nodal_sums(sum, g, &c, p, t, own, list + from + k, points, dim, shape,
+                                                      transfer, true);
             else
-                p2g_add_points(sum, g, &c, p, t, own, list + from + k, points, dim, shape, transfer, continued);
+                p2g_add_batch_of_points_to_nodal_sums(sum, g, &c, p, t, own, list + from + k, points, dim, shape,
+                                                      transfer, continued);
         }
     }
     FOR_ROWS(dim, shape)
@@ -276,7 +286,9 @@ static ALWAYS_INLINE void p2g_add_points_of_cell(const struct grid *g, const str
 
 /* Adds the points of all cells to the nodes; AVERAGE: true if points have the mean dilatation of their cells. */
 #define LOOP(D, S, T, AVERAGE)                                                                                         \
-    SCATTER(D, t, g, p, p2g_add_points_of_cell(&nodes, &points, &data, list, n, D, SHAPE_##S, TRANSFER_##T, AVERAGE))
+    SCATTER(                                                                                                           \
+        D, t, g, p,                                                                                                    \
+        p2g_add_points_of_cell_to_grid_nodes(&nodes, &points, &data, list, n, D, SHAPE_##S, TRANSFER_##T, AVERAGE))
 
 /* Defines the function of the first map (points to nodes) for dimension D, shape function S and transfer scheme T. */
 #ifdef ONE_LOOP_OVER_CELLS
@@ -307,9 +319,9 @@ MAP_VARIANTS(BOTH)
 
 /* Adds `value`, a value of point i of p, to the nodal array `field`, distributed to the nodes of g with the weights N
  * of the first map (p2g). half_width: transfer_data.half_width [m]; shape: shape function. */
-static ALWAYS_INLINE void p2g_spread_point_value(const struct grid *g, const struct particles *p, real half_width,
-                                                 int32_t i, real value, real *field, const int dim,
-                                                 const enum shape shape)
+static ALWAYS_INLINE void p2g_add_weighted_point_value_to_nodes(const struct grid *g, const struct particles *p,
+                                                                real half_width, int32_t i, real value, real *field,
+                                                                const int dim, const enum shape shape)
 {
     const struct grid_cell c = cell_containing_point(g, p, i, dim, shape);
     struct cell_stencil s;
@@ -327,7 +339,7 @@ static ALWAYS_INLINE void p2g_spread_point_value(const struct grid *g, const str
                            int64_t n, const real *value, real *field)                                                  \
     {                                                                                                                  \
         for (int64_t k = 0; k < n; k++)                                                                                \
-            p2g_spread_point_value(g, p, half_width, list[k], value[k], field, D, SHAPE_##S);                          \
+            p2g_add_weighted_point_value_to_nodes(g, p, half_width, list[k], value[k], field, D, SHAPE_##S);           \
     }
 MAP_VARIANTS(SPREAD)
 #undef SPREAD

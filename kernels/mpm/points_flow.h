@@ -54,7 +54,7 @@ static ALWAYS_INLINE void flow_motion_compute_strain_and_spin(struct flow_motion
 
 /* Returns a vector whose lane l is from[point[l]]. Eight loads take half the time of a gather instruction. point: with
  * FLOW_NUMBERS entries. */
-static ALWAYS_INLINE lanes flow_gather_values_of_points(const real *from, const int32_t *point)
+static ALWAYS_INLINE lanes points_gather_values_to_lanes(const real *from, const int32_t *point)
 {
 #if POINTS_LANES == 8
     if (point[PAIRED]) return (lanes)points_load_consecutive_pairs(from, point);
@@ -65,7 +65,7 @@ static ALWAYS_INLINE lanes flow_gather_values_of_points(const real *from, const 
 
 /* Stores lane l of a in to[point[l]]. Lanes that hold the same point must have equal values. point: with FLOW_NUMBERS
  * entries. */
-static ALWAYS_INLINE void flow_scatter_values_to_points(real *to, const int32_t *point, lanes a)
+static ALWAYS_INLINE void points_scatter_values_from_lanes(real *to, const int32_t *point, lanes a)
 {
 #if POINTS_LANES == 8
     points_store(to, point, (row_of_points)a, DIM_MAX);
@@ -75,7 +75,7 @@ static ALWAYS_INLINE void flow_scatter_values_to_points(real *to, const int32_t 
 }
 
 /* Returns the lanes l to l + POINTS - 1 of the vector *a as a vector of POINTS entries. */
-static ALWAYS_INLINE row_of_points lanes_extract_row_of_points(const lanes *a, int l)
+static ALWAYS_INLINE row_of_points lanes_extract_row_of_points_from_lane(const lanes *a, int l)
 {
     return (row_of_points) * (const points_anywhere *)((const real *)a + l);
 }
@@ -90,8 +90,9 @@ static NEVER_INLINE void flow_load_back_stress(const struct particles *p, const 
     for (int c = 0; c < n; c++) points->back[law_place[dim][c]] = lanes_gather(p->back_stress[c], point);
     for (int l = 0; l < LANES && dim > 1; l += POINTS) {
         row_of_points back[SYM_MAX], spin[3];
-        for (int c = 0; c < n; c++) back[c] = lanes_extract_row_of_points(&points->back[law_place[dim][c]], l);
-        for (int c = 0; c < 3; c++) spin[c] = lanes_extract_row_of_points(&motion->spin[c], l);
+        for (int c = 0; c < n; c++)
+            back[c] = lanes_extract_row_of_points_from_lane(&points->back[law_place[dim][c]], l);
+        for (int c = 0; c < 3; c++) spin[c] = lanes_extract_row_of_points_from_lane(&motion->spin[c], l);
         stress_rotate(back, spin, dim);
         for (int c = 0; c < n; c++) *(points_anywhere *)((real *)&points->back[law_place[dim][c]] + l) = back[c];
     }
@@ -120,12 +121,12 @@ static ALWAYS_INLINE void flow_load_stress_and_plastic_state(const struct partic
         points->back[c] = none;
     }
     if (p->back_stress[0]) flow_load_back_stress(p, point, motion, points, dim);
-    points->volume = volume / flow_gather_values_of_points(p->volume0, point);
+    points->volume = volume / points_gather_values_to_lanes(p->volume0, point);
     points->volume_before = points->volume / (1.0 + motion->trace), points->thins = true;
     points->duration = dt;
-    points->a = flow_gather_values_of_points(p->plastic_strain, point),
-    points->work = flow_gather_values_of_points(p->plastic_work, point);
-    points->temperature = p->temperature ? flow_gather_values_of_points(p->temperature, point)
+    points->a = points_gather_values_to_lanes(p->plastic_strain, point),
+    points->work = points_gather_values_to_lanes(p->plastic_work, point);
+    points->temperature = p->temperature ? points_gather_values_to_lanes(p->temperature, point)
                                          : lanes_broadcast(m->law->johnson_cook.T_room);
 }
 
@@ -138,7 +139,7 @@ static ALWAYS_INLINE void flow_clear_conversion_flags_below_threshold(struct par
 {
     for (int l = 0; l < LANES; l++) {
         if (!(flowed >> l & 1 && p->flag[point[l]] & FLAG_STRESSED)) continue;
-        const real trigger = point_pd_conversion_stress_threshold(m, p, point[l]);
+        const real trigger = point_stress_threshold_for_conversion_to_pd(m, p, point[l]);
         real stress[SYM_MAX];
         for (int c = 0; c < dim * (dim + 1) / 2; c++) stress[c] = points->s[law_place[dim][c]][l];
         if (!(stress_largest_principal_upper_bound(stress, dim) > trigger &&
@@ -150,9 +151,9 @@ static ALWAYS_INLINE void flow_clear_conversion_flags_below_threshold(struct par
 /* Stores the stress normal to the plane (plane strain) or the volume (plane stress, 1D) of those of the points
  * point[LANES] of p that have yielded. flowed: bit l is set if point[l] has yielded; m: material of the points; e:
  * their state after the return mapping. */
-static NEVER_INLINE void points_store_stress_normal_to_plane_or_volume(struct particles *p, const struct elastic *m,
-                                                                       const struct law_points *points, unsigned flowed,
-                                                                       const int32_t *point)
+static NEVER_INLINE void points_store_out_of_plane_stress_or_volume(struct particles *p, const struct elastic *m,
+                                                                    const struct law_points *points, unsigned flowed,
+                                                                    const int32_t *point)
 {
     const lanes across = points->s[2] - m->poisson * (points->s[0] + points->s[1]);
     for (int l = 0; l < LANES; l++)
@@ -172,10 +173,10 @@ static ALWAYS_INLINE void flow_store_stress_and_plastic_state(struct particles *
     const lanes_mask own = lanes_mask_from_bits((uint8_t)flowed);
     for (int c = 0; c < dim * (dim + 1) / 2; c++)
         stress[c] = lanes_choose(own, points->s[law_place[dim][c]], stress[c]);
-    if (m->space != SPACE_SOLID) points_store_stress_normal_to_plane_or_volume(p, m, points, flowed, point);
-    flow_scatter_values_to_points(p->plastic_strain, point, points->a),
-        flow_scatter_values_to_points(p->plastic_work, point, points->work);
-    if (p->temperature) flow_scatter_values_to_points(p->temperature, point, points->temperature);
+    if (m->space != SPACE_SOLID) points_store_out_of_plane_stress_or_volume(p, m, points, flowed, point);
+    points_scatter_values_from_lanes(p->plastic_strain, point, points->a),
+        points_scatter_values_from_lanes(p->plastic_work, point, points->work);
+    if (p->temperature) points_scatter_values_from_lanes(p->temperature, point, points->temperature);
     flow_clear_conversion_flags_below_threshold(p, m, points, flowed, point, dim);
 }
 
@@ -231,7 +232,7 @@ static NEVER_INLINE void points_apply_return_mapping(struct particles *p, const 
         if (p->back_stress[0]) flow_store_back_stress(p, &e, own, point, dim);
         if (flowed) flow_store_stress_and_plastic_state(p, m, &e, flowed, point, stress, dim);
     }
-    for (int c = 0; c < dim * (dim + 1) / 2; c++) flow_scatter_values_to_points(p->stress[c], point, stress[c]);
+    for (int c = 0; c < dim * (dim + 1) / 2; c++) points_scatter_values_from_lanes(p->stress[c], point, stress[c]);
 }
 
 /* Fills the n < LANES points of the list `queue` up to LANES by repeating the last one. */

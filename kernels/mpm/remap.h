@@ -23,7 +23,7 @@ static ALWAYS_INLINE void remap_gather_momentum(row_of_points *momentum, const s
     if (HAS_CORNERS(dim, shape))
         for (int d = 0; d < dim; d++) {
             row_of_points slope[DIM_MAX];
-            gain[d] = corners_interpolate_value_and_slope(g, g->force[d] + c->node, s->t, slope, dim);
+            gain[d] = cell_corners_interpolate_value_and_gradient(g, g->force[d] + c->node, s->t, slope, dim);
         }
     else
         FOR_ANY_TOUCHED(s, dim, shape)
@@ -60,7 +60,7 @@ static ALWAYS_INLINE void remap_update_velocity_and_add_momentum(remap_rows sum,
     for (int at = 0; at < n; at++) {
         const row_of_nodes N = stencil_row_weights_of_point(&s, at, g->h, dim, shape).N;
         row_of_nodes given[DIM_MAX];
-        points_prefetch_motion(p, t->turn, list, at, dim);
+        points_prefetch_mass_position_velocity_and_spin(p, t->turn, list, at, dim);
         for (int d = 0; d < dim; d++) given[d] = momentum[d][at] * N;
         FOR_TOUCHED(&s, at, dim, shape)
         {

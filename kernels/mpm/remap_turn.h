@@ -62,14 +62,15 @@ static ALWAYS_INLINE void rotating_remap_gather_velocity_gain_and_moments(
  * points of cell c) for linear shape functions in 2D and 3D: the change of their velocity, gain[dim] [m/s], and the
  * moments about the points, moment[e][d] = sum N (x_I - x_p)_e (dv_I)_d [m^2/s]. For these shape functions sum N (x_I -
  * x_p)_e dv = h t_e (1 - t_e) d dv/dt_e at the position t in the cell (in node distances). */
-static ALWAYS_INLINE void rotating_remap_gather_moments_from_corners(const struct grid *g, const struct grid_cell *c,
-                                                                     const struct cell_stencil *s, row_of_points *gain,
-                                                                     row_of_points moment[DIM_MAX][DIM_MAX],
-                                                                     const int dim)
+static ALWAYS_INLINE void rotating_remap_gather_gain_and_moments_linear(const struct grid *g, const struct grid_cell *c,
+                                                                        const struct cell_stencil *s,
+                                                                        row_of_points *gain,
+                                                                        row_of_points moment[DIM_MAX][DIM_MAX],
+                                                                        const int dim)
 {
     for (int d = 0; d < dim; d++) {
         row_of_points slope[DIM_MAX];
-        gain[d] = corners_interpolate_value_and_slope(g, g->force[d] + c->node, s->t, slope, dim);
+        gain[d] = cell_corners_interpolate_value_and_gradient(g, g->force[d] + c->node, s->t, slope, dim);
         for (int e = 0; e < dim; e++) moment[e][d] = g->h * (s->t[e] * (1 - s->t[e])) * slope[e];
     }
 }
@@ -77,16 +78,16 @@ static ALWAYS_INLINE void rotating_remap_gather_moments_from_corners(const struc
 /* Interpolates the change dv_I of the nodal velocities (g->force) to the n points `list` (n <= AT_ONCE, points
  * processed together) of cell c and adds it to their velocities in p. Stores in t->turn the angular momentum [kg m^2/s]
  * that this interpolation loses at each point: m sum N (x_I - x_p) x dv_I. shape: shape function. */
-static ALWAYS_INLINE void rotating_remap_gather_points(const struct grid *g, const struct grid_cell *c,
-                                                       struct particles *p, const struct transfer_data *t,
-                                                       const int32_t *list, int n, const int dim,
-                                                       const enum shape shape)
+static ALWAYS_INLINE void rotating_remap_update_velocity_of_points(const struct grid *g, const struct grid_cell *c,
+                                                                   struct particles *p, const struct transfer_data *t,
+                                                                   const int32_t *list, int n, const int dim,
+                                                                   const enum shape shape)
 {
     struct cell_stencil s;
     row_of_points gain[DIM_MAX], arm[DIM_MAX][DIM_MAX];
     cell_stencil_compute_weights(&s, g, c, p, list, n, t->half_width, dim, shape);
     if (HAS_CORNERS(dim, shape))
-        rotating_remap_gather_moments_from_corners(g, c, &s, gain, arm, dim);
+        rotating_remap_gather_gain_and_moments_linear(g, c, &s, gain, arm, dim);
     else
         rotating_remap_gather_velocity_gain_and_moments(g, c, &s, gain, arm, dim, shape);
     const row_of_points mass = points_load(p->mass, s.point, dim);
@@ -108,10 +109,11 @@ static ALWAYS_INLINE void rotating_remap_gather_points(const struct grid *g, con
             {                                                                                                          \
                 const int32_t *list = o->particle + o->cell_start[k], n = o->cell_start[k + 1] - o->cell_start[k];     \
                 const struct grid_cell c = cell_containing_point(&nodes, &points, list[0], D, SHAPE_##S);              \
-                for (int m = 0; m < n; m++) points_prefetch_motion(&points, data.turn, list, m, D);                    \
+                for (int m = 0; m < n; m++)                                                                            \
+                    points_prefetch_mass_position_velocity_and_spin(&points, data.turn, list, m, D);                   \
                 for (int m = 0; m < n; m += AT_ONCE(D))                                                                \
-                    rotating_remap_gather_points(&nodes, &c, &points, &data, list + m,                                 \
-                                                 points_count_of_next_batch(n - m, D), D, SHAPE_##S);                  \
+                    rotating_remap_update_velocity_of_points(&nodes, &c, &points, &data, list + m,                     \
+                                                             points_count_of_next_batch(n - m, D), D, SHAPE_##S);      \
             }                                                                                                          \
         }                                                                                                              \
     }
@@ -124,31 +126,36 @@ MAP_VARIANTS_TURNING(GATHER)
  * [kg m/s], then mass [kg], which is summed only if weights are computed ahead of the actual positions (g->ahead). */
 typedef row_of_nodes turn_rows[DIM_MAX + 1][ROWS_MAX];
 
-/* Adds the momentum m N (v + L (x_I - x_p)), with `add_mass` also the mass m N, of point number `at` of stencil s (node
- * weights of a few points of p) to `sum`, the nodal sums over the points of its cell of grid g. shape: shape function;
- * slope: velocity gradients L of the points of the stencil, from rotating_group_velocity_gradients [1/s]. */
-static ALWAYS_INLINE void rotating_remap_scatter_point(turn_rows sum, const struct grid *g, const struct particles *p,
-                                                       const row_of_points *slope, const struct cell_stencil *s, int at,
-                                                       const bool add_mass, const int dim, const enum shape shape)
+/* Adds the momentum m N (v + L (x_I - x_p)), with `add_mass` also the mass m N, of point number `point_in_stencil` of
+ * stencil s (node weights of a few points of p) to `sum`, the nodal sums over the points of its cell of grid g. shape:
+ * shape function; slope: velocity gradients L of the points of the stencil, from
+ * rotating_group_velocity_gradients_of_points [1/s]. */
+static ALWAYS_INLINE void rotating_remap_add_momentum_of_point(turn_rows sum, const struct grid *g,
+                                                               const struct particles *p, const row_of_points *slope,
+                                                               const struct cell_stencil *s, int point_in_stencil,
+                                                               const bool add_mass, const int dim,
+                                                               const enum shape shape)
 {
     const int along = ROW_DIMS(dim, shape);
-    const int64_t i = s->point[at];
-    const row_of_nodes mass = p->mass[i] * stencil_row_weights_of_point(s, at, g->h, dim, shape).N;
+    const int64_t i = s->point[point_in_stencil];
+    const row_of_nodes mass = p->mass[i] * stencil_row_weights_of_point(s, point_in_stencil, g->h, dim, shape).N;
     row_of_nodes momentum[DIM_MAX];
     for (int d = 0; d < dim; d++) {
         row_of_nodes speed = nodes_broadcast(p->v[d][i]);
         for (int e = 0; e < along; e++)
-            speed += slope[d * dim + e][at] * stencil_point_distances_to_row_nodes(s, at, g->h, e, dim, shape);
+            speed += slope[d * dim + e][point_in_stencil] *
+                     stencil_point_distances_to_row_nodes(s, point_in_stencil, g->h, e, dim, shape);
         momentum[d] = mass * speed;
     }
-    FOR_TOUCHED(s, at, dim, shape)
+    FOR_TOUCHED(s, point_in_stencil, dim, shape)
     {
-        const real weight = stencil_point_row_transverse_weight(s, at, k1, k2, dim, shape);
+        const real weight = stencil_point_row_transverse_weight(s, point_in_stencil, k1, k2, dim, shape);
         for (int d = 0; d < dim; d++) {
             row_of_nodes given = momentum[d];
             for (int e = along; e < dim; e++)
-                given += mass * (slope[d * dim + e][at] *
-                                 stencil_point_distance_to_row(s, at, g->h, e, e == 1 ? k1 : k2, dim, shape));
+                given +=
+                    mass * (slope[d * dim + e][point_in_stencil] *
+                            stencil_point_distance_to_row(s, point_in_stencil, g->h, e, e == 1 ? k1 : k2, dim, shape));
             sum[d][PATCH(dim, shape)] += weight * given;
         }
         if (add_mass) sum[dim][PATCH(dim, shape)] += weight * mass;
@@ -156,11 +163,11 @@ static ALWAYS_INLINE void rotating_remap_scatter_point(turn_rows sum, const stru
 }
 
 /* Adds the momentum of the points list[n] of one cell to the nodes of the grid g, with their velocity extrapolated to
- * each node (rotating_remap_scatter_point); also their mass if weights are computed ahead of the actual positions
- * (g->ahead). p: particles; t: inputs of the transfer; shape: shape function. */
-static ALWAYS_INLINE void rotating_remap_scatter_cell(const struct grid *g, const struct particles *p,
-                                                      const struct transfer_data *t, const int32_t *list, int n,
-                                                      const int dim, const enum shape shape)
+ * each node (rotating_remap_add_momentum_of_point); also their mass if weights are computed ahead of the actual
+ * positions (g->ahead). p: particles; t: inputs of the transfer; shape: shape function. */
+static ALWAYS_INLINE void rotating_remap_add_momentum_of_cell_points(const struct grid *g, const struct particles *p,
+                                                                     const struct transfer_data *t, const int32_t *list,
+                                                                     int n, const int dim, const enum shape shape)
 {
     const struct grid_cell c = cell_containing_point(g, p, list[0], dim, shape);
     const bool massive = grid_weights_use_half_step_ahead_positions(g, dim);
@@ -173,10 +180,10 @@ static ALWAYS_INLINE void rotating_remap_scatter_cell(const struct grid *g, cons
         cell_stencil_compute_weights(&s, g, &c, p, list + k, points, t->half_width, dim, shape);
         stencil_transpose_weights_to_node_lanes(&s, dim, shape);
         row_of_points slope[DIM_MAX * DIM_MAX];
-        rotating_group_velocity_gradients(t, s.point, -0.5 * t->dt, slope, dim);
+        rotating_group_velocity_gradients_of_points(t, s.point, -0.5 * t->dt, slope, dim);
         for (int at = 0; at < points; at++) {
-            points_prefetch_motion(p, t->turn, list, k + at, dim);
-            rotating_remap_scatter_point(sum, g, p, slope, &s, at, massive, dim, shape);
+            points_prefetch_mass_position_velocity_and_spin(p, t->turn, list, k + at, dim);
+            rotating_remap_add_momentum_of_point(sum, g, p, slope, &s, at, massive, dim, shape);
         }
     }
     FOR_ROWS(dim, shape)
@@ -189,7 +196,8 @@ static ALWAYS_INLINE void rotating_remap_scatter_cell(const struct grid *g, cons
 #define TURN_SCATTER(D, S)                                                                                             \
     void turn_scatter_##D##d_##S(struct grid *g, const struct particles *p, const struct transfer_data *t)             \
     {                                                                                                                  \
-        SCATTER(D, t, g, p, rotating_remap_scatter_cell(&nodes, &points, &data, list, n, D, SHAPE_##S));               \
+        SCATTER(D, t, g, p,                                                                                            \
+                rotating_remap_add_momentum_of_cell_points(&nodes, &points, &data, list, n, D, SHAPE_##S));            \
     }
 MAP_VARIANTS_TURNING(TURN_SCATTER)
 #undef TURN_SCATTER

@@ -8,7 +8,7 @@
 /* Returns true if the data of the point list[k + ORDER_AHEAD] should be prefetched, which is so for one point per cache
  * line. *i receives the number of this point. The points of a row of cells occupy two (in 3D four) lines in many
  * arrays, more than the hardware prefetcher follows. */
-static ALWAYS_INLINE bool point_ahead_needs_prefetch(const int32_t *list, int k, int64_t *i)
+static ALWAYS_INLINE bool point_ahead_starts_new_cache_line(const int32_t *list, int k, int64_t *i)
 {
     *i = list[k + ORDER_AHEAD];
     return *i % LANES == 0;
@@ -17,16 +17,16 @@ static ALWAYS_INLINE bool point_ahead_needs_prefetch(const int32_t *list, int k,
 /* Prefetches the cache line of the number at the address `at` for reading. */
 static ALWAYS_INLINE void prefetch_cache_line(const real *at) { __builtin_prefetch(at, 0, 3); }
 
-/* Prefetches mass, position, velocity and spin of the point list[k + ORDER_AHEAD] of p, once per cache line. turn:
- * spins (angular velocities) of the points (transfer_data.turn); turn[2] NULL: no spins. */
-static ALWAYS_INLINE void points_prefetch_motion(const struct particles *p, real *const *turn, const int32_t *list,
-                                                 int k, const int dim)
+/* Prefetches mass, position, velocity and spin of the point list[k + ORDER_AHEAD] of p, once per cache line. spin:
+ * spins (angular velocities) of the points (transfer_data.turn); spin[2] NULL: no spins. */
+static ALWAYS_INLINE void points_prefetch_mass_position_velocity_and_spin(const struct particles *p, real *const *spin,
+                                                                          const int32_t *list, int k, const int dim)
 {
     int64_t i;
-    if (!point_ahead_needs_prefetch(list, k, &i)) return;
+    if (!point_ahead_starts_new_cache_line(list, k, &i)) return;
     prefetch_cache_line(p->mass + i);
     for (int d = 0; d < dim; d++) prefetch_cache_line(p->x[d] + i), prefetch_cache_line(p->v[d] + i);
-    for (int c = dim == 2 ? 2 : 0; c < 3 && turn[2]; c++) prefetch_cache_line(turn[c] + i);
+    for (int c = dim == 2 ? 2 : 0; c < 3 && spin[2]; c++) prefetch_cache_line(spin[c] + i);
 }
 
 /* Body of a map from points to nodes in D dimensions: evaluates CALL for the points list[n] of every cell, in the order

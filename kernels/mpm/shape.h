@@ -18,7 +18,7 @@
 /* Computes weights N and slopes dN/dt of linear (hat) functions at the four nodes of a row (nodes around a cell along
  * one axis), for a few points, one per lane: 1 - t and t at the two nodes of the cell, 0 at the outer nodes. t:
  * distance from the lower node of the cell, in node distances. */
-static ALWAYS_INLINE void shape_linear(row_of_points t, row_of_points N[ROW], row_of_points dN[ROW])
+static ALWAYS_INLINE void shape_functions_evaluate_linear(row_of_points t, row_of_points N[ROW], row_of_points dN[ROW])
 {
     N[0] = N[3] = dN[0] = dN[3] = points_broadcast(0);
     N[1] = 1 - t, N[2] = t;
@@ -35,8 +35,8 @@ static ALWAYS_INLINE void shape_linear(row_of_points t, row_of_points N[ROW], ro
  * below 0. This matters, since the node may have no other mass, and momentum that a node without mass receives is lost.
  * GIMP with 2l <= 1 has three nodes with weights. A stretched particle (cpGIMP) reaches all four; contiguous particles
  * then cover every hat without gap or overlap, and a uniform stress leaves no residual (Bardenhagen & Kober 2004). */
-static ALWAYS_INLINE void shape_gimp(row_of_points t, row_of_points l, row_of_points inverse_width,
-                                     row_of_points N[ROW], row_of_points dN[ROW])
+static ALWAYS_INLINE void shape_functions_evaluate_gimp(row_of_points t, row_of_points l, row_of_points inverse_width,
+                                                        row_of_points N[ROW], row_of_points dN[ROW])
 {
     const row_of_points rest = 1 - t, below = points_max(l - t, points_broadcast(0)),
                         above = points_max(l - rest, points_broadcast(0));
@@ -49,7 +49,8 @@ static ALWAYS_INLINE void shape_gimp(row_of_points t, row_of_points l, row_of_po
 /* Computes weights N and slopes dN/dt of the cubic B-spline at the four nodes of a row (nodes around a cell along one
  * axis), for a few points, one per lane. t: distance from the lower node of the cell, in node distances. From either
  * end the weights are t^3/6 at the outer and 2/3 - t^2 + t^3/2 at the inner node. */
-static ALWAYS_INLINE void shape_cubic(row_of_points t, row_of_points N[ROW], row_of_points dN[ROW])
+static ALWAYS_INLINE void shape_functions_evaluate_cubic_b_spline(row_of_points t, row_of_points N[ROW],
+                                                                  row_of_points dN[ROW])
 {
     const row_of_points rest = 1 - t, t2 = t * t, rest2 = rest * rest;
     N[0] = rest2 * rest * (1.0 / 6), N[3] = t2 * t * (1.0 / 6);
@@ -63,7 +64,7 @@ static ALWAYS_INLINE void shape_cubic(row_of_points t, row_of_points N[ROW], row
  * have the same round-off, so that an error would grow with the number of steps. The missing part is added to the
  * nearer node of the cell, whose weight is never small. t: distance from the lower node of the cell, in node
  * distances. */
-static ALWAYS_INLINE void shape_weights_normalise_sum(row_of_points t, row_of_points N[ROW])
+static ALWAYS_INLINE void shape_functions_normalise_sum_to_one(row_of_points t, row_of_points N[ROW])
 {
     const row_of_points missing = 1 - ((N[0] + N[2]) + (N[1] + N[3]));
     N[1] += points_choose_by_sign(t - 0.5, missing, points_broadcast(0));
@@ -80,15 +81,15 @@ static ALWAYS_INLINE void shape_functions_evaluate_at_row_nodes(const enum shape
 {
     switch (shape) {
     case SHAPE_LINEAR:
-        shape_linear(t, N, dN);
+        shape_functions_evaluate_linear(t, N, dN);
         return;
     case SHAPE_CUBIC:
-        shape_cubic(t, N, dN);
+        shape_functions_evaluate_cubic_b_spline(t, N, dN);
         break;
     default:
-        shape_gimp(t, l, inverse_width, N, dN);
+        shape_functions_evaluate_gimp(t, l, inverse_width, N, dN);
     }
-    shape_weights_normalise_sum(t, N);
+    shape_functions_normalise_sum_to_one(t, N);
 }
 
 /* ---- nodes of a cell ---------------------------------------------------------------------------------------------
@@ -185,7 +186,7 @@ static ALWAYS_INLINE void grid_field_add_values_of_node_row(const struct grid *g
 
 /* Returns for the eight (3D) or four (2D) corners of a cell, one per lane, 1 if the corner is on the upper side along
  * axis `axis`, 0 if it is on the lower side. */
-static ALWAYS_INLINE row_of_nodes cell_corners_upper_side_indicator(int axis)
+static ALWAYS_INLINE row_of_nodes cell_corners_one_if_on_upper_side_of_axis(int axis)
 {
 #if ROW_NODES == 8
     return axis == 0   ? (row_of_nodes){0, 1, 0, 1, 0, 1, 0, 1}
@@ -200,9 +201,9 @@ static ALWAYS_INLINE row_of_nodes cell_corners_upper_side_indicator(int axis)
  * points in the cell, in node distances. at: entry of the nodal field, an array over the nodes of g, at the lowest
  * corner of the cell. Stores the derivatives by t_d in slope[dim] and returns the values. Coefficients are scalars: as
  * an array the compiler would keep them in memory. */
-static ALWAYS_INLINE row_of_points corners_interpolate_value_and_slope(const struct grid *g, const real *at,
-                                                                       const row_of_points *t, row_of_points *slope,
-                                                                       const int dim)
+static ALWAYS_INLINE row_of_points cell_corners_interpolate_value_and_gradient(const struct grid *g, const real *at,
+                                                                               const row_of_points *t,
+                                                                               row_of_points *slope, const int dim)
 {
     const real *next = at + g->stride[1];
     const real a = at[0], a_x = at[1] - a, a_y = next[0] - a, a_xy = (next[1] - next[0]) - a_x;
@@ -249,22 +250,23 @@ struct node_row_weights {
 
 /* Computes the weights s->N and slopes s->D of linear shape functions in 2D and 3D, as products of hat functions, for a
  * few points at the positions s->t in the cell. A row then holds corners of the cell; if two rows along z hold them,
- * also the factors s->A[2] and s->B[2] of these rows. inverse: 1/h of the node distance h [1/m]. */
-static ALWAYS_INLINE void stencil_compute_corner_weights(struct cell_stencil *s, real inverse, const int dim)
+ * also the factors s->A[2] and s->B[2] of these rows. inverse_node_distance: 1/h of the node distance h [1/m]. */
+static ALWAYS_INLINE void stencil_compute_corner_weights(struct cell_stencil *s, real inverse_node_distance,
+                                                         const int dim)
 {
     const int along = ROW_DIMS(dim, SHAPE_LINEAR);
     for (int k = 0; k < ROW; k++) {
         s->N[k] = points_broadcast(1);
         for (int d = 0; d < along; d++) {
             s->N[k] *= k >> d & 1 ? s->t[d] : 1 - s->t[d];
-            s->D[d][k] = points_broadcast(k >> d & 1 ? inverse : -inverse);
+            s->D[d][k] = points_broadcast(k >> d & 1 ? inverse_node_distance : -inverse_node_distance);
             for (int e = 0; e < along; e++)
                 if (e != d) s->D[d][k] *= k >> e & 1 ? s->t[e] : 1 - s->t[e];
         }
     }
     if (along == dim) return;
     s->A[2][0] = 1 - s->t[2], s->A[2][1] = s->t[2];
-    s->B[2][0] = points_broadcast(-inverse), s->B[2][1] = points_broadcast(inverse);
+    s->B[2][0] = points_broadcast(-inverse_node_distance), s->B[2][1] = points_broadcast(inverse_node_distance);
 }
 
 /* Finds in which rows of nodes along axis d the points of stencil s (node weights of a few points) have weights, for
@@ -272,7 +274,7 @@ static ALWAYS_INLINE void stencil_compute_corner_weights(struct cell_stencil *s,
  * outer row. Stores the first row with a weight of each point in s->low[d], the first and the end of the rows with
  * weights of any point in s->lowest[d] and s->end[d]. l: half widths in node distances. The code has no branches,
  * because on a lattice t = l up to round-off and the result is unpredictable. */
-static ALWAYS_INLINE void stencil_find_node_rows_with_weights(struct cell_stencil *s, row_of_points l, int d)
+static ALWAYS_INLINE void stencil_find_range_of_node_rows_with_weights(struct cell_stencil *s, row_of_points l, int d)
 {
     const int all = (1 << POINTS) - 1, upper = ~points_sign_bits(s->t[d] - l) & all;
     for (int k = 0; k < POINTS; k++) s->low[d][k] = upper >> k & 1;
@@ -280,13 +282,14 @@ static ALWAYS_INLINE void stencil_find_node_rows_with_weights(struct cell_stenci
 }
 
 /* Computes in stencil s the node weights and slopes of a few points of p in a cell along axis d for the shape function
- * `shape`; not for linear shapes in 2D and 3D. inverse: 1/h of the node distance h [1/m]; half_width:
+ * `shape`; not for linear shapes in 2D and 3D. inverse_node_distance: 1/h of the node distance h [1/m]; half_width:
  * transfer_data.half_width [m]. */
-static ALWAYS_INLINE void stencil_compute_axis_weights(struct cell_stencil *s, const struct particles *p, real inverse,
-                                                       real half_width, int d, const int dim, const enum shape shape)
+static ALWAYS_INLINE void stencil_compute_axis_weights(struct cell_stencil *s, const struct particles *p,
+                                                       real inverse_node_distance, real half_width, int d,
+                                                       const int dim, const enum shape shape)
 {
-    row_of_points l = points_broadcast(half_width * inverse),
-                  inverse_width = points_broadcast(0.5 / (half_width * inverse));
+    row_of_points l = points_broadcast(half_width * inverse_node_distance),
+                  inverse_width = points_broadcast(0.5 / (half_width * inverse_node_distance));
     row_of_points N[ROW], dN[ROW];
     if (shape == SHAPE_CPGIMP) {
         l = points_min(l * points_load(p->stretch[d], s->point, dim), points_broadcast(HALF_WIDTH_MOST));
@@ -295,11 +298,11 @@ static ALWAYS_INLINE void stencil_compute_axis_weights(struct cell_stencil *s, c
     shape_functions_evaluate_at_row_nodes(shape, s->t[d], l, inverse_width, N, dN);
     for (int k = 0; k < ROW; k++) {
         if (d == 0)
-            s->N[k] = N[k], s->D[0][k] = dN[k] * inverse;
+            s->N[k] = N[k], s->D[0][k] = dN[k] * inverse_node_distance;
         else
-            s->A[d][k] = N[k], s->B[d][k] = dN[k] * inverse;
+            s->A[d][k] = N[k], s->B[d][k] = dN[k] * inverse_node_distance;
     }
-    if (SKIPS(dim, shape) && d > 0) stencil_find_node_rows_with_weights(s, l, d);
+    if (SKIPS(dim, shape) && d > 0) stencil_find_range_of_node_rows_with_weights(s, l, d);
 }
 
 /* Returns true if the weights of points on grid g are computed at positions ahead of the actual ones, shifted by the
@@ -345,20 +348,23 @@ static ALWAYS_INLINE void stencil_transpose_weights_to_node_lanes(struct cell_st
 #endif
 }
 
-/* Returns weights and slopes of the nodes of a row (along x) for point number `at` of stencil s (node weights of a few
- * points), one node per lane. stencil_transpose_weights_to_node_lanes must have been called. h: node distance [m]. For
- * linear shape functions (shape) in 2D and 3D weights and slopes are computed anew, which is cheaper than transposing.
+/* Returns weights and slopes of the nodes of a row (along x) for point number `point_in_stencil` of stencil s (node
+ * weights of a few points), one node per lane. stencil_transpose_weights_to_node_lanes must have been called. h: node
+ * distance [m]. For linear shape functions (shape) in 2D and 3D weights and slopes are computed anew, which is cheaper
+ * than transposing.
  */
-static ALWAYS_INLINE struct node_row_weights stencil_row_weights_of_point(const struct cell_stencil *s, int at, real h,
-                                                                          const int dim, const enum shape shape)
+static ALWAYS_INLINE struct node_row_weights stencil_row_weights_of_point(const struct cell_stencil *s,
+                                                                          int point_in_stencil, real h, const int dim,
+                                                                          const enum shape shape)
 {
-    if (!HAS_CORNERS(dim, shape)) return (struct node_row_weights){s->from_N[at], {s->from_D[at]}};
+    if (!HAS_CORNERS(dim, shape))
+        return (struct node_row_weights){s->from_N[point_in_stencil], {s->from_D[point_in_stencil]}};
     struct node_row_weights own = {.N = nodes_broadcast(1)};
     const int along = ROW_DIMS(dim, shape);
     row_of_nodes hat[DIM_MAX], sign[DIM_MAX];
     for (int d = 0; d < along; d++) {
-        sign[d] = 2 * cell_corners_upper_side_indicator(d) - 1;
-        hat[d] = (1 - cell_corners_upper_side_indicator(d)) + s->t[d][at] * sign[d];
+        sign[d] = 2 * cell_corners_one_if_on_upper_side_of_axis(d) - 1;
+        hat[d] = (1 - cell_corners_one_if_on_upper_side_of_axis(d)) + s->t[d][point_in_stencil] * sign[d];
     }
     for (int d = 0; d < along; d++) {
         own.N *= hat[d];
@@ -394,43 +400,45 @@ static ALWAYS_INLINE row_of_points stencil_row_transverse_weight_slopes(const st
 }
 
 /* Returns the product [1] of the shape functions along y and z for the row of nodes number k1 along y and k2 along z,
- * for point number `at` of stencil s (node weights of a few points). shape: shape function. */
-static ALWAYS_INLINE real stencil_point_row_transverse_weight(const struct cell_stencil *s, int at, int k1, int k2,
-                                                              const int dim, const enum shape shape)
+ * for point number `point_in_stencil` of stencil s (node weights of a few points). shape: shape function. */
+static ALWAYS_INLINE real stencil_point_row_transverse_weight(const struct cell_stencil *s, int point_in_stencil,
+                                                              int k1, int k2, const int dim, const enum shape shape)
 {
     real weight = 1;
-    if (dim > 1 && !HAS_CORNERS(dim, shape)) weight *= s->A[1][k1][at];
-    if (ROWS_Z(dim, shape) > 1) weight *= s->A[2][k2][at];
+    if (dim > 1 && !HAS_CORNERS(dim, shape)) weight *= s->A[1][k1][point_in_stencil];
+    if (ROWS_Z(dim, shape) > 1) weight *= s->A[2][k2][point_in_stencil];
     return weight;
 }
 
 /* Returns the derivative [1/m] along axis d (1 or 2) of stencil_point_row_transverse_weight, the product of shape
- * functions that all nodes of a row (nodes along x) share, for point number `at` of stencil s (node weights of a few
- * points). k1, k2: number of the row along y and z. */
-static ALWAYS_INLINE real stencil_point_row_transverse_weight_slope(const struct cell_stencil *s, int at, int k1,
-                                                                    int k2, int d, const int dim,
+ * functions that all nodes of a row (nodes along x) share, for point number `point_in_stencil` of stencil s (node
+ * weights of a few points). k1, k2: number of the row along y and z. */
+static ALWAYS_INLINE real stencil_point_row_transverse_weight_slope(const struct cell_stencil *s, int point_in_stencil,
+                                                                    int k1, int k2, int d, const int dim,
                                                                     const enum shape shape)
 {
     real slope = 1;
-    if (dim > 1 && !HAS_CORNERS(dim, shape)) slope *= d == 1 ? s->B[1][k1][at] : s->A[1][k1][at];
-    if (ROWS_Z(dim, shape) > 1) slope *= d == 2 ? s->B[2][k2][at] : s->A[2][k2][at];
+    if (dim > 1 && !HAS_CORNERS(dim, shape))
+        slope *= d == 1 ? s->B[1][k1][point_in_stencil] : s->A[1][k1][point_in_stencil];
+    if (ROWS_Z(dim, shape) > 1) slope *= d == 2 ? s->B[2][k2][point_in_stencil] : s->A[2][k2][point_in_stencil];
     return slope;
 }
 
-/* Returns the signed distances [m] along axis d from point number `at` of stencil s (node weights of a few points) to
- * the nodes of a row (along x), one node per lane. d: an axis along which the nodes of a row differ; h: node distance
- * [m]; shape: shape function. */
-static ALWAYS_INLINE row_of_nodes stencil_point_distances_to_row_nodes(const struct cell_stencil *s, int at, real h,
-                                                                       int d, const int dim, const enum shape shape)
+/* Returns the signed distances [m] along axis d from point number `point_in_stencil` of stencil s (node weights of a
+ * few points) to the nodes of a row (along x), one node per lane. d: an axis along which the nodes of a row differ; h:
+ * node distance [m]; shape: shape function. */
+static ALWAYS_INLINE row_of_nodes stencil_point_distances_to_row_nodes(const struct cell_stencil *s,
+                                                                       int point_in_stencil, real h, int d,
+                                                                       const int dim, const enum shape shape)
 {
 #if ROW_NODES == 4
     const row_of_nodes nodes =
-        HAS_CORNERS(dim, shape) ? cell_corners_upper_side_indicator(d) : (row_of_nodes){-1, 0, 1, 2};
+        HAS_CORNERS(dim, shape) ? cell_corners_one_if_on_upper_side_of_axis(d) : (row_of_nodes){-1, 0, 1, 2};
 #else
-    const row_of_nodes nodes = cell_corners_upper_side_indicator(d);
+    const row_of_nodes nodes = cell_corners_one_if_on_upper_side_of_axis(d);
     (void)shape, (void)dim;
 #endif
-    return (nodes - s->t[d][at]) * h;
+    return (nodes - s->t[d][point_in_stencil]) * h;
 }
 
 /* Returns the signed distances [m] along axis d from all points of stencil s (node weights of a few points), one per
@@ -442,12 +450,13 @@ static ALWAYS_INLINE row_of_points stencil_all_point_distances_to_node(const str
     return (k - 1 - s->t[d]) * h;
 }
 
-/* Returns the signed distance [m] along axis d from point number `at` of stencil s (node weights of a few points) to
- * the row of nodes number k. d: axis y or z, across the rows; h: node distance [m]; shape: shape function. */
-static ALWAYS_INLINE real stencil_point_distance_to_row(const struct cell_stencil *s, int at, real h, int d, int k,
-                                                        const int dim, const enum shape shape)
+/* Returns the signed distance [m] along axis d from point number `point_in_stencil` of stencil s (node weights of a few
+ * points) to the row of nodes number k. d: axis y or z, across the rows; h: node distance [m]; shape: shape function.
+ */
+static ALWAYS_INLINE real stencil_point_distance_to_row(const struct cell_stencil *s, int point_in_stencil, real h,
+                                                        int d, int k, const int dim, const enum shape shape)
 {
-    return (k - (HAS_CORNERS(dim, shape) ? 0 : 1) - s->t[d][at]) * h;
+    return (k - (HAS_CORNERS(dim, shape) ? 0 : 1) - s->t[d][point_in_stencil]) * h;
 }
 
 #endif

@@ -242,7 +242,7 @@ static ALWAYS_INLINE real stress_drucker_prager_measure(const struct elastic *m,
 static ALWAYS_INLINE bool stress_requires_conversion_to_pd(const struct elastic *m, const struct particles *p,
                                                            int64_t i, const real *stress, const int dim)
 {
-    const real most = point_pd_conversion_stress_threshold(m, p, i);
+    const real most = point_stress_threshold_for_conversion_to_pd(m, p, i);
     if (stress_largest_principal_upper_bound(stress, dim) > most && stress_largest_principal(stress, dim) > most)
         return true;
     if (dim == 1 || !(m->surface.g0 > 0)) return false;

@@ -11,8 +11,9 @@
  * alone. The leap-frog velocity v = (x' - x)/dt is along a chord of the circle of rotation: v = w x r - time_part w x
  * (w x r). time_part: dt/2 for r at the end of the step, -dt/2 at its start [s]. Without the second-order term rotating
  * bodies shrink: a square by 0.2 % per turn at 4000 1/s. */
-static ALWAYS_INLINE row_of_points rotating_group_velocity_derivative(const row_of_points *spin, const real time_part,
-                                                                      int component, int axis, const int dim)
+static ALWAYS_INLINE row_of_points rotating_group_velocity_gradient_component(const row_of_points *spin,
+                                                                              const real time_part, int component,
+                                                                              int axis, const int dim)
 {
     if (dim == 2) return component == axis ? time_part * (spin[2] * spin[2]) : component < axis ? -spin[2] : spin[2];
     const row_of_points mixed = -time_part * spin[component] * spin[axis];
@@ -23,15 +24,16 @@ static ALWAYS_INLINE row_of_points rotating_group_velocity_derivative(const row_
 
 /* Computes the velocity gradients slope[d dim + e] = dv_d/dx_e [1/s] of AT_ONCE(dim) points (processed together) that
  * rotate with their groups. point: numbers of the points; t: inputs of the transfer, with the spins t->turn; time_part:
- * the part of a time step over which they turn (rotating_group_velocity_derivative) [s]. */
-static ALWAYS_INLINE void rotating_group_velocity_gradients(const struct transfer_data *t, const int32_t *point,
-                                                            const real time_part, row_of_points *slope, const int dim)
+ * the part of a time step over which they turn (rotating_group_velocity_gradient_component) [s]. */
+static ALWAYS_INLINE void rotating_group_velocity_gradients_of_points(const struct transfer_data *t,
+                                                                      const int32_t *point, const real time_part,
+                                                                      row_of_points *slope, const int dim)
 {
     row_of_points w[3];
     for (int c = dim == 2 ? 2 : 0; c < 3; c++) w[c] = points_load(t->turn[c], point, dim);
 #pragma GCC unroll 9
     for (int k = 0; k < dim * dim; k++)
-        slope[k] = rotating_group_velocity_derivative(w, time_part, k / dim, k % dim, dim);
+        slope[k] = rotating_group_velocity_gradient_component(w, time_part, k / dim, k % dim, dim);
 }
 
 #endif

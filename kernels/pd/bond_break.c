@@ -65,8 +65,8 @@ static void row_changed(struct bonds *b, int64_t row)
 static void last_force(const struct bonds *b, struct particles *p, const struct bond *bond, int32_t i, real share)
 {
     real given[DIM_MAX], f[DIM_MAX];
-    bond_force_vector_of_any_model(b, p, bond, i, true, given);
-    bond_force_vector_of_any_model(b, p, bond, i, false, f);
+    bond_force_vector_bond_or_state_based(b, p, bond, i, true, given);
+    bond_force_vector_bond_or_state_based(b, p, bond, i, false, f);
     for (int d = 0; d < p->dim; d++) p->f[d][i] += share * f[d] - given[d];
 }
 
@@ -255,7 +255,7 @@ static ALWAYS_INLINE lanes bond_break_largest_of(lanes largest, const struct par
 static ALWAYS_INLINE lanes rows_largest(const struct bonds *b, const struct particles *p, int64_t g, const int dim)
 {
     lanes x[DIM_MAX], largest = lanes_broadcast(0);
-    bond_rows_load_positions(b, p, g * LANES, x, dim);
+    bond_rows_load_positions_of_their_particles(b, p, g * LANES, x, dim);
 #define VISIT(COLUMN) largest = bond_break_largest_of(largest, p, x, COLUMN, dim)
     FOR_COLUMNS(b, g * LANES, VISIT);
 #undef VISIT

@@ -34,8 +34,8 @@ struct bond_column_view {
  * the column COLUMNS_AHEAD columns behind it. kind: what the eight bonds have in common: nothing (COLUMN_FREE),
  * consecutive neighbours and a tabulated length (SHELL), also one weight (ALIKE). part: as in struct bond_column_view.
  */
-static ALWAYS_INLINE struct bond_column_view bond_column_view_stored_bonds(const struct bonds *b, int64_t column_number,
-                                                                           const enum column_kind kind, int part)
+static ALWAYS_INLINE struct bond_column_view
+bond_column_view_of_stored_bonds(const struct bonds *b, int64_t column_number, const enum column_kind kind, int part)
 {
     const int64_t q = (column_number + COLUMNS_AHEAD) * LANES, first = b->common[column_number].first;
     if (part == 0) {
@@ -53,7 +53,7 @@ static ALWAYS_INLINE struct bond_column_view bond_column_view_stored_bonds(const
  * columns; kind: what the stencil determines: all but the weights (COLUMN_STENCIL), also the weights (WHOLE), which are
  * 1 (UNIT). part: as in struct bond_column_view. */
 static ALWAYS_INLINE struct bond_column_view
-bond_column_view_bonds_of_stencil(const struct bonds *b, int64_t column_number, const struct stencil *stencil,
+bond_column_view_of_stencil_bonds(const struct bonds *b, int64_t column_number, const struct stencil *stencil,
                                   int64_t column_in_stencil, int64_t first_particle, const enum column_kind kind,
                                   int part)
 {
@@ -83,20 +83,20 @@ bond_column_view_bonds_of_stencil(const struct bonds *b, int64_t column_number, 
                 if ((B)->common[k_].intact == 0)                                                                       \
                     continue;                                                                                          \
                 else if ((B)->common[k_].alike)                                                                        \
-                    VISIT(bond_column_view_stored_bonds(B, k_, COLUMN_ALIKE, part_));                                  \
+                    VISIT(bond_column_view_of_stored_bonds(B, k_, COLUMN_ALIKE, part_));                               \
                 else if ((B)->common[k_].shell)                                                                        \
-                    VISIT(bond_column_view_stored_bonds(B, k_, COLUMN_SHELL, part_));                                  \
+                    VISIT(bond_column_view_of_stored_bonds(B, k_, COLUMN_SHELL, part_));                               \
                 else                                                                                                   \
-                    VISIT(bond_column_view_stored_bonds(B, k_, COLUMN_FREE, part_));                                   \
+                    VISIT(bond_column_view_of_stored_bonds(B, k_, COLUMN_FREE, part_));                                \
         else if (stencil_->unit)                                                                                       \
             for (int64_t k_ = 0; k_ < columns_; k_++)                                                                  \
-                VISIT(bond_column_view_bonds_of_stencil(B, from_ + k_, stencil_, k_, own_, COLUMN_UNIT, part_));       \
+                VISIT(bond_column_view_of_stencil_bonds(B, from_ + k_, stencil_, k_, own_, COLUMN_UNIT, part_));       \
         else if (stencil_->whole)                                                                                      \
             for (int64_t k_ = 0; k_ < columns_; k_++)                                                                  \
-                VISIT(bond_column_view_bonds_of_stencil(B, from_ + k_, stencil_, k_, own_, COLUMN_WHOLE, part_));      \
+                VISIT(bond_column_view_of_stencil_bonds(B, from_ + k_, stencil_, k_, own_, COLUMN_WHOLE, part_));      \
         else                                                                                                           \
             for (int64_t k_ = 0; k_ < columns_; k_++)                                                                  \
-                VISIT(bond_column_view_bonds_of_stencil(B, from_ + k_, stencil_, k_, own_, COLUMN_STENCIL, part_));    \
+                VISIT(bond_column_view_of_stencil_bonds(B, from_ + k_, stencil_, k_, own_, COLUMN_STENCIL, part_));    \
     } while (0)
 
 /* Calls VISIT(column) for the columns of WIDE rows from FIRST_ROW on as FOR_COLUMNS does, or VISIT_BRITTLE(column) if
@@ -204,22 +204,23 @@ static ALWAYS_INLINE lanes bond_column_min_where_intact(const struct bond_column
 }
 
 /* Loads the positions x[dim] [m] of the particles of WIDE rows of b, from row `first` on. p: all particles. */
-static ALWAYS_INLINE void bond_rows_load_positions(const struct bonds *b, const struct particles *p, int64_t first,
-                                                   lanes *x, const int dim)
+static ALWAYS_INLINE void bond_rows_load_positions_of_their_particles(const struct bonds *b, const struct particles *p,
+                                                                      int64_t first, lanes *x, const int dim)
 {
     const int32_t *row = b->particle + first, own = b->aligned[first / LANES] ? row[0] : -1;
     for (int d = 0; d < dim; d++) x[d] = lanes_load_or_gather(p->x[d], own, row);
 }
 
-/* Stores `value`, one value for each particle of WIDE rows, in the particle array `to`. row: indices of these
- * particles; rows: number of rows from there to the end of all rows, less than WIDE or negative in the last block;
- * aligned: true if the indices are consecutive, so that all values are stored at once. */
-static ALWAYS_INLINE void bond_rows_store_values(real *to, const int32_t *row, int rows, bool aligned, lanes value)
+/* Stores `value`, one value for each particle of WIDE rows_left, in the particle array `to`. row: indices of these
+ * particles; rows_left: number of rows from there to the end of all rows_left, less than WIDE or negative in the last
+ * block; aligned: true if the indices are consecutive, so that all values are stored at once. */
+static ALWAYS_INLINE void bond_rows_store_values_of_their_particles(real *to, const int32_t *row, int rows_left,
+                                                                    bool aligned, lanes value)
 {
     if (aligned)
         lanes_store(to + row[0], value);
     else
-        for (int l = 0; l < WIDE && l < rows; l++) to[row[l]] = value[l];
+        for (int l = 0; l < WIDE && l < rows_left; l++) to[row[l]] = value[l];
 }
 
 #endif

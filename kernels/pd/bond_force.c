@@ -91,10 +91,10 @@ static ALWAYS_INLINE bool bond_force_rows(const struct bonds *b, struct particle
 #define VISIT(COLUMN) sum = bond_force_column(sum, p, COLUMN, dim, model)
     FOR_COLUMNS(b, first, VISIT);
 #undef VISIT
-    bond_rows_store_values(p->f[0], row, rows, aligned, sum.f0 * b->stiffness);
-    if (dim > 1) bond_rows_store_values(p->f[1], row, rows, aligned, sum.f1 * b->stiffness);
-    if (dim > 2) bond_rows_store_values(p->f[2], row, rows, aligned, sum.f2 * b->stiffness);
-    if (model == PD_BOND_SOFT) bond_rows_add_excess_dissipation_at_kinks(b, first, sum.lost);
+    bond_rows_store_values_of_their_particles(p->f[0], row, rows, aligned, sum.f0 * b->stiffness);
+    if (dim > 1) bond_rows_store_values_of_their_particles(p->f[1], row, rows, aligned, sum.f1 * b->stiffness);
+    if (dim > 2) bond_rows_store_values_of_their_particles(p->f[2], row, rows, aligned, sum.f2 * b->stiffness);
+    if (model == PD_BOND_SOFT) bond_rows_add_excess_softening_dissipation(b, first, sum.lost);
     *pressed |= lanes_mask_any(sum.press < CORE_FROM - 1);
     if (b->soft.near && model != PD_BOND_SOFT && lanes_mask_any(sum.stretch > b->soft.gate)) b->soft.near[g] = 1;
     return lanes_mask_any(sum.stretch > (model == PD_BOND_SOFT ? zero : sum.trigger));

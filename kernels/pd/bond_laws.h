@@ -18,8 +18,8 @@
  *
  * In monotonic loading this is the capped force of Zeng et al. 2021, eq. 18, which lacks elastic unloading. Returns the
  * elastic parts s - s_p of the eight stretches. */
-static ALWAYS_INLINE lanes bonds_return_mapping(const struct bonds *b, int64_t first_bond, lanes stretch,
-                                                lanes_mask intact)
+static ALWAYS_INLINE lanes bonds_apply_return_mapping_get_elastic_stretch(const struct bonds *b, int64_t first_bond,
+                                                                          lanes stretch, lanes_mask intact)
 {
     const lanes yield = lanes_gather(b->yield.stretch, b->pair + first_bond);
     const lanes hardening = lanes_gather(b->yield.hardening, b->pair + first_bond);
@@ -91,13 +91,14 @@ static ALWAYS_INLINE lanes bonds_excess_dissipation_at_softening_kinks(const str
                         0.5 * w * sum * onset / (span * inverse_length), zero);
 }
 
-/* Adds the energies `lost` of bonds_excess_dissipation_at_softening_kinks, summed for each of the WIDE rows (the bonds
- * of one particle each) from row number `row` on, to the fracture energies of these rows: one half, because each bond
- * is in two rows. */
-static ALWAYS_INLINE void bond_rows_add_excess_dissipation_at_kinks(const struct bonds *b, int64_t row, lanes lost)
+/* Adds the energies `excess_dissipation` of bonds_excess_dissipation_at_softening_kinks, summed for each of the WIDE
+ * rows (the bonds of one particle each) from row number `row` on, to the fracture energies of these rows: one half,
+ * because each bond is in two rows. */
+static ALWAYS_INLINE void bond_rows_add_excess_softening_dissipation(const struct bonds *b, int64_t row,
+                                                                     lanes excess_dissipation)
 {
     real *energy = b->fracture_energy + row;
-    if (b->soft.curve->pieces > 1) lanes_store(energy, lanes_load(energy) + 0.5 * b->stiffness * lost);
+    if (b->soft.curve->pieces > 1) lanes_store(energy, lanes_load(energy) + 0.5 * b->stiffness * excess_dissipation);
 }
 
 /* Returns the normalised force [1] of the eight bonds with indices `first_bond` to `first_bond` + 7 in the arrays of b,
@@ -108,7 +109,7 @@ static ALWAYS_INLINE void bond_rows_add_excess_dissipation_at_kinks(const struct
 static ALWAYS_INLINE lanes bonds_update_state_and_get_normalised_force(const enum pd_model model, const struct bonds *b,
                                                                        int64_t first_bond, lanes stretch, lanes w)
 {
-    return model == PD_BOND_PLASTIC ? bonds_return_mapping(b, first_bond, stretch, w > 0.0)
+    return model == PD_BOND_PLASTIC ? bonds_apply_return_mapping_get_elastic_stretch(b, first_bond, stretch, w > 0.0)
            : model == PD_BOND_SOFT  ? bonds_update_softening_and_scale_stretch(b, first_bond, stretch)
                                     : stretch;
 }
@@ -157,7 +158,7 @@ static ALWAYS_INLINE lanes bonds_normalised_energy(const enum pd_model model, la
 /* ---- one bond, for samples and frames ---------------------------------------------------------------------- */
 
 /* Returns the stretch [1] of `bond`, a bond of particle i, at the present positions p->x. */
-static inline real bond_present_stretch(const struct particles *p, const struct bond *bond, int32_t i)
+static inline real bond_stretch_at_present_positions(const struct particles *p, const struct bond *bond, int32_t i)
 {
     real distance2 = 0;
     for (int d = 0; d < p->dim; d++) distance2 += square(p->x[d][bond->nbr] - p->x[d][i]);
@@ -166,10 +167,11 @@ static inline real bond_present_stretch(const struct particles *p, const struct 
 
 /* Returns the elastic part [1] of the present stretch of `bond`, a bond in b of particle i of p. It equals the force of
  * the bond divided by stiffness and weight. */
-static inline real bond_present_elastic_stretch(const struct bonds *b, const struct particles *p,
-                                                const struct bond *bond, int32_t i)
+static inline real bond_elastic_stretch_at_present_positions(const struct bonds *b, const struct particles *p,
+                                                             const struct bond *bond, int32_t i)
 {
-    return bond_at_index_elastic_stretch(b, b->row_of[i] / LANES, bond->entry, bond_present_stretch(p, bond, i));
+    return bond_at_index_elastic_stretch(b, b->row_of[i] / LANES, bond->entry,
+                                         bond_stretch_at_present_positions(p, bond, i));
 }
 
 /* Returns the force [N] of `bond`, a bond in b of particle i of p in a bond-based model, as the force kernel computes
@@ -177,7 +179,7 @@ static inline real bond_present_elastic_stretch(const struct bonds *b, const str
 static inline real bond_based_signed_force(const struct bonds *b, const struct particles *p, const struct bond *bond,
                                            int32_t i)
 {
-    return bond->w == 0 ? 0 : b->stiffness * bond->w * bond_present_elastic_stretch(b, p, bond, i);
+    return bond->w == 0 ? 0 : b->stiffness * bond->w * bond_elastic_stretch_at_present_positions(b, p, bond, i);
 }
 
 /* Stores in f[dim] the force vector [N] that `bond`, a bond in b of particle i of p, exerts on this particle.
@@ -197,8 +199,8 @@ static inline real bond_based_elastic_energy(const struct bonds *b, const struct
                                              int32_t i)
 {
     if (bond->w == 0) return 0;
-    const real energy =
-        bond_at_index_normalised_energy(b, b->row_of[i] / LANES, bond->entry, bond_present_stretch(p, bond, i));
+    const real energy = bond_at_index_normalised_energy(b, b->row_of[i] / LANES, bond->entry,
+                                                        bond_stretch_at_present_positions(p, bond, i));
     return b->stiffness * bond->w * energy / bond->inverse_length;
 }
 

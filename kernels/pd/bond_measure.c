@@ -51,7 +51,7 @@ static ALWAYS_INLINE lanes bond_energy_rows(const struct bonds *b, const struct 
                                             bool *pressed, const int dim, const enum pd_model model)
 {
     lanes sum = lanes_broadcast(0), press = lanes_broadcast(0), x[DIM_MAX];
-    bond_rows_load_positions(b, p, first, x, dim);
+    bond_rows_load_positions_of_their_particles(b, p, first, x, dim);
 #define VISIT(COLUMN) sum += bond_energy_column(COLUMN, p, x, &press, dim, model)
 #define VISIT_BRITTLE(COLUMN) sum += bond_energy_column(COLUMN, p, x, &press, dim, PD_BOND)
     FOR_COLUMNS_BY_LAW(b, first, model, VISIT, VISIT_BRITTLE);
@@ -104,7 +104,7 @@ static ALWAYS_INLINE void bond_stress_rows(const struct bonds *b, struct particl
     const int32_t *row = b->particle + first;
     lanes sum[SYM_MAX], x[DIM_MAX];
     for (int s = 0; s < dim * (dim + 1) / 2; s++) sum[s] = lanes_broadcast(0);
-    bond_rows_load_positions(b, p, first, x, dim);
+    bond_rows_load_positions_of_their_particles(b, p, first, x, dim);
 #define VISIT(COLUMN) bond_stress_column(sum, COLUMN, p, x, dim, model)
 #define VISIT_BRITTLE(COLUMN) bond_stress_column(sum, COLUMN, p, x, dim, PD_BOND)
     FOR_COLUMNS_BY_LAW(b, first, model, VISIT, VISIT_BRITTLE);
@@ -137,11 +137,11 @@ static ALWAYS_INLINE void bond_soften_rows(const struct bonds *b, const struct p
                                            const int dim)
 {
     lanes x[DIM_MAX], lost = lanes_broadcast(0);
-    bond_rows_load_positions(b, p, first, x, dim);
+    bond_rows_load_positions_of_their_particles(b, p, first, x, dim);
 #define VISIT(COLUMN) lost += bond_soften_column(COLUMN, p, x, dim)
     FOR_COLUMNS(b, first, VISIT);
 #undef VISIT
-    bond_rows_add_excess_dissipation_at_kinks(b, first, lost);
+    bond_rows_add_excess_softening_dissipation(b, first, lost);
 }
 
 void bonds_update_softening(struct bonds *b, const struct particles *p)

@@ -135,7 +135,7 @@ static void reactions_last(const struct bonds *b, const struct particles *p, con
         const real share =
             bond_at_index_find_break_time_and_force_fraction(b, p, limit, bond.entry, c->from[k], bond.nbr).share;
         real f[DIM_MAX];
-        bond_force_vector_of_any_model(b, p, &bond, c->from[k], false, f);
+        bond_force_vector_bond_or_state_based(b, p, &bond, c->from[k], false, f);
         for (int d = 0; d < p->dim; d++) c->reaction[d][k] = -share * (b->state.modulus ? 1 : 0.5) * f[d];
     }
 }

@@ -9,8 +9,8 @@
 /* Returns a bit for each of the particles list[0] .. list[n - 1] of p, n <= 8: bit l is set if particle list[l] is
  * moved now, i.e. if it is peridynamic, not moved by the grid, and loaded[i] is 0 for its index i. loaded: [particles]
  * not 0 for particles that are moved later, after the loads are applied; NULL: none. */
-static ALWAYS_INLINE unsigned pd_select_movable_particles(const struct particles *p, const int32_t *list, int n,
-                                                          const uint8_t *loaded)
+static ALWAYS_INLINE unsigned pd_particles_to_move_now_bits(const struct particles *p, const int32_t *list, int n,
+                                                            const uint8_t *loaded)
 {
     const int32_t first = list[0];
     unsigned bits = 0;
@@ -69,7 +69,7 @@ static ALWAYS_INLINE bool pd_advance_up_to_eight_particles(struct particles *p, 
                                                            const uint8_t *loaded, const struct pd_motion *m,
                                                            const int dim)
 {
-    const unsigned movers = pd_select_movable_particles(p, list, n, loaded);
+    const unsigned movers = pd_particles_to_move_now_bits(p, list, n, loaded);
     if (movers == 0) return false;
     const bool consecutive = movers == UINT8_MAX && list_is_consecutive(list);
     bool diverged = false;

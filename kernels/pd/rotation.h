@@ -17,8 +17,8 @@
 
 /* Computes the row with the largest diagonal entry of the matrix 4 (q, q0) (q, q0)^T for eight rotations R (row major,
  * one per lane) with the unit quaternions (q, q0). From it the quaternion follows without division by a small number
- * (Shepperd 1978). row: receives the four entries of this row. Returns its diagonal entry. */
-static ALWAYS_INLINE lanes rotation_quaternion_outer_product_largest_row(const lanes *R, lanes *row)
+ * (Shepperd 1978). largest_row: receives the four entries of this row. Returns its diagonal entry. */
+static ALWAYS_INLINE lanes rotation_quaternion_outer_product_largest_row(const lanes *R, lanes *largest_row)
 {
     const lanes odd[3] = {R[7] - R[5], R[2] - R[6], R[3] - R[1]}, even[3] = {R[1] + R[3], R[5] + R[7], R[6] + R[2]};
     const lanes size[ROTATION] = {1.0 + R[0] - R[4] - R[8], 1.0 - R[0] + R[4] - R[8], 1.0 - R[0] - R[4] + R[8],
@@ -26,10 +26,10 @@ static ALWAYS_INLINE lanes rotation_quaternion_outer_product_largest_row(const l
     const lanes rows[3][ROTATION] = {
         {size[0], even[0], even[2], odd[0]}, {even[0], size[1], even[1], odd[1]}, {even[2], even[1], size[2], odd[2]}};
     lanes largest = size[3];
-    for (int c = 0; c < ROTATION; c++) row[c] = c < 3 ? odd[c] : size[3];
+    for (int c = 0; c < ROTATION; c++) largest_row[c] = c < 3 ? odd[c] : size[3];
     for (int k = 0; k < 3; k++) {
         const lanes_mask larger = size[k] > largest;
-        for (int c = 0; c < ROTATION; c++) row[c] = lanes_choose(larger, rows[k][c], row[c]);
+        for (int c = 0; c < ROTATION; c++) largest_row[c] = lanes_choose(larger, rows[k][c], largest_row[c]);
         largest = lanes_choose(larger, size[k], largest);
     }
     return largest;

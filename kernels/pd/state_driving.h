@@ -11,8 +11,8 @@
  * rotation) of the neighbourhoods of both particles: the energy [J] that a small increase of its damage releases,
  * divided by this increase and by the weight of the bond (factor on its force). Damage may grow only if the result is
  * positive. i: particle of p to whose bonds `bond` belongs; the result for the other particle is bitwise equal. */
-static inline real bond_damage_driving_energy(const struct bonds *b, const struct particles *p, const struct bond *bond,
-                                              int32_t i)
+static inline real bond_energy_release_rate_by_damage(const struct bonds *b, const struct particles *p,
+                                                      const struct bond *bond, int32_t i)
 {
     const struct state *t = &b->state;
     const int32_t at[2] = {i, bond->nbr};

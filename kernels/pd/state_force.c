@@ -40,7 +40,7 @@ static ALWAYS_INLINE void precompute_column(struct family_sums *sum, const struc
     const lanes w = bond_column_weights(column), stretch = STRETCH_OF(lanes_square_root(s.distance2), s.inverse_length);
     sum->stretch = bond_column_max_where_intact(column, sum->stretch, stretch);
     sum->press = bond_column_min_where_intact(column, sum->press, stretch);
-    sum->extension += state_bonds_weighted_reference_length(column, w, s.inverse_length, true) * stretch;
+    sum->extension += state_bonds_weight_times_reference_length(column, w, s.inverse_length, true) * stretch;
     if (!state_model_has_rotations(model)) return;
     for (int c = 0; c < dim; c++) {
         const lanes weighted = bond_column_weighted_vector_component(column, c, w, s.xi[c]);
@@ -58,7 +58,7 @@ static ALWAYS_INLINE void family_rotation(lanes *rotation, const lanes *moment, 
                                           const int dim)
 {
     lanes R[DIM_MAX * DIM_MAX];
-    polar_rotation_lanes(moment, R, dim);
+    polar_decomposition_rotations(moment, R, dim);
     for (int c = 0; c < dim * dim; c++) R[c] = lanes_choose(moved != 0, R[c], lanes_broadcast(c % (dim + 1) == 0));
     rotation_encode_with_spring_stiffness(rotation, R, spring, dim);
 }
@@ -102,10 +102,10 @@ static ALWAYS_INLINE void precompute_store(struct bonds *b, int64_t first, const
     const int rows = count_of_eight_consecutive_indices_below(first, b->rows);
     const bool aligned = b->aligned[first / LANES];
     struct state *t = &b->state;
-    bond_rows_store_values(t->pressure, row, rows, aligned, k->pressure);
-    bond_rows_store_values(t->spring, row, rows, aligned, k->spring);
+    bond_rows_store_values_of_their_particles(t->pressure, row, rows, aligned, k->pressure);
+    bond_rows_store_values_of_their_particles(t->spring, row, rows, aligned, k->spring);
     for (int c = 0; state_model_has_rotations(model) && c < ROTATION; c++)
-        bond_rows_store_values(t->rotation[c], row, rows, aligned, k->rotation[c]);
+        bond_rows_store_values_of_their_particles(t->rotation[c], row, rows, aligned, k->rotation[c]);
 }
 
 /* ---- bonded material points -------------------------------------------------------------------------------------- */
@@ -158,8 +158,8 @@ static ALWAYS_INLINE void ends_moment(struct particles *p, const int32_t *row, i
     const lanes_mask any = end & ((sum->moved != 0) | (turned != 0.0)); /* exactly zero where nothing has moved */
     for (int k = dim == 2 ? 2 : 0, c = 0; k < 3; k++, c++) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
-        bond_rows_store_values(p->end_moment[c], row, rows, own >= 0,
-                               lanes_choose(any, N[j][i] - N[i][j], lanes_broadcast(0)));
+        bond_rows_store_values_of_their_particles(p->end_moment[c], row, rows, own >= 0,
+                                                  lanes_choose(any, N[j][i] - N[i][j], lanes_broadcast(0)));
     }
 }
 
@@ -178,7 +178,7 @@ static __attribute__((noinline)) void ends_update(struct bonds *b, struct partic
     k->pressure +=
         f->A * f->share * lanes_choose(end, lanes_load_or_gather(p->end_strain, own, row), lanes_broadcast(0));
     const lanes pull = lanes_choose(end, k->pressure * lanes_load(b->state.weighted + first), lanes_broadcast(0));
-    bond_rows_store_values(p->end_pull, row, rows, own >= 0, pull);
+    bond_rows_store_values_of_their_particles(p->end_pull, row, rows, own >= 0, pull);
     if (!state_model_has_rotations(model)) return;
     lanes rotation[ROTATION];
     ends_rotate(p, row, own, k->spring, false, rotation, dim);
@@ -247,7 +247,7 @@ static ALWAYS_INLINE void precompute_row_block(struct bonds *b, struct particles
     bool past = false, pressed = false;
     for (int part = 0; part < LANES; part += WIDE) precompute_rows(b, p, g * LANES + part, &past, &pressed, dim, model);
     b->state.past[g] = past, b->state.pressed[g] = pressed;
-    if (past && !limit->softening) bond_row_block_blend_states_for_breaking_bonds(b, p, limit, g);
+    if (past && !limit->softening) bond_row_block_states_blend_out_breaking_bonds(b, p, limit, g);
 }
 
 /* Sets the states (pressure, spring stiffness, rotation) of mirror images in b->state to the states of the particles of
@@ -300,7 +300,8 @@ static ALWAYS_INLINE void force_column(struct state_sums *sum, const struct part
         for (int d = 0; d < dim; d++) sum->f[d] += along * s.y[d];
         return;
     }
-    const lanes along = state_bonds_weighted_reference_length(column, w, s.inverse_length, false) * pressure * inverse,
+    const lanes along =
+                    state_bonds_weight_times_reference_length(column, w, s.inverse_length, false) * pressure * inverse,
                 weighted = w * spring;
     lanes rotation[ROTATION], arm[DIM_MAX], f[DIM_MAX];
     for (int c = 0; c < ROTATION; c++)
@@ -340,7 +341,7 @@ static ALWAYS_INLINE void force_rows(const struct bonds *b, struct particles *p,
         for (int c = 0; c < ROTATION; c++) rotation[c] = lanes_load_or_gather(t->rotation[c], own, row);
         encoded_rotation_subtract_product_with_vector(sum.f, rotation, sum.arm, dim);
     }
-    for (int d = 0; d < dim; d++) bond_rows_store_values(p->f[d], row, rows, own >= 0, sum.f[d]);
+    for (int d = 0; d < dim; d++) bond_rows_store_values_of_their_particles(p->f[d], row, rows, own >= 0, sum.f[d]);
 }
 
 /* Computes the forces of the bonds on the eight particles of row block g (their bonds are stored together) into p->f,

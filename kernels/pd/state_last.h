@@ -23,9 +23,10 @@ struct unbroken_family_sums {
 /* Returns the sums over those bonds of row `row` of b (all bonds of one particle of p) that stay below their breaking
  * stretch. limit: breaking stretches. The members `ended` and `share` of the result: number of breaking bonds, and mean
  * share of their force that acts in this step. */
-static inline struct unbroken_family_sums family_sums_of_unbroken_bonds(const struct bonds *b,
-                                                                        const struct particles *p,
-                                                                        const struct bond_limit *limit, int64_t row)
+static inline struct unbroken_family_sums family_sums_over_bonds_below_breaking_stretch(const struct bonds *b,
+                                                                                        const struct particles *p,
+                                                                                        const struct bond_limit *limit,
+                                                                                        int64_t row)
 {
     const int32_t i = b->particle[row];
     struct unbroken_family_sums left = {0};
@@ -51,7 +52,7 @@ static inline struct unbroken_family_sums family_sums_of_unbroken_bonds(const st
 /* Replaces *value, a quantity of a neighbourhood with the bonds that break in this step, by weight * *value + (1 -
  * weight) * without_breaking, where `without_breaking` is the quantity without these bonds. weight: share (0 to 1) of
  * the force of the breaking bonds that acts in this step. */
-static inline void value_blend_with_and_without_breaking_bonds(real *value, real without_breaking, real weight)
+static inline void value_blend_with_value_without_breaking_bonds(real *value, real without_breaking, real weight)
 {
     *value = weight * *value + (1 - weight) * without_breaking;
 }
@@ -60,9 +61,9 @@ static inline void value_blend_with_and_without_breaking_bonds(real *value, real
  * bonds; R': rotation without the breaking bonds; S = left->share: fraction of the force of the breaking bonds that
  * acts in this step. left: sums over the remaining bonds; spring: spring stiffness (force per extension) of the
  * neighbourhood without the breaking bonds [N/m]; dim: dimensions. */
-static inline void state_rotation_blend_for_breaking_bonds(struct state *t, int32_t i,
-                                                           const struct unbroken_family_sums *left, real spring,
-                                                           int dim)
+static inline void family_rotation_blend_out_breaking_bonds(struct state *t, int32_t i,
+                                                            const struct unbroken_family_sums *left, real spring,
+                                                            int dim)
 {
     real R[DIM_MAX * DIM_MAX], along = 0;
     lanes eight[DIM_MAX * DIM_MAX] = {{0}}, kept[ROTATION]; /* eight equal lanes */
@@ -72,7 +73,7 @@ static inline void state_rotation_blend_for_breaking_bonds(struct state *t, int3
     for (int c = 0; c < ROTATION; c++) along += t->rotation[c][i] * kept[c][0];
     const real sign = dim == 3 && along < 0 ? -1 : 1; /* a quaternion and its negative are one rotation */
     for (int c = 0; c < ROTATION; c++)
-        value_blend_with_and_without_breaking_bonds(&t->rotation[c][i], sign * kept[c][0], left->share);
+        value_blend_with_value_without_breaking_bonds(&t->rotation[c][i], sign * kept[c][0], left->share);
 }
 
 /* Replaces pressure (from which the part of bond forces that is due to dilatation follows), spring stiffness (force per
@@ -81,21 +82,21 @@ static inline void state_rotation_blend_for_breaking_bonds(struct state *t, int3
  * force that acts in this step (bond_find_break_time_and_force_fraction), as a mean over these bonds. row: row of b
  * that holds the bonds of the particle (of p); limit: breaking stretches, and the rule for the share. Does nothing for
  * material points, to whose state their cells contribute. */
-static inline void bond_row_blend_state_for_breaking_bonds(struct bonds *b, const struct particles *p,
-                                                           const struct bond_limit *limit, int64_t row)
+static inline void family_state_blend_out_breaking_bonds(struct bonds *b, const struct particles *p,
+                                                         const struct bond_limit *limit, int64_t row)
 {
     const int32_t i = b->particle[row];
     const struct state_modulus *m = &b->state.modulus[p->material[i]];
     if (p->kind[i] != KIND_PD) return;
-    const struct unbroken_family_sums left = family_sums_of_unbroken_bonds(b, p, limit, row);
+    const struct unbroken_family_sums left = family_sums_over_bonds_below_breaking_stretch(b, p, limit, row);
     if (left.ended == 0) return;
     const real Q = b->state.local && b->whole[row] ? left.weighted : b->state.weighted[row];
     const real share = b->state.share > 0 ? b->state.share : Q > 0 ? p->volume0[i] / Q : 0;
     const real inverse = Q > 0 ? 1 / Q : 0, spring = m->B * share;
-    value_blend_with_and_without_breaking_bonds(&b->state.pressure[i], m->A * left.extension * inverse * share,
-                                                left.share);
-    if (b->state.rotation[0]) state_rotation_blend_for_breaking_bonds(&b->state, i, &left, spring, p->dim);
-    value_blend_with_and_without_breaking_bonds(&b->state.spring[i], spring, left.share);
+    value_blend_with_value_without_breaking_bonds(&b->state.pressure[i], m->A * left.extension * inverse * share,
+                                                  left.share);
+    if (b->state.rotation[0]) family_rotation_blend_out_breaking_bonds(&b->state, i, &left, spring, p->dim);
+    value_blend_with_value_without_breaking_bonds(&b->state.spring[i], spring, left.share);
 }
 
 /* Prepares the states of the neighbourhoods (pressure, from which the part of bond forces that is due to dilatation
@@ -103,7 +104,7 @@ static inline void bond_row_blend_state_for_breaking_bonds(struct bonds *b, cons
  * rows of b for a step in which bonds break. Copies them to b->state.before, which breaking bonds use. Then replaces
  * them in b->state by weighted means of the values with and without the breaking bonds, which the remaining bonds use.
  * limit: breaking stretches. Only for blocks in which a bond of a particle of p exceeds its limit. */
-static inline void bond_row_block_blend_states_for_breaking_bonds(struct bonds *b, const struct particles *p,
+static inline void bond_row_block_states_blend_out_breaking_bonds(struct bonds *b, const struct particles *p,
                                                                   const struct bond_limit *limit, int64_t row_block)
 {
     struct state *t = &b->state;
@@ -111,7 +112,7 @@ static inline void bond_row_block_blend_states_for_breaking_bonds(struct bonds *
         const int32_t i = b->particle[row];
         t->before[0][i] = t->pressure[i], t->before[1][i] = t->spring[i];
         for (int c = 0; c < ROTATION && t->rotation[c]; c++) t->before[2 + c][i] = t->rotation[c][i];
-        if (limit->last_force == LAST_FORCE_MOMENT) bond_row_blend_state_for_breaking_bonds(b, p, limit, row);
+        if (limit->last_force == LAST_FORCE_MOMENT) family_state_blend_out_breaking_bonds(b, p, limit, row);
     }
 }
 
@@ -174,17 +175,18 @@ static inline void state_bond_force(const struct bonds *b, const struct particle
 }
 
 /* Computes the force f[dim] [N] of `bond` on particle i of p, to whose bonds in b it belongs, in a bond-based or
- * state-based model. present, for state-based models: true for the present states of both particles, false for the
- * states before bonds broke in this step. */
-static inline void bond_force_vector_of_any_model(const struct bonds *b, const struct particles *p,
-                                                  const struct bond *bond, int32_t i, bool present, real *f)
+ * state-based model. use_present_states, for state-based models: true for the present states of both particles, false
+ * for the states before bonds broke in this step. */
+static inline void bond_force_vector_bond_or_state_based(const struct bonds *b, const struct particles *p,
+                                                         const struct bond *bond, int32_t i, bool use_present_states,
+                                                         real *f)
 {
     if (!b->state.modulus)
         bond_based_force_vector(b, p, bond, i, f);
     else if (p->dim == 2)
-        state_bond_force(b, p, bond, i, present, f, 2);
+        state_bond_force(b, p, bond, i, use_present_states, f, 2);
     else
-        state_bond_force(b, p, bond, i, present, f, 3);
+        state_bond_force(b, p, bond, i, use_present_states, f, 3);
 }
 
 #endif

@@ -66,8 +66,8 @@ static ALWAYS_INLINE void state_bonds_compute_vectors_and_lengths(struct state_b
 /* Returns weight (factor on the force) times reference length, w |xi| [m], of the eight bonds of `column` (one bond of
  * each of eight particles), or w |xi|^2 [m^2] if `square` is true. On a lattice |xi| is the exact length of the lattice
  * shell, without the round-off of positions. w, inverse_length: weights [1] and inverse lengths [1/m] of the bonds. */
-static ALWAYS_INLINE lanes state_bonds_weighted_reference_length(const struct bond_column_view column, lanes w,
-                                                                 lanes inverse_length, const bool square)
+static ALWAYS_INLINE lanes state_bonds_weight_times_reference_length(const struct bond_column_view column, lanes w,
+                                                                     lanes inverse_length, const bool square)
 {
     if (column.kind >= COLUMN_WHOLE)
         return lanes_broadcast(square ? column.stencil->squared : column.stencil->weighted);

@@ -195,7 +195,7 @@ static real row_effective(const struct bonds *b, const struct particles *p, int6
             const real w = it.bond.w;
             if (w == 0) continue;
             for (int d = 0; d < dim; d++) {
-                real effective = bond_vector_at_earlier_time(p, i, j, d, lag);
+                real effective = bond_vector_component_at_earlier_time(p, i, j, d, lag);
                 for (int c = 0; c < dim && pass == 0; c++) M[d * dim + c] += w * effective * (p->X[c][j] - p->X[c][i]);
                 for (int c = 0; c < dim && pass == 1; c++) effective -= R[d * dim + c] * (p->X[c][j] - p->X[c][i]);
                 if (pass == 1) sum += w * square(effective);
@@ -216,7 +216,7 @@ real state_row_energy(const struct bonds *b, const struct particles *p, int64_t 
         const real w = it.bond.w, r = fabs(1 / it.bond.inverse_length);
         real y2 = 0;
         if (w == 0) continue;
-        for (int d = 0; d < p->dim; d++) y2 += square(bond_vector_at_earlier_time(p, i, it.bond.nbr, d, lag));
+        for (int d = 0; d < p->dim; d++) y2 += square(bond_vector_component_at_earlier_time(p, i, it.bond.nbr, d, lag));
         const real e = sqrt(y2) - r;
         Q += w * r * r, S += w * r * e, e2 += w * e * e;
     }

@@ -67,7 +67,8 @@ static int64_t row_soften(struct bonds *b, struct particles *p, const struct bon
             continue;
         }
         if (p->kind[i] != KIND_PD || p->kind[bond.nbr] != KIND_PD) continue;
-        if (!(stretch > b->soft.most[bond.entry]) || !(bond_damage_driving_energy(b, p, &bond, i) > 0)) continue;
+        if (!(stretch > b->soft.most[bond.entry]) || !(bond_energy_release_rate_by_damage(b, p, &bond, i) > 0))
+            continue;
         if (isnan(before)) before = row_energy_of_step(b, p, row, limit->dt);
         ended += bond_damage(b, p, row, bond.entry, stretch);
     }

@@ -224,16 +224,16 @@ static ALWAYS_INLINE lanes lanes_min_selected(uint8_t bits, lanes a, lanes b)
 #endif
 }
 
-/* Returns a vector whose lane l is a plus units[l] units in the last place. units: WIDE integers, aligned to 2 WIDE
+/* Returns a vector whose lane l is a plus ulps[l] units in the last place. ulps: WIDE integers, aligned to 2 WIDE
  * bytes. */
-static ALWAYS_INLINE lanes lanes_add_ulps(real a, const int16_t *units)
+static ALWAYS_INLINE lanes lanes_add_ulps(real a, const int16_t *ulps)
 {
 #ifdef __AVX512F__
-    const lanes_mask more = (lanes_mask)_mm512_cvtepi16_epi64(_mm_load_si128((const __m128i *)units));
+    const lanes_mask more = (lanes_mask)_mm512_cvtepi16_epi64(_mm_load_si128((const __m128i *)ulps));
 #elif LANES_WIDE == 4
-    const lanes_mask more = (lanes_mask)_mm256_cvtepi16_epi64(_mm_loadl_epi64((const __m128i *)units));
+    const lanes_mask more = (lanes_mask)_mm256_cvtepi16_epi64(_mm_loadl_epi64((const __m128i *)ulps));
 #else
-    const lanes_mask more = __builtin_convertvector(*(const lanes_units *)units, lanes_mask);
+    const lanes_mask more = __builtin_convertvector(*(const lanes_units *)ulps, lanes_mask);
 #endif
     return (lanes)((lanes_mask)lanes_broadcast(a) + more);
 }

@@ -54,7 +54,8 @@ static bool low_stress(const struct reversion_rule *rule, const struct particles
     real stress[SYM_MAX], share = b->family_volume[b->row_of[i]] / f->full;
     if (rule->source->modulus || !(share < 1)) share = 1;
     for (int s = 0; s < symmetric_tensor_component_count(p->dim); s++) stress[s] = p->stress[s][i] / share;
-    const real limit = rule->low_stress * point_pd_conversion_stress_threshold(&rule->elastic[p->material[i]], p, i);
+    const real limit =
+        rule->low_stress * point_stress_threshold_for_conversion_to_pd(&rule->elastic[p->material[i]], p, i);
     return stress_largest_principal(stress, p->dim) < limit;
 }
 

@@ -170,7 +170,7 @@ static bool averaged_strains(const struct cell_maker *c, int64_t I, point_strain
             }
         for (int q = 0; q < 1 << c->dim; q++)
             for (int d = 0; d < c->dim; d++) trace[q] += B[q][d][k];
-        cell_replace_values_by_mean_minus_value(m, c->p->material, point, trace, c->dim);
+        cell_replace_point_values_by_mean_minus_value(m, c->p->material, point, trace, c->dim);
         for (int q = 0; q < 1 << c->dim; q++)
             for (int d = 0; d < c->dim; d++) B[q][d][k] += trace[q] / c->dim;
     }

@@ -51,7 +51,8 @@ static void softening_list_add(struct softening_bond_list *l, const struct bonds
     real stretch = bond_stretch_at_earlier_time(p, bond->inverse_length, b->particle[row], bond->nbr, 0),
          energy = 0.5 * b->stiffness * bond->w / bond->inverse_length;
     if (b->soft.whole) {
-        energy = real_max(0, soft.whole * bond_damage_driving_energy(b, p, bond, b->particle[row]) / square(stretch));
+        energy = real_max(0, soft.whole * bond_energy_release_rate_by_damage(b, p, bond, b->particle[row]) /
+                                 square(stretch));
         if (energy == 0) stretch = 0;
     }
     GROW("softening.bonds", l->bond, l->n + 1);

@@ -56,7 +56,7 @@ static int64_t bonds_past_limit(const struct bonds *b, const struct particles *p
             const int32_t i = b->particle[r], j = it.bond.nbr;
             const real most = limit->critical_stretch[p->material[i] * limit->materials + p->material[j]] *
                               bond_strength_factor(p, i, j);
-            past += it.bond.w != 0 && j > i && bond_present_elastic_stretch(b, p, &it.bond, i) > most;
+            past += it.bond.w != 0 && j > i && bond_elastic_stretch_at_present_positions(b, p, &it.bond, i) > most;
         }
     return past;
 }

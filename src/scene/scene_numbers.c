@@ -84,7 +84,8 @@ static bool unit_fits(struct complaint c, const char *unit_text, enum unit unit,
     if (*unit_text == '\0') return true;
     if (!unit_read(&m, unit_text)) {
         const char *meant = unknown_unit_name_suggest_known_unit(unit_text);
-        if (!meant && (strlen(unit_text) > UNIT_LONGEST || !unit_in_other_case(unit_text, other, sizeof other)))
+        if (!meant &&
+            (strlen(unit_text) > UNIT_LONGEST || !unit_correct_letter_case_of_symbols(unit_text, other, sizeof other)))
             return complain(c, "has an unknown unit", unit);
         snprintf(wrong, sizeof wrong, "has an unknown unit (%s%s)", meant ? meant : other, meant ? "" : "?");
         return complain(c, wrong, unit);
@@ -92,7 +93,7 @@ static bool unit_fits(struct complaint c, const char *unit_text, enum unit unit,
     const signed char *twice = unit_rows[unit].twice;
     *ten = m.ten;
     if (m.twice[0] == twice[0] && m.twice[1] == twice[1] && m.twice[2] == twice[2]) return true;
-    const struct unit_row *row = unit_row_of_exponents(m.twice);
+    const struct unit_row *row = unit_table_find_row_by_exponents(m.twice);
     snprintf(wrong, sizeof wrong, "is %s%s", row ? "" : "not ", row ? row->name : unit_rows[unit].name);
     return complain(c, wrong, unit);
 }

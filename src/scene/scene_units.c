@@ -138,7 +138,7 @@ bool unit_read(struct measure *sum, const char *text)
     return true;
 }
 
-const struct unit_row *unit_row_of_exponents(const int twice[3])
+const struct unit_row *unit_table_find_row_by_exponents(const int twice[3])
 {
     for (int u = 0; u < UNITS; u++) {
         const signed char *t = unit_rows[u].twice;
@@ -176,7 +176,7 @@ size_t unit_read_at_start_of_text(struct measure *sum, const char *text)
     return (size_t)(end - text);
 }
 
-bool unit_in_other_case(const char *text, char *out, size_t capacity)
+bool unit_correct_letter_case_of_symbols(const char *text, char *out, size_t capacity)
 {
     struct measure m;
     snprintf(out, capacity, "%s", text);
@@ -200,7 +200,7 @@ bool unit_in_other_case(const char *text, char *out, size_t capacity)
 void unit_exponents_describe_kind_of_unit(const int doubled_exponents[3], char *text, size_t capacity)
 {
     static const char *const symbol[] = {"m", "kg", "s"};
-    const struct unit_row *row = unit_row_of_exponents(doubled_exponents);
+    const struct unit_row *row = unit_table_find_row_by_exponents(doubled_exponents);
     size_t used = (size_t)snprintf(text, capacity, "%s", row ? row->name : "in");
     for (int k = 0; k < 3 && !row; k++)
         if (doubled_exponents[k] && used < capacity)

@@ -30,10 +30,10 @@ size_t unit_read_at_start_of_text(struct measure *sum, const char *text);
 
 /* Returns the first row of unit_rows, the table of known units, whose unit has the exponents twice[k]/2 of m, kg and s
  * (k = 0, 1, 2); NULL if there is none. */
-const struct unit_row *unit_row_of_exponents(const int twice[3]);
+const struct unit_row *unit_table_find_row_by_exponents(const int twice[3]);
 
 /* Writes the misspelt unit `text` to out[capacity] with each symbol in the case in which it is known: GPa for Gpa.
  * Returns false if the result is no unit either, or equals the text. */
-bool unit_in_other_case(const char *text, char *out, size_t capacity);
+bool unit_correct_letter_case_of_symbols(const char *text, char *out, size_t capacity);
 
 #endif

@@ -66,7 +66,7 @@ static void plot_figure(FILE *to, const struct scalar_result_study *f, int panel
     const struct convergence *c = &f->c;
     const struct unit unit = scalar_result_study_choose_unit(f);
     char title[256];
-    study_write_panel_title(title, sizeof title, f->name, *f->unit ? unit.name : "");
+    study_panel_compose_title(title, sizeof title, f->name, *f->unit ? unit.name : "");
     fputs("set title ", to);
     gnuplot_write_quoted_string(to, title);
     fputs("\nplot ", to);

@@ -18,7 +18,7 @@ enum { TIPS_MOST = 16 }; /* largest number of crack tips followed in one run */
 struct path convergence_picture_path(const char *folder, const char *key)
 {
     char name[PICTURE_NAME_ROOM];
-    study_picture_write_file_name(name, key);
+    study_picture_compose_file_name(name, key);
     return path_join(path_join(folder, "pictures").text, name);
 }
 

@@ -67,7 +67,7 @@ struct study_axis study_panel_get_horizontal_axis(const struct study_picture *p,
 struct study_axis study_panel_get_vertical_axis(const struct study_picture *p, int panel)
 {
     struct study_axis axis = {INFINITY, -INFINITY, false};
-    study_panel_find_value_range(p, panel, &axis.low, &axis.high);
+    study_panel_find_range_of_plotted_values(p, panel, &axis.low, &axis.high);
     axis.logarithmic = over_decades(axis.low, axis.high);
     return axis;
 }

@@ -36,7 +36,7 @@ static void send_tics(FILE *to, const char *axis, const struct varied_key *key, 
     fprintf(to, "set %stics %s (", axis, rotated ? "rotate by 40 right" : "norotate");
     for (int v = 0; v < key->values; v += each) {
         char text[LABEL_ROOM];
-        varied_key_write_value_label(text, key, v);
+        varied_key_compose_label_of_value(text, key, v);
         if (v > 0) putc(',', to);
         gnuplot_write_quoted_string(to, text);
         fprintf(to, " %d", v);
@@ -79,13 +79,13 @@ static void panel_begin(FILE *to, const struct study_picture *p, int panel, cons
             (double)(x + p->wide) / p->width);
     fprintf(to, "set tmargin at screen %.5f\nset bmargin at screen %.5f\n", (double)y / p->height,
             (double)(y - p->high) / p->height);
-    study_write_panel_title(text, sizeof text, figure, unit.name);
+    study_panel_compose_title(text, sizeof text, figure, unit.name);
     const double room = p->left + p->wide + p->right - study_picture_character_width_in_pixels(),
                  wide = 0.95 * study_picture_character_width_in_pixels() * (double)strlen(text);
     fputs("set title ", to);
     gnuplot_write_quoted_string(to, text);
     fprintf(to, " font ',%.3g'\n", fmax(13 * fmin(1, room / wide), 7));
-    plotted_key_write_label_with_unit(text, sizeof text, &p->key[p->across]);
+    plotted_key_compose_label_with_unit(text, sizeof text, &p->key[p->across]);
     screen_label(to, p, text, x + 0.5 * p->wide, y - p->high - p->below + 0.9 * STUDY_ROW, "center");
     if (!up) return;
     screen_label(to, p, up, x - p->left + 0.8 * STUDY_ROW, y - 0.5 * p->high, "center rotate by 90");
@@ -134,7 +134,7 @@ static bool line_hides_another(const struct study_picture *p, int panel, int lin
     const int values = p->key[p->across].shown.values;
     const struct figure_statistics *point = p->point[panel], *own = point + line * values;
     double low, high;
-    study_panel_find_value_range(p, panel, &low, &high);
+    study_panel_find_range_of_plotted_values(p, panel, &low, &high);
     for (int l = 0; l < line; l++) {
         int common = 0;
         bool apart = false;
@@ -179,7 +179,7 @@ static void draw_key(FILE *to, const struct study_picture *p)
     const int x = below ? study_picture_character_width_in_pixels()
                         : p->width - p->legend + study_picture_character_width_in_pixels();
     const int y = below ? p->notes * STUDY_ROW + p->strip : p->height - STUDY_TITLE + STUDY_ROW;
-    study_picture_write_labels_of_keys_with_role(text, sizeof text, p, ROLE_LINES, false);
+    study_picture_compose_list_of_keys_with_role(text, sizeof text, p, ROLE_LINES, false);
     fputs("unset border\nunset tics\nunset title\nunset grid\nunset logscale\nset offsets\nset lmargin at screen 0\n"
           "set rmargin at screen 1\nset bmargin at screen 0\nset tmargin at screen 1\n",
           to);
@@ -188,7 +188,7 @@ static void draw_key(FILE *to, const struct study_picture *p)
             (double)x / p->width, (double)(y - STUDY_ROW) / p->height, p->key_columns,
             (p->lines + p->key_columns - 1) / p->key_columns);
     for (int l = 0; l < p->lines; l++) {
-        study_picture_write_line_title(text, sizeof text, p, l);
+        study_picture_compose_legend_text_of_line(text, sizeof text, p, l);
         fprintf(to, "%sNaN with %s pt 7 ps 0.9 lc rgb '%s' title ", l ? ", " : "",
                 p->numbers ? "linespoints lw 1.6" : "points", curve_colour[l]);
         gnuplot_write_quoted_string(to, text);
@@ -214,9 +214,9 @@ static status draw_lines(struct study_picture *p)
     char name[PICTURE_NAME_ROOM];
     struct gnuplot g;
     study_picture_assign_roles_to_varied_keys(p, LINES_MOST);
-    study_picture_compute_points(p);
+    study_picture_compute_plotted_points(p);
     study_picture_compute_layout(p, NULL);
-    study_picture_write_file_name(name, p->key[p->across].given.key);
+    study_picture_compose_file_name(name, p->key[p->across].given.key);
     TRY(picture_open(&g, p, name));
     for (int panel = 0; panel < p->panels; panel++) send_points(g.to, p, panel);
     if (!p->numbers) send_tics(g.to, "x", &p->key[p->across].shown, p->slanted);
@@ -244,13 +244,13 @@ static status draw_study_map(struct study_picture *p, int up)
     const struct varied_key *across = &p->key[p->across].shown, *key_up = &p->key[up].shown;
     struct gnuplot g;
     char name[NOTE_ROOM];
-    plotted_key_write_label_with_unit(name, sizeof name, &p->key[up]);
+    plotted_key_compose_label_with_unit(name, sizeof name, &p->key[up]);
     study_picture_assign_roles_to_varied_keys(p, across->values * key_up->values);
     if (p->role[up] == ROLE_CHANCE) p->role[up] = ROLE_LINES, p->lines = key_up->values, p->chance = false;
-    study_picture_compute_points(p);
+    study_picture_compute_plotted_points(p);
     study_picture_compute_layout(p, key_up);
     char picture[PICTURE_NAME_ROOM];
-    study_picture_write_file_name(picture, "map");
+    study_picture_compose_file_name(picture, "map");
     TRY(picture_open(&g, p, picture));
     send_tics(g.to, "x", across, p->slanted);
     send_tics(g.to, "y", key_up, false);
@@ -281,7 +281,7 @@ static bool map_keys(const struct study_picture *p, int *up, int *across)
     for (int all = 0; all < 2; all++) {
         int n = 0, last[2] = {0};
         for (int k = 0; k < p->keys; k++)
-            if (p->key[k].shown.values > 1 && (all || !key_has_no_physical_meaning(p->key[k].given.key))) {
+            if (p->key[k].shown.values > 1 && (all || !key_is_random_seed_or_time_step(p->key[k].given.key))) {
                 if (n < 2) last[n] = k;
                 n++;
             }
@@ -316,10 +316,10 @@ status study_draw_results_over_keys(const struct study_table *t, const struct st
     p.key = plotted_keys_create_from_varied_keys(s, key, keys);
     p.value_at = NEW("study.value_at", keys, int *);
     p.role = NEW("study.roles", keys, enum key_role);
-    study_find_value_indices_of_keys_in_runs(p.value_at, s, p.key, keys);
+    study_find_value_index_of_each_key_in_each_run(p.value_at, s, p.key, keys);
     const status drawn = draw_all(&p);
     for (int k = 0; k < keys; k++) memory_free(p.value_at[k]);
-    study_picture_free_points(&p);
+    study_picture_free_plotted_points(&p);
     plotted_keys_free(p.key, keys);
     memory_free(p.value_at);
     memory_free(p.role);

@@ -45,22 +45,23 @@ enum { LABEL_ROOM = 40 };
 
 /* Writes the label of value number `value_index` of a varied key, as in pictures, to text[LABEL_ROOM]. If the values of
  * the key are too long, the label omits their common beginning and end. */
-void varied_key_write_value_label(char *text, const struct varied_key *key, int value_index);
+void varied_key_compose_label_of_value(char *text, const struct varied_key *key, int value_index);
 
-/* Returns the number of characters of the longest label (varied_key_write_value_label) of the values of a varied key.
+/* Returns the number of characters of the longest label (varied_key_compose_label_of_value) of the values of a varied
+ * key.
  */
 int varied_key_longest_value_label_length(const struct varied_key *key);
 
 /* Writes the title of a panel that shows the result `result_name` of summary.json in `unit` ("" for none) to
  * text[capacity]: in words, such as `tip: speed max [m/s]` for probes.tip.speed_max. */
-void study_write_panel_title(char *text, size_t capacity, const char *result_name, const char *unit);
+void study_panel_compose_title(char *text, size_t capacity, const char *result_name, const char *unit);
 
 /* Capacity of the name of a picture [byte]. */
 enum { PICTURE_NAME_ROOM = CASE_NAME_ROOM + 8 };
 
 /* Writes the file name of the picture of a varied key to name[PICTURE_NAME_ROOM]: KEY.png with KEY = key, or with the
  * ending of another picture format that picture_size_set_process_wide has set. */
-void study_picture_write_file_name(char *name, const char *key);
+void study_picture_compose_file_name(char *name, const char *key);
 
 /* Returns the width [pixel] of a character in the pictures of a study. */
 int study_picture_character_width_in_pixels(void);

@@ -44,7 +44,7 @@ static void common_keep(size_t *begin, size_t *end, size_t longest)
     *end -= *end < spare - before ? *end : spare - before;
 }
 
-void varied_key_write_value_label(char *text, const struct varied_key *key, int value_index)
+void varied_key_compose_label_of_value(char *text, const struct varied_key *key, int value_index)
 {
     size_t longest = 0, begin, end;
     for (int k = 0; k < key->values; k++) longest = strlen(key->value[k]) > longest ? strlen(key->value[k]) : longest;
@@ -69,13 +69,13 @@ int varied_key_longest_value_label_length(const struct varied_key *key)
     int longest = 0;
     for (int v = 0; v < key->values; v++) {
         char text[LABEL_ROOM];
-        varied_key_write_value_label(text, key, v);
+        varied_key_compose_label_of_value(text, key, v);
         longest = (int)strlen(text) > longest ? (int)strlen(text) : longest;
     }
     return longest;
 }
 
-void study_write_panel_title(char *text, size_t capacity, const char *result_name, const char *unit)
+void study_panel_compose_title(char *text, size_t capacity, const char *result_name, const char *unit)
 {
     static const char of_probe[] = "probes.", degrees[] = "_deg", seconds[] = "_seconds";
     char words[LABEL_ROOM + 216];
@@ -104,7 +104,7 @@ double axis_tick_distance(double range, int max_intervals)
     return lead[k] * decade;
 }
 
-void study_picture_write_file_name(char *name, const char *key)
+void study_picture_compose_file_name(char *name, const char *key)
 {
     snprintf(name, PICTURE_NAME_ROOM, "%.*s.%s", CASE_NAME_ROOM, key,
              picture_ending[picture_size_get_process_wide().format]);

@@ -19,7 +19,7 @@ static const double PROPORTION = 0.7; /* height of a panel divided by its width 
 /* Writes the title of line number `line` (from 0) of the picture p to text[capacity]: the values of the varied keys
  * (keys of the input file that a study varies) that distinguish lines, separated by commas. Truncates a title that is
  * too long. */
-void study_picture_write_line_title(char *text, size_t capacity, const struct study_picture *p, int line)
+void study_picture_compose_legend_text_of_line(char *text, size_t capacity, const struct study_picture *p, int line)
 {
     size_t used = 0;
     int rest = p->lines;
@@ -29,18 +29,18 @@ void study_picture_write_line_title(char *text, size_t capacity, const struct st
         if (p->role[k] != ROLE_LINES) continue;
         const struct varied_key *key = &p->key[k].shown;
         rest /= key->values;
-        varied_key_write_value_label(value, key, line / rest % key->values);
+        varied_key_compose_label_of_value(value, key, line / rest % key->values);
         if (used < capacity)
             used += (size_t)snprintf(text + used, capacity - used, "%s%s", used > 0 ? ", " : "", value);
     }
 }
 
-void plotted_key_write_label_with_unit(char *text, size_t capacity, const struct plotted_key *key)
+void plotted_key_compose_label_with_unit(char *text, size_t capacity, const struct plotted_key *key)
 {
     snprintf(text, capacity, *key->unit ? "%s [%s]" : "%s%s", key->shown.key, key->unit);
 }
 
-void study_picture_write_labels_of_keys_with_role(char *text, size_t capacity, const struct study_picture *p,
+void study_picture_compose_list_of_keys_with_role(char *text, size_t capacity, const struct study_picture *p,
                                                   enum key_role role, bool with_value)
 {
     size_t used = 0;
@@ -48,8 +48,8 @@ void study_picture_write_labels_of_keys_with_role(char *text, size_t capacity, c
     for (int k = 0; k < p->keys; k++) {
         char value[LABEL_ROOM], name[NOTE_ROOM];
         if (p->role[k] != role) continue;
-        varied_key_write_value_label(value, &p->key[k].shown, 0);
-        plotted_key_write_label_with_unit(name, sizeof name, &p->key[k]);
+        varied_key_compose_label_of_value(value, &p->key[k].shown, 0);
+        plotted_key_compose_label_with_unit(name, sizeof name, &p->key[k]);
         if (used < capacity)
             used += (size_t)snprintf(text + used, capacity - used, "%s%s%s%s", used > 0 ? ", " : "", name,
                                      with_value ? " = " : "", with_value ? value : "");
@@ -63,9 +63,9 @@ static void notes_find(struct study_picture *p, bool map)
 {
     char keys[NOTE_ROOM - 64];
     p->notes = 0;
-    study_picture_write_labels_of_keys_with_role(keys, sizeof keys, p, ROLE_HELD, true);
+    study_picture_compose_list_of_keys_with_role(keys, sizeof keys, p, ROLE_HELD, true);
     if (*keys) snprintf(p->note[p->notes++], NOTE_ROOM, "at %s alone", keys);
-    study_picture_write_labels_of_keys_with_role(keys, sizeof keys, p, ROLE_CHANCE, false);
+    study_picture_compose_list_of_keys_with_role(keys, sizeof keys, p, ROLE_CHANCE, false);
     if (*keys)
         snprintf(p->note[p->notes++], NOTE_ROOM,
                  map ? "means over %s" : "points and bars: mean and standard deviation over %s", keys);
@@ -154,11 +154,11 @@ static void margins_find(struct study_picture *p, const struct varied_key *up)
 static void key_space_find(struct study_picture *p)
 {
     char text[256];
-    study_picture_write_labels_of_keys_with_role(text, sizeof text, p, ROLE_LINES, false);
+    study_picture_compose_list_of_keys_with_role(text, sizeof text, p, ROLE_LINES, false);
     int longest = 0;
     const int title = (int)strlen(text);
     for (int l = 0; l < p->lines; l++) {
-        study_picture_write_line_title(text, sizeof text, p, l);
+        study_picture_compose_legend_text_of_line(text, sizeof text, p, l);
         longest = (int)strlen(text) > longest ? (int)strlen(text) : longest;
     }
     if (picture_size_is_too_narrow_for_side_legend()) {

@@ -58,7 +58,8 @@ struct study_picture {
     int across, lines;   /* index of the key along the horizontal axis; number of lines, at least 1 */
     int figure[PANELS_MOST], panels;         /* [panels] index of the result of each panel in `table`; their number */
     struct unit unit_of_figure[PANELS_MOST]; /* [panels] unit in which the result is drawn */
-    /* [panels][lines][values of the key along the horizontal axis], set by study_picture_compute_points, owned */
+    /* [panels][lines][values of the key along the horizontal axis], set by study_picture_compute_plotted_points, owned
+     */
     struct figure_statistics *point[PANELS_MOST];
     bool numbers, chance; /* positions along the axis are the values, else 0, 1, 2 ...; a key of ROLE_CHANCE varies */
     bool seeds;           /* a random seed is the only varied key */
@@ -91,12 +92,12 @@ bool study_varies_only_random_seed(const struct varied_key *key, int key_count);
 
 /* Returns true for a key without physical meaning, such as a random seed. Runs that differ only in such keys are
  * combined to one point with a bar. */
-bool key_has_no_physical_meaning(const char *key);
+bool key_is_random_seed_or_time_step(const char *key);
 
 /* Fills value_at[key_count][study->n] with the index of the value that each of the keys key[key_count] has in each run
  * of `study`; -1 if the run has none of the values of the key. The caller frees each value_at[k]. */
-void study_find_value_indices_of_keys_in_runs(int **value_at, const struct study *study, const struct plotted_key *key,
-                                              int key_count);
+void study_find_value_index_of_each_key_in_each_run(int **value_at, const struct study *study,
+                                                    const struct plotted_key *key, int key_count);
 
 /* Assigns a role (enum key_role) to each key of the picture and sets the number of lines per panel. Keys with several
  * values, in their order, distinguish lines as long as there are at most max_lines lines. Of further keys only the runs
@@ -105,15 +106,15 @@ void study_picture_assign_roles_to_varied_keys(struct study_picture *picture, in
 
 /* Computes the unit of the result of each panel and the points of its lines, p->unit_of_figure and p->point, from the
  * roles of the keys (along the axis, as lines, held at one value). Replaces points computed before. Release them with
- * study_picture_free_points. */
-void study_picture_compute_points(struct study_picture *p);
+ * study_picture_free_plotted_points. */
+void study_picture_compute_plotted_points(struct study_picture *p);
 
-/* Frees the points p->point that study_picture_compute_points has allocated. */
-void study_picture_free_points(struct study_picture *p);
+/* Frees the points p->point that study_picture_compute_plotted_points has allocated. */
+void study_picture_free_plotted_points(struct study_picture *p);
 
 /* Finds the smallest and the largest value of the points of panel number `panel` of the picture p, error bars included,
  * in the unit of the panel, and stores them in *low and *high; INFINITY and -INFINITY if there are no points. */
-void study_panel_find_value_range(const struct study_picture *p, int panel, double *low, double *high);
+void study_panel_find_range_of_plotted_values(const struct study_picture *p, int panel, double *low, double *high);
 
 /* Returns the horizontal axis of panel number `panel` for the key along it (p->across). Its kind follows from all
  * values of the key; it is not logarithmic if they are evenly spaced. A logarithmic axis has the range of all values, a
@@ -142,22 +143,22 @@ bool study_picture_every_point_has_value(const struct study_picture *p);
 
 /* Writes the title of line number `line` of the picture p to text[capacity], such as `60, 1`: the values of those keys
  * that distinguish lines. */
-void study_picture_write_line_title(char *text, size_t capacity, const struct study_picture *p, int line);
+void study_picture_compose_legend_text_of_line(char *text, size_t capacity, const struct study_picture *p, int line);
 
 /* Writes the words of the varied key `key` and the unit of its values to text[capacity], as `traction on y+ [MPa]`. */
-void plotted_key_write_label_with_unit(char *text, size_t capacity, const struct plotted_key *key);
+void plotted_key_compose_label_with_unit(char *text, size_t capacity, const struct plotted_key *key);
 
 /* Writes the words of the varied keys that have the role `role` in the picture p (on the axis, as lines, held at one
  * value, or averaged over) to text[capacity], separated by commas: `Young's modulus of glass [GPa], spacing of
  * particles [mm]`. with_value: true to add the first value of each key. */
-void study_picture_write_labels_of_keys_with_role(char *text, size_t capacity, const struct study_picture *p,
+void study_picture_compose_list_of_keys_with_role(char *text, size_t capacity, const struct study_picture *p,
                                                   enum key_role role, bool with_value);
 
 /* Composes the notes below the panels of p, and computes columns, sizes and margins of the panels, the space of the key
  * (legend) and the size of the picture from the lengths of the texts. If the user has chosen the size of the picture,
  * the number of columns is the one that makes the panels largest. The points of p must have been computed
- * (study_picture_compute_points). vertical_key: varied key along the vertical axis of a map; NULL for a picture with
- * lines. */
+ * (study_picture_compute_plotted_points). vertical_key: varied key along the vertical axis of a map; NULL for a picture
+ * with lines. */
 void study_picture_compute_layout(struct study_picture *p, const struct varied_key *vertical_key);
 
 #endif

@@ -55,16 +55,16 @@ static struct unit figure_unit(const struct study_picture *p, int figure)
     return unit_with_si_prefix_if_unit_allows_it(unit, largest);
 }
 
-void study_picture_compute_points(struct study_picture *p)
+void study_picture_compute_plotted_points(struct study_picture *p)
 {
-    study_picture_free_points(p);
+    study_picture_free_plotted_points(p);
     for (int panel = 0; panel < p->panels; panel++) {
         p->unit_of_figure[panel] = figure_unit(p, p->figure[panel]);
         p->point[panel] = means_find(p, p->table->value[p->figure[panel]], p->unit_of_figure[panel].factor);
     }
 }
 
-void study_picture_free_points(struct study_picture *p)
+void study_picture_free_plotted_points(struct study_picture *p)
 {
     for (int panel = 0; panel < p->panels; panel++) {
         memory_free(p->point[panel]);
@@ -72,7 +72,7 @@ void study_picture_free_points(struct study_picture *p)
     }
 }
 
-void study_panel_find_value_range(const struct study_picture *p, int panel, double *low, double *high)
+void study_panel_find_range_of_plotted_values(const struct study_picture *p, int panel, double *low, double *high)
 {
     *low = INFINITY, *high = -INFINITY;
     for (int k = 0; k < p->lines * p->key[p->across].shown.values; k++) {

@@ -65,7 +65,7 @@ bool key_is_random_seed(const char *key)
     return dot && strcmp(dot, ".seed") == 0;
 }
 
-bool key_has_no_physical_meaning(const char *key)
+bool key_is_random_seed_or_time_step(const char *key)
 {
     return key_is_random_seed(key) || !strcmp(key, "time.step") || !strcmp(key, "time.safety");
 }
@@ -78,8 +78,8 @@ bool study_varies_only_random_seed(const struct varied_key *key, int key_count)
     return varied == 1 && key_is_random_seed(key[at].key);
 }
 
-void study_find_value_indices_of_keys_in_runs(int **value_at, const struct study *study, const struct plotted_key *key,
-                                              int key_count)
+void study_find_value_index_of_each_key_in_each_run(int **value_at, const struct study *study,
+                                                    const struct plotted_key *key, int key_count)
 {
     for (int k = 0; k < key_count; k++) {
         value_at[k] = NEW("study.value_at", study->n, int);
@@ -103,11 +103,11 @@ void study_picture_assign_roles_to_varied_keys(struct study_picture *picture, in
     picture->chance = false;
     for (int k = 0; k < picture->keys; k++) {
         const int values = picture->key[k].shown.values;
-        picture->role[k] = k == picture->across                                     ? ROLE_ACROSS
-                           : values < 2                                             ? ROLE_NONE
-                           : key_has_no_physical_meaning(picture->key[k].given.key) ? ROLE_CHANCE
-                           : picture->lines * values > max_lines                    ? ROLE_HELD
-                                                                                    : ROLE_LINES;
+        picture->role[k] = k == picture->across                                         ? ROLE_ACROSS
+                           : values < 2                                                 ? ROLE_NONE
+                           : key_is_random_seed_or_time_step(picture->key[k].given.key) ? ROLE_CHANCE
+                           : picture->lines * values > max_lines                        ? ROLE_HELD
+                                                                                        : ROLE_LINES;
         if (picture->role[k] == ROLE_LINES) picture->lines *= values;
         picture->chance |= picture->role[k] == ROLE_CHANCE;
     }

@@ -168,10 +168,10 @@ status study_check_output_files_replaceable(const struct study *s, const struct 
     if (study_folder_check_is_usable(s->folder) != OK) return OK; /* study_lock_folder reports the fault */
     TRY(file_check_has_known_beginning(path_join(s->folder, "sweep.csv").text, begin, COUNT_OF(begin)));
     char name[PICTURE_NAME_ROOM];
-    study_picture_write_file_name(name, "map");
+    study_picture_compose_file_name(name, "map");
     TRY(picture_check_replaceable(path_join(pictures.text, name).text));
     for (int k = 0; k < keys; k++) {
-        study_picture_write_file_name(name, key[k].key);
+        study_picture_compose_file_name(name, key[k].key);
         if (key[k].values > 1) TRY(picture_check_replaceable(path_join(pictures.text, name).text));
     }
     return OK;

@@ -135,7 +135,7 @@ static void values_are_short_in_pictures(void **state)
         struct varied_key k;
         char text[LABEL_ROOM];
         assert_int_equal(varied_key_parse_values(&k, wanted[w].text), OK);
-        varied_key_write_value_label(text, &k, 1);
+        varied_key_compose_label_of_value(text, &k, 1);
         assert_string_equal(text, wanted[w].shown);
         varied_key_free(&k);
     }
