@@ -10,6 +10,8 @@
  * steps of any size are exact where the direction does not change. In plane stress xi_xx + xi_yy stands for
  * s_xx + s_yy - 3 (X_xx + X_yy), for which q^2 = (xi_xx + xi_yy)^2/4 + 3 (xi_xx - xi_yy)^2/4 + 3 xi_xy^2. */
 #define ROWS_IN_PARTS /* vectors of WIDE points */
+#include <string.h>
+
 #include "law_update.h"
 
 #include "flows.h"
@@ -34,10 +36,10 @@ enum { STEPS_PLANE_STRESS = 8 };
  * law_points, whose members it repeats. */
 struct part_points {
     lanes s[SYM_MAX], before[SYM_MAX], volume_before, volume;
-    real duration;
     lanes a, back[SYM_MAX], temperature, work;
-    bool thins;
     lanes_mask active;
+    real duration;
+    bool thins;
 };
 
 /* Returns the number of components of the relative stress (stress less back stress) that relative_stress computes in
@@ -415,7 +417,7 @@ static ALWAYS_INLINE struct part_points points_load_part(const struct law_points
     q.volume_before = vector_load_part(&p->volume_before, part), q.volume = vector_load_part(&p->volume, part);
     q.a = vector_load_part(&p->a, part), q.temperature = vector_load_part(&p->temperature, part),
     q.work = vector_load_part(&p->work, part);
-    q.active = (lanes_mask)lanes_load((const real *)&p->active + part);
+    memcpy(&q.active, (const int64_t *)&p->active + part, sizeof q.active);
     return q;
 }
 

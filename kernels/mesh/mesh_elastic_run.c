@@ -5,9 +5,9 @@
 
 /* Arguments of run_elastic_cells. */
 struct elastic_run {
+    lanes tension;           /* upper bound of the largest principal stress at the points so far [Pa] */
     const struct elastic *m; /* elastic constants */
     real h, volume;          /* edge of a cell [m]; volume of a cell [m^3] */
-    lanes tension;           /* upper bound of the largest principal stress at the points so far [Pa] */
     bool balanced;           /* result of elastic_is_isotropic_in_2d */
 };
 

@@ -47,7 +47,8 @@ void rigid_body_displacement_of_nearest_particle(const struct region *shape, con
             if (level < own) own = level, found = i;
         }
 #pragma omp critical
-        if (own < least || (own == least && found < nearest)) least = own, nearest = found;
+        if (own < least || (own == least && found < nearest))
+            least = own, nearest = found; /* NOLINT: other threads read it */
     }
     for (int d = 0; d < f->dim; d++) displacement[d] = nearest < 0 ? 0 : f->u[d][nearest];
 }

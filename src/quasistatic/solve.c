@@ -188,7 +188,8 @@ static void warn_of_closed_faces(const struct scene *s, const struct particles *
     memory_free(near.at);
     if (closing.most <= CLOSED * closing.strain) return;
     snprintf(text, sizeof text,
-             "faces of a crack close at (%s) m, by %.3g of a spacing, and pass through each other in this equilibrium, "
+             "faces of a crack close at (%s) m, by %.3g of the distance of their particles, and pass through each "
+             "other in this equilibrium, "
              "which has no contact: use solver: static, whose load steps have it; if this is intended, add accept: "
              "[contact]",
              position_text(closing.place, p->dim, 4).text, closing.most);

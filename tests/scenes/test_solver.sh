@@ -166,7 +166,7 @@ refused()
     is "$what: lines" "$(wc -l <"$work/err")" 1
 }
 # Faces of a crack pass through each other where it is pressed shut, not where it opens (calm above).
-warned "a crack that closes" "$work/closes" 'faces of a crack close at (.*, .*) m, by .* of a spacing, .* use solver: static' $crack -s probes= \
+warned "a crack that closes" "$work/closes" 'faces of a crack close at (.*, .*) m, by .* of the distance of their particles, .* use solver: static' $crack -s probes= \
     -s boundary.0.traction=[0,-1MPa] -s boundary.1.traction=[0,1MPa]
 refused "cg on a grid" 'edge_crack_k1.yaml:.*cg works with method: pd only' $crack -s method=adaptive
 refused "flip" 'mpm.transfer: apic' $crack -s method=mpm -s solver=relaxation -s mpm.transfer=flip
