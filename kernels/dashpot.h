@@ -9,10 +9,10 @@
 #include "data/grid.h"
 
 /* Returns the impulse [N s] of a dashpot along axis `axis` on a node or particle in a step, by the implicit mean
- * velocity (v_old + v_new)/2. Adds impulse and dissipated energy [J] to *a. Adds a quarter of impulse times velocity
- * change to effect->kick [J], which energy balances exclude from the correction of the kinetic energy. rate_dt: dashpot
- * rate times duration of the step, k dt [kg]; mass [kg]; old_velocity: velocity v_old [m/s]; velocity_change: velocity
- * change by all other forces [m/s]. */
+ * velocity (v_old + v_new)/2. Adds impulse and dissipated energy [J] to *effect. Adds a quarter of impulse times
+ * velocity change to effect->kick [J], which energy balances exclude from the correction of the kinetic energy.
+ * rate_dt: dashpot rate times duration of the step, k dt [kg]; mass [kg]; old_velocity: velocity v_old [m/s];
+ * velocity_change: velocity change by all other forces [m/s]. */
 static inline real dashpot_compute_and_add_impulse(struct dashpot_effect *effect, int axis, real rate_dt, real mass,
                                                    real old_velocity, real velocity_change)
 {
@@ -23,7 +23,7 @@ static inline real dashpot_compute_and_add_impulse(struct dashpot_effect *effect
     return impulse;
 }
 
-/* Corrects the energies in *a if a velocity is changed by a further `velocity_change` [m/s] after the call of
+/* Corrects the energies in *effect if a velocity is changed by a further `velocity_change` [m/s] after the call of
  * dashpot_compute_and_add_impulse, along the same axis: effect->energy, dissipated by dashpots, and effect->kick, a
  * quarter of the sum of impulse times velocity change [J]. impulse: result of dashpot_compute_and_add_impulse [N s]. */
 static inline void dashpot_correct_energy_for_velocity_change(struct dashpot_effect *effect, real impulse,

@@ -99,9 +99,9 @@ status bench_results_copy_table(const char *file_name, const char *text);
 /* ---- bench_scene.c: runs for timing ------------------------------------------------------------------------------ */
 
 /* Reads a scene from `text` or, if `text` is NULL, from the file `path`, with the overrides override[override_count],
- * and creates its run in *e, without output. path: if `text` is given, the name of the scene in messages. s: receives
+ * and creates its run in *run, without output. path: if `text` is given, the name of the scene in messages. s: receives
  * the scene and must keep its address until bench_engine_free. Returns REFUSED or FAILED if the scene is invalid or the
- * run cannot be created; *e and *s are then already released. */
+ * run cannot be created; *run and *s are then already released. */
 status bench_engine_make(struct run *run, struct scene *s, const char *path, const char *text,
                          const struct scene_override *override, int override_count);
 
@@ -116,10 +116,10 @@ typedef void bench_field(const void *context, const real *X, real *v);
  * at their reference positions. context: passed to `velocity_field`. */
 void bench_engine_set_velocities(struct run *run, bench_field *velocity_field, const void *context);
 
-/* Runs e to the end of step `last_step` or, if the mesh has coarse cells, which make longer time steps, to the next
- * step at which all cells have the same time: before, the energy is not balanced, and a sample of results would disturb
- * the run. The last step is sampled. section_times: receives, by addition, the times of the sections of a step; may be
- * NULL. Returns FAILED if a step fails. */
+/* Continues the run to the end of step `last_step` or, if the mesh has coarse cells, which make longer time steps, to
+ * the next step at which all cells have the same time: before, the energy is not balanced, and a sample of results
+ * would disturb the run. The last step is sampled. section_times: receives, by addition, the times of the sections of a
+ * step; may be NULL. Returns FAILED if a step fails. */
 status bench_engine_run(struct run *run, int64_t last_step, struct timers *section_times);
 
 /* Overrides of scene keys whose values are composed one by one. at[n]: keys, and pointers to the values that

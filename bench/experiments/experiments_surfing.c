@@ -61,9 +61,9 @@ static void surf_field(const struct surf *s, const struct particles *p, int64_t 
     }
 }
 
-/* Sets the displacement and velocity of all particles of e to those of the prescribed field at t = 0. The particles at
- * the edge of the plate, which later follow this field, are listed in s->particle[s->held]; their velocity is set to
- * 0. */
+/* Sets the displacement and velocity of all particles of the run to those of the prescribed field at t = 0. The
+ * particles at the edge of the plate, which later follow this field, are listed in s->particle[s->held]; their velocity
+ * is set to 0. */
 static void surf_start(struct surf *s, struct run *run)
 {
     struct particles *p = &run->part;

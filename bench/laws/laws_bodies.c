@@ -145,8 +145,8 @@ status laws_measure_cook_membrane(const struct laws_case *c, double *measured)
 #define POISSON 0.3
 
 /* Runs a body of ideally plastic steel in the reference frame in load steps to the full load, and updates the stresses
- * of its particles. text: scene keys besides method, material and output; e, s: receive the run and its scene. Returns
- * FAILED or REFUSED if the run does; release e and s with bench_engine_free after OK only. */
+ * of its particles. text: scene keys besides method, material and output; run, s: receive the run and its scene.
+ * Returns FAILED or REFUSED if the run does; release `run` and s with bench_engine_free after OK only. */
 static status body_run(struct run *run, struct scene *s, const char *text)
 {
     char whole[2048];

@@ -157,8 +157,8 @@ static void earlier_take(struct earlier *b, const struct run *run)
 }
 
 /* Returns the sum of 1/2 m v_before . v_after over all masses [J], where b holds the velocities before the last step
- * and e those after it, and stores the sum of 1/2 m v_after^2 in *after. Leap-frog integration conserves the first sum
- * plus the potential energy. */
+ * and the run those after it, and stores the sum of 1/2 m v_after^2 in *after. Leap-frog integration conserves the
+ * first sum plus the potential energy. */
 static real kinetic_between(const struct earlier *b, const struct run *run, real *after)
 {
     real sum = 0;

@@ -26,9 +26,9 @@ static struct turning turning_of(const struct particles *p)
     return t;
 }
 
-/* Runs e, a rotating body, to the end of its scene. Stores in to[0] the largest shear stress [MPa], of material points
- * only if there are any; in to[1] and to[2] the relative changes of angular momentum and kinetic energy. Returns FAILED
- * if a step fails. */
+/* Continues the run, a rotating body, to the end of its scene. Stores in to[0] the largest shear stress [MPa], of
+ * material points only if there are any; in to[1] and to[2] the relative changes of angular momentum and kinetic
+ * energy. Returns FAILED if a step fails. */
 static status limits_motion_turn(struct run *run, double *to)
 {
     const struct particles *p = &run->part;
@@ -160,9 +160,9 @@ static double projection(struct run *run)
  * lag by half a step. */
 enum { STANDS = 9 };
 
-/* Runs e until the velocity of Lame's mode has changed its sign STANDS times. steps: receives the number of steps until
- * then, interpolated, or of the last sign change before the end; NAN if there is none. Returns FAILED if a step
- * fails. */
+/* Continues the run until the velocity of Lame's mode has changed its sign STANDS times. steps: receives the number of
+ * steps until then, interpolated, or of the last sign change before the end; NAN if there is none. Returns FAILED if a
+ * step fails. */
 static status periods(struct run *run, double *steps)
 {
     double before = projection(run);
@@ -253,8 +253,8 @@ static double energy_of(struct run *run)
            points_strain_energy(&run->part, run->scene->material, &run->coupling->partial);
 }
 
-/* Runs e, a free vibrating plate, for a million steps. Stores in *to the relative change of its energy from the mean
- * over the first 2 % of the steps to the mean over the last 2 % [1]. Returns FAILED if a step fails. */
+/* Continues the run, a free vibrating plate, for a million steps. Stores in *to the relative change of its energy from
+ * the mean over the first 2 % of the steps to the mean over the last 2 % [1]. Returns FAILED if a step fails. */
 static status million_steps(struct run *run, double *to)
 {
     double mean[2] = {0};

@@ -43,11 +43,11 @@ int machine_physical_core_count(void);
 struct cpu_core_partition *cpu_core_partition_make(int share_count);
 
 /* Binds the calling thread, and processes that this thread starts later, to group number `share_number` (from 0) of the
- * cores in the partition s (cpu_core_partition_make). share_number = -1 restores the binding that the thread had before
- * the first call. Does nothing if s is NULL. */
+ * cores in the partition (cpu_core_partition_make). share_number = -1 restores the binding that the thread had before
+ * the first call. Does nothing if `partition` is NULL. */
 void cpu_core_partition_bind_calling_thread(const struct cpu_core_partition *partition, int share_number);
 
-/* Releases the partition s, the division of the processor cores into groups (cpu_core_partition_make). */
+/* Releases the partition, the division of the processor cores into groups (cpu_core_partition_make). */
 void cpu_core_partition_free(struct cpu_core_partition *partition);
 
 /* Returns the time of the wall clock [s], from an arbitrary origin, to measure durations. */

@@ -48,7 +48,7 @@ struct surface_correction {
 status surface_correction_fit_bond_weight_factors(struct surface_correction *weights, const struct particles *p,
                                                   const struct bond_source *source, bool with_rotations);
 
-/* Releases the arrays of w, the factors on the weights of bonds near faces. */
+/* Releases the arrays of `correction`, the factors on the weights of bonds near faces. */
 void surface_correction_free(struct surface_correction *correction);
 
 /* Returns the integer nearest to `spacings`, halves rounded away from 0. It is quicker than nearbyint. */

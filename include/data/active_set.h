@@ -25,7 +25,7 @@ struct active_set {
     bool over; /* blocks of bonds: all active blocks have moved already, so that no other one becomes active */
 };
 
-/* Allocates the active set r of `block_count` blocks (each of eight particles or nodes) and makes all blocks active, so
+/* Allocates the active set of `block_count` blocks (each of eight particles or nodes) and makes all blocks active, so
  * that computations include every block. Release with active_set_free. */
 void active_set_make_with_all_blocks_active(struct active_set *set, int64_t block_count);
 
@@ -37,12 +37,12 @@ void active_set_free(struct active_set *set);
  * changed. */
 void active_set_rebuild_active_block_list(struct active_set *set);
 
-/* Saves the activity levels of the blocks (groups of eight particles or nodes) of r to the archive `a` under the name
- * `name` if a->saving, else restores them. After restoring, computations include all blocks in the next step, because
- * the forces of inactive blocks are not stored. Returns FAILED if the archive cannot be read or written. */
+/* Saves the activity levels of the blocks (groups of eight particles or nodes) of `set` to the archive `a` under the
+ * name `name` if a->saving, else restores them. After restoring, computations include all blocks in the next step,
+ * because the forces of inactive blocks are not stored. Returns FAILED if the archive cannot be read or written. */
 status active_set_save_or_load(struct active_set *set, const char *name, struct archive *a);
 
-/* Returns the fraction (0 to 1) of the blocks of r that are still at rest and skipped by computations. A block is a
+/* Returns the fraction (0 to 1) of the blocks of `set` that are still at rest and skipped by computations. A block is a
  * group of eight particles or nodes; blocks without particles are not counted. */
 static inline real active_set_inactive_fraction(const struct active_set *set)
 {

@@ -15,7 +15,7 @@ struct cells_without_particles {
     bool restored;   /* true: restored from a checkpoint, and not to be determined anew at the start of the run */
 };
 
-/* Releases the arrays of h, the cells in which no particles are made. */
+/* Releases the arrays of `hollow`, the cells in which no particles are made. */
 void cells_without_particles_free(struct cells_without_particles *hollow);
 
 /* Returns true if the particle at the reference position X [m] is not created, because its cell is part of a coarser

@@ -63,7 +63,7 @@ struct corotating_groups {
     real *turn[3]; /* [n + LANES] lack of a point [kg m^2/s], then the spin of its group [1/s]; 2D: only turn[2] */
 };
 
-/* Divides all particles of p into the groups t of about 6 by 6 (by 6) neighbours in the reference configuration, which
+/* Divides all particles of p into the groups of about 6 by 6 (by 6) neighbours in the reference configuration, which
  * later rotate together, so that the FLIP transfer conserves angular momentum. Bodies that interfaces join are divided
  * like one body; other bodies have groups of their own, which do not depend on other bodies. Groups are counted from
  * the middle of the bounding box of the joined bodies. If a plane of symmetry cuts or touches them, groups are counted

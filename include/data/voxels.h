@@ -46,10 +46,10 @@ void voxel_solid_make_from_grey_value_ranges(struct voxel_solid *voxels);
 /* Releases the array of distances voxels->level of the solid p. */
 void voxel_solid_free(struct voxel_solid *voxels);
 
-/* Returns the signed distance [m] of the point X (dim components [m]) from the surface of the solid p, negative inside.
- * The sign is exact; the value is the distance of the centre of the voxel that contains X (outside the image: of the
- * nearest voxel, plus the distance of X from the image). normal: NULL, or receives the unit vector that points out of
- * the solid. */
+/* Returns the signed distance [m] of the point X (dim components [m]) from the surface of the solid `voxels`, negative
+ * inside. The sign is exact; the value is the distance of the centre of the voxel that contains X (outside the image:
+ * of the nearest voxel, plus the distance of X from the image). normal: NULL, or receives the unit vector that points
+ * out of the solid. */
 real voxel_solid_signed_distance(const struct voxel_solid *voxels, const real *X, real *normal);
 
 #endif

@@ -7,10 +7,10 @@
 #include "run/critical_step.h"
 #include "run/run.h"
 
-/* Creates in *e the state of a run of the scene s before the first step: particles, cells, loads, bonds, grid, time
+/* Creates in *run the state of a run of the scene s before the first step: particles, cells, loads, bonds, grid, time
  * step. output: files of the run, opened by output_open and kept by reference; NULL for a run without files. Returns
- * REFUSED if the scene is invalid or needs more memory than available; FAILED if a file cannot be read. Release *e with
- * run_free_memory whatever is returned. */
+ * REFUSED if the scene is invalid or needs more memory than available; FAILED if a file cannot be read. Release *run
+ * with run_free_memory whatever is returned. */
 status run_set_up_from_scene(struct run *run, const struct scene *s, struct output *output);
 
 /* Releases all memory of the run. Waits first for the thread that may still be writing a frame (output file of one
@@ -31,9 +31,9 @@ real run_estimate_peak_memory(const struct scene *s, const struct particles *p, 
 real run_estimate_peak_memory_if_all_peridynamic(const struct scene *s, const struct particles *p,
                                                  const struct bond_source *source);
 
-/* Runs the scene of e, which run_set_up_from_scene has prepared, from the present step to its end, with all reports.
- * Returns OK at the end; INTERRUPTED, after a checkpoint, if a signal or the wall-clock limit stops the run; FAILED if
- * the run becomes unstable, no equilibrium is found, or a file cannot be written. */
+/* Runs the scene of the run, which run_set_up_from_scene has prepared, from the present step to its end, with all
+ * reports. Returns OK at the end; INTERRUPTED, after a checkpoint, if a signal or the wall-clock limit stops the run;
+ * FAILED if the run becomes unstable, no equilibrium is found, or a file cannot be written. */
 status run_advance_to_end_time(struct run *run);
 
 /* Adapts the coarsening levels of the mesh cells of the run (0: finest; the edge of a cell doubles with each level) to
@@ -51,9 +51,8 @@ status run_save_or_load_state(void *run, struct archive *a);
 status run_load_checkpoint(void *run, struct archive *a);
 
 /* Runs the scene of the run once more with material points alone, if it has a PULSE probe (wave packet at an
- * interface). The final velocities and the energy change of that the run are stored; the probe compares run e with
- * them. Call this function at the end of the run. Returns the status of the second run; OK if there is no PULSE probe.
- */
+ * interface). The final velocities and the energy change of that the run are stored; the probe compares run with them.
+ * Call this function at the end of the run. Returns the status of the second run; OK if there is no PULSE probe. */
 status run_repeat_with_mpm_only_for_pulse_probe(struct run *run);
 
 /* Checks the scene of the run for input that is allowed but probably unintended, and adds warnings to run->warnings.

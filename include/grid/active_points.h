@@ -29,7 +29,7 @@ enum { ACTIVE_POINTS_STEPS = 4 }; /* steps between two searches for the cells th
  * the sorted points that transfers have used so far; grid: background grid with the prescribed nodal velocities (walls)
  * of the previous step; b: bonds; p: particles; loads: boundary conditions; shape, transfer: shape functions and
  * transfer scheme (FLIP or APIC), which determine how far motion spreads in a step. Returns the active points sorted
- * like full_order, as an order that r owns, or `full_order` if all points are active. */
+ * like full_order, as an order that `active` owns, or `full_order` if all points are active. */
 const struct transfer_order *active_points_update_transfer_order(struct active_points *active,
                                                                  const struct transfer_order *full_order,
                                                                  const struct transfer_order *previous_order,
@@ -37,7 +37,7 @@ const struct transfer_order *active_points_update_transfer_order(struct active_p
                                                                  const struct bonds *b, const struct loads *loads,
                                                                  enum shape shape, enum transfer transfer);
 
-/* Frees the arrays of r (cells and points that transfers include) and sets all members of r to 0. */
+/* Frees the arrays of `active` (cells and points that transfers include) and sets all members of `active` to 0. */
 void active_points_free(struct active_points *active);
 
 #endif

@@ -67,10 +67,10 @@ void mirror_planes_warn_if_not_fitting_grid_or_mesh(const struct run *run, struc
 status bodies_choose_lagrangian_mesh_or_background_grid(struct lagrangian_mesh *reference, struct grid_method *mpm,
                                                         struct particles *p, const struct scene *s);
 
-/* Returns true if the material points of at least one body move with a mesh (the reference frame r). */
+/* Returns true if the material points of at least one body move with a mesh (the reference frame). */
 bool lagrangian_mesh_is_used_by_any_body(const struct lagrangian_mesh *reference);
 
-/* Returns true if the bodies of scene s can move with a mesh (be in the reference frame r): the particles p form one
+/* Returns true if the bodies of scene s can move with a mesh (be in the reference frame): the particles p form one
  * connected mesh on a lattice that fits the cells of the background grid of mpm. */
 bool lagrangian_mesh_can_be_made_for_scene(const struct lagrangian_mesh *reference, const struct particles *p,
                                            const struct scene *s, const struct grid_method *mpm);
@@ -82,51 +82,52 @@ bool lagrangian_mesh_can_be_made_for_scene(const struct lagrangian_mesh *referen
  * run_free_memory. */
 status lagrangian_mesh_make_for_run(struct run *run, const struct mesh_source *source, bool caller_sets_motion);
 
-/* Returns the critical time step of the cells of the mesh of r [s], INFINITY without a mesh. If material points may
- * become peridynamic (adaptive method), cells that would have lost any of their points are included, unless `coupling`
- * is COUPLING_PARTIAL_STRESS (bonds carry part of the stress of the points). */
+/* Returns the critical time step of the cells of the mesh of `reference` [s], INFINITY without a mesh. If material
+ * points may become peridynamic (adaptive method), cells that would have lost any of their points are included, unless
+ * `coupling` is COUPLING_PARTIAL_STRESS (bonds carry part of the stress of the points). */
 real lagrangian_mesh_critical_time_step(const struct lagrangian_mesh *reference, const struct scene *s,
                                         enum coupling coupling);
 
-/* Lists anew the exposed points of the mesh r (points of p with bonds, loads or mirror images) and the nodes on which
- * the boundary conditions `loads` act. To be called after points or coarsening levels of the mesh have changed. */
+/* Lists anew the exposed points of the mesh (points of p with bonds, loads or mirror images) and the nodes on which the
+ * boundary conditions `loads` act. To be called after points or coarsening levels of the mesh have changed. */
 void lagrangian_mesh_list_bonded_or_loaded_points(struct lagrangian_mesh *reference, const struct particles *p,
                                                   const struct bonds *bonds, struct loads *loads);
 
-/* Updates the exposed points of the mesh r, i.e. the material points of p with bonds, loads or mirror images: their
+/* Updates the exposed points of the mesh, i.e. the material points of p with bonds, loads or mirror images: their
  * positions and velocities from the nodes and, if they have state-based bonds to peridynamic particles, their
  * strains. */
 void lagrangian_mesh_move_bonded_or_loaded_points(struct lagrangian_mesh *reference, struct particles *p);
 
-/* Computes the nodal forces of the mesh r in step number `step`: the forces of bonds on its points, taken from p->f and
+/* Computes the nodal forces of the mesh in step number `step`: the forces of bonds on its points, taken from p->f and
  * distributed to the nodes, plus the forces of all cells whose coarsening level acts in this step. Level L, 0 for the
  * finest cells, acts every 2^L steps. */
 void lagrangian_mesh_compute_nodal_forces(struct lagrangian_mesh *reference, struct particles *p, int64_t step);
 
 /* Integrates the motion of the nodes under the forces of lagrangian_mesh_compute_nodal_forces, then updates the points
- * (of p) of the mesh r that have bonds, loads or mirror images. loads: prescribed velocities, to whose sums of work and
+ * (of p) of the mesh that have bonds, loads or mirror images. loads: prescribed velocities, to whose sums of work and
  * reactions those of this step are added; clock: step number and time step; t_middle: time in the middle of the step
  * [s]; dt_velocity: interval over which velocities are advanced [s]. */
 void lagrangian_mesh_move_nodes(struct lagrangian_mesh *reference, struct particles *p, struct loads *loads,
                                 const struct run_clock *clock, real t_middle, real dt_velocity);
 
-/* Updates positions, velocities and stresses of all material points (of p) of the mesh r from the nodes, then those of
+/* Updates positions, velocities and stresses of all material points (of p) of the mesh from the nodes, then those of
  * the mirror images of particles, which `loads` lists. */
 void lagrangian_mesh_update_point_motion_and_stress(struct lagrangian_mesh *reference, struct particles *p,
                                                     const struct loads *loads);
 
-/* Updates positions and velocities of all material points (of p) of the mesh r from the nodes, then those of the mirror
+/* Updates positions and velocities of all material points (of p) of the mesh from the nodes, then those of the mirror
  * images of particles, which `loads` lists. */
 void lagrangian_mesh_update_point_motion(struct lagrangian_mesh *reference, struct particles *p,
                                          const struct loads *loads);
 
 /* Updates positions and velocities of the material points of p in point_list[point_count] (indices) from the nodes of
- * the mesh of r, except points in coarse cells. Then updates the mirror images of particles, which `loads` lists. */
+ * the mesh of `reference`, except points in coarse cells. Then updates the mirror images of particles, which `loads`
+ * lists. */
 void lagrangian_mesh_update_motion_of_listed_points(struct lagrangian_mesh *reference, struct particles *p,
                                                     const struct loads *loads, const int32_t *point_list,
                                                     int64_t point_count);
 
-/* Updates the mesh r after `converted_count` particles of p (0: none) have become peridynamic and the partial stresses
+/* Updates the mesh after `converted_count` particles of p (0: none) have become peridynamic and the partial stresses
  * (shares of stress that bonds carry) of the points listed in partial->touched have changed. The kinetic energy that
  * the nodes lose by this is added to *energy_lost [J]. Returns true if points may have left the mesh; the caller must
  * then call lagrangian_mesh_list_bonded_or_loaded_points. Returns false if only the stiffness of cells has changed. */
@@ -143,9 +144,9 @@ void lagrangian_mesh_insert_points(struct lagrangian_mesh *reference, struct par
  * the finest cells and those of coarse cells. reference: the mesh with its coarse cells. */
 real lagrangian_mesh_kinetic_energy(const struct lagrangian_mesh *reference);
 
-/* Returns the strain energy [J] of all cells of the mesh of r (a mesh fixed to the material), the finest ones and the
- * coarse ones. reference: mesh with its coarse cells; motion is first copied to those nodes of coarse cells that follow
- * nodes of finer cells. p: particles, the material points of the finest cells. */
+/* Returns the strain energy [J] of all cells of the mesh of `reference` (a mesh fixed to the material), the finest ones
+ * and the coarse ones. reference: mesh with its coarse cells; motion is first copied to those nodes of coarse cells
+ * that follow nodes of finer cells. p: particles, the material points of the finest cells. */
 real lagrangian_mesh_strain_energy(struct lagrangian_mesh *reference, const struct particles *p);
 
 /* Kind of the load with the shortest rise time, which requires the smallest cells. RISE_NONE: there is no load;
@@ -216,10 +217,10 @@ status mesh_levels_make_coarse_cells(struct run *run, bool levels_from_checkpoin
  * 0, and all levels have reached the same time. */
 bool mesh_levels_may_change_before_step(const struct mesh_levels *l, int64_t step);
 
-/* Computes the coarsening levels of cells of r (0: finest) for the next steps from stress, cracks and present motion.
- * p: particles; loads: boundary conditions; step: number of the next step; mass: of the body [kg]. Returns an array
- * that the caller releases with memory_free, with the level of the cell to which each cell of level 0 (the finest)
- * shall belong, or NULL if no level changes. */
+/* Computes the coarsening levels of cells of `reference` (0: finest) for the next steps from stress, cracks and present
+ * motion. p: particles; loads: boundary conditions; step: number of the next step; mass: of the body [kg]. Returns an
+ * array that the caller releases with memory_free, with the level of the cell to which each cell of level 0 (the
+ * finest) shall belong, or NULL if no level changes. */
 uint8_t *mesh_levels_choose_level_of_each_cell(struct lagrangian_mesh *reference, const struct particles *p,
                                                const struct loads *loads, int64_t step, real mass);
 
@@ -234,7 +235,7 @@ void mesh_levels_change_cell_levels(struct run *run, const uint8_t *new_cell_lev
  * convert. */
 void coarse_cells_delay_conversion_of_nearby_points(struct mesh_levels *l, struct particles *p);
 
-/* Updates three lists after coarsening levels of the mesh r have changed: the nodes of coarse cells on which boundary
+/* Updates three lists after coarsening levels of the mesh have changed: the nodes of coarse cells on which boundary
  * conditions act, the points (of p) with bonds, loads or mirror images, and the nodes on which loads act. */
 void mesh_levels_update_lists_of_loaded_nodes(struct lagrangian_mesh *reference, const struct particles *p,
                                               const struct bonds *bonds, struct loads *loads);
@@ -273,7 +274,7 @@ void cells_without_particles_update_from_levels(struct lagrangian_mesh *referenc
 bool coarse_cell_points_interpolate_for_output(struct lagrangian_mesh *reference, const struct particles *body,
                                                const struct material *m, bool with_gradients);
 
-/* Frees the material points and their arrays in *h, which coarse_cell_points_interpolate_for_output has made. */
+/* Frees the material points and their arrays in *coarse, which coarse_cell_points_interpolate_for_output has made. */
 void coarse_cell_points_free(struct coarse_cell_points *coarse);
 
 #endif

@@ -36,11 +36,12 @@ void hdf_create(struct hdf *hdf, const char *path, bool compress);
  * hdf->failed. */
 void hdf_open_for_reading(struct hdf *hdf, const char *path);
 
-/* Closes the HDF5 file of *f and all its objects. A failure is stored in hdf->failed. */
+/* Closes the HDF5 file of *hdf and all its objects. A failure is stored in hdf->failed. */
 void hdf_close(struct hdf *hdf);
 
-/* Closes the HDF5 file f, which was created under PATH.cleave.tmp, the temporary name of `path`. If a call of HDF5 on
- * the file has failed, removes the incomplete file, sets *write_failed to true and returns FAILED, with a message. */
+/* Closes the HDF5 file `hdf`, which was created under PATH.cleave.tmp, the temporary name of `path`. If a call of HDF5
+ * on the file has failed, removes the incomplete file, sets *write_failed to true and returns FAILED, with a
+ * message. */
 status hdf_close_or_remove_if_write_failed(struct hdf *hdf, const char *path, bool *write_failed);
 
 /* Creates the group `name`, a path within the HDF5 file f. A failure is stored in hdf->failed. */
@@ -81,8 +82,8 @@ struct hdf_source {
 void hdf_write_virtual_dataset(struct hdf *hdf, const char *name, enum hdf_type type, int columns,
                                const struct hdf_source *source_files, int source_count, int extra_rows);
 
-/* Writes the string `text` to the HDF5 file f as the dataset `name`, of one string of fixed length. A failure is stored
- * in hdf->failed. */
+/* Writes the string `text` to the HDF5 file `hdf` as the dataset `name`, of one string of fixed length. A failure is
+ * stored in hdf->failed. */
 void hdf_write_text(struct hdf *hdf, const char *name, const char *text);
 
 /* Writes the string `text` as the dataset `name`, a list of one string of variable length, which VTK shows as field
@@ -103,8 +104,8 @@ void hdf_write_scalar_attribute(struct hdf *hdf, const char *group, const char *
  * group or dataset. A failure is stored in hdf->failed. */
 void hdf_write_text_attribute(struct hdf *hdf, const char *group, const char *name, const char *text);
 
-/* Returns the number of elements of the dataset `name`, the product of its dimensions, or -1 if the file f has no such
- * dataset, which is not a failure. Any other failure is stored in hdf->failed. */
+/* Returns the number of elements of the dataset `name`, the product of its dimensions, or -1 if the file `hdf` has no
+ * such dataset, which is not a failure. Any other failure is stored in hdf->failed. */
 int64_t hdf_dataset_element_count(struct hdf *hdf, const char *name);
 
 /* Reads the dataset `name`, which must hold exactly `count` numbers, and converts them to the given type in

@@ -155,7 +155,7 @@ struct view;
  * method of the run in r->folder, and QUANTITY = quantity, what the picture shows; unknown parts are left out. If
  * r->title is given, it is the title. plotted: particles of the picture, or NULL; if given, the position of a slice and
  * a factor on displacements are appended to the title. view: rectangle of the picture, which determines the unit of the
- * position; NULL if c is. */
+ * position; NULL if `plotted` is. */
 void picture_compose_title(char *title, const struct plot_request *r, const char *quantity,
                            const struct plotted_particles *plotted, const struct view *view);
 
@@ -279,15 +279,15 @@ struct plotted_particles {
 };
 
 /* Copies those particles of the frame f (state at one time) that a picture shows into *plotted: in 2D all, in 3D those
- * selected by `projection`, a slice or a view from outside; NULL for the slice with the largest damage. Release c with
- * plotted_particles_free. */
+ * selected by `projection`, a slice or a view from outside; NULL for the slice with the largest damage. Release
+ * `plotted` with plotted_particles_free. */
 void plotted_particles_select_from_frame(struct plotted_particles *plotted, const struct output_frame *f,
                                          const struct projection *projection);
 
-/* Reads a frame (state at one time) of the run in `folder` and copies those particles that a picture shows into *c,
- * with the values of projection->field if it is set. projection: slice of a body in three dimensions, or view of it
- * from outside. Returns FAILED, with no memory to release, if the frame cannot be read or lacks the field. Release c
- * with plotted_particles_free. */
+/* Reads a frame (state at one time) of the run in `folder` and copies those particles that a picture shows into
+ * *plotted, with the values of projection->field if it is set. projection: slice of a body in three dimensions, or view
+ * of it from outside. Returns FAILED, with no memory to release, if the frame cannot be read or lacks the field.
+ * Release `plotted` with plotted_particles_free. */
 status plotted_particles_read(struct plotted_particles *plotted, const char *folder, const struct listed_frame *frame,
                               const struct projection *projection);
 
@@ -311,7 +311,7 @@ float *deformation_gradients_fit_to_displacements(const struct output_frame *f, 
  * determinant is 0 or not a number. */
 bool matrix_invert_3x3(const double matrix[3][3], double inverse[3][3]);
 
-/* Frees the arrays of *c, the drawn particles of a frame, which plotted_particles_read or
+/* Frees the arrays of *plotted, the drawn particles of a frame, which plotted_particles_read or
  * plotted_particles_select_from_frame has allocated. */
 void plotted_particles_free(struct plotted_particles *plotted);
 
@@ -348,11 +348,11 @@ enum map colour_map_kind_for_field(const struct plot_field *field);
 void rigid_body_displacement_of_nearest_particle(const struct region *shape, const struct rigid_placement *placement,
                                                  const struct output_frame *f, real *displacement);
 
-/* Adds the rigid bodies of the scene s to c, the particles of frame number `frame_number` that a picture shows. Their
- * positions and rotations are those that the run in `folder` has stored for this frame. In a picture with magnified
- * displacements (plotted->magnify), each body is moved along by the added displacement of the particle nearest to it.
- * Adds none, without a message, if s is NULL, in one dimension, or if the file with the positions is missing or cannot
- * be read. f: the frame; s: kept by reference, must outlive c. */
+/* Adds the rigid bodies of the scene s to `plotted`, the particles of frame number `frame_number` that a picture shows.
+ * Their positions and rotations are those that the run in `folder` has stored for this frame. In a picture with
+ * magnified displacements (plotted->magnify), each body is moved along by the added displacement of the particle
+ * nearest to it. Adds none, without a message, if s is NULL, in one dimension, or if the file with the positions is
+ * missing or cannot be read. f: the frame; s: kept by reference, must outlive c. */
 void plotted_particles_add_rigid_bodies(struct plotted_particles *plotted, const struct output_frame *f,
                                         const struct scene *s, const char *folder, int frame_number);
 
@@ -424,8 +424,8 @@ void view_set_field_and_colour_range(struct view *v, const struct plot_field *fi
 status view_make_for_request(struct view *v, const struct plot_request *r,
                              const struct plotted_particles *frame_particles, int frame_count);
 
-/* Returns the colour of particle number i of c in a map of the quantity `map`. v: view, with the values at the ends of
- * the colour scale. */
+/* Returns the colour of particle number i of `plotted` in a map of the quantity `map`. v: view, with the values at the
+ * ends of the colour scale. */
 struct colour plotted_particle_colour(const struct view *v, const struct plotted_particles *plotted, int64_t i,
                                       enum map map);
 
@@ -433,17 +433,18 @@ struct colour plotted_particle_colour(const struct view *v, const struct plotted
  * table determine the scale if `map` is MAP_FIELD. */
 struct colour view_colour_at_scale_position(const struct view *v, enum map map, double position);
 
-/* Paints the particles of c, seen in the rectangle of `view`, into the image pixel[height * width], rows from bottom to
- * top. map: quantity that the colours show. Each particle covers a square, or a disc if the lattice is rotated, which
- * deforms with the body. Each pixel shows the particle nearest to it. Pixels without a particle are white and
- * transparent. For plane bodies and slices; image_paint_particles_as_cubes paints views from outside. */
+/* Paints the particles of `plotted`, seen in the rectangle of `view`, into the image pixel[height * width], rows from
+ * bottom to top. map: quantity that the colours show. Each particle covers a square, or a disc if the lattice is
+ * rotated, which deforms with the body. Each pixel shows the particle nearest to it. Pixels without a particle are
+ * white and transparent. For plane bodies and slices; image_paint_particles_as_cubes paints views from outside. */
 void image_paint_particles_in_plane(struct colour *pixel, int width, int height, const struct view *view,
                                     const struct plotted_particles *plotted, enum map map);
 
-/* Paints the particles of c, as seen from outside by a camera, into the image pixel[height * width], rows from bottom
- * to top. map: quantity that the colours show; view: visible rectangle and range of the colours. Each particle is drawn
- * as a cube that deforms with the body. Each pixel shows the cube nearest to the viewer. In MAP_CRACKS the body is
- * painted in a faded colour, and the cubes of particles with damage of at least CRACK_DAMAGE are painted over it. */
+/* Paints the particles of `plotted`, as seen from outside by a camera, into the image pixel[height * width], rows from
+ * bottom to top. map: quantity that the colours show; view: visible rectangle and range of the colours. Each particle
+ * is drawn as a cube that deforms with the body. Each pixel shows the cube nearest to the viewer. In MAP_CRACKS the
+ * body is painted in a faded colour, and the cubes of particles with damage of at least CRACK_DAMAGE are painted over
+ * it. */
 void image_paint_particles_as_cubes(struct colour *pixel, int width, int height, const struct view *view,
                                     const struct plotted_particles *plotted, enum map map);
 
@@ -463,18 +464,18 @@ struct colour rigid_body_colour(enum map map);
  */
 void view_extend_to_rigid_bodies(struct view *v, const struct plotted_particles *frame_particles, int frame_count);
 
-/* Returns true if at least one rigid body of c is visible in the rectangle of v. In views from outside every rigid body
- * counts as visible. In plane bodies and slices the rectangle is tested at 300 x 300 points. */
+/* Returns true if at least one rigid body of `plotted` is visible in the rectangle of v. In views from outside every
+ * rigid body counts as visible. In plane bodies and slices the rectangle is tested at 300 x 300 points. */
 bool view_shows_any_rigid_body(const struct view *v, const struct plotted_particles *plotted);
 
-/* Paints the rigid bodies of c, seen in the rectangle of v, into the image pixel[height * width] of a plane body or a
- * slice. In front of a slice they hide the particles, in a plane body they are behind the particles. */
+/* Paints the rigid bodies of `plotted`, seen in the rectangle of v, into the image pixel[height * width] of a plane
+ * body or a slice. In front of a slice they hide the particles, in a plane body they are behind the particles. */
 void image_paint_rigid_bodies_in_plane(struct colour *pixel, int width, int height, const struct view *v,
                                        const struct plotted_particles *plotted);
 
-/* Paints the rigid bodies of c, as seen from outside by a camera, into the image pixel[height * width], rows from
- * bottom to top. A pixel is painted where a body is nearer to the viewer than the depth stored in depth[height * width]
- * [m], which is then updated. v: visible rectangle; map: quantity that the colours show. */
+/* Paints the rigid bodies of `plotted`, as seen from outside by a camera, into the image pixel[height * width], rows
+ * from bottom to top. A pixel is painted where a body is nearer to the viewer than the depth stored in depth[height *
+ * width] [m], which is then updated. v: visible rectangle; map: quantity that the colours show. */
 void image_paint_rigid_bodies_with_depth_test(struct colour *pixel, float *depth, int width, int height,
                                               const struct view *v, const struct plotted_particles *plotted,
                                               enum map map);

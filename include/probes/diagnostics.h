@@ -41,8 +41,8 @@ struct diagnostics {
     int64_t bonds_broken;         /* number of directed bonds broken by load so far */
 };
 
-/* Initialises the diagnostics *w before the first time step: sums are 0; times and positions of breaks are NAN, since
- * no bond has broken yet. */
+/* Initialises the diagnostics *diagnostics before the first time step: sums are 0; times and positions of breaks are
+ * NAN, since no bond has broken yet. */
 void diagnostics_initialise(struct diagnostics *diagnostics);
 
 /* Computes the total momentum of the particles p and of the mesh nodes, stores it in diagnostics->now.momentum, and
@@ -93,18 +93,18 @@ bool diagnostics_count_broken_bonds_and_record_first(struct diagnostics *diagnos
 status diagnostics_check_particles_for_divergence(const struct particles *p, bool check_peridynamic,
                                                   bool check_mesh_points, real max_speed, int64_t step, real t);
 
-/* Saves the diagnostics w to the archive `a` (checkpoint file or memory) if a->saving is set, else restores them from
- * it. Returns FAILED if an entry is missing or has another size. */
+/* Saves the diagnostics to the archive `a` (checkpoint file or memory) if a->saving is set, else restores them from it.
+ * Returns FAILED if an entry is missing or has another size. */
 status diagnostics_save_or_load(struct diagnostics *diagnostics, struct archive *a);
 
-/* Returns true if the energies w of the run so far are mere round-off, so that relative energy errors mean nothing:
- * they are below 1e-24 of the kinetic energy of the whole body at the wave speed. mass: mass of the body [kg];
+/* Returns true if the energies `diagnostics` of the run so far are mere round-off, so that relative energy errors mean
+ * nothing: they are below 1e-24 of the kinetic energy of the whole body at the wave speed. mass: mass of the body [kg];
  * wave_speed: speed of the fastest wave [m/s]. */
 bool diagnostics_energies_are_only_round_off(const struct diagnostics *diagnostics, real mass, real wave_speed);
 
 /* Returns the energy [J] that breaking bonds have released in excess of the energy that they had stored: minus the
- * fracture energy of the last sample of w if that is negative, else 0. Only bonds of state-based models can have such
- * an excess. */
+ * fracture energy of the last sample of the diagnostics if that is negative, else 0. Only bonds of state-based models
+ * can have such an excess. */
 real diagnostics_bond_energy_release_beyond_stored(const struct diagnostics *diagnostics);
 
 #endif

@@ -88,15 +88,15 @@ struct velocity_time {
     real scale; /* factor of velocities of the sample that undoes half a step of bulk damping [1] */
 };
 
-/* Initialises the probes *s for the requests requests[request_count] of the scene: finds the particles that each probe
- * observes, and lists the columns that probes add to history.csv. o: view of the run at the start. Returns REFUSED,
- * with nothing left to free, if a request does not suit the run. Cases: a point outside the bodies; a region without
- * particles; a named boundary that does not exist or has no reaction; a bar that differs from what its closed-form
- * solution describes; a SIF probe without crack tip or with unsuitable contours. */
+/* Initialises the probes *probes for the requests requests[request_count] of the scene: finds the particles that each
+ * probe observes, and lists the columns that probes add to history.csv. o: view of the run at the start. Returns
+ * REFUSED, with nothing left to free, if a request does not suit the run. Cases: a point outside the bodies; a region
+ * without particles; a named boundary that does not exist or has no reaction; a bar that differs from what its
+ * closed-form solution describes; a SIF probe without crack tip or with unsuitable contours. */
 status probes_make(struct probes *probes, const struct probe_request *requests, int request_count,
                    const struct observed_run *o);
 
-/* Frees all probes that probes_make has made, and sets *s to zero. Does nothing if *s is zero. */
+/* Frees all probes that probes_make has made, and sets *probes to zero. Does nothing if *probes is zero. */
 void probes_free(struct probes *probes);
 
 /* Computes the values of a sample (a line of history.csv) at the current positions, time o->t, and stores them in
@@ -104,7 +104,7 @@ void probes_free(struct probes *probes);
  * replaced later by probes_sample_velocity_dependent_values. */
 void probes_sample_position_dependent_values(struct probes *probes, const struct observed_run *o);
 
-/* Computes the kinetic, strain and fracture energy of the particles of the ENERGY probes of s and stores them in
+/* Computes the kinetic, strain and fracture energy of the particles of the ENERGY probes of `probes` and stores them in
  * probes->value [J]. Must be called when the forces at the time of the sample are known and before anything moves, as
  * the energies of the whole run are computed. The kinetic energy is replaced later by
  * probes_sample_velocity_dependent_values. o: view of the run. */
@@ -130,19 +130,19 @@ void probes_sample_velocity_dependent_values(struct probes *probes, const struct
 void probes_warn_of_meaningless_sif(struct probes *probes, bool single_equilibrium, real t,
                                     struct warnings *warning_list);
 
-/* Updates the probes of s that observe every time step of the run o. BREAK probes (first broken bond of a region) and
- * SPALL probes (separated end of a bar) search for bonds that broke in the step (particles whose flag FLAG_LOST_BOND is
- * set); REACTION probes (force of a support) update the largest force and the sum of squared forces. Must be called
- * before these flags are cleared. */
+/* Updates the probes of `probes` that observe every time step of the run o. BREAK probes (first broken bond of a
+ * region) and SPALL probes (separated end of a bar) search for bonds that broke in the step (particles whose flag
+ * FLAG_LOST_BOND is set); REACTION probes (force of a support) update the largest force and the sum of squared forces.
+ * Must be called before these flags are cleared. */
 void probes_update_break_spall_and_reaction_probes(struct probes *probes, const struct observed_run *o);
 
-/* Updates those probes of s in the run o that search for bonds that just broke, and no others: BREAK probes (first
- * broken bond of a region) and SPALL probes (separated end of a bar). Load steps (sequences of static equilibria) call
- * this function each time bonds have broken. */
+/* Updates those probes of `probes` in the run o that search for bonds that just broke, and no others: BREAK probes
+ * (first broken bond of a region) and SPALL probes (separated end of a bar). Load steps (sequences of static
+ * equilibria) call this function each time bonds have broken. */
 void probes_update_break_and_spall_probes(struct probes *probes, const struct observed_run *o);
 
-/* Calls emit(context, probe name, quantity name, value) for every result of every probe of s that summary.json reports,
- * in SI units. o: view of the run at the end. Values that are NAN are skipped. */
+/* Calls emit(context, probe name, quantity name, value) for every result of every probe of `probes` that summary.json
+ * reports, in SI units. o: view of the run at the end. Values that are NAN are skipped. */
 void probes_visit_results(const struct probes *probes, const struct observed_run *o,
                           void (*emit)(void *context, const char *probe, const char *quantity, real value),
                           void *context);
@@ -151,7 +151,7 @@ void probes_visit_results(const struct probes *probes, const struct observed_run
  * probes_write_profiles passes on. Returns the status of the write. */
 typedef status probe_file_fn(void *context, const char *name, const char *text, size_t length);
 
-/* Prints the profile (table of values along a line) of each LINE and EXACT probe of s as CSV text, and calls
+/* Prints the profile (table of values along a line) of each LINE and EXACT probe of `probes` as CSV text, and calls
  * write_file(context, `<probe>_<frame>.csv`, text, length) for each. frame_number: number of the frame (output state)
  * in these names; o: view of the present state of the run. Returns FAILED if memory is exhausted, or the status of
  * `write_file` if it is not OK. */
@@ -169,15 +169,15 @@ enum { PROFILE_NAME = NAME_MAX_LENGTH + 16 };
  * file_name[PROFILE_NAME]. Returns false, without a name, if there are at most `profile` profiles. */
 bool probes_compose_profile_file_name(const struct probes *probes, int profile, int frame_number, char *file_name);
 
-/* Copies the stress-intensity factors at the last sample of the probe of s (kind SIF) called `probe_name`, and the
- * direction of the crack tip, to *control, by which a growing crack is controlled. Returns false if the probe has no
- * values yet. */
+/* Copies the stress-intensity factors at the last sample of the probe of `probes` (kind SIF) called `probe_name`, and
+ * the direction of the crack tip, to *control, by which a growing crack is controlled. Returns false if the probe has
+ * no values yet. */
 bool probes_copy_sif_to_growth_control(const struct probes *probes, const char *probe_name,
                                        struct growth_control *control);
 
-/* Computes where the SIF probe (stress-intensity factors) number `probe` of s integrates: stores the current position
- * of its crack tip in tip_position[2] [m], and the outer radius of its contours in *outer_radius [m]. o: view of the
- * run. Returns false, and stores nothing, if the probe is not a SIF probe. */
+/* Computes where the SIF probe (stress-intensity factors) number `probe` of `probes` integrates: stores the current
+ * position of its crack tip in tip_position[2] [m], and the outer radius of its contours in *outer_radius [m]. o: view
+ * of the run. Returns false, and stores nothing, if the probe is not a SIF probe. */
 bool probes_locate_sif_contour(const struct probes *probes, int probe, const struct observed_run *o,
                                real tip_position[2], real *outer_radius);
 

@@ -26,7 +26,7 @@ status run_make_single_equilibrium_solver(struct run *run);
  * scene of the run. Returns REFUSED, with the reason, if it cannot. */
 status load_steps_check_scene_is_supported(const struct run *run);
 
-/* Finds the equilibrium under the loads at time t [s], from which `cleave check` estimates the cost of a run. The run e
+/* Finds the equilibrium under the loads at time t [s], from which `cleave check` estimates the cost of a run. The run
  * cannot be continued with load steps afterwards. Returns FAILED, with a message, if no equilibrium is found. */
 status run_find_equilibrium_for_cost_estimate(struct run *run, real t);
 

@@ -34,11 +34,11 @@ real scene_interaction_distance_across_voids(const struct scene *s, real cutoff)
  * body without such interfaces is a group of its own. */
 bool joined_bodies_are_all_defined_by_solids(const struct scene *s, int first_body);
 
-/* Computes factors on the weights (themselves factors on the forces) of bonds near free surfaces into w, by moments of
- * the bond weights (key `pd.surface: moments`), and sets source->surface = w, so that w must outlive `source`. Returns
- * REFUSED, with a message, if particles of p that can have bonds, mirror images included, are not on one lattice.
- * loads: boundary conditions, so that the message can name the boundary of scene s whose mirror plane does not fit the
- * lattice. */
+/* Computes factors on the weights (themselves factors on the forces) of bonds near free surfaces into `correction`, by
+ * moments of the bond weights (key `pd.surface: moments`), and sets source->surface = `correction`, so that
+ * `correction` must outlive `source`. Returns REFUSED, with a message, if particles of p that can have bonds, mirror
+ * images included, are not on one lattice. loads: boundary conditions, so that the message can name the boundary of
+ * scene s whose mirror plane does not fit the lattice. */
 status surface_correction_compute_bond_weight_factors(struct surface_correction *correction, struct bond_source *source,
                                                       const struct particles *p, const struct loads *loads,
                                                       const struct scene *s);

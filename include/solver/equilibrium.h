@@ -57,12 +57,12 @@ struct newton_solver {
     int64_t worst;     /* index of the node with the largest residual */
 };
 
-/* Initialises the Newton solver *q for `node_count` nodes (particles or nodes of a mesh) in `dim` space dimensions:
- * allocates all vectors and sets them to 0. Functions and tolerances are set by the caller. Release with
+/* Initialises the Newton solver *newton for `node_count` nodes (particles or nodes of a mesh) in `dim` space
+ * dimensions: allocates all vectors and sets them to 0. Functions and tolerances are set by the caller. Release with
  * newton_solver_free. */
 void newton_solver_make(struct newton_solver *newton, int dim, int64_t node_count);
 
-/* Frees the vectors of the Newton solver *q, which newton_solver_make has allocated. */
+/* Frees the vectors of the Newton solver *newton, which newton_solver_make has allocated. */
 void newton_solver_free(struct newton_solver *newton);
 
 /* Finds the static equilibrium under the present loads by Newton's method. On entry newton->u and newton->f are

@@ -37,8 +37,8 @@ void run_update_particle_motion_and_stress(struct run *run);
  * REFUSED if time.step of the scene is too long for coarse cells, or if the run would have more than 1e12 steps. */
 status run_choose_time_step_and_step_count(struct run *run);
 
-/* Returns a read-only view of the run, from which probes read. All pointers of the view refer to data of e; nothing
- * has to be freed. */
+/* Returns a read-only view of the run, from which probes read. All pointers of the view refer to data of the run;
+ * nothing has to be freed. */
 struct observed_run observed_run_make_read_only_view(const struct run *run);
 
 #endif

@@ -73,10 +73,10 @@ struct convergence_request {
     struct study_options options; /* options that all studies have */
 };
 
-/* Runs a convergence study as *w requests and stores its runs and results in *s. Scalar results of failed runs are NAN
- * in the table s->table. Returns REFUSED if the scene cannot be refined, if its runs cannot produce a requested result,
- * or if the time budget is too small (the message states the required one). Returns FAILED if the coarsest run fails,
- * INTERRUPTED if request->options.stop is set. Release s with convergence_study_free. */
+/* Runs a convergence study as *request requests and stores its runs and results in *s. Scalar results of failed runs
+ * are NAN in the table s->table. Returns REFUSED if the scene cannot be refined, if its runs cannot produce a requested
+ * result, or if the time budget is too small (the message states the required one). Returns FAILED if the coarsest run
+ * fails, INTERRUPTED if request->options.stop is set. Release s with convergence_study_free. */
 status convergence_study_run(struct convergence_study *s, const struct convergence_request *request);
 
 /* Frees the scene, runs and table of the convergence study *s, which convergence_study_run has filled. Files remain. */

@@ -200,7 +200,7 @@ static ALWAYS_INLINE lanes cells_compute_force_on_hourglass_mode(const struct el
     return (mode[M][i] * (c11 + m->shear) + mode[7 & ~(1 << i)][k] * c12) * (1.0 / 16);
 }
 
-/* Computes rotation, mean strain and bending (hourglass) modes of eight mesh cells into s, from the displacements
+/* Computes rotation, mean strain and bending (hourglass) modes of eight mesh cells into `cell`, from the displacements
  * u[c][i] of corner c along axis i [m]. h: edge of a cell [m]; rotates: true for finite strain (axes that rotate with
  * the cell), false for small strain. */
 static ALWAYS_INLINE void cell_compute_rotation_strain_and_modes(struct mesh_cell *cell, real h,
@@ -238,8 +238,8 @@ static ALWAYS_INLINE real cell_point_coordinate_product_along_axes(const int axi
 }
 
 /* Computes the strain `strain` [1] of eight cells at their material points number `point` (0 .. 2^dim - 1): the mean
- * strain in s plus the bending (hourglass) modes in s times the coordinates of the point in the cell (+-1/4). `strain`
- * may be unsymmetric; its symmetric part is the strain. */
+ * strain in `cell` plus the bending (hourglass) modes in `cell` times the coordinates of the point in the cell (+-1/4).
+ * `strain` may be unsymmetric; its symmetric part is the strain. */
 static ALWAYS_INLINE void cells_compute_strain_at_point(const struct mesh_cell *cell, const int point,
                                                         lanes strain[3][3], const int dim)
 {

@@ -23,11 +23,11 @@ static ALWAYS_INLINE lanes lanes_gather_or_zero(const real *from, const int32_t 
     return eight;
 }
 
-/* Loads stress and plastic state of eight material points of p into *e, the input of law_update: trial stress, stress
- * at the start of the step (only if dt > 0), back stress, plastic strain, plastic work and temperature. point: particle
- * numbers, -1 for a lane without a point, which gets zeros; stress: symmetric components of the trial stress [Pa]; dt:
- * duration of an explicit time step [s], 0 in load steps (static equilibria); m: constants of the material whose law is
- * evaluated. */
+/* Loads stress and plastic state of eight material points of p into *points, the input of law_update: trial stress,
+ * stress at the start of the step (only if dt > 0), back stress, plastic strain, plastic work and temperature. point:
+ * particle numbers, -1 for a lane without a point, which gets zeros; stress: symmetric components of the trial stress
+ * [Pa]; dt: duration of an explicit time step [s], 0 in load steps (static equilibria); m: constants of the material
+ * whose law is evaluated. */
 static ALWAYS_INLINE void law_points_load_trial_state(const struct particles *p, const struct elastic *m,
                                                       const int32_t *point, const lanes *stress, real dt,
                                                       struct law_points *points, const int dim)

@@ -26,9 +26,9 @@ static ALWAYS_INLINE void mesh_partial_cells_load_corner_displacements(const str
             u[c][i] = lanes_load_or_gather(mesh->displacement[i] + mesh->corner[c], first, cell);
 }
 
-/* Writes the strains and bending (hourglass) modes of eight cells in s as vectors v of cell_deformation_mode_count(dim)
- * numbers [1], one cell per lane: first the components of the mean strain (engineering shear strains), then the bending
- * modes. */
+/* Writes the strains and bending (hourglass) modes of eight cells in `cell` as vectors v of
+ * cell_deformation_mode_count(dim) numbers [1], one cell per lane: first the components of the mean strain (engineering
+ * shear strains), then the bending modes. */
 static ALWAYS_INLINE void cells_pack_strains_and_mode_amplitudes_in_vector(const struct mesh_cell *cell, lanes *v,
                                                                            const int dim)
 {

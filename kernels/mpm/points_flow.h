@@ -99,9 +99,9 @@ static NEVER_INLINE void flow_load_back_stress(const struct particles *p, const 
     if (dim == 2) points->back[2] = -points->back[0] - points->back[1];
 }
 
-/* Loads the plastic state and the stresses of eight points of p into *e, for law_update. point: numbers of the points;
- * m: constants of their material; stress[components], volume: trial stresses [Pa] and volumes [m^3]; motion: motion in
- * the step of dt [s]. */
+/* Loads the plastic state and the stresses of eight points of p into *points, for law_update. point: numbers of the
+ * points; m: constants of their material; stress[components], volume: trial stresses [Pa] and volumes [m^3]; motion:
+ * motion in the step of dt [s]. */
 static ALWAYS_INLINE void flow_load_stress_and_plastic_state(const struct particles *p, const struct elastic *m,
                                                              const int32_t *point, const lanes *stress, lanes volume,
                                                              const struct flow_motion *motion, real dt,
@@ -149,7 +149,7 @@ static ALWAYS_INLINE void flow_clear_conversion_flags_below_threshold(struct par
 }
 
 /* Stores the stress normal to the plane (plane strain) or the volume (plane stress, 1D) of those of the points
- * point[LANES] of p that have yielded. flowed: bit l is set if point[l] has yielded; m: material of the points; e:
+ * point[LANES] of p that have yielded. flowed: bit l is set if point[l] has yielded; m: material of the points; points:
  * their state after the return mapping. */
 static NEVER_INLINE void points_store_out_of_plane_stress_or_volume(struct particles *p, const struct elastic *m,
                                                                     const struct law_points *points, unsigned flowed,
@@ -163,9 +163,9 @@ static NEVER_INLINE void points_store_out_of_plane_stress_or_volume(struct parti
             p->volume[point[l]] = points->volume[l] * p->volume0[point[l]];
 }
 
-/* Stores in p the state e of eight points of material m after the return mapping. flowed: bit l is set if point[l] has
- * yielded; all other points keep their stress. stress[components] [Pa]: receives the stresses of the points that have
- * yielded. */
+/* Stores in p the state `points` of eight points of material m after the return mapping. flowed: bit l is set if
+ * point[l] has yielded; all other points keep their stress. stress[components] [Pa]: receives the stresses of the
+ * points that have yielded. */
 static ALWAYS_INLINE void flow_store_stress_and_plastic_state(struct particles *p, const struct elastic *m,
                                                               const struct law_points *points, unsigned flowed,
                                                               const int32_t *point, lanes *stress, const int dim)

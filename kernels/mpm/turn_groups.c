@@ -159,9 +159,9 @@ static int32_t group_root(const struct corotating_groups *groups, int32_t g)
  * corner. */
 static int axes_of_near(int k) { return k < 6 ? 1 : k < 18 ? 2 : 3; }
 
-/* Joins each group of t (points that rotate together) of fewer than TURNING_FEW points to the neighbouring group with
- * the most points, so that both rotate together. Among neighbours with equally many points, those across a face precede
- * those across an edge or a corner; among these, the one nearest to the middle of the body is chosen. */
+/* Joins each group of `groups` (points that rotate together) of fewer than TURNING_FEW points to the neighbouring group
+ * with the most points, so that both rotate together. Among neighbours with equally many points, those across a face
+ * precede those across an edge or a corner; among these, the one nearest to the middle of the body is chosen. */
 static void few_join(struct corotating_groups *groups)
 {
     for (int32_t g = 0; g < groups->groups; g++) groups->group[g].root = g;
@@ -203,8 +203,8 @@ static void spin_solve(const real J[3][3], const real *sum, int dim, real *w)
     w[2] = (C * sum[0] + D * sum[1] + (a * b - d * d) * sum[2]) / all;
 }
 
-/* Adds the angular momentum g->sum of each group of t to that of its root, the group that it has joined (points of a
- * group rotate together). */
+/* Adds the angular momentum g->sum of each group of `groups` to that of its root, the group that it has joined (points
+ * of a group rotate together). */
 static void sums_join(struct corotating_groups *groups)
 {
     for (int32_t g = 0; g < groups->groups; g++) {
@@ -213,16 +213,16 @@ static void sums_join(struct corotating_groups *groups)
     }
 }
 
-/* Returns true if the points of group g of t rotate with an angular velocity of this group: g has mass, has not joined
- * another group, and no support constrains its body. */
+/* Returns true if the points of group g of `groups` rotate with an angular velocity of this group: g has mass, has not
+ * joined another group, and no support constrains its body. */
 static bool group_turns(const struct corotating_groups *groups, int32_t g)
 {
     return groups->group[g].root == g && groups->group[g].joined > 0 && !groups->group[g].held;
 }
 
-/* Computes the angular velocity of each root of t (a group of points that has joined no other group) from the angular
- * momentum g->sum of all groups that have joined it. It is 0 for a root without mass and in bodies that a support
- * constrains. */
+/* Computes the angular velocity of each root of `groups` (a group of points that has joined no other group) from the
+ * angular momentum g->sum of all groups that have joined it. It is 0 for a root without mass and in bodies that a
+ * support constrains. */
 static void spins_find(struct corotating_groups *groups, int dim)
 {
     sums_join(groups);
@@ -233,8 +233,8 @@ static void spins_find(struct corotating_groups *groups, int dim)
     }
 }
 
-/* Computes for each root of t (a group of points that has joined no other group) the gain of angular velocity that
- * restores the lost angular momentum g->sum of its points: J gain = g->sum, with the inertia J = g->inertia. Then
+/* Computes for each root of `groups` (a group of points that has joined no other group) the gain of angular velocity
+ * that restores the lost angular momentum g->sum of its points: J gain = g->sum, with the inertia J = g->inertia. Then
  * computes the angular velocity with this gain, g->spin: J spin = g->angular + (J - g->added) gain. g->added is the
  * part of J that was added to a thin group to keep J regular. */
 static void gains_find(struct corotating_groups *groups, int dim)
@@ -255,8 +255,8 @@ static void gains_find(struct corotating_groups *groups, int dim)
     }
 }
 
-/* Computes mass (`joined`) and centre of mass (`moment`) of each root of t, a group of points that has joined no other
- * group, from masses and first moments of all groups that have joined it. */
+/* Computes mass (`joined`) and centre of mass (`moment`) of each root of `groups`, a group of points that has joined no
+ * other group, from masses and first moments of all groups that have joined it. */
 static void centres_find(struct corotating_groups *groups)
 {
     for (int32_t g = 0; g < groups->groups; g++) {
@@ -276,8 +276,8 @@ static void centres_find(struct corotating_groups *groups)
             groups->group[g].moment[d] /= groups->group[g].joined;
 }
 
-/* Converts the angular momentum g->sum and the second moments of each group of t (points that rotate together) from the
- * position g->about to the centre of mass of its root, the group that it has joined. Also computes the inertia
+/* Converts the angular momentum g->sum and the second moments of each group of `groups` (points that rotate together)
+ * from the position g->about to the centre of mass of its root, the group that it has joined. Also computes the inertia
  * g->inertia about this centre. */
 static void moments_shift(struct corotating_groups *groups)
 {
@@ -298,9 +298,9 @@ static void moments_shift(struct corotating_groups *groups)
     }
 }
 
-/* Adds the inertia of each group of t (points that rotate together) to that of its root, the group that it has joined.
- * If the inertia of a root about some axis is less than about that of its mass at a radius of LEAST_ARM spacings, adds
- * this inertia about all axes (g->added). spacing: distance of the particles [m]. */
+/* Adds the inertia of each group of `groups` (points that rotate together) to that of its root, the group that it has
+ * joined. If the inertia of a root about some axis is less than about that of its mass at a radius of LEAST_ARM
+ * spacings, adds this inertia about all axes (g->added). spacing: distance of the particles [m]. */
 static void inertias_find(struct corotating_groups *groups, real spacing, int dim)
 {
     for (int32_t g = 0; g < groups->groups; g++) {

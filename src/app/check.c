@@ -293,9 +293,9 @@ static void say_busy(double load, int threads)
         printf("load           %s\n", text);
 }
 
-/* Estimates run time and memory of the run by trial steps and prints both. a: arguments from which e was made, so
+/* Estimates run time and memory of the run by trial steps and prints both. a: arguments from which the run was made, so
  * that other input files can be made for comparison; threads: number of threads, which is printed; made: processor time
- * of the set-up of e [s]. Appends the warnings of the trial steps to *found. The run e cannot be used afterwards.
+ * of the set-up of the run [s]. Appends the warnings of the trial steps to *found. The run cannot be used afterwards.
  * Returns FAILED if one of the first steps fails. */
 static status check_cost(struct run *run, const struct run_arguments *a, int threads, double made,
                          struct warnings *found)
@@ -359,7 +359,7 @@ static void say_verdict(const char *scene, int warnings, int remarks)
                warnings, remarks > 0 ? " and the remarks on accuracy" : "");
 }
 
-/* Prints the resolved settings of the input file of the run run: particles, shapes, materials, positions at which shape
+/* Prints the resolved settings of the input file of the run: particles, shapes, materials, positions at which shape
  * functions are evaluated, pre-cracks, loads, steps, contact. */
 static void say_settings(const struct run *run)
 {

@@ -107,8 +107,8 @@ static double time_contact(struct run *run)
 
 /* Reads the scene of the arguments a again to *s, with the additional override key=value (none if key is NULL), and
  * creates its run e. rest: true if inactive parts of the body may be skipped, as the scene requests. Returns FAILED or
- * REFUSED, with a message, if the scene cannot be read or its run cannot be created. The caller releases s and e, also
- * on failure. */
+ * REFUSED, with a message, if the scene cannot be read or its run cannot be created. The caller releases s and the run,
+ * also on failure. */
 static status make_other(struct scene *s, struct run *run, const struct run_arguments *a, const char *key,
                          const char *value, bool rest)
 {
@@ -123,8 +123,8 @@ static status make_other(struct scene *s, struct run *run, const struct run_argu
     return run_set_up_from_scene(run, s, NULL);
 }
 
-/* Runs all steps of e and returns their processor time [s]. Returns NAN if a step fails, if the processor time exceeds
- * PATIENCE * SECONDS_WHOLE (a few seconds), or if the wall-clock time exceeds WALL_MOST (a minute). */
+/* Runs all steps of the run and returns their processor time [s]. Returns NAN if a step fails, if the processor time
+ * exceeds PATIENCE * SECONDS_WHOLE (a few seconds), or if the wall-clock time exceeds WALL_MOST (a minute). */
 static double all_steps(struct run *run)
 {
     const double start = thread_cpu_clock_seconds(), began = wall_clock_seconds();

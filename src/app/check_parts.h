@@ -86,7 +86,7 @@ void hint_precrack_ends_exactly_on_bonds(const struct run *run, struct warnings 
 /* ---- check_steps.c ----------------------------------------------------------------------------------------------- */
 
 /* Prints to standard output the number, control and tolerance of the load steps (successive static equilibria) of the
- * run e, and the rule by which cracks grow if bonds can break. */
+ * run, and the rule by which cracks grow if bonds can break. */
 void print_load_step_settings(const struct run *run);
 
 /* Writes a line to `out` for each setting of loads, supports or lengths of cracks of the run that reduces the accuracy
@@ -163,7 +163,7 @@ struct length_text length_text_with_unit(real length, int digits, real spacing);
 
 /* ---- check_loads.c ----------------------------------------------------------------------------------------------- */
 
-/* Prints a line for each load and support of the run run: its number of particles, area, force and moment. */
+/* Prints a line for each load and support of the run: its number of particles, area, force and moment. */
 void print_loads_and_supports(const struct run *run);
 
 /* Writes a line to `out` if the loads on a single body of the run do not balance along an axis along which no support
@@ -171,7 +171,7 @@ void print_loads_and_supports(const struct run *run);
  * them, and a remedy. */
 void print_advice_on_unbalanced_loads(const struct run *run, FILE *out);
 
-/* Prints for the loaded or supported face of boundary b of the run run: the fraction of its area that is not
+/* Prints for the loaded or supported face of boundary b of the run: the fraction of its area that is not
  * perpendicular to the axis of the boundary, the mean angle between normal and axis there, and a region that excludes
  * this part of the face. If the face lies in several planes and the boundary has no region, prints instead where it
  * lies. */

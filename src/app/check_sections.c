@@ -252,7 +252,7 @@ static void piece_sections(struct width_misfit_list *list, const struct cover *c
 }
 
 /* Appends to `list` the narrow parts of list->piece that have a wrong number of particle rows. The piece is a body of
- * the run e, or all its parts of one material. Appends nothing if the bounding box of the body has too many cells
+ * the run, or all its parts of one material. Appends nothing if the bounding box of the body has too many cells
  * (piece_cell_coverage_make). */
 static void piece_judge(struct width_misfit_list *list, const struct run *run)
 {

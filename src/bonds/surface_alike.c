@@ -52,7 +52,7 @@ static void kinds_start(struct kinds *s, const struct particles_near_faces *near
 
 /* Returns a hash of the kind of a particle and of the kinds of its neighbours (particles of one kind have equal
  * surroundings). It is a sum with one term for each neighbour: its kind and mirrors times factor[k], a random word for
- * its lattice offset k. t: index of the particle among b, those near faces; s: kinds of these. */
+ * its lattice offset k. t: index of the particle among `near_faces`, those near faces; s: kinds of these. */
 static uint64_t kinds_around(const struct particles_near_faces *near_faces, const struct kinds *s,
                              const uint64_t *factor, int64_t t)
 {
@@ -71,8 +71,8 @@ static uint64_t kinds_around(const struct particles_near_faces *near_faces, cons
 }
 
 /* Returns the hash of the surroundings (colour, from the kinds s) of particle or image j, reflected by the axes in
- * `mirrors` (bit d: axis d). Returns 1 if there is no particle (j < 0), 2 if it is not in b, the particles near
- * faces. */
+ * `mirrors` (bit d: axis d). Returns 1 if there is no particle (j < 0), 2 if it is not in `near_faces`, the particles
+ * near faces. */
 static uint64_t colour_seen(const struct particles_near_faces *near_faces, const struct kinds *s, int32_t j,
                             int mirrors)
 {
@@ -84,7 +84,7 @@ static uint64_t colour_seen(const struct particles_near_faces *near_faces, const
 
 /* Returns a hash (colour) of the surroundings of a particle, reflected by the axes in `mirrors` (bit d: axis d). It
  * combines the present colours s->colour of the particle and its neighbours, and so describes surroundings that are
- * larger by one neighbourhood. t: index of the particle among b, those near faces. */
+ * larger by one neighbourhood. t: index of the particle among `near_faces`, those near faces. */
 static uint64_t colour_around(const struct particles_near_faces *near_faces, const struct kinds *s, int64_t t,
                               int mirrors)
 {
@@ -176,10 +176,10 @@ static void classes_of_kinds(struct bond_classes *a, const struct particles_near
     memory_free(least.first);
 }
 
-/* Divides the particles near faces b into classes: surroundings of particles in one class are equal or mirror images of
- * each other. Numbers the classes from 1 in the order of their first particle. Stores in a the class of each particle,
- * the mirrors that map the particle to its class, and for each class the mirrors under which its surroundings do not
- * change. s: kinds of the particles (equal, not mirrored surroundings), with colours. */
+/* Divides the particles near faces `near_faces` into classes: surroundings of particles in one class are equal or
+ * mirror images of each other. Numbers the classes from 1 in the order of their first particle. Stores in a the class
+ * of each particle, the mirrors that map the particle to its class, and for each class the mirrors under which its
+ * surroundings do not change. s: kinds of the particles (equal, not mirrored surroundings), with colours. */
 static void classes_make(struct bond_classes *a, const struct particles_near_faces *near_faces, const struct kinds *s)
 {
     int32_t *of = NEW("surface.class", s->n, int32_t);
@@ -226,7 +226,7 @@ static void groups_join(int64_t *parent, int64_t one, int64_t other)
 
 /* Returns the index in tables [classes, offsets] of the bond from particle t to its neighbour at lattice offset number
  * k. A class contains particles with equal surroundings up to reflections; the offset is reflected like the particle to
- * the axes of its class. t: index of the particle among b, those near faces; a: classes. */
+ * the axes of its class. t: index of the particle among `near_faces`, those near faces; a: classes. */
 static int64_t entry_of(const struct bond_classes *a, const struct particles_near_faces *near_faces, int64_t t, int k)
 {
     return (int64_t)a->class_of[t] * near_faces->offset.n +

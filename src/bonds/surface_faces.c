@@ -36,8 +36,8 @@ struct raw_faces {
 };
 
 /* Returns true if a particle has a face at one end of an axis, because it has no neighbour there. t: index of the
- * particle among b, those near faces; axis: 0 to dim - 1; up: 1 for the end in positive direction, 0 for that in
- * negative direction. */
+ * particle among `near_faces`, those near faces; axis: 0 to dim - 1; up: 1 for the end in positive direction, 0 for
+ * that in negative direction. */
 static bool lacks(const struct particles_near_faces *near_faces, int64_t t, int axis, int up)
 {
     return particles_near_faces_neighbour_at_offset(near_faces, t, near_faces->offset.axis[axis][up]) < 0;
@@ -180,7 +180,7 @@ static void smooth_faces_make(struct smooth_faces *s, const struct raw_faces *ra
 /* Computes f->normal2[t], the mean of N (x) N over the faces near a particle with unit normals N, weighted by nearness.
  * If the faces nearby have less weight than those at a plane face, the mean is multiplied by the ratio of both to the
  * power NEAR, except in models with rotations (`rotates`). It is 0 without faces. s: smoothed faces; plane: sum of the
- * weights at a plane face; t: index of the particle among b, those near faces. */
+ * weights at a plane face; t: index of the particle among `near_faces`, those near faces. */
 static void normals_gather(struct surface_fit_targets *f, const struct particles_near_faces *near_faces,
                            const struct smooth_faces *s, real plane, bool rotates, int64_t t)
 {
@@ -207,8 +207,8 @@ static void normals_gather(struct surface_fit_targets *f, const struct particles
  * moments of their bonds. f->area receives the area, extrapolated from the middles of the layers to the face. f->dipole
  * receives coefficients of the change from layer to layer: 1, -1 on the first two layers; with rotations (`rotates`)
  * and three layers 2, -3, 1, a one-sided first derivative of second order at the face; none with a single layer.
- * smooth: smoothing of the face; t: index of the particle among b, those near faces; up: 1 for the end in positive
- * direction, else 0. */
+ * smooth: smoothing of the face; t: index of the particle among `near_faces`, those near faces; up: 1 for the end in
+ * positive direction, else 0. */
 static void face_spread(struct surface_fit_targets *f, const struct particles_near_faces *near_faces,
                         const struct smooth *smooth, int64_t t, int axis, int up, bool rotates)
 {
@@ -233,8 +233,8 @@ static void face_spread(struct surface_fit_targets *f, const struct particles_ne
 }
 
 /* Returns the number of layers of particles along an axis through a particle, from face to face of the body, at most
- * `most`; `most` also if the line contains particles that are near no face. t: index of the particle among b, those
- * near faces. */
+ * `most`; `most` also if the line contains particles that are near no face. t: index of the particle among
+ * `near_faces`, those near faces. */
 static int layers(const struct particles_near_faces *near_faces, int64_t t, int axis, int most)
 {
     int n = 1;

@@ -353,8 +353,8 @@ static void prior_make(struct surface_fit_problem *q, const struct moments *m)
 }
 
 /* Returns true if a particle is at the end of a crack or of a narrow void: a neighbour of one of its neighbours is
- * within its own cutoff, but separated from it by the crack or void. t: index of the particle among b, those near
- * faces. */
+ * within its own cutoff, but separated from it by the crack or void. t: index of the particle among `near_faces`, those
+ * near faces. */
 static bool at_crack_end(const struct particles_near_faces *near_faces, int64_t t)
 {
     const struct offsets *o = &near_faces->offset;
@@ -383,8 +383,8 @@ static bool at_crack_end(const struct particles_near_faces *near_faces, int64_t 
     return false;
 }
 
-/* Returns the number of neighbours of a particle within the cutoff. t: index of the particle among b, those near
- * faces. */
+/* Returns the number of neighbours of a particle within the cutoff. t: index of the particle among `near_faces`, those
+ * near faces. */
 static int neighbours(const struct particles_near_faces *near_faces, int64_t t)
 {
     int n = 0;
@@ -425,8 +425,8 @@ static void class_fix(struct surface_fit_problem *q, const struct particles_near
  * few layers of particles (marked in f->thin). The factor is that of the volume method (Le & Bobaru 2018), or 1 if
  * `rotates`, in models with particle rotations. At ends of cracks it is also 1 if bonds may break: they break next, and
  * the critical stretch is calibrated for factor 1 (otherwise Kalthoff's crack turns to 61 degrees at 1 mm). Thin parts
- * are treated last, so that the factor of a bond between both does not depend on the order of its particles. b:
- * particles near faces. */
+ * are treated last, so that the factor of a bond between both does not depend on the order of its particles.
+ * near_faces: particles near faces. */
 static void plain_parts(struct surface_fit_problem *q, const struct particles_near_faces *near_faces,
                         const struct surface_fit_targets *f, bool rotates)
 {

@@ -42,8 +42,8 @@ struct mirrored_particle {
 };
 
 /* Returns the source of the mirror image `entry` (a copy beyond a plane of symmetry; index of the particle arrays): a
- * particle of the body, possibly through several mirrors, with the axes that these mirrors reverse (bit d: axis d). b:
- * particles near faces. */
+ * particle of the body, possibly through several mirrors, with the axes that these mirrors reverse (bit d: axis d).
+ * near_faces: particles near faces. */
 struct mirrored_particle mirror_image_source_and_reversed_axes(const struct particles_near_faces *near_faces,
                                                                int64_t entry);
 
@@ -70,9 +70,9 @@ static inline int32_t particles_near_faces_neighbour_at_offset(const struct part
     return near_faces->neighbour[particle_number * near_faces->offset.n + offset_number];
 }
 
-/* Returns the neighbour at offset number `offset` (a lattice vector) of `from`, a particle near faces b or its mirror
- * image: the particle of the body, and the axes that mirrors reverse between it and this neighbour. The member
- * `particle` of the result is -1 if there is no neighbour or the bond is cut. */
+/* Returns the neighbour at offset number `offset` (a lattice vector) of `from`, a particle near faces `near_faces` or
+ * its mirror image: the particle of the body, and the axes that mirrors reverse between it and this neighbour. The
+ * member `particle` of the result is -1 if there is no neighbour or the bond is cut. */
 static inline struct mirrored_particle
 mirrored_particle_neighbour_at_offset(const struct particles_near_faces *near_faces,
                                       const struct mirrored_particle *from, int offset)
@@ -99,14 +99,14 @@ static inline bool particle_family_is_complete(const struct particles_near_faces
 int bond_offset_seen_from_other_particle(const struct particles_near_faces *near_faces,
                                          const struct mirrored_particle *other_particle, int offset);
 
-/* Lists in b the particles of p near faces (with a missing neighbour, or beside such a particle) and all their
- * neighbours. source: inputs of the bonds (horizon, materials, cracks, mirrors). Returns REFUSED, with a message, if
- * the particles are not on a lattice; unfitting_pair[0] is then the first particle with a neighbour that is not a whole
- * number of spacings away, unfitting_pair[1] this neighbour. Release with particles_near_faces_free. */
+/* Lists in `near_faces` the particles of p near faces (with a missing neighbour, or beside such a particle) and all
+ * their neighbours. source: inputs of the bonds (horizon, materials, cracks, mirrors). Returns REFUSED, with a message,
+ * if the particles are not on a lattice; unfitting_pair[0] is then the first particle with a neighbour that is not a
+ * whole number of spacings away, unfitting_pair[1] this neighbour. Release with particles_near_faces_free. */
 status particles_near_faces_list_with_neighbours(struct particles_near_faces *near_faces, const struct particles *p,
                                                  const struct bond_source *source, int64_t unfitting_pair[2]);
 
-/* Releases all arrays of b, the particles near faces. */
+/* Releases all arrays of `near_faces`, the particles near faces. */
 void particles_near_faces_free(struct particles_near_faces *near_faces);
 
 /* Properties of the faces near each particle [n], from which the targets for the weights (factors on the stiffness) of

@@ -20,7 +20,7 @@ void bonded_points_update_strain_from_mesh_or_stress(const struct partial_stress
 /* Returns true if the conversion flags of all material points of p must be tested in this step. This is so if there are
  * points on the background grid, which keeps no record of flagged points, or if another process may have flagged points
  * or broken bonds: growth laws of cracks or load steps of scene s, reversion, or coarse mesh cells, which postpone
- * conversions. Returns false if all points belong to the mesh of the reference frame r (a mesh of the undeformed body)
+ * conversions. Returns false if all points belong to the mesh of the reference frame (a mesh of the undeformed body)
  * and no cell of it has recorded a stress above that of conversion. */
 static bool may_convert(const struct scene *s, const struct particles *p, const struct lagrangian_mesh *reference)
 {

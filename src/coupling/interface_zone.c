@@ -75,7 +75,7 @@ static void members_make(struct interface_zone *zone, const struct particles *p,
     members_add(zone, mark, slot, p->n, BESIDE);
 }
 
-/* Finds the neighbours with which damping acts on member k of the interface zone r (material points near peridynamic
+/* Finds the neighbours with which damping acts on member k of the interface zone (material points near peridynamic
  * particles, and neighbours): members of the zone within NEIGHBOUR_SPACINGS spacings, in the same body, not separated
  * by a pre-crack of s. At least one of the two must be a material point of the zone. p: particles; mark, slot: as
  * computed by members_make; to: receives the indices of these neighbours in the list of members, NULL: they are only
@@ -97,12 +97,11 @@ static int64_t pairs_of(const struct interface_zone *zone, const struct particle
     return n;
 }
 
-/* Counts or lists the neighbours of all members (particles of p) of the interface zone r (material points near
+/* Counts or lists the neighbours of all members (particles of p) of the interface zone (material points near
  * peridynamic particles, and neighbours). With `count` true, stores the number of neighbours of member k in
- * zone->start[k
- * + 1]. With `count` false, stores their indices in zone->neighbour, from zone->start[k] on. mark, slot: as computed by
- * members_make. s: cells of the neighbour search and pre-cracks. Returns the largest number of neighbours of a member,
- * at least 1. */
+ * zone->start[k + 1]. With `count` false, stores their indices in zone->neighbour, from zone->start[k] on. mark, slot:
+ * as computed by members_make. s: cells of the neighbour search and pre-cracks. Returns the largest number of
+ * neighbours of a member, at least 1. */
 static int64_t pairs_pass(struct interface_zone *zone, const struct particles *p, const struct bond_source *s,
                           const uint8_t *mark, const int32_t *slot, bool count)
 {
@@ -122,7 +121,7 @@ static int64_t pairs_pass(struct interface_zone *zone, const struct particles *p
     return most;
 }
 
-/* Lists the neighbours of each member of the interface zone r, particles of p, in zone->neighbour, after members_make.
+/* Lists the neighbours of each member of the interface zone, particles of p, in zone->neighbour, after members_make.
  * Computes zone->scale, the factor on the velocity differences between neighbours, from the largest number of
  * neighbours. mark, slot: as computed by members_make; s: cells of the neighbour search and pre-cracks. */
 static void interface_zone_pairs_make(struct interface_zone *zone, const struct particles *p,
@@ -216,8 +215,8 @@ static void change_make(struct interface_zone *zone, const struct particles *p, 
 }
 
 /* Returns the second half of the energy that damping has removed in this step [J]: -1/2 sum dp . v over the members of
- * the interface zone r, with their change of momentum dp and their present velocity v in p. Call it after the change
- * has been applied; the first half is this sum with the velocities before the step. */
+ * the interface zone, with their change of momentum dp and their present velocity v in p. Call it after the change has
+ * been applied; the first half is this sum with the velocities before the step. */
 real interface_zone_damping_loss_by_new_velocity(const struct interface_zone *zone, const struct particles *p)
 {
     real lost = 0; /* serial: few members, and the sum must not depend on the number of threads */

@@ -23,7 +23,7 @@ static const char *scene_obstacle(const struct scene *s)
 }
 
 /* Returns the reason why pre-cracks may not be slits, along which nodes of the mesh are doubled, as a constant text: in
- * the scene s, the reference frame r (mesh of the undeformed body) or the background grid g. Returns NULL if nothing
+ * the scene s, the reference frame (mesh of the undeformed body) or the background grid g. Returns NULL if nothing
  * prevents slits. */
 static const char *obstacle_of(const struct scene *s, const struct lagrangian_mesh *reference, const struct grid *g)
 {

@@ -32,7 +32,7 @@ void active_set_rebuild_active_block_list(struct active_set *set)
         if (set->level[k] > 0) set->list[set->active++] = (int32_t)k;
 }
 
-/* Makes all blocks of the active set r active: lists their numbers in ascending order. A block is a fixed number of
+/* Makes all blocks of the active set active: lists their numbers in ascending order. A block is a fixed number of
  * consecutive elements. */
 static void list_all(struct active_set *set)
 {

@@ -44,13 +44,13 @@ static void piece_sort(struct piece *p, int n)
         }
 }
 
-/* Returns true if a face of the surface s has two equal corners and thus no area. face[dim]: indices of its corners. */
+/* Returns true if a face of the surface has two equal corners and thus no area. face[dim]: indices of its corners. */
 static bool face_degenerate(const struct hull *hull, const int32_t *face)
 {
     return face[0] == face[1] || (hull->dim == 3 && (face[1] == face[2] || face[2] == face[0]));
 }
 
-/* Cancels faces of the surface s that coincide. Of several faces with the same corners one remains, in the orientation
+/* Cancels faces of the surface that coincide. Of several faces with the same corners one remains, in the orientation
  * that is more frequent; none remains if both orientations are equally frequent, as where two elements meet. Removes
  * faces with two equal corners. Counts in hull->dropped the removed faces, except pairs of opposite orientation. */
 static void faces_cancel(struct hull *hull)
@@ -80,7 +80,7 @@ static void faces_cancel(struct hull *hull)
 
 /* ---- open edges and components ----------------------------------------------------------------------------------- */
 
-/* Lists the edges of all faces of the surface s (in 2D the end points of the segments) in side[faces dim], sorted by
+/* Lists the edges of all faces of the surface (in 2D the end points of the segments) in side[faces dim], sorted by
  * their corners. Returns their number. */
 static int64_t sides_make(const struct hull *hull, struct piece *side)
 {
@@ -123,7 +123,7 @@ static int32_t shell_root(int32_t *up, int32_t corner)
     return corner;
 }
 
-/* Returns the number of connected components of the surface s; corners of no face are not counted. */
+/* Returns the number of connected components of the surface; corners of no face are not counted. */
 static int64_t count_shells(const struct hull *hull)
 {
     int32_t *up = NEW("hull.shells", hull->corners, int32_t);
@@ -161,8 +161,8 @@ void hull_compute_face_area_vector(const struct hull *hull, int64_t k, real area
     }
 }
 
-/* Returns the volume of the body inside the surface s [m^dim] by Gauss's theorem: the sum of (X - X0) . area/dim over
- * all faces, with a point X of the face and the area vector of the face. X0 is a corner of the surface, which preserves
+/* Returns the volume of the body inside the surface [m^dim] by Gauss's theorem: the sum of (X - X0) . area/dim over all
+ * faces, with a point X of the face and the area vector of the face. X0 is a corner of the surface, which preserves
  * digits far from the origin. Negative if the faces point inwards. */
 static real volume_of(const struct hull *hull)
 {
@@ -195,8 +195,8 @@ static void faces_reverse(struct hull *hull)
     }
 }
 
-/* Initialises the surface *s with its corners and faces; s takes ownership of both arrays. dim: number of dimensions;
- * corner[corners]: positions [m]; face[faces]: indices of dim corners each. */
+/* Initialises the surface *hull with its corners and faces; the hull takes ownership of both arrays. dim: number of
+ * dimensions; corner[corners]: positions [m]; face[faces]: indices of dim corners each. */
 static void hull_take(struct hull *hull, int dim, int64_t corners, real (*corner)[DIM_MAX], int64_t faces,
                       int32_t (*face)[DIM_MAX])
 {

@@ -32,7 +32,7 @@ static int order_y(const void *a, const void *b) { return leaflet_order(a, b, 1)
 static int order_z(const void *a, const void *b) { return leaflet_order(a, b, 2); }
 
 /* Computes the box, the dipole moment (sum of the area vectors) and the area-weighted centre of node n of the tree of
- * surface s from the faces of the node. leaf[]: faces of the whole surface in the order of the tree; those of the node
+ * surface from the faces of the node. leaf[]: faces of the whole surface in the order of the tree; those of the node
  * are leaf[n->first] and the following n->count - 1. */
 static void node_measure(const struct hull *hull, struct hull_node *n, const struct leaflet *leaf)
 {
@@ -56,7 +56,7 @@ static void node_measure(const struct hull *hull, struct hull_node *n, const str
         n->centre[d] = weight > 0 ? n->centre[d] / weight : 0.5 * (n->low[d] + n->high[d]);
 }
 
-/* Divides node number `at` of the tree of surface s into two at the median face along the longest edge of its box, and
+/* Divides node number `at` of the tree of surface into two at the median face along the longest edge of its box, and
  * its children in the same way, down to nodes of at most LEAF faces. leaf[]: faces of the whole surface, which are
  * sorted into the order of the tree. */
 static void node_split(struct hull *hull, int32_t at, struct leaflet *leaf)
@@ -128,9 +128,9 @@ static inline void angle_sum_add(struct angle_sum *sum, real x, real y)
     sum->turns += forward - backward;
 }
 
-/* Adds the contribution of a face of surface s to the winding number at X[dim], times 2 pi, to *sum: in 3D half the
- * solid angle of the triangle (van Oosterom & Strackee 1983, eq. 8); in 2D the angle of the segment. face[dim]: indices
- * of the corners of the face. */
+/* Adds the contribution of a face of surface to the winding number at X[dim], times 2 pi, to *sum: in 3D half the solid
+ * angle of the triangle (van Oosterom & Strackee 1983, eq. 8); in 2D the angle of the segment. face[dim]: indices of
+ * the corners of the face. */
 static void face_winding(const struct hull *hull, const int32_t *face, const real *X, struct angle_sum *sum)
 {
     real arm[DIM_MAX][DIM_MAX], length[DIM_MAX];
@@ -149,7 +149,7 @@ static void face_winding(const struct hull *hull, const int32_t *face, const rea
     angle_sum_add(sum, below, triple);
 }
 
-/* Adds to *sum the winding number at X[dim] of the faces of node n (a set of faces of surface s), replaced by their
+/* Adds to *sum the winding number at X[dim] of the faces of node n (a set of faces of surface), replaced by their
  * dipole (Barill et al. 2018, first order), and returns true. Only if X is farther from the centre of the node than FAR
  * times its radius; otherwise adds nothing and returns false. */
 static bool node_winding(const struct hull *hull, const struct hull_node *n, const real *X, real *sum)
@@ -249,7 +249,7 @@ static void triangle_nearest(const real *corner[DIM_MAX], const real *area, cons
     }
 }
 
-/* Computes nearest[dim], the point of face k, from 0, of the surface s that is nearest to X[dim] [m]. */
+/* Computes nearest[dim], the point of face k, from 0, of the surface that is nearest to X[dim] [m]. */
 static void face_nearest(const struct hull *hull, int64_t k, const real *X, real *nearest)
 {
     const real *corner[DIM_MAX];
@@ -271,9 +271,9 @@ static real box_apart2(const struct hull_node *n, const real *X, int dim)
     return sum;
 }
 
-/* Searches for the face of surface s that is nearest to X[dim], among faces whose squared distance is below *r2 [m^2].
- * If there is one, stores its squared distance in *r2 and its nearest point in nearest[dim], and returns its number;
- * else returns -1 and changes nothing. */
+/* Searches for the face of surface that is nearest to X[dim], among faces whose squared distance is below *r2 [m^2]. If
+ * there is one, stores its squared distance in *r2 and its nearest point in nearest[dim], and returns its number; else
+ * returns -1 and changes nothing. */
 static int32_t nearest_face(const struct hull *hull, const real *X, real *nearest, real *r2)
 {
     int32_t wait[DEEPEST], found = -1;
@@ -296,7 +296,7 @@ static int32_t nearest_face(const struct hull *hull, const real *X, real *neares
     return found;
 }
 
-/* Lists in face[NEAR_MOST] the numbers of the faces of surface s at most `reach` [m] from X[dim]. Returns the number of
+/* Lists in face[NEAR_MOST] the numbers of the faces of surface at most `reach` [m] from X[dim]. Returns the number of
  * these faces; -1 if it is more than NEAR_MOST. */
 static int faces_within(const struct hull *hull, const real *X, real reach, int32_t *face)
 {
@@ -318,8 +318,8 @@ static int faces_within(const struct hull *hull, const real *X, real reach, int3
     return n;
 }
 
-/* Returns true if all corners of face number `other` of surface s are behind the plane of face number `face`, or on it
- * up to round-off. area[dim]: area vector of `face` [m^(dim - 1)]. */
+/* Returns true if all corners of face number `other` of surface are behind the plane of face number `face`, or on it up
+ * to round-off. area[dim]: area vector of `face` [m^(dim - 1)]. */
 static bool face_is_behind(const struct hull *hull, int32_t other, int32_t face, const real *area)
 {
     real above = -INFINITY, size2 = 0;
@@ -353,7 +353,7 @@ static bool hull_outside(const struct hull *hull, const real *X)
     return hull->open || box_apart2(&hull->node[0], X, hull->dim) > 0 || hull_winding_number(hull, X) < 0.5;
 }
 
-/* Returns true if the signed distance of X[dim] from the surface s, negative inside, is at most max_distance [m]. Faces
+/* Returns true if the signed distance of X[dim] from the surface, negative inside, is at most max_distance [m]. Faces
  * that are farther than |max_distance| are not searched, since then only the side of X matters. A surface without faces
  * is at the distance INFINITY. */
 bool hull_point_is_within_distance(const struct hull *hull, const real *X, real max_distance)
@@ -369,7 +369,7 @@ bool hull_point_is_within_distance(const struct hull *hull, const real *X, real 
     return (hull_outside(hull, X) ? distance : -distance) <= max_distance;
 }
 
-/* Returns true if X[dim] is outside the closed surface s, as hull_outside does, but faster for points that follow each
+/* Returns true if X[dim] is outside the closed surface, as hull_outside does, but faster for points that follow each
  * other along a line. distance: distance of X from the surface, > 0 [m]. If the balls without faces around X and around
  * the last point of this thread overlap, both points are on the same side, and the last result is used again. */
 static bool hull_outside_by_last_point(const struct hull *hull, const real *X, real distance)

@@ -108,9 +108,9 @@ static struct member *members_sorted(const struct particles *p, real spacing, co
     return all;
 }
 
-/* Finds the 26 neighbours of group g of t, a box of points that rotate together. Stores their indices in the array
- * `near` of the group, or -1 where the body has no group. Neighbours displaced along one axis come first, then those
- * displaced along two axes, then along three. */
+/* Finds the 26 neighbours of group g of `groups`, a box of points that rotate together. Stores their indices in the
+ * array `near` of the group, or -1 where the body has no group. Neighbours displaced along one axis come first, then
+ * those displaced along two axes, then along three. */
 static void groups_near(struct corotating_groups *groups, int32_t g)
 {
     struct turning_group *own = &groups->group[g];
@@ -131,8 +131,9 @@ static bool groups_differ(const struct member *a, const struct member *b)
     return order_of_places(a->place, a->body, b->place, b->body) != 0;
 }
 
-/* Lists in groups->run the particles of each group of t (points that rotate together) as runs: at most LANES particles
- * that have consecutive numbers and belong to one group. all[n]: particles sorted by group, then by position. */
+/* Lists in groups->run the particles of each group of `groups` (points that rotate together) as runs: at most LANES
+ * particles that have consecutive numbers and belong to one group. all[n]: particles sorted by group, then by
+ * position. */
 static void runs_make(struct corotating_groups *groups, const struct member *all, int64_t n)
 {
     struct turning_group *g = groups->group;

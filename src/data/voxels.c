@@ -93,8 +93,8 @@ static void grid_distances(const struct voxels *v, float *f)
     }
 }
 
-/* Returns true if the grey value `grey` is in one of the ranges of p, so that its voxels belong to this part of the
- * image. */
+/* Returns true if the grey value `grey` is in one of the ranges of `voxels`, so that its voxels belong to this part of
+ * the image. */
 static bool grey_in(const struct voxel_solid *voxels, int grey)
 {
     bool in = false;

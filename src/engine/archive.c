@@ -91,7 +91,7 @@ static status body_save(struct cells_without_particles *hollow, struct particles
 
 /* Restores the particles and bonds of the run from the archive a, and rebuilds from them what is not stored: lists of
  * particles, coupling, mesh and coarse cells. Returns FAILED, with a message, if an entry is missing or a particle has
- * an impossible state; e then is incomplete and can only be freed. */
+ * an impossible state; the run then is incomplete and can only be freed. */
 static status body_restore(struct run *run, struct archive *a)
 {
     TRY(particles_save_or_load(&run->part, run->optional, a));

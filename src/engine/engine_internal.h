@@ -31,7 +31,7 @@ status run_create_and_transfer_from_predecessor(struct run *run, const struct sc
                                                 struct cells_without_particles omitted_cells,
                                                 struct predecessor *predecessor);
 
-/* Replaces run e by a run with the same state, in which the particles are those that the levels of the mesh cells
+/* Replaces run by a run with the same state, in which the particles are those that the levels of the mesh cells
  * require. cell_level: level of each mesh cell (0: finest; the edge doubles with each level, and coarse cells inside a
  * body have no particles). Returns FAILED if the new run cannot be made, or if the output of results that is in
  * progress fails. */

@@ -267,8 +267,8 @@ static enum pd_model law_of(const struct scene *s, const struct bond_source *sou
     return source->yield.stretch ? PD_BOND_PLASTIC : source->limit.softening ? PD_BOND_SOFT : PD_BOND;
 }
 
-/* Computes the critical time step and the time step of the run, or copies both from the run `before`, which e replaces.
- * before: NULL if there is none. Returns REFUSED, with a message, if no time step is possible. */
+/* Computes the critical time step and the time step of the run, or copies both from the run `before`, which the run
+ * replaces. before: NULL if there is none. Returns REFUSED, with a message, if no time step is possible. */
 static status make_time(struct run *run, const struct predecessor *before)
 {
     if (!before) return scene_prepend_location_to_error_message(run->scene, run_choose_time_step_and_step_count(run));
@@ -335,8 +335,8 @@ static status make_probes(struct run *run)
 }
 
 /* Creates loads, bonds, rigid bodies, contact, coupling and mesh of the run, and computes the time step. Call it after
- * make_particles. before: run that e replaces, or NULL. Returns REFUSED or FAILED, with a message, if one of them is
- * impossible in the scene. */
+ * make_particles. before: run that the run replaces, or NULL. Returns REFUSED or FAILED, with a message, if one of them
+ * is impossible in the scene. */
 static status make_forces(struct run *run, struct predecessor *before)
 {
     const struct scene *s = run->scene;

@@ -4,7 +4,7 @@
 #include "mesh/mesh_part.h"
 #include "step/report.h"
 
-/* Creates run e again without the particles of the hollow cells (inside a body, replaced by coarse cells) of a
+/* Creates run again without the particles of the hollow cells (inside a body, replaced by coarse cells) of a
  * checkpoint; its report, warnings and timers are kept. absent[cells]: 1 for each cell without particles; the run owns
  * this array from now on. Returns REFUSED or FAILED, with a message, if the run cannot be created. */
 static status remake(struct run *run, uint8_t *absent)
@@ -25,7 +25,7 @@ static status remake(struct run *run, uint8_t *absent)
     return made;
 }
 
-/* Reads from the archive a of a checkpoint which cells are hollow (inside a body, without particles), and creates run e
+/* Reads from the archive a of a checkpoint which cells are hollow (inside a body, without particles), and creates run
  * again if there are any. Returns FAILED, with a message, if their number is not that of the cells around the first
  * body of the scene. */
 static status hollow_restore(struct run *run, struct archive *a)

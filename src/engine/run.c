@@ -45,8 +45,8 @@ status run_adapt_mesh_and_advance_one_step(struct run *run)
     return step(run);
 }
 
-/* Runs the scene of e to its end: as one equilibrium, in load steps or in time, as its solver requires. Returns OK;
- * FAILED, with a message, if a step fails; INTERRUPTED if a signal ends the run early. */
+/* Runs the scene of the run to its end: as one equilibrium, in load steps or in time, as its solver requires. Returns
+ * OK; FAILED, with a message, if a step fails; INTERRUPTED if a signal ends the run early. */
 static status run_to_end(struct run *run)
 {
     if (scene_is_single_equilibrium(run->scene)) return run_solve_single_equilibrium(run);

@@ -11,7 +11,7 @@ enum { LABEL_MAX = 999999999 }; /* largest number of a node or element in a deck
 
 /* ---- lines and fields ------------------------------------------------------------------------------------------ */
 
-/* Returns true if the reading position of s is at the end of a line or of the file. */
+/* Returns true if the reading position of `file` is at the end of a line or of the file. */
 static bool at_end_of_line(const struct geometry_file *file)
 {
     return file->at >= file->length || file->text[file->at] == '\n';

@@ -16,12 +16,12 @@ struct abaqus_keyword {
     } of[PARAMETERS_MAX];
 };
 
-/* Reads the next field of the current line of s into field[FIELD]: the text up to a comma, without surrounding blanks.
- * Fields of FIELD or more characters are cut. Returns true, or false if the line has no further field; a comma at the
- * end of the line adds no field. */
+/* Reads the next field of the current line of `file` into field[FIELD]: the text up to a comma, without surrounding
+ * blanks. Fields of FIELD or more characters are cut. Returns true, or false if the line has no further field; a comma
+ * at the end of the line adds no field. */
 bool abaqus_read_field(struct geometry_file *file, char field[FIELD]);
 
-/* Advances the file s to the next line that is neither empty nor a comment. Returns true if it is a line of data, false
+/* Advances the file to the next line that is neither empty nor a comment. Returns true if it is a line of data, false
  * if it is a keyword line or if the file has ended. */
 bool abaqus_find_data_line(struct geometry_file *file);
 
@@ -41,7 +41,7 @@ status abaqus_parse_label(const struct geometry_file *file, const char *field, i
 /* Copies the word `from` to to[FIELD] in capitals and without blanks; a longer word is cut. */
 void abaqus_copy_word_in_capitals(char *to, const char *from);
 
-/* Reads the keyword line at which the file s is into *keyword, and stops at its end so that messages name this line.
+/* Reads the keyword line at which the file is into *keyword, and stops at its end so that messages name this line.
  * After a trailing comma the keyword continues on the next line. */
 void abaqus_read_keyword(struct geometry_file *file, struct abaqus_keyword *keyword);
 

@@ -27,7 +27,7 @@ static const struct format *format_of(const char *path)
     return path_has_exodus_extension(path) ? &exodus : NULL;
 }
 
-/* Returns REFUSED, with a message, if all faces of the surface s in 3D lie in one plane x, y or z = const to 1e-6 of
+/* Returns REFUSED, with a message, if all faces of the surface in 3D lie in one plane x, y or z = const to 1e-6 of
  * their extent, as in a mesh of plane elements. path: file of the surface, for the message. */
 static status check_not_plane(const struct hull *hull, const char *path)
 {
@@ -43,7 +43,7 @@ static status check_not_plane(const struct hull *hull, const char *path)
     return OK;
 }
 
-/* Returns REFUSED, with a message, if the surface s has no faces or encloses no volume, has coordinates of FARTHEST or
+/* Returns REFUSED, with a message, if the surface has no faces or encloses no volume, has coordinates of FARTHEST or
  * more, lies in a plane, or has holes such that more than the share DOUBT_MOST of sampled positions is neither inside
  * nor outside; else OK. path: file of the surface, for messages. */
 static status check_closed(const struct hull *hull, const char *path)

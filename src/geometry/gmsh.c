@@ -10,7 +10,7 @@
 
 /* ---- physical names and entities ------------------------------------------------------------------------------- */
 
-/* Reads a text in double quotes from the file s into text[capacity]; longer texts are cut off. Returns REFUSED if the
+/* Reads a text in double quotes from the file into text[capacity]; longer texts are cut off. Returns REFUSED if the
  * text does not begin with a quote, or does not end with one on the same line. */
 static status quoted_next(struct geometry_file *file, char *text, size_t capacity)
 {
@@ -128,7 +128,7 @@ static status format_read(struct gmsh *g)
         g->s, "the file has the byte order of another kind of processor; save it as text (ASCII)");
 }
 
-/* Skips the rest of the section `name` of the file s, such as $Nodes: advances to the line after its last one, such as
+/* Skips the rest of the section `name` of the file, such as $Nodes: advances to the line after its last one, such as
  * $EndNodes, or to the end of the file. */
 static void section_skip(struct geometry_file *file, const char *name)
 {

@@ -74,7 +74,7 @@ void geometry_file_read_word(struct geometry_file *file, char *word, size_t capa
     word[n] = '\0';
 }
 
-/* Parses the next word of the text file s as a number *value. what: name of the number, for messages. Returns REFUSED,
+/* Parses the next word of the text file as a number *value. what: name of the number, for messages. Returns REFUSED,
  * with a message, if it is no finite number. Words are limited to 63 characters, so that a long file without blanks is
  * refused at once. */
 static status text_real(struct geometry_file *file, const char *what, real *value)
@@ -89,7 +89,7 @@ static status text_real(struct geometry_file *file, const char *what, real *valu
     return geometry_file_report_fault(file, "%.40s is not a %s; write a number", word, what);
 }
 
-/* Copies the next `size` bytes of the binary file s to `value`. what: name of the value, for messages. Returns REFUSED,
+/* Copies the next `size` bytes of the binary file to `value`. what: name of the value, for messages. Returns REFUSED,
  * with a message, if the file ends before. */
 static status bytes_take(struct geometry_file *file, const char *what, void *value, int64_t size)
 {

@@ -27,21 +27,21 @@ static uint32_t word_at(const struct geometry_file *file, int64_t at)
     return (uint32_t)c[0] | (uint32_t)c[1] << 8 | (uint32_t)c[2] << 16 | (uint32_t)c[3] << 24;
 }
 
-/* Returns true if the file s is binary: its length is that which its number of triangles implies. Binary files may also
+/* Returns true if the file is binary: its length is that which its number of triangles implies. Binary files may also
  * begin with "solid", the first word of text files. */
 static bool is_binary(const struct geometry_file *file)
 {
     return file->length >= HEADER + COUNT && file->length == HEADER + COUNT + FACET * (int64_t)word_at(file, HEADER);
 }
 
-/* Returns true if the file s can be text: it begins with "solid" and has no zero byte, which all binary files have. */
+/* Returns true if the file can be text: it begins with "solid" and has no zero byte, which all binary files have. */
 static bool may_be_text(const struct geometry_file *file)
 {
     return file->length >= 5 && strncasecmp(file->text, "solid", 5) == 0 &&
            !memchr(file->text, '\0', (size_t)file->length);
 }
 
-/* Reads all triangles of the binary file s into the mesh m. Returns REFUSED, with a message, if a coordinate is not
+/* Reads all triangles of the binary file into the mesh m. Returns REFUSED, with a message, if a coordinate is not
  * finite. */
 static status binary_read(struct element_mesh *m, struct geometry_file *file)
 {
@@ -67,8 +67,8 @@ static status binary_read(struct element_mesh *m, struct geometry_file *file)
 
 /* ---- text ----------------------------------------------------------------------------------------------------- */
 
-/* Reads all triangles of the text file s into the mesh m. Returns REFUSED, with a message, if a facet does not have
- * three corners, or endsolid is missing. */
+/* Reads all triangles of the text file into the mesh m. Returns REFUSED, with a message, if a facet does not have three
+ * corners, or endsolid is missing. */
 static status words_read(struct element_mesh *m, struct geometry_file *file)
 {
     char word[32];

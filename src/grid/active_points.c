@@ -83,8 +83,8 @@ static void active_points_mark(struct active_points *active, const struct transf
         if (moves(l, g->wall[k].load)) active->active_cell[g->wall[k].node] = 1;
 }
 
-/* Replaces the arrays active_cell and near of r, which have one flag per cell, by longer ones if grid g has more nodes
- * than they have entries. All flags of the new arrays are 0. */
+/* Replaces the arrays active_cell and near of `active`, which have one flag per cell, by longer ones if grid g has more
+ * nodes than they have entries. All flags of the new arrays are 0. */
 static void make_room(struct active_points *active, const struct grid *g)
 {
     if (active->nodes >= g->n) return;

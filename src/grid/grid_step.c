@@ -201,9 +201,9 @@ static void grids_move(struct run *run, const struct grid_contact_side *side, re
 /* Sets f->grid.ahead, a displacement [node distances] that is added to the positions of the points of grid f when
  * weights are computed for the second map of momentum to nodes and for the stress update. Without it, a stretched body
  * that moves through the grid gains energy (kernels/mpm/remap_turn.h). It is the mean displacement in half a step: dt/2
- * [s] times momentum/mass of the groups t, which rotate together. It is 0 if walls, mirrors or absorbing faces act on
- * the points, for one grid of several, for linear and cubic shape functions, and unless between AHEAD_LEAST and
- * AHEAD_MOST. If not 0, clears the nodal masses, since the second map adds those at the displaced positions. */
+ * [s] times momentum/mass of the groups, which rotate together. It is 0 if walls, mirrors or absorbing faces act on the
+ * points, for one grid of several, for linear and cubic shape functions, and unless between AHEAD_LEAST and AHEAD_MOST.
+ * If not 0, clears the nodal masses, since the second map adds those at the displaced positions. */
 static void field_set_flight(struct grid_field *f, const struct corotating_groups *groups, enum shape shape, real dt)
 {
     struct grid *g = &f->grid;

@@ -70,8 +70,8 @@ static const char *frame_obstacle(const struct particles *p, const struct scene 
     return pieces > 1 ? "it is in separate parts, which have contact only in the current frame" : NULL;
 }
 
-/* Returns REFUSED, with a message, if scene s has a plane of symmetry at which a body of p in the reference frame r (on
- * a mesh of the undeformed body) has no nodes; else OK. */
+/* Returns REFUSED, with a message, if scene s has a plane of symmetry at which a body of p in the reference frame (on a
+ * mesh of the undeformed body) has no nodes; else OK. */
 static status planes_check(const struct lagrangian_mesh *reference, const struct particles *p, const struct scene *s)
 {
     for (int body = 0; body < s->bodies; body++) {
@@ -88,7 +88,7 @@ static status planes_check(const struct lagrangian_mesh *reference, const struct
     return OK;
 }
 
-/* Adds a warning to *to if body `body` of p, which is in the reference frame r (on a mesh of the undeformed body), does
+/* Adds a warning to *to if body `body` of p, which is in the reference frame (on a mesh of the undeformed body), does
  * not reach a plane of symmetry of scene s at the start. In this frame only nodes of the undeformed body on the plane
  * are constrained, so that the plane never acts on such a body, even if the body later moves through it. */
 static void warn_of_plane_apart(const struct lagrangian_mesh *reference, const struct particles *p,
@@ -234,10 +234,10 @@ status lagrangian_mesh_make_for_run(struct run *run, const struct mesh_source *s
     return OK;
 }
 
-/* Returns the critical time step of the mesh of r [s]; INFINITY if it has no points. Conversion to peridynamics may
- * later leave any subset of points in a cell. With partial stress, no such cell has a smaller critical step than the
- * initial cells. With hand-shake coupling, a cell with a single point has a smaller one, which is then included. s:
- * scene, with the densities; coupling: how points and particles are coupled. */
+/* Returns the critical time step of the mesh of `reference` [s]; INFINITY if it has no points. Conversion to
+ * peridynamics may later leave any subset of points in a cell. With partial stress, no such cell has a smaller critical
+ * step than the initial cells. With hand-shake coupling, a cell with a single point has a smaller one, which is then
+ * included. s: scene, with the densities; coupling: how points and particles are coupled. */
 real lagrangian_mesh_critical_time_step(const struct lagrangian_mesh *reference, const struct scene *s,
                                         enum coupling coupling)
 {
@@ -251,8 +251,8 @@ real lagrangian_mesh_critical_time_step(const struct lagrangian_mesh *reference,
 
 /* ---- in a step --------------------------------------------------------------------------------------------------- */
 
-/* Updates from the mesh nodes of r the positions of the exposed points of p (points with bonds or loads, whose motion
- * is needed in every step), and the strains at points with state-based bonds to peridynamic particles. */
+/* Updates from the mesh nodes of `reference` the positions of the exposed points of p (points with bonds or loads,
+ * whose motion is needed in every step), and the strains at points with state-based bonds to peridynamic particles. */
 void lagrangian_mesh_move_bonded_or_loaded_points(struct lagrangian_mesh *reference, struct particles *p)
 {
     mesh_exposed_move(&reference->mesh, p);
@@ -268,9 +268,9 @@ void lagrangian_mesh_compute_nodal_forces(struct lagrangian_mesh *reference, str
                                                mesh_levels_coarsest_level_integrated_in_step(&reference->levels, step));
 }
 
-/* Sets the velocities that `loads` prescribe at nodes of the mesh of r and of the levels 1 .. due of coarse cells. A
- * cell of level k has 2^k times the edge of the finest, and its step is 2^k times as long. due: highest level that
- * begins a step now; middle: time in the middle of the step of the mesh [s]; dt: length of that step [s]. */
+/* Sets the velocities that `loads` prescribe at nodes of the mesh of `reference` and of the levels 1 .. due of coarse
+ * cells. A cell of level k has 2^k times the edge of the finest, and its step is 2^k times as long. due: highest level
+ * that begins a step now; middle: time in the middle of the step of the mesh [s]; dt: length of that step [s]. */
 static void nodes_walls(struct lagrangian_mesh *reference, const struct loads *loads, real middle, real dt, int due)
 {
     loads_prescribe_mesh_velocities(loads, &reference->mesh, middle, dt);

@@ -148,9 +148,9 @@ static bool probed(const struct scene *s, const real *X, real h)
     return false;
 }
 
-/* Returns true if particles must be created in cell I of h because it is near a pre-crack or a probe, in the region of
- * a load, on a loaded face, or near the region that is peridynamic from the start of scene s. source: has the cutoff of
- * bonds. */
+/* Returns true if particles must be created in cell I of `hollow` because it is near a pre-crack or a probe, in the
+ * region of a load, on a loaded face, or near the region that is peridynamic from the start of scene s. source: has the
+ * cutoff of bonds. */
 static bool cell_needed(const struct scene *s, const struct bond_source *source,
                         const struct cells_without_particles *hollow, int64_t I)
 {

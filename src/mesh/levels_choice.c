@@ -265,8 +265,8 @@ void mesh_levels_describe_level_count(const struct levels_choice *c, const struc
                  2 << c->levels, why);
 }
 
-/* Writes to text[capacity] where the body of r is too thin for the coarse cells that the scene prescribes: fewer than
- * CELLS_ACROSS of them fit across it. Returns false, without text, if there is no such cell. */
+/* Writes to text[capacity] where the body of `reference` is too thin for the coarse cells that the scene prescribes:
+ * fewer than CELLS_ACROSS of them fit across it. Returns false, without text, if there is no such cell. */
 static bool thin_text(const struct lagrangian_mesh *reference, char *text, size_t capacity)
 {
     const struct grid *g = &reference->mesh.grid;

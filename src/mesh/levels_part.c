@@ -128,7 +128,7 @@ static void marks_add(const struct mesh_levels *l, const uint8_t *more, uint8_t 
     for (int64_t I = 0; I < l->fine->grid.n && more; I++) mark[I] |= more[I];
 }
 
-/* Returns flags [fine->grid.n] that are 1 for the cells of r that must be of level 0 (the finest). With l =
+/* Returns flags [fine->grid.n] that are 1 for the cells of `reference` that must be of level 0 (the finest). With l =
  * reference->levels and R = l.roomy_cells + more, these are the cells within R cells of peridynamic particles of p and
  * of the cells requested in l.wanted; within R + FLANK_MORE cells of slits if there are several, within one cell of a
  * single slit; and within one cell of particles on which `loads` act, of probes of stress-intensity factors and of
@@ -207,19 +207,19 @@ static bool any_merges(const struct mesh_levels *l, const uint8_t *level)
     return any;
 }
 
-/* Reduces limit[I], the largest coarsening level (0: finest) allowed for cell I of r, to reference->room[I], the
- * largest level that the thickness of the body allows there. Does nothing if the scene prescribes the number of levels.
- */
+/* Reduces limit[I], the largest coarsening level (0: finest) allowed for cell I of `reference`, to reference->room[I],
+ * the largest level that the thickness of the body allows there. Does nothing if the scene prescribes the number of
+ * levels. */
 static void limit_by_room(const struct lagrangian_mesh *reference, uint8_t *limit)
 {
     for (int64_t I = 0; I < reference->mesh.grid.n && reference->room && reference->room_limits; I++)
         if (reference->room[I] < limit[I]) limit[I] = reference->room[I];
 }
 
-/* Computes level[I], the coarsening levels (0: finest) of all finest cells I of r for the next steps. demand[I]: not 0
- * for cells that must be of level 0; limit[I]: largest level allowed, reduced here for cells that would lose more
- * energy per mass by becoming coarser than the share ROUGH (1 %) of the present energy per mass of the body; p:
- * particles; mass: mass of the body [kg]. */
+/* Computes level[I], the coarsening levels (0: finest) of all finest cells I of `reference` for the next steps.
+ * demand[I]: not 0 for cells that must be of level 0; limit[I]: largest level allowed, reduced here for cells that
+ * would lose more energy per mass by becoming coarser than the share ROUGH (1 %) of the present energy per mass of the
+ * body; p: particles; mass: mass of the body [kg]. */
 static void next_levels(struct lagrangian_mesh *reference, const struct particles *p, real mass, const uint8_t *demand,
                         uint8_t *limit, uint8_t *level)
 {
@@ -319,9 +319,9 @@ static bool any_stressed(const struct mesh_levels *l)
     return any;
 }
 
-/* Computes limit[I], the largest coarsening level (0: finest) that each cell I of r may have after the next change.
- * Cells may always become finer. They may become coarser only in calls with `checks` true, and only after CALM_CHECKS
- * consecutive such calls in which neither cracks and stresses of p nor loads required level 0 nearby. */
+/* Computes limit[I], the largest coarsening level (0: finest) that each cell I of `reference` may have after the next
+ * change. Cells may always become finer. They may become coarser only in calls with `checks` true, and only after
+ * CALM_CHECKS consecutive such calls in which neither cracks and stresses of p nor loads required level 0 nearby. */
 static void limits_find(struct lagrangian_mesh *reference, const struct particles *p, const struct loads *loads,
                         bool checks, uint8_t *limit)
 {

@@ -137,7 +137,7 @@ status checkpoint_write(struct output *o, const char *scene_text, run_state_save
 
 /* ---- reading ----------------------------------------------------------------------------------------------------- */
 
-/* Returns true if the open checkpoint f belongs to the scene with the text scene_text. */
+/* Returns true if the open checkpoint `hdf` belongs to the scene with the text scene_text. */
 static bool same_scene(struct hdf *hdf, const char *scene_text)
 {
     int64_t length = hdf_dataset_element_count(hdf, "/Cleave/scene");

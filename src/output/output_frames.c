@@ -208,7 +208,7 @@ void output_discard_cached_frame_particle_order(struct output *o)
 
 /* ---- writing thread: has no thread team, hence allocates no arrays with memory_new ------------------------------- */
 
-/* Writes the groups and attributes of the output frame of `job` to the file f, and its time, which VTK shows beside
+/* Writes the groups and attributes of the output frame of `job` to the file `hdf`, and its time, which VTK shows beside
  * the particles. */
 static void write_marks(struct hdf *hdf, const struct frame_job *job)
 {

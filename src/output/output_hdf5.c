@@ -58,7 +58,7 @@ static hid_t hdf_native(enum hdf_type type)
     }
 }
 
-/* Records in f whether an HDF5 call failed, with errno. result: value that the call returned, negative on a fault.
+/* Records in `hdf` whether an HDF5 call failed, with errno. result: value that the call returned, negative on a fault.
  * Returns true if the call succeeded. */
 static bool good(struct hdf *hdf, int64_t result)
 {
@@ -68,7 +68,7 @@ static bool good(struct hdf *hdf, int64_t result)
     return false;
 }
 
-/* Returns true if no operation on the file f has failed so far. Clears errno for the next call. */
+/* Returns true if no operation on the file `hdf` has failed so far. Clears errno for the next call. */
 static bool ready(const struct hdf *hdf)
 {
     errno = 0;
@@ -76,8 +76,8 @@ static bool ready(const struct hdf *hdf)
 }
 
 /* Returns the access properties for an HDF5 file: objects that are still open are closed with it, and no file locks are
- * used, which some network file systems do not have. Release the list with H5Pclose. On a fault, records it in f and
- * returns a negative number. */
+ * used, which some network file systems do not have. Release the list with H5Pclose. On a fault, records it in `hdf`
+ * and returns a negative number. */
 static hid_t access_list(struct hdf *hdf)
 {
     hid_t list = -1;
@@ -196,8 +196,8 @@ static bool table_write_chunk(struct hdf *hdf, const struct table *t, int64_t fi
            good(hdf, H5Dwrite(t->set, t->native, from, t->space, H5P_DEFAULT, rows)) && good(hdf, H5Sclose(from));
 }
 
-/* Writes to the file f all chunks of table t in which a number differs from the fill value; HDF5 reads the others as
- * fill value. Returns false on a fault, which is recorded in f. */
+/* Writes to the file `hdf` all chunks of table t in which a number differs from the fill value; HDF5 reads the others
+ * as fill value. Returns false on a fault, which is recorded in f. */
 static bool table_write_chunks(struct hdf *hdf, const struct table *t)
 {
     for (int64_t first = 0; first < t->rows; first += t->chunk) {
@@ -240,8 +240,8 @@ void hdf_write_rows_zero_padded(struct hdf *hdf, const char *name, enum hdf_type
 
 /* ---- links ------------------------------------------------------------------------------------------------------- */
 
-/* Creates in f the external link `name` to the dataset of the same path in the file target_file, a path relative to the
- * folder of f. A failure is stored in hdf->failed. */
+/* Creates in `hdf` the external link `name` to the dataset of the same path in the file target_file, a path relative to
+ * the folder of f. A failure is stored in hdf->failed. */
 void hdf_create_external_link(struct hdf *hdf, const char *name, const char *target_file)
 {
     if (ready(hdf)) good(hdf, H5Lcreate_external(target_file, name, hdf->file, name, H5P_DEFAULT, H5P_DEFAULT));
@@ -263,8 +263,8 @@ bool hdf_read_external_link_target(struct hdf *hdf, const char *name, char *targ
 
 /* ---- virtual datasets -------------------------------------------------------------------------------------------- */
 
-/* Maps the rows of one source file to the rows of a virtual dataset of f from at[0] on. list: creation properties of
- * the dataset; space: its data space; name: path of the dataset in the source; at[rank]: first row and column in the
+/* Maps the rows of one source file to the rows of a virtual dataset of `hdf` from at[0] on. list: creation properties
+ * of the dataset; space: its data space; name: path of the dataset in the source; at[rank]: first row and column in the
  * virtual dataset; shape[rank]: rows and columns of the source. Returns false on a fault. */
 static bool source_map(struct hdf *hdf, hid_t list, hid_t space, const char *name, const hsize_t *at,
                        const struct hdf_source *source, const hsize_t *shape, int rank)
@@ -340,8 +340,8 @@ void hdf_write_text_as_list_of_one_string(struct hdf *hdf, const char *name, con
     free(plain);
 }
 
-/* Writes the attribute `name` of the group `group` in the file f, with one value *value of the HDF5 type `type`, and
- * closes the data space `space`. A fault is recorded in f. */
+/* Writes the attribute `name` of the group `group` in the file `hdf`, with one value *value of the HDF5 type `type`,
+ * and closes the data space `space`. A fault is recorded in f. */
 static void output_hdf5_mark(struct hdf *hdf, const char *group, const char *name, hid_t type, hid_t space,
                              const void *value)
 {

@@ -53,8 +53,8 @@ static void frames_look(struct temporal *a, const struct frame_series *series)
     a->fields = all | (any & 1u << FIELD_CONTACT);
 }
 
-/* Writes the group Steps of f, the file of all output frames for VTK: the times of the frames of a, and where the data
- * of each frame begin in the arrays. number: working memory of n entries, n being the number of frames. */
+/* Writes the group Steps of `hdf`, the file of all output frames for VTK: the times of the frames of a, and where the
+ * data of each frame begin in the arrays. number: working memory of n entries, n being the number of frames. */
 static void write_steps(struct hdf *hdf, const struct temporal *a, int64_t *number)
 {
     static const char *const start[] = {"PointOffsets", "CellOffsets", "ConnectivityIdOffsets"};
@@ -81,7 +81,7 @@ static void write_steps(struct hdf *hdf, const struct temporal *a, int64_t *numb
     }
 }
 
-/* Writes a virtual dataset to f that concatenates `field` of all output frames of a. needed: bits of the fields
+/* Writes a virtual dataset to `hdf` that concatenates `field` of all output frames of a. needed: bits of the fields
  * without which a frame does not contain the dataset, 0 if every frame contains it; the rows of frames that lack a
  * needed field read as 0. more: number of rows in each frame beyond its number of points. */
 static void write_virtual(struct hdf *hdf, const struct temporal *a, const struct frame_field *field, uint32_t needed,
@@ -94,8 +94,8 @@ static void write_virtual(struct hdf *hdf, const struct temporal *a, const struc
     hdf_write_virtual_dataset(hdf, field->path, field->type, field->columns, a->source, a->n, more);
 }
 
-/* Writes points, cells and fields of all output frames of a to f as virtual datasets. number: working memory with an
- * entry for each frame. */
+/* Writes points, cells and fields of all output frames of a to `hdf` as virtual datasets. number: working memory with
+ * an entry for each frame. */
 static void write_rows(struct hdf *hdf, const struct temporal *a, int64_t *number)
 {
     static const char *const count[] = {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"};
@@ -115,8 +115,8 @@ static void write_rows(struct hdf *hdf, const struct temporal *a, int64_t *numbe
     }
 }
 
-/* Writes the units of the fields of a and scene_text, the text of the input file (scene), to f as field data that all
- * times share. number: working memory with two entries for each output frame. */
+/* Writes the units of the fields of a and scene_text, the text of the input file (scene), to `hdf` as field data that
+ * all times share. number: working memory with two entries for each output frame. */
 static void write_texts(struct hdf *hdf, const struct temporal *a, const char *scene_text, int64_t *number)
 {
     static const char *const name[] = {"units", "scene"};

@@ -81,9 +81,9 @@ static int leaves_cube(const struct camera *eye, const struct cube *b, const dou
     return enters < leaves ? face : -1;
 }
 
-/* Computes the cube by which the picture shows particle i of c, deformed by the particle's deformation gradient, and
- * stores it in *b. A cube smaller than a pixel of the canvas v is enlarged to one pixel. Without a gradient, or if it
- * cannot be inverted, the cube is undeformed. */
+/* Computes the cube by which the picture shows particle i of `plotted`, deformed by the particle's deformation
+ * gradient, and stores it in *b. A cube smaller than a pixel of the canvas v is enlarged to one pixel. Without a
+ * gradient, or if it cannot be inverted, the cube is undeformed. */
 static void cube_of(const struct scene_canvas *v, const struct plotted_particles *plotted, int64_t i, struct cube *b)
 {
     const double *axis[3] = {plotted->camera.right, plotted->camera.up, plotted->camera.towards};
@@ -133,8 +133,8 @@ static double face_brightness(const struct cube *b, int face, const double *towa
     return straight + (1 - straight) * shade / length;
 }
 
-/* Paints the cube of particle i of c in the given colour on those pixels of the canvas v on which the cube is nearer to
- * the viewer than the cubes painted before. */
+/* Paints the cube of particle i of `plotted` in the given colour on those pixels of the canvas v on which the cube is
+ * nearer to the viewer than the cubes painted before. */
 static void paint_cube(struct scene_canvas *v, const struct plotted_particles *plotted, int64_t i, struct colour colour)
 {
     struct cube cube;

@@ -33,8 +33,8 @@ static void category_name(char *name, size_t capacity, const char *field, int va
         snprintf(name, capacity, "%s %d", field, value);
 }
 
-/* Returns the value of particle i of c as a whole number. Values outside -1..2^24 and values that are no number, as in
- * a damaged file, are replaced by a number in this range. */
+/* Returns the value of particle i of `plotted` as a whole number. Values outside -1..2^24 and values that are no
+ * number, as in a damaged file, are replaced by a number in this range. */
 static int category_value(const struct plotted_particles *plotted, int64_t i)
 {
     static const float MOST = 1 << 24;

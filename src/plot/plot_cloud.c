@@ -232,8 +232,8 @@ static double along(const double *direction, const double *x)
     return direction[0] * x[0] + direction[1] * x[1] + direction[2] * x[2];
 }
 
-/* Appends particle i of the output frame f to c, the drawn particles: its drawn position and its reference position
- * along the axes of the map. Extends the bounding box of the cloud by the reference position. */
+/* Appends particle i of the output frame f to `plotted`, the drawn particles: its drawn position and its reference
+ * position along the axes of the map. Extends the bounding box of the cloud by the reference position. */
 static void cloud_place(struct plotted_particles *plotted, const struct output_frame *f, int64_t i)
 {
     const int64_t k = plotted->n;
@@ -250,7 +250,7 @@ static void cloud_place(struct plotted_particles *plotted, const struct output_f
     }
 }
 
-/* Copies the planes of symmetry of the scene s to c, the drawn particles; s may be NULL: there are none. */
+/* Copies the planes of symmetry of the scene s to `plotted`, the drawn particles; s may be NULL: there are none. */
 static void cloud_copy_mirrors(struct plotted_particles *plotted, const struct scene *s)
 {
     for (int b = 0; s && b < s->boundaries && plotted->mirrors < MIRRORS_SHOWN_MOST; b++)
@@ -270,8 +270,8 @@ static void cloud_allocate(struct plotted_particles *plotted, const struct outpu
     if (projection->value) plotted->value = NEW("plot.value", f->n, float);
 }
 
-/* Sets the axes of the map in c, the drawn particles of output frame f (output of one time): x and y in 2D; in 3D, as
- * `projection` requests, the axes in the plane of the slice or the directions of the camera. */
+/* Sets the axes of the map in `plotted`, the drawn particles of output frame f (output of one time): x and y in 2D; in
+ * 3D, as `projection` requests, the axes in the plane of the slice or the directions of the camera. */
 static void cloud_axes(struct plotted_particles *plotted, const struct output_frame *f,
                        const struct projection *projection)
 {
@@ -283,9 +283,9 @@ static void cloud_axes(struct plotted_particles *plotted, const struct output_fr
     plotted->camera = camera_along_axis(plotted->normal, plotted->normal == 1 ? -1 : 1);
 }
 
-/* Selects in c the particles of output frame f that a map with the given projection shows, with their drawn positions,
- * deformation and fields (plotted_particles_select_from_frame). projection: NULL for a default slice. The sizes of
- * particles must be in f->spacing, unless all particles have one size. */
+/* Selects in `plotted` the particles of output frame f that a map with the given projection shows, with their drawn
+ * positions, deformation and fields (plotted_particles_select_from_frame). projection: NULL for a default slice. The
+ * sizes of particles must be in f->spacing, unless all particles have one size. */
 static void cloud_select(struct plotted_particles *plotted, const struct output_frame *f,
                          const struct projection *projection)
 {

@@ -43,8 +43,8 @@ static void field_title(char *title, const struct plot_request *r, const struct 
     picture_compose_title(title, r, name, plotted, view);
 }
 
-/* Prints the named values k of a field, such as the names of materials, to standard output: the first ones by name,
- * then the number of further ones. */
+/* Prints the named values `categories` of a field, such as the names of materials, to standard output: the first ones
+ * by name, then the number of further ones. */
 static void say_categories(const struct categories *categories)
 {
     for (int i = 0; i < categories->n; i++) printf("%s%s", i ? ", " : ": ", categories->of[i].name);

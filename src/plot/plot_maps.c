@@ -7,9 +7,9 @@
 #include "curves_parts.h"
 #include "maps_parts.h"
 
-/* Writes to gnuplot the panel number `place`, counted row by row from 0: the map of the particles c of one frame, with
- * axes and title. l: layout; shown: map and view; second: unit of the time in the title; lowest: true if no panel is
- * below this one, so that its horizontal axis has labels. */
+/* Writes to gnuplot the panel number `place`, counted row by row from 0: the map of the particles `plotted` of one
+ * frame, with axes and title. l: layout; shown: map and view; second: unit of the time in the title; lowest: true if no
+ * panel is below this one, so that its horizontal axis has labels. */
 static void plot_maps_draw_panel(FILE *to, const struct maps_layout *l, const struct maps_content *shown,
                                  const struct plotted_particles *plotted, const struct unit *second, int place,
                                  bool lowest)

@@ -43,17 +43,17 @@ static double place_along(const struct faces *f, const double *X, double *off)
     return f->along[0] * x + f->along[1] * y;
 }
 
-/* Returns true if particle i of c, with the coordinate s along the pre-crack and the distance `off` from it [m], is
- * beside the pre-crack f: at most BESIDE spacings from it, and not more than half a section beyond its ends. */
+/* Returns true if particle i of `plotted`, with the coordinate s along the pre-crack and the distance `off` from it
+ * [m], is beside the pre-crack f: at most BESIDE spacings from it, and not more than half a section beyond its ends. */
 static bool is_beside(const struct faces *f, const struct plotted_particles *plotted, int64_t i, double s, double off)
 {
     const double reach = BESIDE * (plotted->size ? plotted->size[i] : plotted->spacing);
     return fabs(off) <= reach && s >= -0.5 * f->section && s <= f->length + 0.5 * f->section;
 }
 
-/* Moves the drawn line of the pre-crack f sideways to the middle of the gap between the particles of c on its two
- * sides, which is where the crack opens. A pre-crack along the lattice may be anywhere between two rows of particles;
- * one across the lattice hardly moves. */
+/* Moves the drawn line of the pre-crack f sideways to the middle of the gap between the particles of `plotted` on its
+ * two sides, which is where the crack opens. A pre-crack along the lattice may be anywhere between two rows of
+ * particles; one across the lattice hardly moves. */
 static void faces_move_between_particles(struct faces *f, const struct plotted_particles *plotted)
 {
     double edge[2] = {INFINITY, INFINITY}; /* distance of the nearest edge on each side [m] */
@@ -68,7 +68,7 @@ static void faces_move_between_particles(struct faces *f, const struct plotted_p
     f->from[1] += 0.5 * (edge[0] - edge[1]) * f->along[0];
 }
 
-/* Adds the displacement of particle i of c to that of the adjacent face of the pre-crack f. Does nothing if the
+/* Adds the displacement of particle i of `plotted` to that of the adjacent face of the pre-crack f. Does nothing if the
  * particle is farther from the pre-crack than BESIDE spacings or its damage exceeds RUBBLE. Each face is divided into
  * sections along the pre-crack. The displacement is extrapolated from the particle to the nearest point of the face by
  * the deformation gradient, and is added, weighted by nearness, to the sum of the section there. */

@@ -30,8 +30,8 @@ struct outline {
     bool square;
 };
 
-/* Returns true if a crack or another body begins beside particle i of c, on side b of the axis `axis` of the map (0:
- * towards larger coordinates, 1: smaller ones). */
+/* Returns true if a crack or another body begins beside particle i of `plotted`, on side b of the axis `axis` of the
+ * map (0: towards larger coordinates, 1: smaller ones). */
 static bool is_apart(const struct plotted_particles *plotted, int64_t i, const double *axis, int b)
 {
     for (int m = 0; m < 3 && plotted->apart; m++)
@@ -87,8 +87,8 @@ static double distance_within(const struct outline *s, const double *off, double
     return outside <= beside ? far : INFINITY;
 }
 
-/* Limits the range *low .. *high [m] along axis k of the map that particle i of c covers to the side of each plane of
- * symmetry on which its centre is. Planes that are not perpendicular to axis k are skipped. */
+/* Limits the range *low .. *high [m] along axis k of the map that particle i of `plotted` covers to the side of each
+ * plane of symmetry on which its centre is. Planes that are not perpendicular to axis k are skipped. */
 static void clip_at_mirrors(const struct plotted_particles *plotted, int64_t i, int k, double *low, double *high)
 {
     const double *axis = k == 0 ? plotted->camera.right : plotted->camera.up;
@@ -102,9 +102,9 @@ static void clip_at_mirrors(const struct plotted_particles *plotted, int64_t i, 
     }
 }
 
-/* Paints particle i of c on all pixels of the canvas v that it covers, except those with a particle of better rank. The
- * rank is better the nearer the centre of the particle is to the pixel or, if pixels are larger than particles, the
- * more damaged the particle is. view: rectangle that is shown; map: what the colours show. */
+/* Paints particle i of `plotted` on all pixels of the canvas v that it covers, except those with a particle of better
+ * rank. The rank is better the nearer the centre of the particle is to the pixel or, if pixels are larger than
+ * particles, the more damaged the particle is. view: rectangle that is shown; map: what the colours show. */
 static void paint_particle(struct canvas *v, const struct view *view, const struct plotted_particles *plotted,
                            int64_t i, enum map map)
 {

@@ -113,7 +113,8 @@ static double corner_along(const struct plotted_rigid_body *r, int dim, int k, c
     return sum;
 }
 
-/* Returns true if the rigid body r is not in the plane of the section that c shows: its box is on one side of it. */
+/* Returns true if the rigid body r is not in the plane of the section that `plotted` shows: its box is on one side of
+ * it. */
 static bool misses_section(const struct plotted_rigid_body *r, const struct plotted_particles *plotted)
 {
     int below = 0, corners = 1 << plotted->dim;

@@ -79,7 +79,7 @@ static struct span span_along(const struct plotted_particles *cloud, int clouds,
     return (struct span){fmax(shown.from, all.from), fmin(shown.to, all.to)};
 }
 
-/* Returns the number of particles of c that are outside the rectangle of the view v. */
+/* Returns the number of particles of `plotted` that are outside the rectangle of the view v. */
 static int64_t count_outside(const struct view *v, const struct plotted_particles *plotted)
 {
     int64_t outside = 0;
@@ -141,10 +141,10 @@ struct view view_make_around_particles(const struct plotted_particles *frame_par
 static const double EXTREME = 0.002, HOT = 0.01, HOT_TIMES = 1.5;
 enum { EXTREMES_LEAST = 3 };
 
-/* Returns the largest magnitude of a value of the field of c that its colour scale has to cover. The magnitude is the
- * distance above `low`, or the absolute value if `scale` is that of a field of both signs. Only magnitudes above 0
- * count, because most of a body can be at rest or elastic. The share EXTREME of the largest ones, or EXTREMES_LEAST of
- * them (at most a twentieth), is omitted as outliers, and the result is limited to HOT_TIMES the magnitude that the
+/* Returns the largest magnitude of a value of the field of `plotted` that its colour scale has to cover. The magnitude
+ * is the distance above `low`, or the absolute value if `scale` is that of a field of both signs. Only magnitudes above
+ * 0 count, because most of a body can be at rest or elastic. The share EXTREME of the largest ones, or EXTREMES_LEAST
+ * of them (at most a twentieth), is omitted as outliers, and the result is limited to HOT_TIMES the magnitude that the
  * share HOT of them exceeds. Returns 0 if none is above 0. sample[SAMPLE_MOST]: work array. */
 static double magnitude_of(double *sample, const struct plotted_particles *plotted, enum field_scale scale, double low)
 {

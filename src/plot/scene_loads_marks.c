@@ -324,7 +324,7 @@ static const char *colour_of_load(int number)
     return k < CURVE_COLOURS ? curve_colour[k] : further[k - CURVE_COLOURS];
 }
 
-/* Draws the boundary condition with the index `number` in the picture m in a colour of its own, as arrows, points or a
+/* Draws the boundary condition with the index `number` in the picture in a colour of its own, as arrows, points or a
  * plane of symmetry, and adds its description to the key (legend). */
 static void boundary_mark(struct scene_overlay *overlay, int number)
 {
@@ -354,8 +354,8 @@ static void boundary_mark(struct scene_overlay *overlay, int number)
     memory_free(on);
 }
 
-/* Draws all loads and supports in the picture m, first those with arrows and then supports drawn as points, since
- * arrows would hide points. */
+/* Draws all loads and supports in the picture, first those with arrows and then supports drawn as points, since arrows
+ * would hide points. */
 void scene_overlay_draw_load_symbols(struct scene_overlay *overlay)
 {
     const struct run *run = overlay->engine;

@@ -90,7 +90,8 @@ static void crack_cut(const struct particles *p, double spacing, real end[2][DIM
         end[1][d] = end[0][d] + along[d] * to / length, end[0][d] += along[d] * from / length;
 }
 
-/* Sends the outline of the crack c to the current data block of m as a line, which is closed for a polygon in 3D. */
+/* Sends the outline of the crack c to the current data block of `overlay` as a line, which is closed for a polygon in
+ * 3D. */
 static void crack_line(struct scene_overlay *overlay, const struct crack *c)
 {
     real end[2][DIM_MAX];
@@ -133,8 +134,8 @@ void scene_overlay_draw_precracks(struct scene_overlay *overlay)
  * circle. */
 enum { PROBES_NAMED = 10, CIRCLE = 48 };
 
-/* Sends the edges of the box with the corners from[dim] and to[dim] [m] to the current data block of m as lines: four
- * in 2D, twelve in 3D. */
+/* Sends the edges of the box with the corners from[dim] and to[dim] [m] to the current data block of `overlay` as
+ * lines: four in 2D, twelve in 3D. */
 static void box_lines(struct scene_overlay *overlay, const real *from, const real *to, int dim)
 {
     for (int a = 0; a < dim; a++)
@@ -220,7 +221,7 @@ void scene_overlay_draw_probe_symbols(struct scene_overlay *overlay)
 
 /* ---- regions ----------------------------------------------------------------------------------------------------- */
 
-/* Draws the bounding boxes of the named regions of the scene in the picture m, and adds their names to the key
+/* Draws the bounding boxes of the named regions of the scene in the picture, and adds their names to the key
  * (legend). */
 void scene_overlay_draw_region_boxes(struct scene_overlay *overlay)
 {

@@ -23,34 +23,35 @@ struct scene_overlay {
     double widest;                /* width of its widest line [pixel] divided by the size of the letters [point] */
 };
 
-/* Begins a gnuplot data block in m, the symbols over the picture of an input file. The block contains the points or
- * arrows of one kind of symbol. Add its lines with scene_overlay_add_point and end the block with
+/* Begins a gnuplot data block in `overlay`, the symbols over the picture of an input file. The block contains the
+ * points or arrows of one kind of symbol. Add its lines with scene_overlay_add_point and end the block with
  * scene_overlay_end_data_block. */
 void scene_overlay_begin_data_block(struct scene_overlay *overlay);
 
-/* Adds a line to the current data block of m (symbols over a picture): the point with the coordinates `position` [m],
- * projected onto the picture, and the projection of the arrow `arrow` [m]. arrow: NULL for a point without an arrow. */
+/* Adds a line to the current data block of `overlay` (symbols over a picture): the point with the coordinates
+ * `position` [m], projected onto the picture, and the projection of the arrow `arrow` [m]. arrow: NULL for a point
+ * without an arrow. */
 void scene_overlay_add_point(struct scene_overlay *overlay, const real *position, const double *arrow);
 
-/* Ends the current data block of m and adds the element that draws it to the plot command. plot_style: text of this
- * element after the name of the block, such as "using 1:2 with points"; key_entry: text of its entry in the key
+/* Ends the current data block of `overlay` and adds the element that draws it to the plot command. plot_style: text of
+ * this element after the name of the block, such as "using 1:2 with points"; key_entry: text of its entry in the key
  * (legend), "" for no entry. */
 void scene_overlay_end_data_block(struct scene_overlay *overlay, const char *plot_style, const char *key_entry);
 
 /* Adds symbols for loads, supports, mirrors and absorbing faces of the input file to its picture m. */
 void scene_overlay_draw_load_symbols(struct scene_overlay *overlay);
 
-/* Draws arrows in the picture m for the initial velocities of bodies and rigid bodies. Draws nothing if all are 0. */
+/* Draws arrows in the picture for the initial velocities of bodies and rigid bodies. Draws nothing if all are 0. */
 void scene_overlay_draw_velocity_arrows(struct scene_overlay *overlay);
 
-/* Draws the pre-cracks of the input file in the picture m as lines, and an arrow where each crack with prescribed
- * growth starts. */
+/* Draws the pre-cracks of the input file in the picture as lines, and an arrow where each crack with prescribed growth
+ * starts. */
 void scene_overlay_draw_precracks(struct scene_overlay *overlay);
 
 /* Adds symbols at the positions of the probes (measurements during the run) of the input file to its picture m. */
 void scene_overlay_draw_probe_symbols(struct scene_overlay *overlay);
 
-/* Draws in the picture m the outlines of the coarse mesh cells of a plane body, in one shade of grey for each size of
+/* Draws in the picture the outlines of the coarse mesh cells of a plane body, in one shade of grey for each size of
  * cells. */
 void scene_overlay_draw_coarse_cell_outlines(struct scene_overlay *overlay);
 

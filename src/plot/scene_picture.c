@@ -45,8 +45,8 @@ static int part_number(const struct scene *s, const struct particles *p, int64_t
     return s->materials > 1 ? s->material_number[p->material[i]] : p->body[i];
 }
 
-/* Appends a square to c, the particles of the picture, at the position x[dim] [m] projected on the picture plane.
- * size: edge of the square [m]; colour: its colour. */
+/* Appends a square to `plotted`, the particles of the picture, at the position x[dim] [m] projected on the picture
+ * plane. size: edge of the square [m]; colour: its colour. */
 static void cloud_add(struct plotted_particles *plotted, const real *x, int dim, double size, struct colour colour)
 {
     const double *axis[3] = {plotted->camera.right, plotted->camera.up, plotted->camera.towards};
@@ -69,8 +69,8 @@ static real particle_size(const struct scene *s, const struct particles *p, int6
     return s->spacing * pow(p->volume0[i] / whole, 1.0 / s->dim);
 }
 
-/* Appends the squares of n = p->n particles p to c, the particles of the picture, coloured by material or body. With
- * `spacing` NULL, p are the particles of the run, with sizes by particle_size; if the run has material points and
+/* Appends the squares of n = p->n particles p to `plotted`, the particles of the picture, coloured by material or body.
+ * With `spacing` NULL, p are the particles of the run, with sizes by particle_size; if the run has material points and
  * peridynamic particles, the latter are darker. Otherwise p are points that represent coarse cells, and spacing[n] are
  * the edges of their squares [m]. part: all particles of the run. */
 static void cloud_add_particles(struct plotted_particles *plotted, const struct scene *s, const struct particles *part,
@@ -86,8 +86,8 @@ static void cloud_add_particles(struct plotted_particles *plotted, const struct 
     }
 }
 
-/* Adds the rigid bodies of the scene s in their initial positions to c, the particles of the picture. In 1D each rigid
- * body is drawn as one particle of the length of the body. part: particles of the run. */
+/* Adds the rigid bodies of the scene s in their initial positions to `plotted`, the particles of the picture. In 1D
+ * each rigid body is drawn as one particle of the length of the body. part: particles of the run. */
 static void cloud_add_rigids(struct plotted_particles *plotted, const struct scene *s, const struct particles *part)
 {
     struct rigid_placement *at = NEW("plot.rigid", s->rigids, struct rigid_placement);
@@ -104,9 +104,9 @@ static void cloud_add_rigids(struct plotted_particles *plotted, const struct sce
     memory_free(at);
 }
 
-/* Collects everything in the run that the picture shows as squares, cubes or bodies in c, the particles of the
+/* Collects everything in the run that the picture shows as squares, cubes or bodies in `plotted`, the particles of the
  * picture: the particles, the points of coarse mesh cells, and the rigid bodies. camera: direction of the view of a
- * body in 3D. Release c with plotted_particles_free. */
+ * body in 3D. Release `plotted` with plotted_particles_free. */
 static void scene_cloud(struct plotted_particles *plotted, struct run *run, const struct camera *camera)
 {
     const struct scene *s = run->scene;
@@ -192,8 +192,8 @@ static void key_of_parts(struct scene_overlay *overlay)
 
 /* ---- the picture ------------------------------------------------------------------------------------------------- */
 
-/* Returns a view of the particles c of a scene whose rectangle has a margin of `arrow` [m], the length of the longest
- * arrow of a load, around the body. */
+/* Returns a view of the particles `plotted` of a scene whose rectangle has a margin of `arrow` [m], the length of the
+ * longest arrow of a load, around the body. */
 static struct view scene_view(const struct plotted_particles *plotted, double arrow)
 {
     struct view v = view_make_around_particles(plotted, 1);
@@ -207,9 +207,9 @@ static double arrow_length(const struct plotted_particles *plotted)
     return 0.07 * fmax(plotted->to[0] - plotted->from[0], plotted->to[1] - plotted->from[1]);
 }
 
-/* Returns how many entries of the key (legend) of m fit into one row below a panel of the width `wide` [pixel], at
- * least 1, from the length of the longest entry. (In several columns, gnuplot makes the key no wider than the panel.)
- */
+/* Returns how many entries of the key (legend) of `overlay` fit into one row below a panel of the width `wide` [pixel],
+ * at least 1, from the length of the longest entry. (In several columns, gnuplot makes the key no wider than the
+ * panel.) */
 static int key_columns(const struct scene_overlay *overlay, double wide)
 {
     return (int)fmax(floor(wide / (SAMPLE_NARROW + KEY_LETTERS * overlay->widest)), 1);
@@ -254,7 +254,8 @@ static struct maps_layout scene_layout(const struct view *v, const struct scene_
 }
 
 /* Writes to gnuplot the command that places the key (legend) of a scene: beside the panel, or below it in a narrow
- * picture. Letters are made smaller if the longest line of the key in m requires it. l: layout of the picture. */
+ * picture. Letters are made smaller if the longest line of the key in `overlay` requires it. l: layout of the
+ * picture. */
 static void set_scene_key(FILE *to, const struct maps_layout *l, const struct scene_overlay *overlay)
 {
     const bool narrow = picture_size_is_too_narrow_for_side_legend();
@@ -296,8 +297,9 @@ static void set_panel(FILE *to, const struct maps_layout *l, const struct view *
     if (plotted->tall > 0) fputs("unset ytics\nset ylabel ''\nset border 1\n", to);
 }
 
-/* Writes to gnuplot one plot command that draws the image of the particles c in the view v, and the marks over it. l:
- * layout; metre: unit of the axes; marks: elements of the plot command for the marks; format: format of the picture. */
+/* Writes to gnuplot one plot command that draws the image of the particles `plotted` in the view v, and the marks over
+ * it. l: layout; metre: unit of the axes; marks: elements of the plot command for the marks; format: format of the
+ * picture. */
 static void plot_scene(FILE *to, const struct maps_layout *l, const struct view *v,
                        const struct plotted_particles *plotted, const struct unit *metre, const char *marks,
                        enum picture_format format)
@@ -328,9 +330,9 @@ static void draw_marks(struct scene_overlay *overlay)
     scene_overlay_draw_probe_symbols(overlay);
 }
 
-/* Draws the particles c and the marks m of a scene in the view v to the picture `sheet` (file and size). metre: unit of
- * the axes; data: gnuplot commands with the data of the marks; elements: arguments of the plot command for the marks.
- * Returns FAILED, with a message, if gnuplot fails. */
+/* Draws the particles `plotted` and the marks `overlay` of a scene in the view v to the picture `sheet` (file and
+ * size). metre: unit of the axes; data: gnuplot commands with the data of the marks; elements: arguments of the plot
+ * command for the marks. Returns FAILED, with a message, if gnuplot fails. */
 static status draw_collected(struct output_picture sheet, const struct scene_overlay *overlay, const struct view *v,
                              const struct plotted_particles *plotted, const struct unit *metre, const char *data,
                              const char *elements)
@@ -347,9 +349,9 @@ static status draw_collected(struct output_picture sheet, const struct scene_ove
     return gnuplot_close(&g);
 }
 
-/* Draws the run, whose particles are in c, the particles of the picture, to the picture `sheet` (file and size).
- * title: title of the picture, or NULL for the name of the scene with the number of particles. Returns FAILED, with a
- * message, if gnuplot fails. */
+/* Draws the run, whose particles are in `plotted`, the particles of the picture, to the picture `sheet` (file and
+ * size). title: title of the picture, or NULL for the name of the scene with the number of particles. Returns FAILED,
+ * with a message, if gnuplot fails. */
 static status draw_scene(struct output_picture sheet, struct run *run, struct plotted_particles *plotted,
                          const char *title)
 {

@@ -92,9 +92,9 @@ void growing_crack_compute_probe_values(const struct growing_crack *g, real *val
 
 /* ---- tips and supports ------------------------------------------------------------------------------------------- */
 
-/* Returns the crack tip that probe q of kind TIP (crack tip) currently follows: the tip of *tips whose origin is
- * nearest to the position `at` of the probe. Without `at` it is the tip of the longest crack, or the first tip if no
- * crack has grown. Returns NULL if there are no tips. The result points into *tips. */
+/* Returns the crack tip that probe of kind TIP (crack tip) currently follows: the tip of *tips whose origin is nearest
+ * to the position `at` of the probe. Without `at` it is the tip of the longest crack, or the first tip if no crack has
+ * grown. Returns NULL if there are no tips. The result points into *tips. */
 const struct crack_tip *probe_find_followed_crack_tip(const struct probe *probe, const struct crack_tips *tips)
 {
     if (tips->n == 0) return NULL;

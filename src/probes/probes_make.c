@@ -11,7 +11,7 @@
 
 /* ---- columns ----------------------------------------------------------------------------------------------------- */
 
-/* Appends a column to the history s, named `<probe>.<quantity>`, with the unit `unit`. It belongs to probe (a
+/* Appends a column to the history `probes`, named `<probe>.<quantity>`, with the unit `unit`. It belongs to probe (a
  * requested measurement). */
 static void column_add(struct probes *probes, struct probe *probe, const char *quantity, const char *unit)
 {
@@ -22,8 +22,8 @@ static void column_add(struct probes *probes, struct probe *probe, const char *q
     probe->columns++;
 }
 
-/* Appends dim columns of the probe (a requested measurement) to the history s, one for each component of a vector. The
- * name of a column consists of `prefix` and the axis x, y or z; unit: unit of all columns. */
+/* Appends dim columns of the probe (a requested measurement) to the history `probes`, one for each component of a
+ * vector. The name of a column consists of `prefix` and the axis x, y or z; unit: unit of all columns. */
 static void columns_by_axis(struct probes *probes, struct probe *probe, const char *prefix, int dim, const char *unit)
 {
     for (int d = 0; d < dim; d++) {
@@ -34,8 +34,8 @@ static void columns_by_axis(struct probes *probes, struct probe *probe, const ch
 }
 
 /* Appends the columns of the probe (a requested measurement), which depend on its kind and on the quantities that
- * particles p have, to the history s, and stores the index of the first column in probe->first. Some kinds of probe
- * have no columns, only values in the summary. */
+ * particles p have, to the history `probes`, and stores the index of the first column in probe->first. Some kinds of
+ * probe have no columns, only values in the summary. */
 static void columns_add(struct probes *probes, struct probe *probe, const struct particles *p)
 {
     const int dim = p->dim;
@@ -143,7 +143,7 @@ static status bind_region(struct probe *probe, const struct observed_run *o)
         probe->request.name);
 }
 
-/* Returns REFUSED, with a message, unless the boundary of the run o that REACTION probe q names prescribes a motion or,
+/* Returns REFUSED, with a message, unless the boundary of the run o that REACTION probe names prescribes a motion or,
  * in load steps, a force; else OK. If no boundary has this name, the message lists those that a probe can name. */
 static status bind_support(const struct probe *probe, const struct observed_run *o)
 {
@@ -168,7 +168,7 @@ static status bind_support(const struct probe *probe, const struct observed_run 
                       probe->request.name, probe->request.boundary, used > 0 ? known : "none");
 }
 
-/* Sets probe->growth to the index of the growing crack of the run o that GROWTH probe q measures: the crack that the
+/* Sets probe->growth to the index of the growing crack of the run o that GROWTH probe measures: the crack that the
  * probe names, or the first one if it names none. Always returns OK. */
 static status bind_growth(struct probe *probe, const struct observed_run *o)
 {
@@ -177,7 +177,7 @@ static status bind_growth(struct probe *probe, const struct observed_run *o)
     return OK; /* the scene reader has checked that the boundary exists */
 }
 
-/* Binds probe q (a requested measurement) to the particles, supports or cracks of the run o that it measures, by its
+/* Binds probe (a requested measurement) to the particles, supports or cracks of the run o that it measures, by its
  * kind. Returns REFUSED, with a message, if there are none or the probe does not fit the scene. */
 static status probe_bind(struct probe *probe, const struct observed_run *o)
 {
@@ -208,7 +208,7 @@ static status probe_bind(struct probe *probe, const struct observed_run *o)
     }
 }
 
-/* Returns true if a probe of kind REACTION (force on a support) of s measures the boundary called `boundary`. */
+/* Returns true if a probe of kind REACTION (force on a support) of `probes` measures the boundary called `boundary`. */
 static bool reaction_is_measured(const struct probes *probes, const char *boundary)
 {
     bool measured = false;
@@ -219,7 +219,7 @@ static bool reaction_is_measured(const struct probes *probes, const char *bounda
 }
 
 /* Writes the name that the columns of a support have in history.csv to name[NAME_MAX_LENGTH]: that of its boundary,
- * preceded by `reaction_` if a probe (a requested measurement) of s has that name. */
+ * preceded by `reaction_` if a probe (a requested measurement) of `probes` has that name. */
 static void support_name(const struct probes *probes, const char *boundary, char name[NAME_MAX_LENGTH])
 {
     bool taken = false;
@@ -227,9 +227,9 @@ static void support_name(const struct probes *probes, const char *boundary, char
     snprintf(name, NAME_MAX_LENGTH, "%s%.54s", taken ? "reaction_" : "", boundary);
 }
 
-/* Appends to s a probe of kind REACTION (force on a support) for each boundary of the run o that prescribes a motion
- * and that no probe of the scene measures, so that history.csv has the force of every support, and its displacement
- * unless it is at rest. These probes have no values in the summary. */
+/* Appends to `probes` a probe of kind REACTION (force on a support) for each boundary of the run o that prescribes a
+ * motion and that no probe of the scene measures, so that history.csv has the force of every support, and its
+ * displacement unless it is at rest. These probes have no values in the summary. */
 static void supports_observe(struct probes *probes, const struct observed_run *o)
 {
     for (int k = 0; o->loads && k < o->loads->n; k++) {

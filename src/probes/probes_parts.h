@@ -92,7 +92,7 @@ void particle_compute_probe_values(const struct observed_run *o, int64_t particl
 
 /* ---- motion at the time of a sample (probes_motion.c) ------------------------------------------------------------ */
 
-/* Copies the positions (at time o->t) and velocities (at time o->t_velocity) of the particles that probe q observes in
+/* Copies the positions (at time o->t) and velocities (at time o->t_velocity) of the particles that probe observes in
  * the run o to probe->motion. Must be called before the time step. */
 void probe_motion_store_before_step(struct probe *probe, const struct observed_run *o);
 
@@ -144,14 +144,14 @@ int32_t probe_find_nearest_particle(const struct observed_run *o, const real *po
  * 1) of a LINE probe. These points are equidistant from one end of the line to the other. */
 void line_probe_compute_station_position(const struct probe *probe, int dim, int station, real *position);
 
-/* Returns the crack tip that the TIP probe q (position and growth of a crack tip) follows at present, or NULL if there
- * is none. The tip belongs to *tips. */
+/* Returns the crack tip that the TIP probe (position and growth of a crack tip) follows at present, or NULL if there is
+ * none. The tip belongs to *tips. */
 const struct crack_tip *probe_find_followed_crack_tip(const struct probe *probe, const struct crack_tips *tips);
 
-/* Computes the reaction at the boundary that probe q (a measurement during the run) observes, force[dim] [N]: the sum
- * of the members `reaction` of all entries of `loads` with the name of this boundary, i.e. of its supports, in load
- * steps (static equilibria) also of its forces. mean_displacement[dim]: receives the mean displacement of the particles
- * that they act on, each counted alike [m]. */
+/* Computes the reaction at the boundary that probe (a measurement during the run) observes, force[dim] [N]: the sum of
+ * the members `reaction` of all entries of `loads` with the name of this boundary, i.e. of its supports, in load steps
+ * (static equilibria) also of its forces. mean_displacement[dim]: receives the mean displacement of the particles that
+ * they act on, each counted alike [m]. */
 void probe_compute_reaction_of_supports(const struct probe *probe, const struct loads *loads, int dim, real *force,
                                         real *mean_displacement);
 
@@ -164,11 +164,11 @@ struct energies {
  * the current state of the run. */
 struct energies probe_compute_energies_of_particles(const struct probe *probe, const struct observed_run *o);
 
-/* Returns the kinetic energy [J] of those particles of p that probe q (a measurement during the run) observes, with the
+/* Returns the kinetic energy [J] of those particles of p that probe (a measurement during the run) observes, with the
  * velocities of probe_particle_velocity_component. */
 real probe_kinetic_energy(const struct probe *probe, const struct particles *p);
 
-/* Computes the momentum, momentum[dim] [kg m/s], of those particles of p that probe q (a measurement during the run)
+/* Computes the momentum, momentum[dim] [kg m/s], of those particles of p that probe (a measurement during the run)
  * observes, with the velocities of probe_particle_velocity_component. */
 void probe_compute_momentum_of_particles(const struct probe *probe, const struct particles *p, real *momentum);
 
@@ -179,21 +179,21 @@ struct pulse_amplitudes {
     real reflected, transmitted, energy_change;
 };
 
-/* Stores the largest initial speed of the body of the run o as the incident amplitude of the PULSE probe q (amplitudes
- * of a wave packet). Returns REFUSED, with a message, if nothing moves at the start. */
+/* Stores the largest initial speed of the body of the run o as the incident amplitude of the PULSE probe (amplitudes of
+ * a wave packet). Returns REFUSED, with a message, if nothing moves at the start. */
 status pulse_probe_store_incident_amplitude(struct probe *probe, const struct observed_run *o);
 
-/* Returns the results of the PULSE probe q (amplitudes of a wave packet): the amplitudes of the reflected and the
+/* Returns the results of the PULSE probe (amplitudes of a wave packet): the amplitudes of the reflected and the
  * transmitted wave divided by the incident amplitude, and the relative energy change of the run o minus that of the
  * baseline, the same run with material points alone (subtracted only if o->baseline is not NULL). */
 struct pulse_amplitudes pulse_probe_compute_amplitudes(const struct probe *probe, const struct observed_run *o);
 
-/* Tests whether broken bonds separate the bar of the SPALL probe q (place and time at which a bar spalls) into two
- * parts along x. If so, stores the position of the plane of separation and the time in probe->memory; else changes
- * nothing. o: the run as probes see it (particles, bonds, time). */
+/* Tests whether broken bonds separate the bar of the SPALL probe (place and time at which a bar spalls) into two parts
+ * along x. If so, stores the position of the plane of separation and the time in probe->memory; else changes nothing.
+ * o: the run as probes see it (particles, bonds, time). */
 void spall_probe_detect_separation(struct probe *probe, const struct observed_run *o);
 
-/* Computes the mean velocities along x of the two parts of the bar of the SPALL probe q (place and time at which a bar
+/* Computes the mean velocities along x of the two parts of the bar of the SPALL probe (place and time at which a bar
  * spalls), which broken bonds have separated: *lighter_part_speed and *remaining_part_speed [m/s]. p: particles. NAN
  * for a part without particles. */
 void spall_probe_compute_part_speeds(const struct probe *probe, const struct particles *p, real *lighter_part_speed,
@@ -220,31 +220,30 @@ enum { SIF_FIGURES = 4, SIF_CONTOURS_MAX = 16 };
 /* Names and units of the quantities that a SIF probe reports: K_I, K_II, J, contour_spread. */
 extern const struct column sif_figure[SIF_FIGURES];
 
-/* Finds in the run o the crack tip of the SIF probe q (stress-intensity factors), its integration contours, and the
+/* Finds in the run o the crack tip of the SIF probe (stress-intensity factors), its integration contours, and the
  * material around the tip, and stores them in probe->sif. Release with sif_probe_free. Returns REFUSED, with a message,
  * if the body is not plane, no pre-crack ends inside a body, or the contours are too narrow, leave the body, or contain
  * another crack tip or material. */
 status sif_probe_find_tip_and_contours(struct probe *probe, const struct observed_run *o);
 
-/* Frees w, the crack tip and the contours of a SIF probe (stress-intensity factors), which
- * sif_probe_find_tip_and_contours has made; w may be NULL. */
+/* Frees `tracked`, the crack tip and the contours of a SIF probe (stress-intensity factors), which
+ * sif_probe_find_tip_and_contours has made; `tracked` may be NULL. */
 void sif_probe_free(struct sif_tracked *tracked);
 
-/* Copies positions (at time o->t) and velocities (at time o->t_velocity) near the crack tip of the SIF probe q
+/* Copies positions (at time o->t) and velocities (at time o->t_velocity) near the crack tip of the SIF probe
  * (stress-intensity factors), before the time step. */
 void sif_probe_store_motion_before_step(struct probe *probe, const struct observed_run *o);
 
-/* Computes K_I, K_II and J of the SIF probe q (stress-intensity factors) and their relative differences between its
+/* Computes K_I, K_II and J of the SIF probe (stress-intensity factors) and their relative differences between its
  * integration contours. The values are those of the run o at the time of the sample (line of history.csv) and are
  * stored in probe->memory.factors. velocity_time: time of the present velocities [s]. */
 void sif_probe_compute_intensity_factors(struct probe *probe, const struct observed_run *o, real velocity_time);
 
-/* Returns true if the stress-intensity factors of SIF probe q at its last sample (line of history.csv) are reliable:
- * they were computed, and contour_spread, their relative difference between the integration contours, is at most 0.2.
- */
+/* Returns true if the stress-intensity factors of SIF probe at its last sample (line of history.csv) are reliable: they
+ * were computed, and contour_spread, their relative difference between the integration contours, is at most 0.2. */
 bool sif_probe_factors_are_meaningful(const struct probe *probe);
 
-/* Returns quantity number `quantity_number` (0 to 3: K_I, K_II, J, contour_spread) of SIF probe q (stress-intensity
+/* Returns quantity number `quantity_number` (0 to 3: K_I, K_II, J, contour_spread) of SIF probe (stress-intensity
  * factors) at its last sample (line of history.csv). Returns NAN for K_I, K_II and J if they are not reliable
  * (sif_probe_factors_are_meaningful). */
 static inline real sif_probe_last_sample_value_or_nan(const struct probe *probe, int quantity_number)
@@ -259,8 +258,9 @@ static inline real sif_probe_last_sample_value_or_nan(const struct probe *probe,
  * of angular momentum and kinetic energy. */
 extern const struct column rigid_figure[RIGID_FIGURES];
 
-/* Stores in q the angular momentum and the kinetic energy of the particles of the RIGID probe q (conservation in a body
- * that moves rigidly) at the start of the run o. Returns REFUSED, with a message, if the run is not in a plane. */
+/* Stores in the probe the angular momentum and the kinetic energy of the particles of the RIGID probe (conservation in
+ * a body that moves rigidly) at the start of the run o. Returns REFUSED, with a message, if the run is not in a
+ * plane. */
 status rigid_probe_store_initial_motion(struct probe *probe, const struct observed_run *o);
 
 /* Computes the rotation angle value[0] of the body of a RIGID probe (conservation in a body that moves rigidly) [rad],
@@ -269,7 +269,7 @@ status rigid_probe_store_initial_motion(struct probe *probe, const struct observ
 void rigid_probe_compute_angle_and_stresses(struct probe *probe, const struct observed_run *o, real *value);
 
 /* Computes the change of the angular momentum, value[3], and of the kinetic energy, value[4], of the body of the RIGID
- * probe q (conservation in a body that moves rigidly), from the particles p, relative to the values at the start [1];
+ * probe (conservation in a body that moves rigidly), from the particles p, relative to the values at the start [1];
  * both should be conserved. NAN if the value at the start is 0. Call this function when the velocities at the time of
  * the sample (line of history.csv) are known. */
 void rigid_probe_compute_conservation_errors(struct probe *probe, const struct particles *p, real *value);

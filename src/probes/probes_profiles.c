@@ -55,7 +55,7 @@ static void bar_rows(FILE *file, const struct probe *probe, const struct observe
     }
 }
 
-/* Writes the profile of the LINE or EXACT probe q (a requested measurement) of the run o to file as CSV, with a header
+/* Writes the profile of the LINE or EXACT probe (a requested measurement) of the run o to file as CSV, with a header
  * line. */
 static void profile_text(FILE *file, const struct probe *probe, const struct observed_run *o)
 {
@@ -76,7 +76,7 @@ static void profile_name(char *name, const struct probe *probe, int frame)
         if (*c == '/') *c = '_';
 }
 
-/* Returns true if probe q (a requested measurement) has profiles: it is a LINE or an EXACT probe. */
+/* Returns true if probe (a requested measurement) has profiles: it is a LINE or an EXACT probe. */
 static bool has_profile(const struct probe *probe)
 {
     return probe->request.kind == PROBE_LINE || probe->request.kind == PROBE_EXACT;

@@ -62,8 +62,8 @@ static int tip_meant(const struct probe_request *r, const struct observed_run *o
     return nearest;
 }
 
-/* Returns the index of the growing crack of the run o that starts at most SAME_TIP spacings from the tip of the probe w
- * (a requested measurement), or -1 if there is none. */
+/* Returns the index of the growing crack of the run o that starts at most SAME_TIP spacings from the tip of the probe
+ * `tracked` (a requested measurement), or -1 if there is none. */
 static int growth_meant(const struct sif_tracked *tracked, const struct observed_run *o)
 {
     for (int k = 0; k < o->growths; k++) {
@@ -88,9 +88,9 @@ static status own_growth(const struct sif_tracked *tracked, const struct probe_r
     return OK;
 }
 
-/* Finds for w position and direction of the crack tip of a probe of kind SIF (stress-intensity factors), from the
- * request r or from a pre-crack of the run o, and the growing crack that starts there. Returns REFUSED, with a message,
- * if position or direction is unknown, or if the probe controls the growth of a crack at another tip. */
+/* Finds for `tracked` position and direction of the crack tip of a probe of kind SIF (stress-intensity factors), from
+ * the request r or from a pre-crack of the run o, and the growing crack that starts there. Returns REFUSED, with a
+ * message, if position or direction is unknown, or if the probe controls the growth of a crack at another tip. */
 static status find_tip(struct sif_tracked *tracked, const struct probe_request *r, const struct observed_run *o)
 {
     tracked->follows = tip_meant(r, o);
@@ -155,8 +155,8 @@ static bool ring_leaves(const struct sif_tip *t, real radius, const struct obser
     return false;
 }
 
-/* Returns a crack tip of the run o, other than that of the probe w (a requested measurement), whose distance from it is
- * less than `radius` [m], or NULL if there is none. */
+/* Returns a crack tip of the run o, other than that of the probe `tracked` (a requested measurement), whose distance
+ * from it is less than `radius` [m], or NULL if there is none. */
 static const struct crack_tip *other_tip_within(const struct sif_tracked *tracked, real radius,
                                                 const struct observed_run *o)
 {
@@ -168,9 +168,9 @@ static const struct crack_tip *other_tip_within(const struct sif_tracked *tracke
     return NULL;
 }
 
-/* Returns the outer radius of the contour of the probe w of kind SIF (stress-intensity factors) of the run o whose
- * request r gives none: OUTER spacings or, if r gives no other radius either, the first of 0.9, 0.8 .. 0.5 times this
- * value that stays in the body and contains no other tip [m]. */
+/* Returns the outer radius of the contour of the probe `tracked` of kind SIF (stress-intensity factors) of the run o
+ * whose request r gives none: OUTER spacings or, if r gives no other radius either, the first of 0.9, 0.8 .. 0.5 times
+ * this value that stays in the body and contains no other tip [m]. */
 static real default_outer_radius(const struct sif_tracked *tracked, const struct probe_request *r,
                                  const struct observed_run *o)
 {
@@ -182,9 +182,9 @@ static real default_outer_radius(const struct sif_tracked *tracked, const struct
     return most;
 }
 
-/* Sets the integration contours of the probe w of kind SIF (stress-intensity factors) of the run o: contour[0], from
- * which the results are computed, then further ones for comparison, which have the radii of request r, or 0.6, 0.8 and
- * 1 times the outer radius of contour[0]. Sets tracked->reach to the largest outer radius. */
+/* Sets the integration contours of the probe `tracked` of kind SIF (stress-intensity factors) of the run o: contour[0],
+ * from which the results are computed, then further ones for comparison, which have the radii of request r, or 0.6, 0.8
+ * and 1 times the outer radius of contour[0]. Sets tracked->reach to the largest outer radius. */
 static void make_contours(struct sif_tracked *tracked, const struct probe_request *r, const struct observed_run *o)
 {
     const real outer = given(r->outer) ? r->outer : default_outer_radius(tracked, r, o),
@@ -198,8 +198,9 @@ static void make_contours(struct sif_tracked *tracked, const struct probe_reques
     for (int k = 0; k < tracked->contours; k++) tracked->reach = real_max(tracked->reach, tracked->contour[k].outer);
 }
 
-/* Returns REFUSED with a message: the largest contour of w leaves the body of the run o at position[2] [m]. The message
- * proposes an outer radius that fits: the largest of 0.9, 0.8 .. 0.1 times the present one. name: name of the probe. */
+/* Returns REFUSED with a message: the largest contour of `tracked` leaves the body of the run o at position[2] [m]. The
+ * message proposes an outer radius that fits: the largest of 0.9, 0.8 .. 0.1 times the present one. name: name of the
+ * probe. */
 static status refuse_leaving(const struct sif_tracked *tracked, const char *name, const struct observed_run *o,
                              const real position[2])
 {
@@ -214,8 +215,8 @@ static status refuse_leaving(const struct sif_tracked *tracked, const char *name
                       fits);
 }
 
-/* Returns REFUSED, with a message, if a contour of w is narrower than NARROWEST spacings, leaves the body, or contains
- * another crack tip. r: request of the probe. o: view of the run. */
+/* Returns REFUSED, with a message, if a contour of `tracked` is narrower than NARROWEST spacings, leaves the body, or
+ * contains another crack tip. r: request of the probe. o: view of the run. */
 static status check_ring(const struct sif_tracked *tracked, const struct probe_request *r, const struct observed_run *o)
 {
     real position[2], narrowest = INFINITY;
@@ -241,9 +242,9 @@ static status check_ring(const struct sif_tracked *tracked, const struct probe_r
                       r->name, other[0], other[1], tracked->reach, 0.99 * distance);
 }
 
-/* Stores in w the body number and the elastic constants of the material around the tip. r: request, for messages; o:
- * run. Returns REFUSED, with a message, if no particle is one spacing ahead of the tip, or if another material or body
- * is within the contours. */
+/* Stores in `tracked` the body number and the elastic constants of the material around the tip. r: request, for
+ * messages; o: run. Returns REFUSED, with a message, if no particle is one spacing ahead of the tip, or if another
+ * material or body is within the contours. */
 static status find_medium(struct sif_tracked *tracked, const struct probe_request *r, const struct observed_run *o)
 {
     const struct particles *p = o->part;
@@ -447,7 +448,7 @@ bool sif_probe_factors_are_meaningful(const struct probe *probe)
     return !isnan(factors[0]) && !(factors[SIF_FIGURES - 1] > SPREAD_MOST);
 }
 
-/* Writes to text[size] the warning that probe q (a requested measurement) has no stress-intensity factors at its last
+/* Writes to text[size] the warning that probe (a requested measurement) has no stress-intensity factors at its last
  * sample, and why. t: time of the sample [s]. */
 static void describe_meaningless_factors(const struct probe *probe, real t, char *text, size_t size)
 {

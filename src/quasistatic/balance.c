@@ -88,7 +88,7 @@ static real round_off_force(const struct bonds *bonds, const struct particles *p
 
 /* ---- losses ------------------------------------------------------------------------------------------------------ */
 
-/* Corrects newton->lost [J], the energy that the solver q has lost in all solutions so far, after one more solution.
+/* Corrects newton->lost [J], the energy that the solver has lost in all solutions so far, after one more solution.
  * `lost` [J] is its value before that solution. If points yield or faces come into contact, forces do not change
  * linearly over the increment, and the work of loads is known only up to +-`range` [J]. A loss within this range is
  * taken for an error of the work and subtracted from loads->work. in_contact: true if anything is in contact at the

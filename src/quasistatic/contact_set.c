@@ -44,8 +44,8 @@ static void unconstrained_update(struct run *run)
     if (free_motions(run->statics) != before) statics_preconditioner_free(run->statics);
 }
 
-/* Searches run e for contact pairs and selects the active contacts (pairs that carry forces). close: largest gap at
- * which a pair becomes active [spacings]. Returns the number of changes of the set of active contacts. */
+/* Searches run for contact pairs and selects the active contacts (pairs that carry forces). close: largest gap at which
+ * a pair becomes active [spacings]. Returns the number of changes of the set of active contacts. */
 static int64_t statics_contact_search(struct run *run, real close)
 {
     return contact_search_and_select_linear_springs(run->contact, &run->part, &run->bonds, &run->loads,

@@ -53,9 +53,9 @@ static const struct material *material_at(const struct sif_cracks *cracks, const
     return &cracks->scene->material[p->material[nearest]];
 }
 
-/* Returns a list of all crack segments of l in the plane in which the tips move: the pre-cracks and the path of the
- * tips. *n: receives their number. The list refers to the stored path, which must not change while the list is used.
- * Release it with crack_segments_free. */
+/* Returns a list of all crack segments of `cracks` in the plane in which the tips move: the pre-cracks and the path of
+ * the tips. *n: receives their number. The list refers to the stored path, which must not change while the list is
+ * used. Release it with crack_segments_free. */
 static struct crack *crack_segments(const struct sif_cracks *cracks, int *n)
 {
     const int given = cracks->source->cracks;
@@ -127,8 +127,8 @@ void sif_tip_choose_direction(const struct sif_cracks *cracks, const struct part
     tip->heading[0] = c * a[0] - s * a[1], tip->heading[1] = s * a[0] + c * a[1];
 }
 
-/* Returns the tip of l with the largest growth, the first of several with equal growth; NULL if none qualifies. on:
- * true to consider only tips that can grow further, false for all tips. */
+/* Returns the tip of `cracks` with the largest growth, the first of several with equal growth; NULL if none qualifies.
+ * on: true to consider only tips that can grow further, false for all tips. */
 static const struct sif_crack_tip *tip_longest(const struct sif_cracks *cracks, bool on)
 {
     const struct sif_crack_tip *first = NULL;

@@ -128,8 +128,8 @@ void sif_cracks_free(struct sif_cracks *cracks);
 void sif_tip_break_bonds_across_precrack_behind(struct run *run, const struct sif_crack_tip *tip);
 
 /* Determines the next crack increment of the SIF-driven cracks (growth direction from stress-intensity factors) of the
- * run e under the present loads. For each tip that can grow, a trial equilibrium (discarded afterwards) with the bonds
- * of its increment broken gives the energy that is released. Stores in run->statics the bonds to break (`next`), the
+ * run under the present loads. For each tip that can grow, a trial equilibrium (discarded afterwards) with the bonds of
+ * its increment broken gives the energy that is released. Stores in run->statics the bonds to break (`next`), the
  * energies (`ahead`), and the load size (`due`, a measure proportional to the loads) at which the increment releases as
  * much energy as it costs. Returns FAILED if an equilibrium is not found. */
 status sif_cracks_find_increment_by_trial_equilibria(struct run *run);

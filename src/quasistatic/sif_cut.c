@@ -23,7 +23,7 @@ enum { CONVERSIONS_MOST = 4 }; /* largest number of conversions of material poin
 
 /* Appends to `list` a record (row, index and energy of the bond) for each intact bond in row r of b, the bonds of one
  * particle of p, that crosses one of `segments`. Bonds and segments are projected onto the plane in which the crack
- * tips of l move. */
+ * tips of `cracks` move. */
 static void row_bonds_cut(const struct sif_cracks *cracks, const struct bonds *b, const struct particles *p, int64_t r,
                           const struct crack_list *segments, struct break_list *list)
 {
@@ -44,7 +44,7 @@ static void row_bonds_cut(const struct sif_cracks *cracks, const struct bonds *b
 }
 
 /* Lists in `segments` the segment from[2] .. to[2] of the crack path of `tip`, extended by BEYOND spacings ahead, and
- * its mirror images. Coordinates are those in the plane in which the tips of l move [m]. Release the list with
+ * its mirror images. Coordinates are those in the plane in which the tips of `cracks` move [m]. Release the list with
  * crack_list_free. */
 static void segment_images(const struct sif_cracks *cracks, const struct sif_crack_tip *tip, const real from[2],
                            const real to[2], struct crack_list *segments)
@@ -58,8 +58,8 @@ static void segment_images(const struct sif_cracks *cracks, const struct sif_cra
                               cracks->source->family.cutoff, ON_SURFACE * cracks->plane.spacing);
 }
 
-/* Sets the energy cost [J] of each bond in `list`, the bonds that the next segment of the crack path of `tip` (a tip
- * of l) crosses; it is the member `held` of the record of the bond. The costs are scaled such that their sum is the
+/* Sets the energy cost [J] of each bond in `list`, the bonds that the next segment of the crack path of `tip` (a tip of
+ * `cracks`) crosses; it is the member `held` of the record of the bond. The costs are scaled such that their sum is the
  * area of the segment times the crack energy per area of the material: in 3D, energies of bonds at the sides of the
  * body contain surface weights, and some bonds at a pre-crack are already broken. In state-based models, where bonds
  * have no energy of their own, all costs are equal. p: particles. */
@@ -110,8 +110,8 @@ void sif_tip_break_bonds_across_precrack_behind(struct run *run, const struct si
 
 /* ---- trials ------------------------------------------------------------------------------------------------------ */
 
-/* Marks the material points of p within a horizon of the next segment of the path of `tip` (a tip of l) for conversion
- * to peridynamic particles, since only bonds can break. Returns the number of points marked. */
+/* Marks the material points of p within a horizon of the next segment of the path of `tip` (a tip of `cracks`) for
+ * conversion to peridynamic particles, since only bonds can break. Returns the number of points marked. */
 static int64_t segment_convert(const struct sif_cracks *cracks, struct particles *p, const struct sif_crack_tip *tip)
 {
     real to[DIM_MAX] = {0}, from[DIM_MAX] = {tip->position[0], tip->position[1]};
@@ -251,7 +251,7 @@ static status increment_try_together(struct run *run)
     return tried;
 }
 
-/* Computes the next increment of `tip` in the run run: its bonds, which are appended to `list`; its cost and energy
+/* Computes the next increment of `tip` in the run: its bonds, which are appended to `list`; its cost and energy
  * release, tip->ahead; and tip->due, the load size (norm of prescribed displacements or forces) at which it is made.
  * tip->due is INFINITY if the tip does not grow: under compression (K_I < 0), or if there are no bonds ahead of it, so
  * that it has ended. Returns FAILED, with a message, if an equilibrium is not found. */

@@ -16,7 +16,7 @@
 #define ROWS_APART 0.9
 enum { ROW_LEAST = 4 }; /* particles of a row along the crack */
 
-/* Compares the tip with both ends of every pre-crack of the scene of l; an end within HERE spacings of the tip
+/* Compares the tip with both ends of every pre-crack of the scene of `cracks`; an end within HERE spacings of the tip
  * coincides with it. Stores in tip->length_behind the largest length of the pre-cracks that end there [m], and sets
  * tip->reversed to true if such an end is the first corner of its pre-crack. */
 static void crack_behind_tip(const struct sif_cracks *cracks, struct sif_crack_tip *tip)

@@ -125,7 +125,7 @@ static real residual_now(struct newton_solver *newton)
     return sqrt(sum) > newton->noise ? sqrt(sum) / newton->scale : 0;
 }
 
-/* Sets the displacements of solver q to 0, those of bonds that soften, or press at a closed crack, without loads. They
+/* Sets the displacements of solver to 0, those of bonds that soften, or press at a closed crack, without loads. They
  * need no iteration, in which all bonds would change between tension and compression at once. */
 static void body_unload(struct newton_solver *newton)
 {

@@ -32,9 +32,9 @@ static status statics_list_archive(struct break_list *l, const struct bonds *bon
     return OK;
 }
 
-/* Saves the tips of SIF-driven cracks (directed by stress-intensity factors) and the path of these cracks in l to the
- * archive a if a->saving is true, else restores them. Returns FAILED, with a message, if the archive cannot be written
- * or lacks them. */
+/* Saves the tips of SIF-driven cracks (directed by stress-intensity factors) and the path of these cracks in `cracks`
+ * to the archive a if a->saving is true, else restores them. Returns FAILED, with a message, if the archive cannot be
+ * written or lacks them. */
 static status sif_archive(struct sif_cracks *cracks, struct archive *a)
 {
     ARCHIVE_VALUE(a, "statics/led", cracks->known);

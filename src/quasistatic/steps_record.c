@@ -67,9 +67,10 @@ static real damage_beside_cut(const struct scene *s)
     return 0.5 * (real)(all - along) / (real)all;
 }
 
-/* Returns the crack area along the paths of the SIF-driven tips l (directed by stress-intensity factors), summed over
- * the segments [m^2]. Of the result, `own` is the area in the modelled body, `face` the area of the whole crack faces,
- * twice as large for segments on planes of symmetry, which cut off half. p: particles, for the width of the body. */
+/* Returns the crack area along the paths of the SIF-driven tips `cracks` (directed by stress-intensity factors), summed
+ * over the segments [m^2]. Of the result, `own` is the area in the modelled body, `face` the area of the whole crack
+ * faces, twice as large for segments on planes of symmetry, which cut off half. p: particles, for the width of the
+ * body. */
 static struct crack_area sif_paths_area(const struct sif_cracks *cracks, const struct particles *p)
 {
     struct crack_area area = {0};

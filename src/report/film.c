@@ -140,7 +140,7 @@ void animation_free(struct run_animation *animation)
 
 /* ---- budget ------------------------------------------------------------------------------------------------------ */
 
-/* Selects at most `most` of the output frames of film f that were read, evenly spread, to be shown, and sets
+/* Selects at most `most` of the output frames of film that were read, evenly spread, to be shown, and sets
  * animation->used to their number. */
 static void frames_use(struct run_animation *animation, int most)
 {
@@ -150,15 +150,15 @@ static void frames_use(struct run_animation *animation, int most)
         animation->frame[spread(k, animation->frames, animation->used)].used = true;
 }
 
-/* Divides the particles of all particle sets of the film f (the frames of a run as the page shows them) into groups,
- * each of which is shown as one particle. A group is a single particle or a cubic cell of particles; animation->levels,
+/* Divides the particles of all particle sets of the film (the frames of a run as the page shows them) into groups, each
+ * of which is shown as one particle. A group is a single particle or a cubic cell of particles; animation->levels,
  * animation->levels_damaged and animation->levels_all limit the size of the cells. */
 static void film_group(struct run_animation *animation)
 {
     for (int k = 0; k < animation->sets; k++) animation_particle_set_merge_into_groups(&animation->set[k], animation);
 }
 
-/* Returns true if the film f (the frames of a run as the page shows them), with the frames, fields and groups of
+/* Returns true if the film (the frames of a run as the page shows them), with the frames, fields and groups of
  * particles that are selected now, takes at most `budget` bytes on the page. */
 static bool fits(const struct run_animation *animation, int64_t budget)
 {
@@ -171,9 +171,8 @@ static bool fits(const struct run_animation *animation, int64_t budget)
     return bytes <= budget;
 }
 
-/* Adds contents to the film f (the frames of a run as the page shows them) as far as the budget allows: first the
- * fields that are left out if the budget is short, then more frames. budget: largest size of the film on the page
- * [byte]. */
+/* Adds contents to the film (the frames of a run as the page shows them) as far as the budget allows: first the fields
+ * that are left out if the budget is short, then more frames. budget: largest size of the film on the page [byte]. */
 static void film_fill(struct run_animation *animation, int64_t budget)
 {
     const int used = animation->used;
@@ -205,7 +204,7 @@ void animation_select_content_within_byte_budget(struct run_animation *animation
 /* ---- second reading ---------------------------------------------------------------------------------------------- */
 
 /* Writes the coordinate along axis d of the reference positions of all groups (particles shown as one) of the particle
- * set s of film f to the page p, as 16-bit numbers between the smallest and the largest one. */
+ * set s of film to the page p, as 16-bit numbers between the smallest and the largest one. */
 static void write_positions(struct html_page *p, const struct run_animation *animation,
                             const struct animation_particle_set *s, int d)
 {
@@ -225,9 +224,9 @@ static void write_positions(struct html_page *p, const struct run_animation *ani
     memory_free(stored), memory_free(centre);
 }
 
-/* Writes the displacements of an output frame of film f along axis d for all groups (particles shown as one) of
- * the particle set s to the page p: the mean of u over the particles of each group, divided by the largest
- * displacement animation->reach[d], as a signed 16-bit number. u[s->n]: displacements of the particles [m]. */
+/* Writes the displacements of an output frame of film along axis d for all groups (particles shown as one) of the
+ * particle set s to the page p: the mean of u over the particles of each group, divided by the largest displacement
+ * animation->reach[d], as a signed 16-bit number. u[s->n]: displacements of the particles [m]. */
 static void write_displacements(struct html_page *p, const struct run_animation *animation,
                                 const struct animation_particle_set *s, const float *u, int d)
 {

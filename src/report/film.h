@@ -77,18 +77,18 @@ struct run_animation {
 /* Reads at most about sixty output frames (states) of the run in `folder` into f. Finds the sets of particles that
  * consecutive frames have in common, the largest displacements and the ranges of the fields. scene: contents of the
  * input file of the run, kept by reference; NULL if it is not known. Returns FAILED if a frame cannot be read. Release
- * f with animation_free. */
+ * `animation` with animation_free. */
 status animation_read_frames_of_run(struct run_animation *animation, const char *folder, const struct scene *scene);
 
-/* Selects in f the output frames, the fields and the groups of particles (each shown as one particle) that the page
- * (the HTML report of a run) shows, such that they take at most `byte_budget` bytes on the page. */
+/* Selects in the animation the output frames, the fields and the groups of particles (each shown as one particle) that
+ * the page (the HTML report of a run) shows, such that they take at most `byte_budget` bytes on the page. */
 void animation_select_content_within_byte_budget(struct run_animation *animation, int64_t byte_budget);
 
-/* Writes the selected output frames of a run and their fields, f, to `page` as the entry `film` of the JSON text of the
- * page (the HTML report of the run). Returns FAILED if a frame cannot be read again. */
+/* Writes the selected output frames of a run and their fields, the animation, to `page` as the entry `film` of the JSON
+ * text of the page (the HTML report of the run). Returns FAILED if a frame cannot be read again. */
 status animation_write_to_page(struct html_page *page, const struct run_animation *animation);
 
-/* Releases the lists and values of *f, which animation_read_frames_of_run has allocated. */
+/* Releases the lists and values of *animation, which animation_read_frames_of_run has allocated. */
 void animation_free(struct run_animation *animation);
 
 /* Divides the particles of the set `particle_set` (particles that several output frames have in common) into groups,
@@ -114,22 +114,22 @@ double animation_group_centre_coordinate(const struct animation_particle_set *pa
  * dimensions may have, and sets animation->fields, their number. */
 void animation_list_possible_fields(struct run_animation *animation);
 
-/* Updates the ranges and the sampled values of all fields of f, the output frames of a run that a report shows, from
- * one of these frames, `frame`, which was read from the file `path`. */
+/* Updates the ranges and the sampled values of all fields of the animation, the output frames of a run that a report
+ * shows, from one of these frames, `frame`, which was read from the file `path`. */
 void animation_update_field_ranges_from_frame(struct run_animation *animation, const struct output_frame *frame,
                                               const char *path);
 
-/* Chooses for each field of f, the output frames of a run that a report shows, the range of values that its stored
- * numbers of 8 or 16 bits represent. Sets `used` to false for fields with the same value in all frames at all
+/* Chooses for each field of the animation, the output frames of a run that a report shows, the range of values that its
+ * stored numbers of 8 or 16 bits represent. Sets `used` to false for fields with the same value in all frames at all
  * particles. */
 void animation_choose_stored_field_ranges(struct run_animation *animation);
 
-/* Returns the number of bytes that the page (HTML report) stores in each output frame of the run, f, for one group
- * (particles that are shown as one): the sum over all fields that are shown and change with time. */
+/* Returns the number of bytes that the page (HTML report) stores in each output frame of the run, the animation, for
+ * one group (particles that are shown as one): the sum over all fields that are shown and change with time. */
 int animation_bytes_per_group_and_frame(const struct run_animation *animation);
 
-/* Returns true if the field `field` (a quantity of the particles) of the run f is written to the page (HTML report):
- * its values differ between particles or frames, and it is not left out to save space. */
+/* Returns true if the field `field` (a quantity of the particles) of the run `animation` is written to the page (HTML
+ * report): its values differ between particles or frames, and it is not left out to save space. */
 bool animation_field_is_shown(const struct run_animation *animation, const struct animation_field *field);
 
 /* Writes the values of one field in the output frame `frame` to the page p (HTML report) as an array with one value for
@@ -139,8 +139,8 @@ void animation_write_field_values_of_frame(struct html_page *p, const struct ani
                                            const struct animation_particle_set *particle_set,
                                            const struct output_frame *frame, const char *path);
 
-/* Writes the surfaces of the rigid bodies of the run f to the page p (HTML report) as the entry `rigid`: line segments
- * in 2D, quadrilaterals in 3D. */
+/* Writes the surfaces of the rigid bodies of the run `animation` to the page p (HTML report) as the entry `rigid`: line
+ * segments in 2D, quadrilaterals in 3D. */
 void animation_write_rigid_body_surfaces(struct html_page *p, const struct run_animation *animation);
 
 /* Writes the positions and rotations of the rigid bodies in frame number `frame_number` of the run to the page p (HTML

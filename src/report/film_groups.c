@@ -44,7 +44,7 @@ static double cell_edge_length(const struct run_animation *animation, int level)
     return ldexp(animation->spacing, level);
 }
 
-/* Returns the index along axis d of the cubic cell of the lattice, with an edge of 2^level spacings of film f, that
+/* Returns the index along axis d of the cubic cell of the lattice, with an edge of 2^level spacings of film, that
  * contains particle i of the particle set s (the particles that consecutive output frames have in common). */
 static uint64_t cell_index(const struct animation_particle_set *s, const struct run_animation *animation, int level,
                            int64_t i, int d)
@@ -53,8 +53,8 @@ static uint64_t cell_index(const struct animation_particle_set *s, const struct 
     return (uint64_t)fmin(fmax(along, 0), KEY_MOST) >> level;
 }
 
-/* Returns particle i of the particle set s of film f as a member of the cell that contains it. level: base-2 logarithm
- * of the edge of the cell in spacings. */
+/* Returns particle i of the particle set s of film as a member of the cell that contains it. level: base-2 logarithm of
+ * the edge of the cell in spacings. */
 static struct member member_of_cell(const struct animation_particle_set *s, const struct run_animation *animation,
                                     int level, int64_t i)
 {
@@ -64,7 +64,7 @@ static struct member member_of_cell(const struct animation_particle_set *s, cons
     return (struct member){key, (int32_t)i, (uint16_t)(s->material[i] << 8 | s->body[i])};
 }
 
-/* Returns true if particle i of the particle set s of film f may be merged with others into a cell with an edge of
+/* Returns true if particle i of the particle set s of film may be merged with others into a cell with an edge of
  * 2^level spacings. Its size must be one spacing, and it must not be part of a crack in any frame. If level >
  * animation->levels_damaged, it must be neither damaged nor yielding in any frame. */
 static bool may_merge(const struct animation_particle_set *s, const struct run_animation *animation, int level,

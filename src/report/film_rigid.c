@@ -5,7 +5,7 @@
 #include "film.h"
 #include "rigid/rigid_surface.h"
 
-/* Returns the number of rigid bodies that the page of film f shows: none in one dimension or without the scene. */
+/* Returns the number of rigid bodies that the page of film shows: none in one dimension or without the scene. */
 static int rigids_of(const struct run_animation *animation)
 {
     return animation->scene && animation->dim > 1 ? animation->scene->rigids : 0;

@@ -161,11 +161,11 @@ static status place_skip(struct new_particles *created, const real *place)
     return OK;
 }
 
-/* Adds a particle to d, the list of particles to be created, if the lattice position place[dim] [m] is in the shape of
- * a body. A position in a coarse cell, whose particles are not created, is only counted. The position is shifted at
- * random by up to half of `particles.irregularity` spacings along each axis (Imachi et al. 2019, eq. 49). body: index
- * of the body; volume: volume of the particle [m^3]. Returns REFUSED, with a message, if there would be too many
- * particles. */
+/* Adds a particle to `created`, the list of particles to be created, if the lattice position place[dim] [m] is in the
+ * shape of a body. A position in a coarse cell, whose particles are not created, is only counted. The position is
+ * shifted at random by up to half of `particles.irregularity` spacings along each axis (Imachi et al. 2019, eq. 49).
+ * body: index of the body; volume: volume of the particle [m^3]. Returns REFUSED, with a message, if there would be too
+ * many particles. */
 static status lattice_point(struct new_particles *created, int body, const real *place, real volume)
 {
     const struct scene *s = created->scene;
@@ -179,7 +179,7 @@ static status lattice_point(struct new_particles *created, int body, const real 
         created, X, volume, scene_material_index_at_position(s, &s->body[body], place, s->body[body].material), body);
 }
 
-/* Returns REFUSED, with a message, if the scene of d has no spacing at which to fill the body number `body`. */
+/* Returns REFUSED, with a message, if the scene of `created` has no spacing at which to fill the body number `body`. */
 static status check_spacing_given(const struct new_particles *created, int body)
 {
     if (created->scene->spacing > 0) return OK;
@@ -187,9 +187,9 @@ static status check_spacing_given(const struct new_particles *created, int body)
         created, body, "particles.spacing is missing: a shape is filled with particles at this distance; add it");
 }
 
-/* Adds the particles of the lattice in the shape of a body to d, the list of particles to be created, with x varying
- * fastest. body: index of the body. Returns REFUSED, with a message, if the input file (scene) has no spacing or the
- * shape does not fit it. */
+/* Adds the particles of the lattice in the shape of a body to `created`, the list of particles to be created, with x
+ * varying fastest. body: index of the body. Returns REFUSED, with a message, if the input file (scene) has no spacing
+ * or the shape does not fit it. */
 static status fill_lattice(struct new_particles *created, int body)
 {
     real volume = cell_volume(created->scene), place[DIM_MAX];
@@ -218,9 +218,9 @@ status body_lattice_compute_first_site_position(const struct scene *s, int body,
 
 /* ---- all ------------------------------------------------------------------------------------------------------- */
 
-/* Collects the particles of all bodies of created->scene in d, the list of particles to be created: from particle
- * lists, or from lattices in the shapes. Returns REFUSED, with a message, for a body without particles or with an
- * invalid list or shape. */
+/* Collects the particles of all bodies of created->scene in `created`, the list of particles to be created: from
+ * particle lists, or from lattices in the shapes. Returns REFUSED, with a message, for a body without particles or with
+ * an invalid list or shape. */
 static status draft_make(struct new_particles *created)
 {
     for (int body = 0; body < created->scene->bodies; body++) {
@@ -238,8 +238,8 @@ static status draft_make(struct new_particles *created)
 /* Returns volume[i], the volume of particle i [m^3], as a term of reproducible_sum. volume: array of reals. */
 static real volume_term(const void *volume, int64_t i) { return ((const real *)volume)[i]; }
 
-/* Returns the spacing of the scene of d [m]. If the scene has none because all particles come from lists, returns the
- * edge of a square or cube of the mean particle volume. */
+/* Returns the spacing of the scene of `created` [m]. If the scene has none because all particles come from lists,
+ * returns the edge of a square or cube of the mean particle volume. */
 static real spacing_of(const struct new_particles *created)
 {
     const struct scene *s = created->scene;
@@ -249,9 +249,10 @@ static real spacing_of(const struct new_particles *created)
                1.0 / s->dim);
 }
 
-/* Creates the particles p from d, the list of particles to be created. A velocity that is NAN in d becomes that of the
- * body, a mass that is NAN follows from the density of the material. The method of the scene determines the kind of the
- * particles (peridynamic or material points). optional: optional arrays to create (WITH_*). */
+/* Creates the particles p from `created`, the list of particles to be created. A velocity that is NAN in `created`
+ * becomes that of the body, a mass that is NAN follows from the density of the material. The method of the scene
+ * determines the kind of the particles (peridynamic or material points). optional: optional arrays to create
+ * (WITH_*). */
 static void take_draft(struct particles *p, const struct new_particles *created, int optional)
 {
     const struct scene *s = created->scene;
@@ -274,7 +275,7 @@ static void take_draft(struct particles *p, const struct new_particles *created,
     }
 }
 
-/* Sets p->n_body to the number of particles of d including those left out because coarse cells replace them
+/* Sets p->n_body to the number of particles of `created` including those left out because coarse cells replace them
  * (created->skipped). If there are any, sets p->low, p->high to the bounding box of all of them [m]. */
 static void take_skipped(struct particles *p, const struct new_particles *created)
 {
@@ -357,9 +358,9 @@ static status check_distances(const struct particles *p, const struct new_partic
     return status_message_prepend_location((one > two ? one : two)->place, REFUSED);
 }
 
-/* Creates the particles p from d, the list of particles to be created, applies the initial states, checks values and
- * distances, and sorts the particles. Joined bodies become one. optional: optional arrays to create (WITH_*). Returns
- * REFUSED, with a message, for invalid values, lists or positions. */
+/* Creates the particles p from `created`, the list of particles to be created, applies the initial states, checks
+ * values and distances, and sorts the particles. Joined bodies become one. optional: optional arrays to create
+ * (WITH_*). Returns REFUSED, with a message, for invalid values, lists or positions. */
 static status fill_made(struct particles *p, const struct new_particles *created, int optional)
 {
     const struct scene *s = created->scene;

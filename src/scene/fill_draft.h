@@ -21,9 +21,9 @@ struct new_particles {
     int32_t *id;                                  /* index in the order in which the scene makes the particles */
 };
 
-/* Appends a particle at the position `position` (dim coordinates [m]) to d, the list of particles to be created.
- * volume: volume of the particle [m^3]; material_number, body_number: indices of its material and its body in the input
- * file. Returns REFUSED, with a message, if there would be more than PARTICLES_MAX particles. */
+/* Appends a particle at the position `position` (dim coordinates [m]) to `created`, the list of particles to be
+ * created. volume: volume of the particle [m^3]; material_number, body_number: indices of its material and its body in
+ * the input file. Returns REFUSED, with a message, if there would be more than PARTICLES_MAX particles. */
 status new_particles_append_particle(struct new_particles *created, const real *position, real volume,
                                      int material_number, int body_number);
 
@@ -36,7 +36,7 @@ status new_particles_report_empty_body(const struct new_particles *created, int 
  * created->scene and ends with the text `reason`. */
 status new_particles_report_body_fault(const struct new_particles *created, int body_number, const char *reason);
 
-/* Appends the particles of the body with the index `body_number` from its particle list file to d, the list of
+/* Appends the particles of the body with the index `body_number` from its particle list file to `created`, the list of
  * particles to be created. Returns REFUSED, with a message, if the file cannot be read or is invalid. */
 status new_particles_append_body_from_file(struct new_particles *created, int body_number);
 

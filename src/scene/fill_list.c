@@ -70,8 +70,8 @@ static status entry_material(const struct scene *s, const struct particle_list *
     return *material < s->materials ? OK : refuse_material(s, l, b->file, i, given);
 }
 
-/* Adds entry i of the particle list l to d, the list of particles to be created. body: index of its body in the scene;
- * volume: volume of the particle if l has no volumes [m^3]. Returns REFUSED, with a message, for an unknown
+/* Adds entry i of the particle list l to `created`, the list of particles to be created. body: index of its body in the
+ * scene; volume: volume of the particle if l has no volumes [m^3]. Returns REFUSED, with a message, for an unknown
  * material. */
 static status take_entry(struct new_particles *created, int body, const struct particle_list *l, int64_t i, real volume)
 {
@@ -91,9 +91,10 @@ static status take_entry(struct new_particles *created, int body, const struct p
     return OK;
 }
 
-/* Adds the entries of the particle list l that belong to the body with the index `body` to d, the list of particles to
- * be created. These are the entries that name the body, or all if l has no column of bodies. Returns REFUSED, with a
- * message, if an entry names a body with another file, or if neither l gives volumes nor the scene a spacing. */
+/* Adds the entries of the particle list l that belong to the body with the index `body` to `created`, the list of
+ * particles to be created. These are the entries that name the body, or all if l has no column of bodies. Returns
+ * REFUSED, with a message, if an entry names a body with another file, or if neither l gives volumes nor the scene a
+ * spacing. */
 static status take_list(struct new_particles *created, int body, const struct particle_list *l)
 {
     const struct scene *s = created->scene;
@@ -115,9 +116,9 @@ static status take_list(struct new_particles *created, int body, const struct pa
     return OK;
 }
 
-/* Rounds the positions of the particles `first` .. created->n - 1 in d (the list of particles to be created) to exact
- * lattice sites, if they form a lattice within the rounding of the decimals in their file, such that planes of symmetry
- * of the scene are on sites or midway between two sites. Changes nothing otherwise. */
+/* Rounds the positions of the particles `first` .. created->n - 1 in `created` (the list of particles to be created) to
+ * exact lattice sites, if they form a lattice within the rounding of the decimals in their file, such that planes of
+ * symmetry of the scene are on sites or midway between two sites. Changes nothing otherwise. */
 static void take_lattice(struct new_particles *created, int64_t first)
 {
     const struct scene *s = created->scene;

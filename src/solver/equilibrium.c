@@ -45,7 +45,7 @@ enum { WORK_PARTS = 16 };
 
 /* ---- vectors ----------------------------------------------------------------------------------------------------- */
 
-/* Stores the addresses of all vectors (struct field) of the solver q in list[FIELDS], so that one loop can allocate or
+/* Stores the addresses of all vectors (struct field) of the solver in list[FIELDS], so that one loop can allocate or
  * free them. */
 static void all_fields(struct newton_solver *newton, struct field **list)
 {
@@ -78,7 +78,7 @@ void newton_solver_free(struct newton_solver *newton)
 
 static bool is_held(const struct newton_solver *newton, int64_t i, int d) { return newton->held[i] >> d & 1; }
 
-/* Computes the vector to = a x + b y for all components of all nodes of q, including those with prescribed
+/* Computes the vector to = a x + b y for all components of all nodes of `newton`, including those with prescribed
  * displacement. `to` may be x or y. */
 static void combine(const struct newton_solver *newton, struct field *to, real a, const struct field *x, real b,
                     const struct field *y)
@@ -107,8 +107,8 @@ static void dot_block(const void *context, int64_t first, int64_t end, real *sum
         for (int64_t i = first; i < end; i++) sum[is_held(s->q, i, d)] += s->a->of[d][i] * s->b->of[d][i];
 }
 
-/* Computes the scalar product of the vectors a and b: over the free components of q in sum[0], over held components
- * (with prescribed displacement) in sum[1]. */
+/* Computes the scalar product of the vectors a and b: over the free components of `newton` in sum[0], over held
+ * components (with prescribed displacement) in sum[1]. */
 static void dots(const struct newton_solver *newton, const struct field *a, const struct field *b, real sum[2])
 {
     reproducible_sums(newton->n, 2, dot_block, &(struct product){newton, a, b}, sum);
@@ -144,7 +144,7 @@ static void plain_block(const void *context, int64_t first, int64_t end, real *s
     }
 }
 
-/* Returns the scalar product of vectors a and b over all components of q, free and held (with prescribed
+/* Returns the scalar product of vectors a and b over all components of `newton`, free and held (with prescribed
  * displacement). */
 static real dot_all(const struct newton_solver *newton, const struct field *a, const struct field *b)
 {
@@ -161,9 +161,9 @@ static real turning_width(const struct newton_solver *newton, const struct field
     return newton->length * pow(real_max(1, dot_all(newton, increment, increment) / square(most)), 1.0 / newton->dim);
 }
 
-/* Returns the factor [1] by which the displacement `increment` of q is multiplied when its product with the stiffness
- * is computed from a difference of forces. With this factor, strains of bonds are at most DIFFERENCE_STRAIN and their
- * rotations about DIFFERENCE_TURN. most: largest component of the increment [m]. */
+/* Returns the factor [1] by which the displacement `increment` of `newton` is multiplied when its product with the
+ * stiffness is computed from a difference of forces. With this factor, strains of bonds are at most DIFFERENCE_STRAIN
+ * and their rotations about DIFFERENCE_TURN. most: largest component of the increment [m]. */
 static real difference_step(const struct newton_solver *newton, const struct field *increment, real most)
 {
     return real_min(DIFFERENCE_STRAIN / newton->strain_ratio,
@@ -404,8 +404,8 @@ static real dot_held(const struct newton_solver *newton, const struct field *inc
     return sum[1];
 }
 
-/* Corrects in q the work of the loads and the lost energy after a step from one equilibrium to the next. Their sums
- * assume straight paths: the loads grow linearly along the first correction of the displacements, and are constant
+/* Corrects in `newton` the work of the loads and the lost energy after a step from one equilibrium to the next. Their
+ * sums assume straight paths: the loads grow linearly along the first correction of the displacements, and are constant
  * along the later ones. The actual path is approximated by the curve c s + d s^2, with loads linear in s, 0 to 1. Along
  * it no energy is lost, and the work exceeds the mean of the loads at both ends times the displacement by more/6. more:
  * growth of the loads times the displacement of all corrections but the first [J]. */

@@ -4,7 +4,7 @@
 
 static void solver_free_all(struct run *run) { static_solver_free(run->solver); }
 
-/* Writes the JSON object "solver" with name, steps and residual of a static solution to j; nothing for other runs. e:
+/* Writes the JSON object "solver" with name, steps and residual of a static solution to j; nothing for other runs. run:
  * the run. */
 static void put_solver(const struct run *run, struct json *j)
 {

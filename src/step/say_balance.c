@@ -64,8 +64,8 @@ bool fracture_energy_warn_if_negative(const struct scene *s, const struct diagno
 /* Warns, in runs with points on the grid, of an error of the energy balance that is small relative to the largest
  * energy (FLIGHT_LEAST to ENERGY_DOUBTFUL) but not without the kinetic energy of the common motion of all particles p.
  * While bodies fly through cells of the grid, stress gains energy unless points are mapped ahead of their positions
- * (field_set_flight): with linear shapes a block of 40 x 20 points at 200 m/s gains a fifth in eleven cells. w:
- * energies of the run; to: list of warnings. Returns true if it warns. */
+ * (field_set_flight): with linear shapes a block of 40 x 20 points at 200 m/s gains a fifth in eleven cells.
+ * diagnostics: energies of the run; to: list of warnings. Returns true if it warns. */
 static bool say_flight(const struct particles *p, const struct diagnostics *diagnostics, struct warnings *to)
 {
     const real error = diagnostics->now.balance_error, amount = fabs(error) * diagnostics->energy_scale;

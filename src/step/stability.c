@@ -359,10 +359,10 @@ static int64_t fastest_particle(const struct particles *p)
     return fastest;
 }
 
-/* Returns true if the bodies have gained more energy than a stable run can: the error of the energy balance w of the
- * run exceeds ENERGY_FROM_NOWHERE, or breaking bonds released more than RELEASED_FROM_NOWHERE of the largest energy
- * beyond what they had stored. The error is not tested in the first ENERGY_STEPS steps, in which half a step of a load
- * is a large share of the energy, unless the time step of `clock` is above the critical one. */
+/* Returns true if the bodies have gained more energy than a stable run can: the error of the energy balance
+ * `diagnostics` of the run exceeds ENERGY_FROM_NOWHERE, or breaking bonds released more than RELEASED_FROM_NOWHERE of
+ * the largest energy beyond what they had stored. The error is not tested in the first ENERGY_STEPS steps, in which
+ * half a step of a load is a large share of the energy, unless the time step of `clock` is above the critical one. */
 static bool gains(const struct run_clock *clock, const struct diagnostics *diagnostics)
 {
     const bool counts = clock->step >= ENERGY_STEPS || clock->dt > clock->dt_critical;

@@ -154,7 +154,7 @@ static bool runs_fit(struct convergence_study *s, int runs, int jobs, double lef
 
 /* ---- the study --------------------------------------------------------------------------------------------------- */
 
-/* Returns the reason why the convergence of the scene s cannot be studied as the request w demands, as a text for a
+/* Returns the reason why the convergence of the scene s cannot be studied as the request demands, as a text for a
  * message, or NULL if it can be studied. The text is static. */
 static const char *study_refusal(const struct scene *s, const struct convergence_request *request)
 {
@@ -165,7 +165,7 @@ static const char *study_refusal(const struct scene *s, const struct convergence
     return NULL;
 }
 
-/* Makes the first run of the study s that the request w demands, at the coarsest spacing level (runs with one particle
+/* Makes the first run of the study s that the request demands, at the coarsest spacing level (runs with one particle
  * spacing), and stores its duration in s->spent. The durations of the other runs are predicted from it. Sets *refused
  * to true if the input file (scene) is invalid at this spacing, for example because the integration rings of probes
  * become too narrow. Returns REFUSED, with a message, if the run exceeds the budget, FAILED if it fails. */
@@ -194,8 +194,8 @@ static status first_run(struct convergence_study *s, const struct convergence_re
     return summary_read_number(study_case_folder(&s->study, run).text, "wall_seconds", &s->spent);
 }
 
-/* Prints a warning for each result that w requests (a number in summary.json) and the first run of the study s lacks,
- * because its name may be wrong. It is no error, since cracks and tips may still appear at finer spacings. */
+/* Prints a warning for each result that `request` requests (a number in summary.json) and the first run of the study s
+ * lacks, because its name may be wrong. It is no error, since cracks and tips may still appear at finer spacings. */
 static void wanted_warn(const struct convergence_study *s, const struct convergence_request *request)
 {
     const struct path folder = study_case_folder(&s->study, &s->study.at[s->first]);
@@ -208,7 +208,7 @@ static void wanted_warn(const struct convergence_study *s, const struct converge
                 request->wanted[k], printable_name(folder.text).text);
 }
 
-/* Makes the first run of the study s, which the request w demands, at the coarsest spacing level (first_run). If the
+/* Makes the first run of the study s, which the request demands, at the coarsest spacing level (first_run). If the
  * input file (scene) is invalid at that spacing, refines all levels and tries again, at most FINER_MOST times. Stores
  * the largest spacing that was invalid in s->refused, INFINITY if none was. Returns the status of the last try: OK,
  * REFUSED, FAILED or INTERRUPTED. */
@@ -228,10 +228,10 @@ static status first_run_sound(struct convergence_study *s, const struct converge
     return done;
 }
 
-/* Plans the spacing levels (runs with one particle spacing each) of a study as the request w demands, in s->spacings.
- * The finest level has the spacing that the input file (scene) gives times 2^(shift/2), so that the scene's own
- * spacing is among the levels if shift is at most 0. Omits levels at which the scene is invalid. Returns false if no
- * valid plan results. */
+/* Plans the spacing levels (runs with one particle spacing each) of a study as the request demands, in s->spacings. The
+ * finest level has the spacing that the input file (scene) gives times 2^(shift/2), so that the scene's own spacing is
+ * among the levels if shift is at most 0. Omits levels at which the scene is invalid. Returns false if no valid plan
+ * results. */
 static bool mesh_levels_plan(struct convergence_study *s, const struct convergence_request *request, int shift)
 {
     int levels = request->levels - (shift < 0 ? shift : 0);
@@ -308,8 +308,8 @@ static void plan_print(const struct convergence_study *s)
                 s->scene.spacing / metre.factor, metre.name, s->spacings.at[0][0] / metre.factor, metre.name);
 }
 
-/* Plans the runs of a convergence study such that they fit into the budget of the request w, makes them, and reads
- * their results into s->table. Returns REFUSED or FAILED, with a message, if the study cannot be planned, its first run
+/* Plans the runs of a convergence study such that they fit into the budget of the request, makes them, and reads their
+ * results into s->table. Returns REFUSED or FAILED, with a message, if the study cannot be planned, its first run
  * fails, or a summary cannot be read. Returns INTERRUPTED after a stop signal. */
 static status study_go(struct convergence_study *s, const struct convergence_request *request)
 {

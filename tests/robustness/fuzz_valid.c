@@ -154,7 +154,7 @@ static void add_loads(struct maker *m, const double *edge)
     add(m, "output: {frames: 2, samples: 1000000}\n");
 }
 
-/* Fails if a result of e is not finite, unless the run reported it. when: for the message. */
+/* Fails if a result of the run is not finite, unless the run reported it. when: for the message. */
 static void judge(const struct run *run, const char *when)
 {
     const struct particles *p = &run->part;

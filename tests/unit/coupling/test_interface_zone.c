@@ -7,7 +7,7 @@
 
 static const enum space spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
 
-/* Creates in `space` the body c, whose left half is peridynamic, and its interface zone r (material points near
+/* Creates in `space` the body c, whose left half is peridynamic, and its interface zone (material points near
  * peridynamic particles). shake: largest random displacement of the particles from the lattice [spacings]. */
 static void half_make(struct particle_cloud *c, struct interface_zone *zone, enum space space, real shake)
 {

@@ -40,7 +40,7 @@ static void engine_from(struct run *run, struct scene *s, const char *text)
 /* ---- gradient ---------------------------------------------------------------------------------------------------- */
 
 /* Returns component d of the position X[dim], rotated about z and randomly displaced; coordinates normal to a mirror of
- * the run e are kept. seed: state of the random numbers. */
+ * the run are kept. seed: state of the random numbers. */
 static real shaken(const struct run *run, const real *X, int d, uint64_t *seed)
 {
     const real angle = TURN_MOST * X[0] / 20e-3;

@@ -384,7 +384,8 @@ static void missing_gnuplot_is_named(void **state)
     assert_false(is_there("a/pictures/damage.png"));
 }
 
-/* Returns the fraction of the pixels of a rectangle from from_x to to_x [spacings] in which a body of c is drawn. */
+/* Returns the fraction of the pixels of a rectangle from from_x to to_x [spacings] in which a body of `plotted` is
+ * drawn. */
 static double covered(const struct plotted_particles *plotted, double from_x, double to_x)
 {
     enum { PIXELS = 20 * SIDE }; /* 20 pixels per spacing: a gap of a tenth of a spacing is visible */

@@ -13,7 +13,7 @@
 
 enum { PIXELS = 120, FINE = 8 * PIXELS };
 
-/* Paints c into a square of 2 x `half` around 0 [m]. Returns the number of pixels with a particle. */
+/* Paints `plotted` into a square of 2 x `half` around 0 [m]. Returns the number of pixels with a particle. */
 static int painted_around(const struct plotted_particles *plotted, double half)
 {
     struct colour *pixel = NEW("test.pixel", PIXELS * PIXELS, struct colour);

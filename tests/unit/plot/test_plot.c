@@ -260,7 +260,7 @@ static void block_deform(struct output_frame *f, const double H[2][2], double op
             f->u[d][i] = (float)(H[d][0] * f->X[0][i] + H[d][1] * f->X[1][i] + (d == 1 && f->X[1][i] > 0 ? open : 0));
 }
 
-/* Counts the pixels *painted of c with a particle and *blank without in a square of 2 x `half` around 0 [m]. */
+/* Counts the pixels *painted of `plotted` with a particle and *blank without in a square of 2 x `half` around 0 [m]. */
 static void pixels_count(const struct plotted_particles *plotted, double half, int *painted, int *blank)
 {
     struct colour *pixel = NEW("test.pixel", PIXELS * PIXELS, struct colour);

@@ -324,7 +324,7 @@ static struct observed_run bar_seen(const struct bar *bar, real t)
     return o;
 }
 
-/* Bonds the particles of `bar` and makes a spall probe s of it. Returns the bar as it is at 1 s. */
+/* Bonds the particles of `bar` and makes a spall probe `probes` of it. Returns the bar as it is at 1 s. */
 static struct observed_run spall_probe_make(struct probes *probes, struct bar *bar)
 {
     struct probe_request request = {.name = "spall", .kind = PROBE_SPALL};

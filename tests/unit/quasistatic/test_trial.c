@@ -22,13 +22,13 @@ static const char plate[] =
 /* Returns the number of slots of bonds in the columns of the blocks of eight rows. */
 static int64_t bond_slots(const struct run *run) { return run->bonds.columns * LANES; }
 
-/* Adds `more` to the plastic stretch of all bonds of e [1]. */
+/* Adds `more` to the plastic stretch of all bonds of the run [1]. */
 static void flow(struct run *run, real more)
 {
     for (int64_t q = 0; q < bond_slots(run); q++) run->bonds.plastic_stretch[q] += more;
 }
 
-/* Fails unless all bonds of e have the plastic stretch `stretch` [1]. */
+/* Fails unless all bonds of the run have the plastic stretch `stretch` [1]. */
 static void expect(const struct run *run, real stretch)
 {
     for (int64_t q = 0; q < bond_slots(run); q++) assert_true(run->bonds.plastic_stretch[q] == stretch);

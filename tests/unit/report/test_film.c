@@ -13,7 +13,7 @@
 enum { NX = 50, NY = 37, FRAMES = 61 };
 static const double H = 0.25e-3;
 
-/* Makes a film f of FRAMES frames of a plate of NX by NY particles, of which those of row 20 are damaged from x = 10 H
+/* Makes a film of FRAMES frames of a plate of NX by NY particles, of which those of row 20 are damaged from x = 10 H
  * on, and part of a crack from 30 H on. */
 static void plate_make(struct run_animation *animation)
 {
@@ -34,8 +34,8 @@ static void plate_make(struct run_animation *animation)
     }
 }
 
-/* Returns the number of bytes of the frames of f that are shown: 4 for displacements, and 4 once for positions, 6 at
- * most for sizes and two fields of the set. */
+/* Returns the number of bytes of the frames of the animation that are shown: 4 for displacements, and 4 once for
+ * positions, 6 at most for sizes and two fields of the set. */
 static int64_t film_bytes(const struct run_animation *animation)
 {
     return animation->set->groups * (4 * animation->used + 10);
@@ -103,7 +103,7 @@ static void groups_do_not_mix(void **state)
     animation_free(&f);
 }
 
-/* Returns true if every particle of the plate f lies in the cell that is drawn of its group. */
+/* Returns true if every particle of the plate `animation` lies in the cell that is drawn of its group. */
 static bool covers_the_body(const struct run_animation *animation)
 {
     const struct animation_particle_set *s = animation->set;

@@ -123,7 +123,7 @@ static void same_bits(const struct run *a, const struct run *b)
     assert_memory_equal(&energy, &(real){b->kernels.bond_energy(&b->bonds, q, NULL)}, sizeof energy);
 }
 
-/* Returns the inactive share of the body of e, or of its points on the grid. */
+/* Returns the inactive share of the body of the run, or of its points on the grid. */
 static real sleeping(const struct run *run)
 {
     const struct transfer_order *active = run->grid->transfer.order;
