@@ -51,8 +51,9 @@ status run_save_or_load_state(void *run, struct archive *a);
 status run_load_checkpoint(void *run, struct archive *a);
 
 /* Runs the scene of the run once more with material points alone, if it has a PULSE probe (wave packet at an
- * interface). The final velocities and the energy change of that the run are stored; the probe compares run with them.
- * Call this function at the end of the run. Returns the status of the second run; OK if there is no PULSE probe. */
+ * interface). The final velocities and the energy change of the second run are stored, and the probe compares the run
+ * with them. Call this function at the end of the run. Returns the status of the second run; OK if there is no PULSE
+ * probe. */
 status run_repeat_with_mpm_only_for_pulse_probe(struct run *run);
 
 /* Checks the scene of the run for input that is allowed but probably unintended, and adds warnings to run->warnings.
