@@ -99,7 +99,7 @@ bool report_history_sample_is_due(const struct scene *s, const struct run_clock 
  * cannot be written or an index of frames cannot be read. */
 status report_open_history_and_write_first_frame(struct run *run);
 
-/* Reports a finished time step or load step of the run run: takes the last sample after the last step, checks the
+/* Reports a finished time step or load step of the run: takes the last sample after the last step, checks the
  * energies (run_check_last_sample_for_energy_divergence), and writes frames (states for output), checkpoint and
  * progress line if this step requires them. Returns FAILED if a file cannot be written, a particle has values that are
  * not finite, or run_check_last_sample_for_energy_divergence fails; INTERRUPTED, after a checkpoint, if a signal or the

@@ -245,7 +245,7 @@ static double equilibria_of_advance(const struct run *run)
     return 1 + SPACINGS * 0.5 * neighbours * reach * wide / at_once;
 }
 
-/* Returns an estimate of the number of crack increments in the run run: the number of load steps if the steps are
+/* Returns an estimate of the number of crack increments in the run: the number of load steps if the steps are
  * controlled by the released energy, else the distance that all crack tips can grow, divided by the length of an
  * increment. Returns 0 if no bond can break. */
 static double advances_of(const struct run *run)

@@ -45,7 +45,7 @@ static void print_longest(const struct crack_tip *tip, int dim)
         printf(", %.0f %% of it by joining others, which has no speed", 100 * tip->joined / tip->growth);
 }
 
-/* Prints how bonds broke in the run run: when and at how many positions they broke first, the growth, angle and ends of
+/* Prints how bonds broke in the run: when and at how many positions they broke first, the growth, angle and ends of
  * the longest crack, and when a bond first broke at a particle that a boundary drives. Prints nothing if no bond broke.
  */
 static void print_breaks(const struct run *run)

@@ -38,7 +38,7 @@ bool statics_update_contacts_and_test_unchanged(void *run);
  * if `set_is_fixed` is true, else all pairs that overlap. run: a struct run. */
 void statics_contact_fix_active_set_or_use_overlaps(void *run, bool set_is_fixed);
 
-/* Completes the solution for an equilibrium of the run run: adds the work done on rigid bodies in this solution to
+/* Completes the solution for an equilibrium of the run: adds the work done on rigid bodies in this solution to
  * their total work and, if anything is or was in contact, computes the energy that the solution has lost. load_work:
  * work of loads and supports in this solution [J]; solver_loss: energy lost in earlier solutions [J]. Returns the
  * uncertainty of the work of the rigid bodies [J]: the difference between the work with the mean of the initial and

@@ -244,7 +244,7 @@ static status load_step_begin(struct run *run, real t)
     return increment && s->solutions > solutions ? crack_increment_find_by_trial_equilibria(run) : OK;
 }
 
-/* Makes the next load step of the run run: if bonds soften, by load_step_solve_with_softening_bonds, else under the
+/* Makes the next load step of the run: if bonds soften, by load_step_solve_with_softening_bonds, else under the
  * control (load, energy or opening) of the scene. Returns FAILED, with a message, if an equilibrium is not found. */
 static status load_step(struct run *run)
 {
@@ -366,7 +366,7 @@ static void warn_of_sliding(struct warnings *to, const real *slid, real spacing)
     }
 }
 
-/* Adds to run->warnings, and prints, the warnings about the final state of the run run: closed crack faces, plastic
+/* Adds to run->warnings, and prints, the warnings about the final state of the run: closed crack faces, plastic
  * flow, sliding, and rigid bodies without contact. */
 static void warn_at_end(struct run *run)
 {

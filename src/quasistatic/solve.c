@@ -14,7 +14,7 @@
 #include "step/sample.h"
 #include "loads/mirrors.h"
 
-/* Returns what the solvers of a static equilibrium need of the run run: pointers to its particles, bonds and loads,
+/* Returns what the solvers of a static equilibrium need of the run: pointers to its particles, bonds and loads,
  * which the solvers change, and its force function, materials, spacing and tolerance. */
 static struct static_body static_body_of(struct run *run)
 {
@@ -196,7 +196,7 @@ static void warn_of_closed_faces(const struct scene *s, const struct particles *
     warnings_add_and_print(to, text);
 }
 
-/* Completes the static solution of the run run: sets velocities to 0 and the time to the end of the duration, and
+/* Completes the static solution of the run: sets velocities to 0 and the time to the end of the duration, and
  * updates work, stresses, probes and warnings. */
 static void solver_finish(struct run *run)
 {
