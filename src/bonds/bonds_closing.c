@@ -5,15 +5,14 @@
 #include <math.h>
 
 #include "base/memory.h"
+#include "kernels/pd/bond_last.h"
 #include "bonds_parts.h"
 
 /* Returns the stretch [1] at the present positions of the particles p of the bond with index q in row `row` of b (bonds
  * of one particle). The bond may be broken. */
 static real bond_stretch_also_if_broken(const struct bonds *b, const struct particles *p, int64_t row, int64_t q)
 {
-    real length2 = 0;
-    for (int d = 0; d < p->dim; d++) length2 += square(p->x[d][b->nbr[q]] - p->x[d][b->particle[row]]);
-    return sqrt(length2) * fabs(b->inverse_length[q]) - 1;
+    return bond_stretch_at_earlier_time(p, b->inverse_length[q], b->particle[row], b->nbr[q], 0);
 }
 
 /* Lets the ended bond with index q in row `row` of b (bonds of one particle) press as a spring of the weight `weight`

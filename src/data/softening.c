@@ -225,11 +225,14 @@ static void solid_secant_stiffness(const struct directions *a, const real strain
 {
     const struct softening_model *m = a->model;
     const bool bonds = !(m->B > 0);
-    real mean[3] = {0}, product[3][3] = {{0}};
+    real mean[3] = {0}, product[3][3] = {{0}}, cos2[TURNS], sin2[TURNS];
+    for (int k = 0; k < TURNS; k++) {
+        const real angle = 0.5 * M_PI * (k + 0.5) / TURNS;
+        cos2[k] = square(cos(angle)), sin2[k] = square(sin(angle));
+    }
     for (int k = 0; k < HEIGHTS * TURNS; k++) {
-        const real height = (k / TURNS + 0.5) / HEIGHTS, angle = 0.5 * M_PI * (k % TURNS + 0.5) / TURNS;
-        const real flat = 1 - square(height);
-        const real n2[3] = {flat * square(cos(angle)), flat * square(sin(angle)), square(height)};
+        const real height = (k / TURNS + 0.5) / HEIGHTS, flat = 1 - square(height);
+        const real n2[3] = {flat * cos2[k % TURNS], flat * sin2[k % TURNS], square(height)};
         const real share = bond_share(a, dot(n2, strain, 3)) / (HEIGHTS * TURNS);
         for (int i = 0; i < 3; i++) {
             mean[i] += share * n2[i];

@@ -16,13 +16,20 @@
 #define LEAST_WEIGHT 1e-9
 enum { BISECTIONS_MOST = 100 }; /* largest number of bisections for a factor */
 
+/* Loops over the intact bonds in row `row` of b (bonds of one particle) that have begun to soften. it: iterator whose
+ * member `bond` is the present bond. */
+#define FOR_SOFTENING_BONDS_OF_ROW(b, row, it)                                                                         \
+    for (struct bond_iterator it = bond_iterator_of_row(b, row);                                                       \
+         bond_row_block_has_begun_softening(b, row / LANES) && bond_iterator_advance(&it);)                            \
+        if (it.bond.w != 0 && bond_is_softening(b, row / LANES, it.bond.entry))
+
 /* Loops over the intact bonds of b that have begun to soften. row: receives the index of a bond row (bonds of one
  * particle); it: iterator whose member `bond` is the present bond. */
 #define FOR_SOFTENING_BONDS(b, row, it)                                                                                \
-    for (int64_t row = 0; row < (b)->rows; row++)                                                                      \
-        for (struct bond_iterator it = bond_iterator_of_row(b, row);                                                   \
-             bond_row_block_has_begun_softening(b, row / LANES) && bond_iterator_advance(&it);)                        \
-            if (it.bond.w != 0 && bond_is_softening(b, row / LANES, it.bond.entry))
+    for (int64_t row = 0; row < (b)->rows; row++) FOR_SOFTENING_BONDS_OF_ROW(b, row, it)
+
+/* Returns the largest stretch of the bond with index q at the last equilibrium, at least its onset of softening [1]. */
+static real settled_stretch(const struct bonds *b, int64_t q) { return fmaxf(b->soft.settled[q], b->soft.onset[q]); }
 
 /* ---- a list of bonds --------------------------------------------------------------------------------------------- */
 
@@ -57,8 +64,7 @@ static void softening_list_add(struct softening_bond_list *l, const struct bonds
     }
     GROW("softening.bonds", l->bond, l->n + 1);
     l->bond[l->n++] = (struct softening_bond){
-        bond->entry, row,   stretch / factor, real_max(b->soft.settled[bond->entry], soft.onset), soft.onset,
-        soft.end,    energy};
+        bond->entry, row, stretch / factor, settled_stretch(b, bond->entry), soft.onset, soft.end, energy};
 }
 
 void softening_bond_list_collect(struct softening_bond_list *l, const struct bonds *b, const struct particles *p,
@@ -121,9 +127,6 @@ void softening_bond_list_store_largest_stretches(const struct softening_bond_lis
 
 /* ---- equilibria -------------------------------------------------------------------------------------------------- */
 
-/* Returns the largest stretch of the bond with index q at the last equilibrium, at least its onset of softening [1]. */
-static real settled_stretch(const struct bonds *b, int64_t q) { return fmaxf(b->soft.settled[q], b->soft.onset[q]); }
-
 /* Stores the largest stretch of bond `bond` of row `row` of b (bonds of one particle of p) as its value at the last
  * equilibrium. A bond that has not exceeded its onset of softening is then no longer marked as softening. limit:
  * critical stretches and softening of bonds. */
@@ -161,9 +164,9 @@ void bonds_restore_softening_stretches_of_equilibrium(struct bonds *b)
  * of the last equilibrium if `settled`, else the present ones. */
 static void row_weigh_softened(struct bonds *b, int64_t row, bool settled)
 {
-    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_iterator_advance(&it);) {
+    FOR_SOFTENING_BONDS_OF_ROW(b, row, it)
+    {
         const int64_t q = it.bond.entry;
-        if (it.bond.w == 0 || !bond_is_softening(b, row / LANES, q)) continue;
         bond_weigh(b, row, q, settled ? settled_stretch(b, q) : b->soft.most[q]);
     }
 }
@@ -172,9 +175,9 @@ static void row_weigh_softened(struct bonds *b, int64_t row, bool settled)
  * to their stretches at the positions of p, but not above their present largest stretches; to these if `last`. */
 static void row_raise_settled(struct bonds *b, const struct particles *p, int64_t row, bool last)
 {
-    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_iterator_advance(&it);) {
+    FOR_SOFTENING_BONDS_OF_ROW(b, row, it)
+    {
         const int64_t q = it.bond.entry;
-        if (it.bond.w == 0 || !bond_is_softening(b, row / LANES, q)) continue;
         const real stretch = bond_stretch_at_earlier_time(p, it.bond.inverse_length, b->particle[row], it.bond.nbr, 0);
         b->soft.settled[q] =
             last ? b->soft.most[q] : fminf(b->soft.most[q], fmaxf((float)stretch, (float)settled_stretch(b, q)));

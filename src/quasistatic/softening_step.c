@@ -161,7 +161,7 @@ static status search_run(struct run *run, struct search *f)
             t = real_min(f->end, 2 * t); /* a small part of the loads, from which displacements can be scaled */
         f->residual = 1;
         if ((size > 0 && last > 0) || k > 0) {
-            if (k > 0) residual_now(f->q), cracks_close_and_open(s, f);
+            if (k > 0) body_scale(f, 1), cracks_close_and_open(s, f);
             const real factor = secants_choose(f, size > 0 ? last / size : 1, size > 0 ? before / size : 1);
             f->residual = k > 0 ? residual_now(f->q) : 1;
             if (f->residual < 0.5 * halved) halved = f->residual, idle = 0;
