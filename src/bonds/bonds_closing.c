@@ -5,7 +5,7 @@
 #include <math.h>
 
 #include "base/memory.h"
-#include "kernels/pd/bond_last.h"
+#include "bonds/bond_stretch.h"
 #include "bonds_parts.h"
 
 /* Returns the stretch [1] at the present positions of the particles p of the bond with index q in row `row` of b (bonds

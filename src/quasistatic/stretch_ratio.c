@@ -7,7 +7,7 @@
 
 #include "base/memory.h"
 #include "kernels/kernels.h"
-#include "kernels/pd/bond_last.h"
+#include "bonds/bond_stretch.h"
 
 /* Relative difference of stretch ratios below which bonds break together, so that round-off decides no order. */
 #define ALIKE 1e-7
