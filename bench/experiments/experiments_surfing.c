@@ -54,7 +54,7 @@ static void surf_field(const struct surf *s, const struct particles *p, int64_t 
 {
     const real at[2] = {p->X[0][i] - s->tip - s->speed * t, p->X[1][i]};
     struct crack_field f;
-    crack_tip_field_resting_or_moving(&s->medium, MODE_I, s->speed, at, &f);
+    crack_tip_unit_sif_field_at_any_speed(&s->medium, MODE_I, s->speed, at, &f);
     for (int d = 0; d < 2; d++) {
         u[d] = s->factor * f.displacement[d];
         v[d] = -s->speed * s->factor * f.state.gradient[d][0];

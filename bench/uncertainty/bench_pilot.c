@@ -42,7 +42,7 @@ static status chosen_run(const struct pilot_choice *p, const char *scene, const 
                          const char *figure)
 {
     struct study s;
-    TRY(study_make(&s, scene, folder, "run"));
+    TRY(study_initialise(&s, scene, folder, "run"));
     study_add_case(&s, "run", p->override, p->overrides);
     status done = study_find_completed_failed_and_equal_cases(&s, false);
     if (done == OK) done = study_execute_waiting_runs(&s, (struct study_options){.quiet = true});
@@ -90,7 +90,7 @@ static void pilot_scene_measure(struct pilot_tally *t, const struct pilot_scene 
     bench_table_append_text(t->table, k->name), bench_table_append_text(t->table, k->figure),
         bench_table_append_text(t->table, chosen_value(&p, "method"));
     for (size_t c = 0; c < COUNT_OF(number); c++) bench_table_append_number(t->table, number[c]);
-    pilot_free(&p);
+    pilot_choice_free(&p);
     bench_folder_remove(into.text);
     bench_folder_remove(path_join(folder, "run_pilot").text);
 }

@@ -40,6 +40,6 @@ void quantity_samples_add_value(struct quantity_samples *samples, int64_t step, 
  * that took longer, RISE_UNSURE if the records do not decide. *tenfold_steps receives the approximate duration of the
  * last tenfold increase [steps], INFINITY if that increase began before the first record. */
 enum growth_rate quantity_samples_classify_growth_rate(const struct quantity_samples *samples, int64_t step, real value,
-                                                       real *tenfold_steps);
+                                                       real *steps_of_last_tenfold_rise);
 
 #endif

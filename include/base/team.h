@@ -37,15 +37,15 @@ const char *machine_memory_limit_describe_source(void);
 /* Returns the number of physical cores that the process may use. */
 int machine_physical_core_count(void);
 
-/* Divides the cores that this process may use into `share_count` equal groups, for processes that the run side by side:
+/* Divides the cores that this process may use into `group_count` equal groups, for processes that the run side by side:
  * cpu_core_partition_bind_calling_thread binds each of them to one group. Returns NULL if there are fewer cores than
  * groups, or only one group. Release with cpu_core_partition_free. */
-struct cpu_core_partition *cpu_core_partition_make(int share_count);
+struct cpu_core_partition *cpu_core_partition_make(int group_count);
 
-/* Binds the calling thread, and processes that this thread starts later, to group number `share_number` (from 0) of the
+/* Binds the calling thread, and processes that this thread starts later, to group number `group_number` (from 0) of the
  * cores in the partition (cpu_core_partition_make). share_number = -1 restores the binding that the thread had before
  * the first call. Does nothing if `partition` is NULL. */
-void cpu_core_partition_bind_calling_thread(const struct cpu_core_partition *partition, int share_number);
+void cpu_core_partition_bind_calling_thread(const struct cpu_core_partition *partition, int group_number);
 
 /* Releases the partition, the division of the processor cores into groups (cpu_core_partition_make). */
 void cpu_core_partition_free(struct cpu_core_partition *partition);

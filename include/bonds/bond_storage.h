@@ -18,7 +18,7 @@
  *   implicit  UNIT     as WHOLE, with weight 1                                                     x
  *
  * In blocks of eight rows that store columns, the arrays `nbr`, `inverse_length` and `w` are complete, and
- * `common` is derived from them by bond_column_update_lane_uniform_properties. All kinds give bitwise equal
+ * `common` is derived from them by bond_column_update_common_bond_properties. All kinds give bitwise equal
  * forces. Where the eight particles of a block have neighbours at equal index distances (on a lattice), a
  * column has one distance, and its eight neighbours are consecutive.
  *
@@ -160,7 +160,7 @@ struct bond_length {
 };
 
 /* Properties that the eight bonds of one column (one bond of each particle of a block of eight rows) have in common,
- * derived from the arrays first, w and inverse_length by bond_column_update_lane_uniform_properties. On a lattice the
+ * derived from the arrays first, w and inverse_length by bond_column_update_common_bond_properties. On a lattice the
  * loops over bonds read only this structure, four bytes per bond. */
 struct bond_column {
     int16_t excess[LANES]; /* |inverse_length| less that of the shell, in units of the last place: positions are
@@ -373,10 +373,10 @@ static inline real bond_softening_dissipation_per_particle(const struct bonds *b
 /* Marks particle i of p, one of whose bonds in b begins to soften, if it is a material point. It is then converted to a
  * peridynamic particle, since the stress of a material point does not include the softening of bonds. May be called by
  * several threads at once for different particles. */
-static inline void softening_flag_material_point_for_conversion(struct bonds *b, struct particles *p, int32_t i)
+static inline void softening_flag_material_point_for_conversion(struct bonds *b, struct particles *p, int32_t particle)
 {
-    if (p->kind[i] != KIND_MPM) return;
-    p->flag[i] |= FLAG_NEAR;
+    if (p->kind[particle] != KIND_MPM) return;
+    p->flag[particle] |= FLAG_NEAR;
     __atomic_store_n(&b->soft.at_points, true, __ATOMIC_RELAXED);
 }
 
@@ -384,10 +384,10 @@ static inline void softening_flag_material_point_for_conversion(struct bonds *b,
  * of a block of eight rows), from their stored weights (factors on the stiffness) and lengths. Required after a change
  * of the weight of a bond or of the sign of its inverse length; usually called through
  * bond_update_cached_data_after_modification. */
-void bond_column_update_lane_uniform_properties(const struct bonds *b, int64_t column_number);
+void bond_column_update_common_bond_properties(const struct bonds *b, int64_t column_number);
 
 /* Updates all data of b that depend on a bond, after its weight (factor on its stiffness) or the sign of its inverse
- * length has changed. Recomputes the common properties of its column (bond_column_update_lane_uniform_properties).
+ * length has changed. Recomputes the common properties of its column (bond_column_update_common_bond_properties).
  * Marks its block of eight rows (the bonds of eight particles) as changed and as following no stencil (pattern of bonds
  * shared by many blocks). Marks the copies of weights in b->clamped as out of date. row_number: number of the row of
  * the bond; bond: index of the bond, from bond_copy_on_write_and_return_array_index. */

@@ -57,11 +57,11 @@ int bonds_neighbour_count_upper_bound(const struct bond_source *source);
 void bonds_compute_family_volumes(real *volume, const struct particles *p, const struct bond_source *source);
 
 /* Creates b, the bonds of all peridynamic particles and bonded material points of p, from `source` (horizon, materials,
- * cracks, mirrors). previous: NULL, or the previous bonds, whose broken bonds stay broken and whose counts and energies
- * are copied; parts of its storage move to b, so that afterwards only bonds_free may be called with `previous`. Bonds
- * cut by a pre-crack get the weight w = 0 (factor on the stiffness) and count as damage. Sets the damage of all
- * peridynamic particles. Release with bonds_free. */
-void bonds_make(struct bonds *b, struct bonds *previous, struct particles *p, const struct bond_source *source);
+ * cracks, mirrors). previous_bonds: NULL, or the previous bonds, whose broken bonds stay broken and whose counts and
+ * energies are copied; parts of its storage move to b, so that afterwards only bonds_free may be called with
+ * `previous_bonds`. Bonds cut by a pre-crack get the weight w = 0 (factor on the stiffness) and count as damage. Sets
+ * the damage of all peridynamic particles. Release with bonds_free. */
+void bonds_make(struct bonds *b, struct bonds *previous_bonds, struct particles *p, const struct bond_source *source);
 
 /* Sets the kind (material point or peridynamic) of every mirror image (copy beyond a plane of symmetry) in p to the
  * kind of its source particle. source: inputs of the bonds, of which only the list of mirror images is used. */

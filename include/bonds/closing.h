@@ -16,12 +16,12 @@
  * of particles do not change. source: inputs of the bonds. Returns the number of changes, each counted once for each
  * particle of the bond; 0 in explicit time steps, and in state-based models, in which the force of a single bond
  * follows from no energy. */
-int64_t bonds_update_ended_bonds_that_press(struct bonds *b, const struct particles *p,
-                                            const struct bond_source *source);
+int64_t bonds_update_contact_springs_of_broken_bonds(struct bonds *b, const struct particles *p,
+                                                     const struct bond_source *source);
 
 /* Allocates b->soft.settled, the largest stretches of bonds at the last equilibrium of load steps, with 0, if it is not
  * allocated yet. */
-void bonds_allocate_softening_stretches_of_equilibrium(struct bonds *b);
+void bonds_allocate_max_stretches_at_last_equilibrium(struct bonds *b);
 
 /* Pairs of particles that a crack separates and that overlap without contact. pairs: their number; deepest: largest
  * length by which such a pair is shorter than in the reference configuration [m]. */

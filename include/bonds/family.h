@@ -105,12 +105,12 @@ static inline struct softening_range bond_softening_range(const struct particles
 }
 
 /* Returns the stretches [1] at which the bond between particles i and j of p begins to soften and breaks, at the strain
- * rate `rate` [1/s]. limit: critical stretches and softening by pair of materials, with softening (limit->softening not
- * NULL). The rate changes the onset, by the law of the two materials; the stretch at which the bond breaks changes such
- * that the dissipated energy stays the same. */
+ * rate `strain_rate` [1/s]. limit: critical stretches and softening by pair of materials, with softening
+ * (limit->softening not NULL). The rate changes the onset, by the law of the two materials; the stretch at which the
+ * bond breaks changes such that the dissipated energy stays the same. */
 static inline struct softening_range bond_softening_range_at_strain_rate(const struct particles *p,
                                                                          const struct bond_limit *limit, int64_t i,
-                                                                         int64_t j, real rate)
+                                                                         int64_t j, real strain_rate)
 {
     const struct softening_range slow = bond_softening_range(p, limit, i, j);
     const struct strength_rate *r = limit->softening[p->material[i] * limit->materials + p->material[j]].rate;
@@ -118,8 +118,8 @@ static inline struct softening_range bond_softening_range_at_strain_rate(const s
     const real critical = bond_breaking_stretch(p, limit, i, j);
     const real most = real_max(slow.onset, critical / sqrt(RATE_LEAST_RATIO));
     return softening_range_from_onset(
-        limit->curve, real_min(most, slow.onset * strength_rate_table_interpolate_in_log_rate(r, r->onset, rate)),
-        critical);
+        limit->curve,
+        real_min(most, slow.onset * strength_rate_table_interpolate_in_log_rate(r, r->onset, strain_rate)), critical);
 }
 
 /* Plastic constants of bonds by pair of materials, arrays of materials^2 entries. stretch: yield stretch s_y [1], NULL
@@ -177,9 +177,10 @@ struct bond_source {
 
 /* Computes horizon, cutoff, weights by direction and the sums over a complete neighbourhood on the lattice into f. The
  * rules f->volume, calibration, surface, shells and influence must be set. space: line, plane stress, plane strain or
- * solid; spacing: lattice spacing [m]; horizon_in_spacings: delta/spacing [1]; section: cross-section in 1D [m^2],
- * thickness in 2D [m], 1 in 3D. */
-void family_make_on_lattice(struct family *f, enum space space, real spacing, real horizon_in_spacings, real section);
+ * solid; spacing: lattice spacing [m]; horizon_in_spacings: delta/spacing [1]; cross_section: cross-section in 1D
+ * [m^2], thickness in 2D [m], 1 in 3D. */
+void family_make_on_lattice(struct family *f, enum space space, real spacing, real horizon_in_spacings,
+                            real cross_section);
 
 /* Returns the micro-modulus c [N/m^6] of bond-based peridynamics for the material m, calibrated by the rule
  * f->calibration for a particle with all neighbours of the neighbourhood f. */

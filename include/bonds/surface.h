@@ -51,27 +51,27 @@ status surface_correction_fit_bond_weight_factors(struct surface_correction *wei
 /* Releases the arrays of `correction`, the factors on the weights of bonds near faces. */
 void surface_correction_free(struct surface_correction *correction);
 
-/* Returns the integer nearest to `spacings`, halves rounded away from 0. It is quicker than nearbyint. */
-static inline int nearest_integer(real spacings) { return (int)(spacings + (spacings < 0 ? -0.5 : 0.5)); }
+/* Returns the integer nearest to `value`, halves rounded away from 0. It is quicker than nearbyint. */
+static inline int nearest_integer(real value) { return (int)(value + (value < 0 ? -0.5 : 0.5)); }
 
 /* Returns the factor, stored in `weights`, that corrects the weight of a bond of particle i near the surface of the
  * body; 1 if the particle is far from it or `bond_vector` is longer than any bond. bond_vector: reference vector from
  * particle i to its neighbour, dim components [m]; i must not be a mirror image (copy beyond a plane of symmetry). Both
  * particles of a bond obtain bitwise equal factors. */
-static inline real surface_correction_bond_weight_factor(const struct surface_correction *weights, int64_t i,
+static inline real surface_correction_bond_weight_factor(const struct surface_correction *weights, int64_t particle,
                                                          const real *bond_vector)
 {
     int at = 0;
-    if (weights->class_of[i] == 0) return 1;
+    if (weights->class_of[particle] == 0) return 1;
     for (int d = weights->dim - 1; d >= 0; d--) {
         const real place = bond_vector[d] / weights->spacing;
         if (!(fabs(place) < weights->reach + 0.5)) return 1;
         const int step = nearest_integer(place);
-        at = at * (2 * weights->reach + 1) + weights->reach + (weights->mirrors[i] >> d & 1 ? -step : step);
+        at = at * (2 * weights->reach + 1) + weights->reach + (weights->mirrors[particle] >> d & 1 ? -step : step);
     }
     return weights->offset_at[at] < 0
                ? 1
-               : weights->factor[(int64_t)weights->class_of[i] * weights->offsets + weights->offset_at[at]];
+               : weights->factor[(int64_t)weights->class_of[particle] * weights->offsets + weights->offset_at[at]];
 }
 
 #endif

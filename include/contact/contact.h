@@ -246,11 +246,11 @@ int64_t contact_search_and_select_linear_springs(struct contact *c, const struct
  * contacts that overlap, and contacts between different bodies whose gap is less than `max_gap` [spacings]. Selected
  * contacts act as linear springs, also with a positive gap, until the next selection. A contact whose gap is 0 within
  * round-off stays as it was. Returns the number of contacts whose selection changed. */
-int64_t contact_select_linear_springs_count_changes(struct contact *c, const struct particles *p, real max_gap);
+int64_t contact_select_linear_springs_and_count_changes(struct contact *c, const struct particles *p, real max_gap);
 
 /* Chooses which contacts of c act when forces are computed next. springs_only: true for the contacts that
- * contact_select_linear_springs_count_changes has selected for an equilibrium, which act as linear springs with either
- * sign of the gap; false for all contacts that overlap. */
+ * contact_select_linear_springs_and_count_changes has selected for an equilibrium, which act as linear springs with
+ * either sign of the gap; false for all contacts that overlap. */
 void contact_restrict_forces_to_linear_springs(struct contact *c, bool springs_only);
 
 /* Ends the selection of contacts of c for an equilibrium: from now on all contacts that overlap act again. Requests a
@@ -266,7 +266,7 @@ bool contact_search_is_needed(struct contact *c, const struct particles *p);
  * As long as no particle has moved farther, no pair that is missing in the list can come into contact. */
 real contact_pair_list_safe_displacement(const struct contact *c);
 
-/* Calls visit(context, term) for each contact of c selected by contact_select_linear_springs_count_changes, for the
+/* Calls visit(context, term) for each contact of c selected by contact_select_linear_springs_and_count_changes, for the
  * assembly of a stiffness matrix or similar. term: the contact between particles of p as a linear spring, valid during
  * the call only. Does nothing if no selection has been made. */
 void contact_visit_linear_springs(const struct contact *c, const struct particles *p,

@@ -67,17 +67,19 @@ void initial_pd_region_make(struct region *region, const struct region *scene_re
  * the matrix M by which the stress of the point must be multiplied to obtain it: M = T C^-1 with the elastic stiffness
  * C of the material and T = (1/V) sum K xi^2 l e e e e (partial_stress.c). The sum is over the bonds b, with stiffness
  * K, length xi, direction e and share l of the length inside the cell; V: volume of the point. source: inputs of the
- * bonds (horizon, materials, cracks, mirrors); changed[n]: indices of the particles converted since the last call; only
- * points near them are recomputed. If `changed` is NULL, all points are. Release with partial_stress_free. */
+ * bonds (horizon, materials, cracks, mirrors); converted_particles[n]: indices of the particles converted since the
+ * last call; only points near them are recomputed. If `converted_particles` is NULL, all points are. Release with
+ * partial_stress_free. */
 void partial_stress_compute_from_bonds(struct partial_stress *partial, const struct particles *p, const struct bonds *b,
-                                       const struct bond_source *source, const int32_t *changed, int64_t n);
+                                       const struct bond_source *source, const int32_t *converted_particles,
+                                       int64_t converted_count);
 
 /* Computes p->end_strain [1] for each material point on the background grid that has state-based bonds to peridynamic
  * particles: the part of the mean strain of its neighbourhood that is due to the deformation of the cell of the point
  * itself. The strain of the cell follows from the stress of the point by Hooke's law. Does nothing in bond-based
  * models. partial: lists these points; material: array of the materials. */
-void bonded_points_compute_strain_from_stress(const struct partial_stress *partial, struct particles *p,
-                                              const struct material *material);
+void bonded_mpm_points_compute_strain_from_stress(const struct partial_stress *partial, struct particles *p,
+                                                  const struct material *material);
 
 /* Releases all arrays of `partial`, the partial stresses of material points (the part of the stress that bonds
  * carry). */

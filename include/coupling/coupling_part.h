@@ -17,7 +17,7 @@ struct coupling_state {
     bool uses_partial;             /* `partial` is filled: partial stresses, or data of state-based PD-MPM bonds */
     uint8_t *bonded;               /* [n] 1: material point with PD-MPM bonds (FLIP); NULL: none */
     struct interface_zone zone;    /* damped zone beside peridynamic particles (FLIP, partial stress) */
-    real damping_share; /* strength of the damping in `zone` in a step (interface_zone_damp_return_loss_by_old_velocity)
+    real damping_share; /* strength of the damping in `zone` in a step (interface_zone_damp_and_return_first_half_loss)
                            [1]; 0: none */
     struct conversion conversion; /* numbers, time and position of conversions */
     struct notches notches;       /* representation of pre-cracks: slits or cut bonds */
@@ -29,7 +29,7 @@ struct coupling_state {
  * hand-shake, Zeng et al. 2022; ...), else hand-shake. Then computes for the present bonds the partial stresses of
  * material points (the parts of their stress that bonds carry) and the interface zone (material points beside
  * peridynamic particles, whose motion is damped). */
-void coupling_set_method_and_compute_partial_stress(struct run *run);
+void coupling_set_up_pd_mpm_method_and_interface(struct run *run);
 
 /* Makes the mesh of the run for the bodies in the reference frame (shape functions are evaluated in the undeformed
  * state). The mesh includes the present partial stresses (parts of the stress that bonds carry), and pre-cracks as
@@ -48,12 +48,11 @@ void interface_zone_rebuild_after_bond_change(struct coupling_state *c, const st
 
 /* Updates p->end_strain [1] of all material points that have state-based bonds to peridynamic particles, which
  * `partial` lists. end_strain is the strain that the cell of a point adds to the mean strain of the neighbourhood of
- * the point. For points of the mesh of `frame` it follows from the strain of the cell; for points on the background
+ * the point. For points of the mesh of `reference` it follows from the strain of the cell; for points on the background
  * grid from the stress of the point, by the elastic law of its material in material[]. Does nothing in bond-based
  * models. */
-void bonded_points_update_strain_from_mesh_or_stress(const struct partial_stress *partial,
-                                                     const struct lagrangian_mesh *frame, struct particles *p,
-                                                     const struct material *material);
+void bonded_mpm_points_update_cell_strain(const struct partial_stress *partial, const struct lagrangian_mesh *reference,
+                                          struct particles *p, const struct material *material);
 
 /* Decides whether each pre-crack of the run becomes a slit, i.e. a free surface of the mesh, or cuts bonds along its
  * length, and makes particles peridynamic that are so from the start: particles near the ends of slits, with bonds cut
@@ -69,10 +68,10 @@ void notch_describe_as_slit_or_cut_bonds(const struct notches *n, int crack_numb
 
 /* Marks (FLAG_NEAR) material points beside slits (pre-cracks as free surfaces of the mesh) and narrow voids whose faces
  * approach each other, so that they become peridynamic particles before the faces touch. n: the slits, with points
- * beside slits and voids; frame: the mesh, whose motion particles receive first; spacing: of the particles [m];
+ * beside slits and voids; reference: the mesh, whose motion particles receive first; spacing: of the particles [m];
  * time_ahead: time until the next call [s]; p, loads: particles and loads. Returns true if n has such slits or voids,
  * whether or not points were marked. */
-bool mark_points_at_closing_slits_to_become_peridynamic(const struct notches *n, struct lagrangian_mesh *frame,
+bool mark_points_at_closing_slits_to_become_peridynamic(const struct notches *n, struct lagrangian_mesh *reference,
                                                         struct particles *p, const struct loads *loads, real spacing,
                                                         real time_ahead);
 

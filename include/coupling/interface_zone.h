@@ -51,12 +51,12 @@ void interface_zone_free(struct interface_zone *zone);
  * computed: changes the momentum of the points of the zone and their neighbours in p by impulses J of fourth-order
  * viscosity. viscosity: strength k of the viscosity [1], at most 1/16; with 1/16, motion that alternates from point to
  * point stops in one step. Returns the first half [J] of the energy removed: the sum of -J . v/2, with the velocities v
- * before the change. interface_zone_damping_loss_by_new_velocity returns the second half. */
-real interface_zone_damp_return_loss_by_old_velocity(struct interface_zone *zone, struct particles *p, real viscosity);
+ * before the change. interface_zone_second_half_of_damping_loss returns the second half. */
+real interface_zone_damp_and_return_first_half_loss(struct interface_zone *zone, struct particles *p, real viscosity);
 
-/* Returns the second half [J] of the energy that interface_zone_damp_return_loss_by_old_velocity has removed in this
+/* Returns the second half [J] of the energy that interface_zone_damp_and_return_first_half_loss has removed in this
  * step: the sum of -J . v'/2 over the members of the zone, with the impulses J in zone->change and the velocities v' of
  * p after the step. */
-real interface_zone_damping_loss_by_new_velocity(const struct interface_zone *zone, const struct particles *p);
+real interface_zone_second_half_of_damping_loss(const struct interface_zone *zone, const struct particles *p);
 
 #endif

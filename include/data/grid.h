@@ -143,16 +143,16 @@ static inline real grid_node_position(const struct grid *g, int axis, int64_t no
 
 /* Returns the coordinate x [m] along axis `axis` in node distances from node 0 at g->anchor. The floor of the result is
  * the number of the cell that contains x. All callers use this function, so that they round alike. */
-static inline real grid_coordinate_in_cells(const struct grid *g, int axis, real x)
+static inline real grid_coordinate_in_cell_lengths(const struct grid *g, int axis, real x)
 {
     return (x - g->anchor[axis]) * (1 / g->h);
 }
 
 /* Returns the number, along axis `axis` and counted from node 0 at g->anchor, of the cell of g that contains the
- * coordinate x [m]: the floor of grid_coordinate_in_cells, without a library call. */
+ * coordinate x [m]: the floor of grid_coordinate_in_cell_lengths, without a library call. */
 static ALWAYS_INLINE int64_t grid_cell_index_at(const struct grid *g, int axis, real x)
 {
-    const real place = grid_coordinate_in_cells(g, axis, x);
+    const real place = grid_coordinate_in_cell_lengths(g, axis, x);
     const int64_t k = (int64_t)place;
     return k - (place < (real)k);
 }

@@ -142,17 +142,18 @@ static inline void bit_clear(uint64_t *marks, int64_t i) { marks[i / 64] &= ~((u
 static inline bool bit_is_set(const uint64_t *marks, int64_t i) { return marks[i / 64] >> i % 64 & 1; }
 
 /* Returns how many of the eight indices first .. first + 7 are below `limit`. */
-static inline int count_of_eight_consecutive_indices_below(int64_t first, int64_t limit)
+static inline int count_of_next_eight_indices_below_limit(int64_t first, int64_t limit)
 {
     return limit - first < LANES ? (int)(limit - first) : LANES;
 }
 
 /* Returns the index of the particle of which entry i of the arrays of p is a mirror image (copy beyond a plane of
  * symmetry), possibly through images of images; i itself if it is no image. image[k]: origin of entry p->n + k. */
-static inline int64_t mirror_image_source_particle(const struct particles *p, const struct image *image, int64_t i)
+static inline int64_t mirror_image_source_particle(const struct particles *p, const struct image *image,
+                                                   int64_t particle)
 {
-    while (i >= p->n) i = image[i - p->n].source;
-    return i;
+    while (particle >= p->n) particle = image[particle - p->n].source;
+    return particle;
 }
 
 /* Bits of the arguments `optional_arrays` of the functions below. Each bit stands for some optional arrays of struct
@@ -245,11 +246,11 @@ static inline bool particle_is_moved_by_grid_or_mesh_nodes(const struct particle
  * plastic flow; 0 in plane stress, in 1D and in 3D. For material points on a mesh of the undeformed body the relative
  * error of this stress is of the order of the strain. For peridynamic particles that were material points before, the
  * plastic part is that of the time at which they became peridynamic. */
-static inline real particle_out_of_plane_stress(const struct particles *p, int64_t i)
+static inline real particle_out_of_plane_stress(const struct particles *p, int64_t particle)
 {
     if (!p->plane_strain) return 0;
-    const real flow = p->out_of_plane ? p->out_of_plane[i] : 0;
-    return p->plane_strain[p->material[i]].poisson * (p->stress[0][i] + p->stress[1][i]) + flow;
+    const real flow = p->out_of_plane ? p->out_of_plane[particle] : 0;
+    return p->plane_strain[p->material[particle]].poisson * (p->stress[0][particle] + p->stress[1][particle]) + flow;
 }
 
 /* Allocates the arrays of p for `particle_count` particles in `dim` dimensions without mirror images (copies of
@@ -296,12 +297,12 @@ real particles_largest_speed_of_all(const struct particles *p);
  * images. */
 real particles_bounding_box_longest_edge(const struct particles *p);
 
-/* Returns the volume [m^3] of a particle of a lattice: section times spacing^dim. section: cross-section in 1D [m^2],
- * thickness in 2D [m], 1 in 3D; spacing: lattice spacing [m]. All callers use this function, so that the quotient of
- * two such volumes is exactly 1. */
-static inline real lattice_particle_volume(real section, real spacing, int dim)
+/* Returns the volume [m^3] of a particle of a lattice: section times spacing^dim. cross_section: cross-section in 1D
+ * [m^2], thickness in 2D [m], 1 in 3D; spacing: lattice spacing [m]. All callers use this function, so that the
+ * quotient of two such volumes is exactly 1. */
+static inline real lattice_particle_volume(real cross_section, real spacing, int dim)
 {
-    real volume = section;
+    real volume = cross_section;
     for (int d = 0; d < dim; d++) volume *= spacing;
     return volume;
 }

@@ -61,22 +61,25 @@ struct softening_strength {
 struct softening_curve softening_curve_of_law(enum softening law);
 
 /* Returns the stretch s_f [1] at which a softening bond breaks, such that the bond dissipates the same energy as a
- * brittle bond of critical stretch `critical` [1]. c: softening curve; onset: stretch s_0 at which softening begins, at
- * most `critical` [1]. */
-static inline real softening_breaking_stretch_of_equal_energy(const struct softening_curve *c, real onset,
-                                                              real critical)
+ * brittle bond of critical stretch `critical_stretch` [1]. c: softening curve; onset_stretch: stretch s_0 at which
+ * softening begins, at most `critical_stretch` [1]. */
+static inline real softening_breaking_stretch_of_equal_energy(const struct softening_curve *c, real onset_stretch,
+                                                              real critical_stretch)
 {
-    return onset + (square(critical) - square(onset)) / (2 * onset * c->area);
+    return onset_stretch + (square(critical_stretch) - square(onset_stretch)) / (2 * onset_stretch * c->area);
 }
 
 /* Returns the stretches [1] at which a bond begins to soften and breaks, such that the bond dissipates the same energy
- * as a brittle bond of critical stretch `critical` [1]. c: softening curve; onset: stretch at which the bond begins to
- * soften [1]; if `onset` is not below `critical`, the bond is brittle and both stretches are `critical`. */
-static inline struct softening_range softening_range_from_onset(const struct softening_curve *c, real onset,
-                                                                real critical)
+ * as a brittle bond of critical stretch `critical_stretch` [1]. c: softening curve; onset_stretch: stretch at which the
+ * bond begins to soften [1]; if `onset_stretch` is not below `critical_stretch`, the bond is brittle and both stretches
+ * are `critical_stretch`. */
+static inline struct softening_range softening_range_from_onset(const struct softening_curve *c, real onset_stretch,
+                                                                real critical_stretch)
 {
-    if (!(onset < critical * (1 - SOFTENING_LEAST))) return (struct softening_range){critical, critical};
-    return (struct softening_range){onset, softening_breaking_stretch_of_equal_energy(c, onset, critical)};
+    if (!(onset_stretch < critical_stretch * (1 - SOFTENING_LEAST)))
+        return (struct softening_range){critical_stretch, critical_stretch};
+    return (struct softening_range){onset_stretch,
+                                    softening_breaking_stretch_of_equal_energy(c, onset_stretch, critical_stretch)};
 }
 
 /* Returns the value G(x) [1] of the softening curve c: the force of a bond divided by its force when softening begins.
@@ -90,20 +93,21 @@ static inline real softening_curve_normalised_force(const struct softening_curve
 }
 
 /* Returns the fraction (0 to 1) of its initial stiffness that a softening bond has left in tension. c: softening curve;
- * onset, breaking_stretch: stretches at which the bond begins to soften and breaks [1]; largest_stretch: largest
- * stretch of the bond so far, at least `onset` [1]. */
-static inline real softening_remaining_stiffness_fraction(const struct softening_curve *c, real onset,
+ * onset_stretch, breaking_stretch: stretches at which the bond begins to soften and breaks [1]; largest_stretch:
+ * largest stretch of the bond so far, at least `onset_stretch` [1]. */
+static inline real softening_remaining_stiffness_fraction(const struct softening_curve *c, real onset_stretch,
                                                           real breaking_stretch, real largest_stretch)
 {
-    return onset * softening_curve_normalised_force(c, (largest_stretch - onset) / (breaking_stretch - onset)) /
+    return onset_stretch *
+           softening_curve_normalised_force(c, (largest_stretch - onset_stretch) / (breaking_stretch - onset_stretch)) /
            largest_stretch;
 }
 
 /* Returns the energy that a softening bond has dissipated, divided by stiffness, weight (factor on its force, such as
- * the share of the neighbour within the horizon) and length of the bond (dimensionless). c: softening curve; onset,
- * breaking_stretch: stretches at which the bond begins to soften and breaks [1]; largest_stretch: largest stretch of
- * the bond so far, at least `onset` [1]. */
-real softening_normalised_dissipated_energy(const struct softening_curve *c, real onset, real breaking_stretch,
+ * the share of the neighbour within the horizon) and length of the bond (dimensionless). c: softening curve;
+ * onset_stretch, breaking_stretch: stretches at which the bond begins to soften and breaks [1]; largest_stretch:
+ * largest stretch of the bond so far, at least `onset_stretch` [1]. */
+real softening_normalised_dissipated_energy(const struct softening_curve *c, real onset_stretch, real breaking_stretch,
                                             real largest_stretch);
 
 /* Returns the peak stresses in tension, equal biaxial tension and shear, divided by s_0 E', of bonds of all directions
@@ -128,9 +132,11 @@ real softening_onset_stretch_from_strength(const struct material *m, enum space 
  * stretch at which the bond begins to soften, up to this limit only. */
 #define RATE_LEAST_RATIO 1.2
 
-/* Interpolates a quantity that is table_values[k] at the strain rate r->rate[k], k = 0 .. r->points - 1, to the strain
- * rate `rate` [1/s] and returns the value: linear in the logarithm of the rate, constant beyond the table. */
-real strength_rate_table_interpolate_in_log_rate(const struct strength_rate *r, const real *table_values, real rate);
+/* Interpolates a quantity that is table_values[k] at the strain rate r->strain_rate[k], k = 0 .. r->points - 1, to the
+ * strain rate `strain_rate` [1/s] and returns the value: linear in the logarithm of the strain_rate, constant beyond
+ * the table. */
+real strength_rate_table_interpolate_in_log_rate(const struct strength_rate *r, const real *table_values,
+                                                 real strain_rate);
 
 /* Returns the modulus E' [Pa] of material m in the space `space`: the elastic stress divided by the strain in uniaxial
  * tension, i.e. Young's modulus E, in plane strain E/(1 - nu^2) with Poisson's ratio nu. */

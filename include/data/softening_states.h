@@ -34,7 +34,7 @@ real softening_model_onset_stretch_from_strength(const struct material *m, enum 
  * strength at the strain rate. space: line, plane stress, plane strain or solid; model: peridynamic model of the bonds.
  * Returns the smallest ratio (critical stretch/onset)^2 over all rates, by which the caller checks the table: below
  * RATE_LEAST_RATIO bonds would break before they reach the strength. */
-real strength_rate_set_onsets_return_stretch_ratio(struct material *m, enum space space,
+real strength_rate_compute_softening_onset_factors(struct material *m, enum space space,
                                                    const struct softening_model *model);
 
 #endif

@@ -147,12 +147,15 @@ real solid_least_thickness(const struct solid *s, int dim);
 /* Applies the motion `motion` to all present copies of the solid s: moves, rotates or reflects them, or multiplies them
  * on a grid or a ring. Appends `motion` to s->motion. dim: dimension of the body. Returns true, or false without any
  * change if there would be more than IMAGES_MOST copies. */
-bool solid_transform_copies_unless_too_many(struct solid *s, const struct solid_motion *motion, int dim);
+bool solid_apply_motion_unless_too_many_copies(struct solid *s, const struct solid_motion *motion, int dim);
 
 /* Returns an upper bound [m] of the distance, along any axis, between the bounding box of a solid and a point at which
- * the level (solid_level_set_value) is `level` [m]: 1.75 `level`, because outside the solid a level is at least
- * 1/sqrt(3) of the distance (beside the corner of a box); a negative level is returned as it is. */
-static inline real solid_distance_upper_bound_from_level_set(real level) { return level > 0 ? 1.75 * level : level; }
+ * the level (solid_level_set_value) is `level_set_value` [m]: 1.75 `level_set_value`, because outside the solid a level
+ * is at least 1/sqrt(3) of the distance (beside the corner of a box); a negative level is returned as it is. */
+static inline real solid_distance_upper_bound_from_level_set(real level_set_value)
+{
+    return level_set_value > 0 ? 1.75 * level_set_value : level_set_value;
+}
 
 /* Returns an estimate of the cost of one query of the solid s, divided by that of a simple solid such as a ball: adds
  * up all copies, the solids of a group, and the edges of a polygon. */

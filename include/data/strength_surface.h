@@ -45,7 +45,7 @@ static inline real strength_surface_stress_to_strength_ratio(const struct streng
  * direction: 1 on the surface, below 1 inside. stress: components xx yy xy in 2D, xx yy zz xy yz zx in 3D [Pa];
  * out_of_plane_ratio: in 2D, the ratio [1] of the stress normal to the plane to the sum of the two normal stresses in
  * the plane: Poisson's ratio in plane strain, 0 in plane stress. */
-static inline real strength_surface_tensor_stress_to_strength_ratio(const struct strength_surface *s,
+static inline real strength_surface_stress_tensor_to_strength_ratio(const struct strength_surface *s,
                                                                     const real *stress, real out_of_plane_ratio,
                                                                     const int dim)
 {

@@ -73,7 +73,7 @@ struct corotating_groups {
  * that its points do not rotate in groups. Replaces previous groups; release with corotating_groups_free. */
 void corotating_groups_make(struct corotating_groups *groups, const struct particles *p, real spacing,
                             const real *symmetry_plane, const int *first_joined_body, const bool *body_is_supported,
-                            int bodies);
+                            int body_count);
 
 /* Releases all arrays of the rotation groups t. */
 void corotating_groups_free(struct corotating_groups *groups);

@@ -21,8 +21,8 @@ struct place {
  * largest y, then z). cluster_centre: receives the mean of the positions of this group, dim components [m]; if no
  * position of the group is within `max_step` of the mean, the position nearest to the mean instead. Returns the number
  * of groups, or 0, with `cluster_centre` unchanged, if all positions have `beside` set. */
-int64_t position_clusters_count_and_find_foremost_centre(const struct place *position, int64_t position_count, int dim,
-                                                         real max_step, const real *ignored_direction,
-                                                         real *cluster_centre);
+int64_t position_clusters_count_and_centre_at_largest_x(const struct place *position, int64_t position_count, int dim,
+                                                        real max_step, const real *ignored_direction,
+                                                        real *cluster_centre);
 
 #endif

@@ -39,28 +39,29 @@ struct crack_field {
 
 /* Computes the stress in the plane from the displacement gradient by Hooke's law. m: elastic constants, which include
  * the choice of plane stress or plane strain; gradient: du_i/dx_j [1]; stress: receives sigma_ij [Pa]. */
-void crack_stress_from_displacement_gradient(const struct crack_medium *m, real gradient[2][2], real stress[2][2]);
+void crack_medium_stress_from_displacement_gradient(const struct crack_medium *m, real gradient[2][2],
+                                                    real stress[2][2]);
 
 /* Computes the field at x round the tip of a crack at rest in the medium m with K = 1 Pa m^(1/2) in the mode `mode`
  * alone (Williams 1957). x: position in the frame of the tip, x[0] ahead of the tip [m]; on the crack faces the sign of
  * x[1], also of a zero, selects the face. f: receives displacement, its gradient and stress; velocities and
  * accelerations are 0. */
-void crack_tip_field_at_rest(const struct crack_medium *m, enum crack_mode mode, const real x[2],
-                             struct crack_field *f);
+void crack_tip_unit_sif_field_at_rest(const struct crack_medium *m, enum crack_mode mode, const real x[2],
+                                      struct crack_field *f);
 
 /* Computes the field round a crack tip that moves at constant speed in the medium m, with K = 1 Pa m^(1/2) in the mode
  * `mode` alone (Freund 1990, chapter 4). speed: 0 < `speed` < c_R, the Rayleigh speed [m/s]; the formulas are
  * ill-conditioned as `speed` -> 0. x: position in the frame of the tip, x[0] ahead of the tip [m]. f: receives
  * displacement and motion at x. */
-void crack_tip_field_moving(const struct crack_medium *m, enum crack_mode mode, real speed, const real x[2],
-                            struct crack_field *f);
+void crack_tip_unit_sif_field_moving(const struct crack_medium *m, enum crack_mode mode, real speed, const real x[2],
+                                     struct crack_field *f);
 
 /* Computes the field round a crack tip at rest or in motion in the medium m, with K = 1 Pa m^(1/2) in the mode `mode`
  * alone. speed: 0 <= `speed` < c_R, the Rayleigh speed [m/s]. Below 1 % of the shear wave speed the field of a crack at
- * rest is used (crack_tip_field_at_rest), which differs there by 1e-4, else that of a moving crack. x: position in the
- * frame of the tip [m]; f: receives the field at x. */
-void crack_tip_field_resting_or_moving(const struct crack_medium *m, enum crack_mode mode, real speed, const real x[2],
-                                       struct crack_field *f);
+ * rest is used (crack_tip_unit_sif_field_at_rest), which differs there by 1e-4, else that of a moving crack. x:
+ * position in the frame of the tip [m]; f: receives the field at x. */
+void crack_tip_unit_sif_field_at_any_speed(const struct crack_medium *m, enum crack_mode mode, real speed,
+                                           const real x[2], struct crack_field *f);
 
 /* Returns the universal function A_I(v) or A_II(v) [1] of the mode `mode`, with which the energy release rate of a
  * moving crack is G = (A_I K_I^2 + A_II K_II^2)/E* (Freund 1990, chapter 5); both tend to 1 at rest. m: medium round

@@ -42,7 +42,7 @@ bool path_has_exodus_extension(const char *path);
 
 /* Sets the message of a failure (status_set) to `path: text` with the path of the file f and a text composed from
  * `format` as by printf. Returns REFUSED. */
-status exodus_refuse_with_message(const struct exodus_file *f, const char *format, ...)
+status exodus_set_message_and_return_refused(const struct exodus_file *f, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
 /* Returns the length of a dimension (as of netCDF) of the file f, or 0 if the file has no such dimension. The dimension
@@ -74,15 +74,15 @@ status exodus_read_coordinates(const struct exodus_file *f, real *coordinates[DI
 
 /* Reads one row of an array of texts of the file f into text[LONG_NAME_LENGTH], without blanks at its end; a longer
  * text is cut; "" if the file has no such array. The array is called `name` followed by `name_suffix`, or only `name`
- * if `name_suffix` is 0. row: number of the row, from 0; rows: number of rows that the array must have. */
-void exodus_read_text_row(const struct exodus_file *f, const char *name, int64_t name_suffix, int64_t row, int64_t rows,
-                          char *text);
+ * if `name_suffix` is 0. row: number of the row, from 0; row_count: number of rows that the array must have. */
+void exodus_read_text_row(const struct exodus_file *f, const char *name, int64_t name_suffix, int64_t row,
+                          int64_t row_count, char *text);
 
 /* Reads the properties of the element block number `block_number` (from 1) of the file f: the type of its elements in
- * capital letters into type[NAME_MAX_LENGTH], the number of elements into *elements, and the number of nodes of an
+ * capital letters into type[NAME_MAX_LENGTH], the number of elements into *element_count, and the number of nodes of an
  * element into *nodes_per_element. Returns REFUSED, with a message, if the block has no list of nodes, or does not name
  * the type of its elements. */
-status exodus_read_block_header(const struct exodus_file *f, int64_t block_number, char *type, int64_t *elements,
+status exodus_read_block_header(const struct exodus_file *f, int64_t block_number, char *type, int64_t *element_count,
                                 int64_t *nodes_per_element);
 
 #endif

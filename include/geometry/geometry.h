@@ -42,15 +42,15 @@ status geometry_read(struct geometry *g, const char *path, int dim, real scale, 
 
 /* Returns the named part of g called `name`, ignoring case. The name of the instance to which a part of an Abaqus
  * assembly belongs may be left out where one instance alone has a part of this name. Returns NULL if there is none. */
-const struct geometry_set *geometry_find_named_part(const struct geometry *g, const char *name);
+const struct geometry_set *geometry_find_set_by_name(const struct geometry *g, const char *name);
 
 /* Releases all arrays of g, the surfaces of a body and its parts, and sets all members of g to 0. */
 void geometry_free(struct geometry *g);
 
 /* Finds slits in the finite-element mesh from which the closed surface h was made: pairs of faces that coincide because
- * their nodes are doubled. Appends each slit as a pre-crack to the array *crack and increases *cracks, the length of
- * this array. In 3D adjacent coplanar faces become one crack if they form a convex polygon. The caller releases the
+ * their nodes are doubled. Appends each slit as a pre-crack to the array *crack and increases *crack_count, the length
+ * of this array. In 3D adjacent coplanar faces become one crack if they form a convex polygon. The caller releases the
  * array and the `corner` of each crack with memory_free. */
-void geometry_append_mesh_slits_as_precracks(const struct hull *h, struct crack **crack, int *cracks);
+void geometry_append_mesh_slits_as_precracks(const struct hull *h, struct crack **crack, int *crack_count);
 
 #endif

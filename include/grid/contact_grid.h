@@ -80,7 +80,7 @@ real grid_contact_add_second_mapping_dissipation(struct grid_contact *c, const s
 
 /* Records the times of first and last contact of material points on grids: if bodies touched at nodes in the last step,
  * c->ended becomes t [s], and c->began, too, if it is still NAN. */
-void grid_contact_record_first_and_last_contact(struct grid_contact *c, real t);
+void grid_contact_record_first_and_last_contact_time(struct grid_contact *c, real t);
 
 /* Saves energies and times of the contact c to the archive `a` (checkpoint file or memory) if a->saving, else restores
  * them from it. Returns FAILED if the archive cannot be read or written or a stored size differs. */

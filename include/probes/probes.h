@@ -89,7 +89,7 @@ struct velocity_time {
 };
 
 /* Initialises the probes *probes for the requests requests[request_count] of the scene: finds the particles that each
- * probe observes, and lists the columns that probes add to history.csv. o: view of the run at the start. Returns
+ * probe observes, and lists the columns that the probes add to history.csv. o: view of the run at the start. Returns
  * REFUSED, with nothing left to free, if a request does not suit the run. Cases: a point outside the bodies; a region
  * without particles; a named boundary that does not exist or has no reaction; a bar that differs from what its
  * closed-form solution describes; a SIF probe without crack tip or with unsuitable contours. */

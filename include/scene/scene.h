@@ -368,9 +368,9 @@ void scene_free(struct scene *s);
 status scene_prepend_location_to_error_message(const struct scene *s, status result);
 
 /* Finds the key, group of keys or named item with which the warning `text` begins, and writes its location in the scene
- * file, as `file:line:column` or `-s key=value`, to place[PLACE_LENGTH]; "" if the warning begins with none. scene: a
- * struct scene. Callback of struct warnings. */
-void scene_find_file_location_of_warning(const void *scene, const char *text, char *place);
+ * file, as `file:line:column` or `-s key=value`, to location[PLACE_LENGTH]; "" if the warning begins with none. scene:
+ * a struct scene. Callback of struct warnings. */
+void scene_find_file_location_of_warning(const void *scene, const char *text, char *location);
 
 /* Returns the reason why shape functions of the body with the index `body` cannot be evaluated at the reference
  * positions of its material points (frame `reference`), with the method, solver, coupling and materials of the scene s.
@@ -379,7 +379,7 @@ const char *scene_reason_total_lagrangian_mpm_unsupported(const struct scene *s,
 
 /* Returns true if, with method mpm and explicit time steps, a body of scene s yields whose shape functions are
  * evaluated at the reference positions of its material points (frame `reference`). */
-bool scene_has_yielding_body_on_mesh(const struct scene *s);
+bool scene_has_yielding_total_lagrangian_mpm_body(const struct scene *s);
 
 /* Returns the reason why `mpm.frame: auto` does not choose the frame `reference` for the body of s with the index
  * `body`, that is, the evaluation of shape functions at reference positions. Returns NULL if it does. The text is

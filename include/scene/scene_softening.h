@@ -26,8 +26,8 @@ real scene_critical_stretch_between_materials(const struct scene *s, const struc
 /* Returns the horizon [m] with which bonds of material m of scene s have the given squared_stretch_ratio = (critical
  * stretch/stretch at which softening begins)^2. With smaller horizons the ratio is larger. The material must have an
  * energy release rate and a tensile strength. */
-real scene_softening_horizon_for_stretch_ratio(const struct scene *s, const struct material *m,
-                                               real squared_stretch_ratio);
+real scene_horizon_for_failure_to_onset_stretch_ratio(const struct scene *s, const struct material *m,
+                                                      real squared_stretch_ratio);
 
 /* Returns the horizon [m] below which bonds of material m of scene s begin to soften, in tension and in shear, because
  * the stress reaches the strength surface. With larger horizons they begin to soften earlier, by their own stretch. The

@@ -30,7 +30,7 @@ status run_check_last_sample_for_energy_divergence(struct run *run);
  * more than 1e-3 of the largest energy of the run. s: scene of the run; diagnostics: energies of the last sample.
  * Returns true if there was reason to warn. */
 bool fracture_energy_warn_if_negative(const struct scene *s, const struct diagnostics *diagnostics,
-                                      struct warnings *to);
+                                      struct warnings *warning_list);
 
 /* Capacity of the text of run_describe_remedy_for_divergence [byte]. */
 enum { REMEDY_LENGTH = 640 };

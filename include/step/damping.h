@@ -19,13 +19,13 @@ real damping_velocity_increment_factor(real rate_times_dt);
  * without bulk damping [1]; the work of supports is computed with these undamped values. rate_times_dt: c dt [1], with
  * the damping rate c and the time step dt; first_step: true in the first time step of a run, before which velocities
  * are damped by half a step only. */
-struct undamped_velocity_excess damping_undamped_velocity_excess(real rate_times_dt, bool first_step);
+struct undamped_velocity_excess damping_relative_excess_of_undamped_velocities(real rate_times_dt, bool first_step);
 
 /* Multiplies all velocities of the particles p and of the mesh nodes by exp(-c dt/2) before the first velocity update
  * of the run, and subtracts the momentum that is lost from the impulse of the loads, loads->impulse. rate_times_dt: c
  * dt [1], with the damping rate c and the time step dt. Returns the kinetic energy that is lost [J]. */
-real damping_apply_first_half_return_energy_loss(struct particles *p, const struct mesh *mesh, struct loads *loads,
-                                                 real rate_times_dt);
+real damping_apply_first_half_step_and_sum_loss(struct particles *p, const struct mesh *mesh, struct loads *loads,
+                                                real rate_times_dt);
 
 /* Copies all velocities of the particles p and the nodes of the mesh to s->before, before the forces of a time step
  * change them. */

@@ -26,7 +26,7 @@ struct weak_shape_function {
 
 /* Returns the properties of the shape function `shape` if it transmits too little force between material points of
  * metal under tension, as a row of a constant table; else NULL. */
-const struct weak_shape_function *shape_function_properties_if_weak_in_tension(enum shape shape);
+const struct weak_shape_function *numerical_fracture_properties_of_shape_function(enum shape shape);
 
 /* A pair of neighbouring material points with the particle indices a and b. */
 struct point_pair {

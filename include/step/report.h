@@ -86,8 +86,8 @@ struct run_seconds report_wall_clock_times(const struct run_report *r, const str
  * after `step` time steps or load steps, one bit per series: bit 0 is the whole body, bit k >= 1 is region k of the
  * scene s. clock: time step and number of steps of the run. Returns 0 if out is NULL (a run without files). A run that
  * finds a single equilibrium (`solver: cg, relaxation`) writes frames at its start and its end only. */
-unsigned report_bitmask_of_frame_series_due(const struct output *out, const struct scene *s,
-                                            const struct run_clock *clock, int64_t step);
+unsigned report_frame_series_due_after_step_as_bitmask(const struct output *out, const struct scene *s,
+                                                       const struct run_clock *clock, int64_t step);
 
 /* Returns true if a sample (a line of history.csv) is taken in the next time step. s: scene; clock: present step and
  * number of steps of the run. Samples are spread evenly over the run. For a scene without time steps, returns true

@@ -14,7 +14,7 @@ status history_sample_open_csv_file(struct run *run, bool resume);
 /* Begins a sample (line of history.csv) of the run at time t_n, the start of this time step, if this step requires
  * one. Must be called before the step moves particles. Computes momentum, crack tips and the values of probes that
  * depend on positions, and stores the velocities, which are those at t_n - dt/2 (at t = 0 in the first step). */
-void history_sample_begin_before_step(struct run *run);
+void history_sample_begin_before_step_if_due(struct run *run);
 
 /* Computes the energies of a sample (line of history.csv) of the run, if this step requires one, at the positions of
  * time t_n, the start of this time step, except the kinetic energy. Must be called after the forces have been computed
@@ -24,7 +24,7 @@ void history_sample_compute_energies(struct run *run);
 /* Completes a sample (line of history.csv) of the run, if this step requires one, after particles have moved:
  * interpolates velocities to time t_n, the start of this time step, computes the kinetic energy and the work up to t_n,
  * and writes the line of history.csv. */
-void history_sample_complete_after_step(struct run *run);
+void history_sample_complete_after_step_if_due(struct run *run);
 
 /* Takes a complete sample of the run, whose body is in equilibrium, and writes its line of history.csv. Must be
  * called at the start of a static run and after each load step. */
@@ -45,6 +45,6 @@ void run_update_break_and_reaction_probes(struct run *run);
 /* Records the bonds of the run that broke in this step: updates the first break of the run and the BREAK probes (first
  * broken bond of a region) and SPALL probes (separated end of a bar), and warns if driven particles (with prescribed
  * motion) lose bonds. broken_bond_count: number of bonds that broke, each counted once for each of its particles. */
-void run_record_broken_bonds_of_step(struct run *run, int64_t broken_bond_count);
+void run_record_first_break_and_update_break_probes(struct run *run, int64_t broken_bond_count);
 
 #endif

@@ -17,6 +17,6 @@ struct shock {
  * a rigid body: the one whose stress front is closest to breaking or yielding a body (largest `share`). The velocity of
  * a body is that of `bodies.velocity` and of `initial` at the centre of its bounding box; bodies from particle lists
  * are left out. Returns zeros if there is no collision, or if its share would be 0. */
-struct shock scene_most_severe_collision(const struct scene *s);
+struct shock scene_find_collision_closest_to_damage(const struct scene *s);
 
 #endif

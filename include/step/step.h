@@ -9,14 +9,15 @@
 /* Advances the run by one time step run->clock.dt: computes forces, breaks bonds, moves particles and nodes, and
  * converts material points to peridynamic particles. Returns FAILED if material points have left the background grid
  * because their motion has diverged. */
-status step(struct run *run);
+status run_advance_by_one_time_step(struct run *run);
 
 /* Marks with FLAG_NEAR the material points of the run, at their present positions, that are near other bodies; rigid
  * bodies are at their positions of pseudo-time t [s]. Marked points become peridynamic at the next call of
  * load_step_convert_points_near_breaks_to_pd. present_pseudo_time: present pseudo-time [s], to whose positions rigid
  * bodies are moved back. Returns true if positions were examined; does nothing and returns false if no rigid body can
  * touch a material point. */
-bool load_step_flag_points_near_rigid_bodies(struct run *run, real present_pseudo_time, real t);
+bool load_step_flag_points_near_contact_to_convert(struct run *run, real present_pseudo_time,
+                                                   real rigid_body_pseudo_time);
 
 /* Converts material points near broken bonds to peridynamic particles between load steps (static equilibria), at fixed
  * positions. run: run; broken_bond_count: number of bonds broken since the last call, each counted once for each of its

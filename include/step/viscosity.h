@@ -30,21 +30,22 @@ struct viscosity {
 /* Adds the viscous forces of bonds of the run to the forces of particles, and computes the viscous pressure q of
  * points on the grid. Adds the energy dissipated since the previous step to viscosity.taken of the run. Must be called
  * after the bond forces and before the loads are added. Does nothing if no material is viscous. */
-void viscosity_add_bond_forces_and_pressure(struct run *run);
+void bulk_viscosity_add_bond_forces_and_pressure(struct run *run);
 
-/* Changes the normal stresses of points of p on the grid by the viscous pressure q of v: subtracts it if `subtract` is
- * true, before stresses are mapped to nodes; restores the stresses without q if `subtract` is false. Does nothing if no
- * material is viscous. */
-void viscosity_subtract_or_restore_pressure(struct viscosity *v, const struct particles *p, bool subtract);
+/* Changes the normal stresses of points of p on the grid by the viscous pressure q of v: subtracts it if
+ * `subtract_pressure` is true, before stresses are mapped to nodes; restores the stresses without q if
+ * `subtract_pressure` is false. Does nothing if no material is viscous. */
+void bulk_viscosity_change_or_restore_point_stress(struct viscosity *v, const struct particles *p,
+                                                   bool subtract_pressure);
 
 /* Adds the viscous forces of cells to the nodal forces of the mesh (fixed to the material), and the energy dissipated
  * by these forces since the previous step to viscosity.taken of the run. Does nothing if no material is viscous. */
-void viscosity_add_nodal_forces(struct run *run);
+void bulk_viscosity_add_nodal_forces(struct run *run);
 
 /* Returns the factor by which viscosity reduces the critical time step, sqrt(1 + Q^2) - Q [1]. Q is the largest ratio
  * of viscous pressure to rho c^2 (density rho, wave speed c) to be expected from the speeds of bodies, supports and
  * loads. initial_speed: the largest speed of the particles p at t = 0 [m/s]. */
-real viscosity_time_step_factor(const struct scene *s, const struct loads *loads, const struct particles *p,
-                                real initial_speed);
+real bulk_viscosity_time_step_factor(const struct scene *s, const struct loads *loads, const struct particles *p,
+                                     real initial_speed);
 
 #endif

@@ -51,22 +51,25 @@ struct convergence {
 };
 
 /* Determines observed order, verdict and uncertainty intervals of a scalar result from `run_count` runs, and stores
- * them in *c. value[k]: result of run k, NAN if the run has none; spacing[k]: its particle spacing [m]; level[k] = 0 ..
- * level_count - 1: its spacing level, 0 the finest. resolution[level]: half of the step in which the result is
- * quantised at this level; NULL if it is not quantised. Returns false if one of the three finest levels has no
- * value. */
+ * them in *c. value[k]: result of run k, NAN if the run has none; spacing[k]: its particle spacing [m];
+ * spacing_level_of_run[k] = 0 .. level_count - 1: its spacing spacing_level_of_run, 0 the finest.
+ * half_quantisation_step[level]: half of the step in which the result is quantised at this level; NULL if it is not
+ * quantised. Returns false if one of the three finest levels has no value. */
 bool convergence_evaluate_scalar_result(struct convergence *c, const double *spacing, const double *value,
-                                        const int *level, int run_count, int level_count, const double *resolution);
+                                        const int *spacing_level_of_run, int run_count, int level_count,
+                                        const double *half_quantisation_step);
 
 /* Computes mean, standard deviation and error of the mean of a scalar result over runs that differ by chance alone,
  * such as by a random seed, and stores them in *l. value[run_count]: value of the result in each run; values that are
  * not finite are left out. */
-void convergence_compute_mean_over_runs(struct spacing_level_statistics *l, const double *value, int run_count);
+void convergence_compute_mean_and_deviation_over_runs(struct spacing_level_statistics *l, const double *value,
+                                                      int run_count);
 
-/* Returns the half-width of the interval centred at `centre` that contains the true value of the result with
+/* Returns the half-width of the interval centred at `interval_centre` that contains the true value of the result with
  * probability `probability` [1], from the means of all spacing levels and their errors (convergence_interval.c).
- * `centre` and the result have the unit of the result. */
-double convergence_confidence_interval_half_width(const struct convergence *c, double centre, double probability);
+ * `interval_centre` and the result have the unit of the result. */
+double convergence_confidence_interval_half_width(const struct convergence *c, double interval_centre,
+                                                  double probability);
 
 /* Fits c->level[c->levels], means and errors at several spacings, by value + constant * spacing^order for many orders,
  * and weights these by how well they fit. Computes from them: order_likely and order_error, mean and standard deviation

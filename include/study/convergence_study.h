@@ -18,10 +18,10 @@ struct spacings {
 };
 
 /* Chooses the particle spacings of a convergence study of the scene s and stores them in *spacings. level_count: number
- * of levels, which differ by factors of about sqrt(2); finest: approximate spacing of the finest level, level 0 [m].
- * The spacings are chosen such that the lattice fits the bodies and cracks. */
+ * of levels, which differ by factors of about sqrt(2); finest_spacing: approximate spacing of the finest level, level 0
+ * [m]. The spacings are chosen such that the lattice fits the bodies and cracks. */
 void spacings_choose_for_convergence_study(struct spacings *spacings, const struct scene *s, int level_count,
-                                           double finest);
+                                           double finest_spacing);
 
 /* Parameters in which a run of the study differs from the scene. */
 struct study_point {
@@ -92,7 +92,7 @@ status scalar_results_determine_convergence(const struct convergence_study *s, c
 /* Checks that the table and the pictures of a convergence study may be written to `folder`. Returns REFUSED if `folder`
  * is that of a study and contains one of these files although Cleave did not write it. Returns OK for any other folder,
  * since study_lock_folder refuses it. */
-status scalar_results_check_replaceable(const char *folder);
+status convergence_study_check_output_files_replaceable(const char *folder);
 
 /* Writes the table of the scalar results results[result_count] to the file converge.csv in the folder of the study s,
  * and the text of the scene to study.yaml, the file by which the study is recognised. Returns FAILED if a file cannot

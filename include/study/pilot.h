@@ -32,12 +32,12 @@ status pilot_runs_print_plan(const struct pilot_requirements *requirements, cons
  * the same scene and overrides use the stored choice. options: only its members quiet and stop are used. p: receives
  * all overrides, those of the user and the chosen ones. Returns REFUSED if the scene is invalid, or if no method
  * reaches the requested accuracy (the message states the accuracy of each), INTERRUPTED if options.stop is set; then
- * nothing has to be released. Otherwise release *s with scene_free and *p with pilot_free. */
+ * nothing has to be released. Otherwise release *s with scene_free and *p with pilot_choice_free. */
 status scene_read_and_choose_method_by_pilot_runs(struct scene *s, struct pilot_choice *p, const char *scene,
                                                   const struct scene_override *override, int overrides,
                                                   const char *folder, struct study_options options);
 
 /* Frees the overrides (replaced values of keys) in *p, which scene_read_and_choose_method_by_pilot_runs has stored. */
-void pilot_free(struct pilot_choice *p);
+void pilot_choice_free(struct pilot_choice *p);
 
 #endif

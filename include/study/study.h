@@ -54,9 +54,9 @@ struct study {
 /* Reads a key and its values from a text `KEY=VALUE,...` and stores them in *k. Values are separated by commas outside
  * brackets and quotes. A value of the form FROM:TO:STEP, with at most one unit, stands for equidistant numbers that
  * include both ends. Returns REFUSED, with the reason, if the text is malformed. Release k with varied_key_free. */
-status varied_key_parse_values(struct varied_key *k, const char *text);
+status varied_key_parse_name_and_values(struct varied_key *k, const char *text);
 
-/* Frees the texts of the key and of the values in *k, which varied_key_parse_values has allocated. */
+/* Frees the texts of the key and of the values in *k, which varied_key_parse_name_and_values has allocated. */
 void varied_key_free(struct varied_key *k);
 
 /* Returns the number at the beginning of the text `value`; NAN if there is none. Stores in *unit a pointer to the rest
@@ -69,15 +69,15 @@ double value_text_split_number_and_unit(const char *value, const char **unit);
  * folder of the study, NULL for results/NAME_KIND with the name of the scene and KIND = study_kind. Returns REFUSED if
  * the name of the folder is empty or too long, FAILED or REFUSED if the scene cannot be read. Release s with
  * study_free. */
-status study_make(struct study *s, const char *scene, const char *folder, const char *study_kind);
+status study_initialise(struct study *s, const char *scene, const char *folder, const char *study_kind);
 
 /* Initialises a study without runs, whose keys key[keys] vary between runs, and creates no folder. A key with a single
  * value overrides the scene in all runs. Stores the text of the scene without the varied keys in s->text. scene: path
  * of the scene file, kept by reference; folder: folder of the study, NULL for results/NAME_KIND with the name of the
  * scene and KIND = study_kind. Returns REFUSED if the name of the folder is empty or too long, FAILED or REFUSED if the
  * scene cannot be read. Release s with study_free. */
-status study_make_with_keys(struct study *s, const char *scene, const char *folder, const char *study_kind,
-                            const struct varied_key *key, int keys);
+status study_initialise_with_varied_keys(struct study *s, const char *scene, const char *folder, const char *study_kind,
+                                         const struct varied_key *key, int keys);
 
 /* Writes the path of the default folder of a study of a scene, results/NAME_KIND with the name of the scene and KIND =
  * study_kind, to folder[capacity], cut to capacity - 1 bytes. */
@@ -226,13 +226,13 @@ status study_check_result_names(const struct study *s, const char *const *name, 
 bool result_describes_computation_instead_of_body(const char *name);
 
 /* Reads the header line of history.csv of the first run of the study s that has such a file into header[capacity]; ""
- * if there is none. study_write_unit_of_result takes units from it. */
+ * if there is none. study_determine_unit_of_result takes units from it. */
 void study_read_history_header(char *header, size_t capacity, const struct study *s);
 
 /* Determines the SI unit of the result (a number in summary.json) called `result_name` and writes it to unit[capacity];
  * "" if the result has no unit or it is unknown. header: header line of history.csv, as study_read_history_header
  * returns it. */
-void study_write_unit_of_result(char *unit, size_t capacity, const char *header, const char *result_name);
+void study_determine_unit_of_result(char *unit, size_t capacity, const char *header, const char *result_name);
 
 /* Prints each kind of warning of the runs of the study s to `out`: the number of runs that have it, and the text of the
  * first one. Warnings that differ only in numbers are of one kind. */
@@ -247,12 +247,12 @@ status study_write_table(const struct study_table *t, const struct study *s, con
  * write it. Returns OK for any other folder, since study_lock_folder refuses it. */
 status study_check_output_files_replaceable(const struct study *s, const struct varied_key *key, int keys);
 
-/* Prints to `to`, if the only varied key of the study s is a random seed, a line for each result (number in
+/* Prints to `out`, if the only varied key of the study s is a random seed, a line for each result (number in
  * summary.json): its mean, standard deviation, and half of the 95 % interval of the mean over the runs. Prints nothing
  * for other studies. t: table of the results; key[keys]: varied keys of the study and their values; result[results]:
  * names of the results; if results is 0, those that study_draw_results_over_keys draws. Returns REFUSED if there is no
  * such result. */
-status study_print_means_over_seeds(FILE *to, const struct study_table *t, const struct study *s,
+status study_print_means_over_seeds(FILE *out, const struct study_table *t, const struct study *s,
                                     const struct varied_key *key, int keys, const char *const *result, int results);
 
 /* Draws results of a study (numbers in summary.json) against the values of each of its varied keys, as pictures/KEY.png

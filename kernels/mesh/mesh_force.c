@@ -1,5 +1,5 @@
 /* Internal forces of the mesh on its nodes. Whole cells (all points, one material) are computed in rows of consecutive
- * cells (struct mesh_cell_run), eight at a time; partial cells have stiffnesses of their own.
+ * cells (struct mesh_cell_run), eight at a time; own-stiffness cells have stiffnesses of their own.
  *
  * Rows of cells that add to common nodes must not be computed at the same time: layers of cells are grouped in bands,
  * and bands of equal parity share no node. First even, then odd bands are computed in parallel, which gives equal bits
@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "mesh_flow.h"
-#include "mesh_partial.h"
+#include "mesh_own_stiffness.h"
 #include "mesh_run.h"
 
 /* ---- whole cells ------------------------------------------------------------------------------------------------- */
@@ -97,79 +97,80 @@ static ALWAYS_INLINE void run_flow_cells(const struct run_flow *a, const struct 
         }                                                                                                              \
     }
 
-/* ---- partial cells ----------------------------------------------------------------------------------------------- */
+/* ---- own-stiffness cells
+ * ----------------------------------------------------------------------------------------------- */
 
-/* Returns true if all cells of a group of eight partial cells are at rest, so that they need no forces. A partial cell
- * has missing points, partial stresses, several materials or doubled nodes. group: number of the group in the mesh,
- * from 0. */
+/* Returns true if all cells of a group of eight own-stiffness cells are at rest, so that they need no forces. A
+ * own-stiffness cell has missing points, partial stresses, several materials or doubled nodes. group: number of the
+ * group in the mesh, from 0. */
 static ALWAYS_INLINE bool partial_inactive(const struct mesh *mesh, int64_t group)
 {
     uint8_t level = 0;
     for (int l = 0; l < LANES; l++)
-        level |= mesh->active.level[mesh_block_of_node(mesh, mesh->partial_cell[group * LANES + l])];
+        level |= mesh->active.level[mesh_block_of_node(mesh, mesh->own_stiffness_cell[group * LANES + l])];
     return level == 0;
 }
 
-/* Marks in mesh->partial_stressed those of a group of eight partial cells in which the principal stress at a point may
- * exceed the conversion stress of the material, at which points become peridynamic particles. A partial cell has
- * missing points, partial stresses, several materials or doubled nodes. m: elastic constants of all materials; group:
- * number of the group, from 0; cell: strain of the eight cells. */
+/* Marks in mesh->own_stiffness_stressed those of a group of eight own-stiffness cells in which the principal stress at
+ * a point may exceed the conversion stress of the material, at which points become peridynamic particles. A
+ * own-stiffness cell has missing points, partial stresses, several materials or doubled nodes. m: elastic constants of
+ * all materials; group: number of the group, from 0; cell: strain of the eight cells. */
 static ALWAYS_INLINE void partial_mark(struct mesh *mesh, const struct elastic *m, int64_t group,
                                        const struct mesh_cell *cell, const int dim)
 {
-    const uint8_t *material = mesh->partial_material + group * LANES;
+    const uint8_t *material = mesh->own_stiffness_material + group * LANES;
     lanes tension = lanes_broadcast(0), P[3][3];
     for (int l = 0; l < LANES; l++) {
         if (l == 0 || material[l] != material[l - 1]) {
             hooke_stress(&m[material[l]], cell->e, P, dim);
             tension = cell_largest_principal_stress_upper_bound(&m[material[l]], cell, P, dim);
         }
-        mesh->partial_stressed[group * LANES + l] = tension[l] > m[material[l]].trigger;
+        mesh->own_stiffness_stressed[group * LANES + l] = tension[l] > m[material[l]].trigger;
     }
 }
 
-/* Computes the forces on the corners of a group of eight partial cells [N] into mesh->partial_force, and marks in
- * mesh->partial_stressed the cells in which a stress may exceed the conversion stress, at which points become
- * peridynamic particles. A partial cell has missing points, partial stresses, several materials or doubled nodes. The
- * plastic state of points in p that yield is updated. m: elastic constants of all materials; group: number of the
- * group, from 0; finite: true for finite strain. */
-static ALWAYS_INLINE void partial_force(struct mesh *mesh, const struct particles *p, const struct elastic *m,
-                                        int64_t group, const int dim, const bool finite)
+/* Computes the forces on the corners of a group of eight own-stiffness cells [N] into mesh->own_stiffness_force, and
+ * marks in mesh->own_stiffness_stressed the cells in which a stress may exceed the conversion stress, at which points
+ * become peridynamic particles. A own-stiffness cell has missing points, partial stresses, several materials or doubled
+ * nodes. The plastic state of points in p that yield is updated. m: elastic constants of all materials; group: number
+ * of the group, from 0; finite: true for finite strain. */
+static ALWAYS_INLINE void own_stiffness_force(struct mesh *mesh, const struct particles *p, const struct elastic *m,
+                                              int64_t group, const int dim, const bool finite)
 {
     const bool rotates = finite && dim > 1;
     struct mesh_cell s;
     lanes u[CORNERS_MAX][3], f[CORNERS_MAX][3], moment[3] = {{0}};
-    mesh_partial_cells_load_corner_displacements(mesh, group, u, dim);
+    mesh_own_stiffness_cells_load_displacements(mesh, group, u, dim);
     cell_compute_rotation_strain_and_modes(&s, mesh->grid.h, u, dim, rotates);
     partial_mark(mesh, m, group, &s, dim);
     if (mesh_points_can_yield(p)) {
         int32_t cell[LANES];
-        mesh_partial_cells_get_indices(mesh, group, cell);
+        mesh_own_stiffness_cells_get_indices(mesh, group, cell);
         cells_flow_of(mesh, p, m, cell, &s, dim);
     } else
-        mesh_partial_cells_compute_stress(mesh, p, group, &s, dim);
-    if (mesh->ends && p->end_rotation[0]) mesh_partial_cells_add_bond_moments(mesh, p, group, moment, dim);
+        mesh_own_stiffness_cells_compute_stress(mesh, p, group, &s, dim);
+    if (mesh->ends && p->end_rotation[0]) mesh_own_stiffness_cells_add_bond_moments(mesh, p, group, moment, dim);
     if (rotates)
         cell_add_skew_stress_balancing_moment_finite_strain(&s, moment, dim);
     else if (dim > 1 && mesh->ends && p->end_rotation[0])
         cell_add_skew_stress_balancing_moment_small_strain(&s, moment, dim);
     cell_compute_corner_forces(&s, mesh->grid.h, mesh->volume * (1 << dim), f, dim, rotates);
-    lanes *out = (lanes *)mesh->partial_force + group * (1 << dim) * dim;
+    lanes *out = (lanes *)mesh->own_stiffness_force + group * (1 << dim) * dim;
     for (int c = 0; c < 1 << dim; c++)
         for (int i = 0; i < dim; i++) out[c * dim + i] = f[c][i];
 }
 
-/* Adds the forces in mesh->partial_force of all partial cells that are not at rest to the nodes. A partial cell has
- * missing points, partial stresses, several materials or doubled nodes. Several cells share a node, so the forces are
- * added by one thread and in order. */
+/* Adds the forces in mesh->own_stiffness_force of all own-stiffness cells that are not at rest to the nodes. A
+ * own-stiffness cell has missing points, partial stresses, several materials or doubled nodes. Several cells share a
+ * node, so the forces are added by one thread and in order. */
 static ALWAYS_INLINE void cuts_add(struct mesh *mesh, const int dim)
 {
-    for (int64_t group = 0; group < mesh_count_groups_of_eight_partial_cells(mesh); group++) {
-        const int32_t *cell = mesh->partial_cell + group * LANES;
-        const int64_t left = mesh->partial_cells - group * LANES;
-        const lanes *f = (const lanes *)mesh->partial_force + group * (1 << dim) * dim;
+    for (int64_t group = 0; group < mesh_count_groups_of_eight_own_stiffness_cells(mesh); group++) {
+        const int32_t *cell = mesh->own_stiffness_cell + group * LANES;
+        const int64_t left = mesh->own_stiffness_cells - group * LANES;
+        const lanes *f = (const lanes *)mesh->own_stiffness_force + group * (1 << dim) * dim;
         if (partial_inactive(mesh, group)) continue;
-        const int32_t *own = mesh_eight_partial_cells_corner_nodes_if_at_slit(mesh, group, dim);
+        const int32_t *own = mesh_own_stiffness_cells_corner_nodes_if_at_slit(mesh, group, dim);
         const bool in_line = !own && list_is_consecutive(cell);
         for (int c = 0; c < 1 << dim; c++)
             for (int i = 0; i < dim; i++) {
@@ -189,12 +190,12 @@ enum { FEW = 16 }; /* number of groups that one thread computes in less time tha
     static NEVER_INLINE void cut_force_##D##_##FINITE(struct mesh *mesh, const struct particles *p,                    \
                                                       const struct elastic *m, int64_t k)                              \
     {                                                                                                                  \
-        if (!partial_inactive(mesh, k)) partial_force(mesh, p, m, k, D, FINITE);                                       \
+        if (!partial_inactive(mesh, k)) own_stiffness_force(mesh, p, m, k, D, FINITE);                                 \
     }                                                                                                                  \
     static void cuts_force_##D##_##FINITE(struct mesh *mesh, const struct particles *p, const struct elastic *m)       \
     {                                                                                                                  \
-        TEAM_LOOP(mesh_count_groups_of_eight_partial_cells(mesh) > FEW,                                                \
-                  for (int64_t k = 0; k < mesh_count_groups_of_eight_partial_cells(mesh); k++)                         \
+        TEAM_LOOP(mesh_count_groups_of_eight_own_stiffness_cells(mesh) > FEW,                                          \
+                  for (int64_t k = 0; k < mesh_count_groups_of_eight_own_stiffness_cells(mesh); k++)                   \
                       cut_force_##D##_##FINITE(mesh, p, m, k););                                                       \
         cuts_add(mesh, D);                                                                                             \
     }

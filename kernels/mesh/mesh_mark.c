@@ -1,7 +1,7 @@
 /* Marks the material points and cells of a mesh whose stress requires conversion to peridynamic particles. Upper bounds
  * of the stress, computed for eight cells at a time, select the cells whose points are then examined one by one. Point
  * number q of a cell is the point next to corner q. */
-#include "mesh_partial.h"
+#include "mesh_own_stiffness.h"
 #include "mesh_point.h"
 #include "mesh_run.h"
 
@@ -138,7 +138,7 @@ static ALWAYS_INLINE void run_mark_cells(const struct mesh *mesh, const struct e
     }
 }
 
-/* Sets FLAG_STRESSED in p for points in eight partial cells (with missing points or several materials) above the
+/* Sets FLAG_STRESSED in p for points in eight own-stiffness cells (with missing points or several materials) above the
  * stress of conversion to peridynamics. Skips cells where the upper bound places_tension, valid for one material
  * without mean dilatation, is below. group: number of the eight cells, from 0; m: constants of all materials. */
 static ALWAYS_INLINE void group_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m,
@@ -150,32 +150,34 @@ static ALWAYS_INLINE void group_mark(const struct mesh *mesh, struct particles *
     lanes_mask there[CORNERS_MAX] = {{0}};
     for (int q = 0; q < 1 << dim; q++)
         for (int l = 0; l < LANES; l++)
-            there[q][l] = -(int64_t)(mesh->point[((int64_t)mesh->partial_cell[first + l] << dim) + q] >= 0);
-    mesh_partial_cells_load_corner_displacements(mesh, group, u, dim);
+            there[q][l] = -(int64_t)(mesh->point[((int64_t)mesh->own_stiffness_cell[first + l] << dim) + q] >= 0);
+    mesh_own_stiffness_cells_load_displacements(mesh, group, u, dim);
     cell_compute_rotation_strain_and_modes(&s, mesh->grid.h, u, dim, finite && dim > 1);
-    for (int64_t k = first; k < first + LANES && k < mesh->partial_cells; k++) {
-        const uint8_t material = mesh->partial_material[k];
-        if (k == first || material != mesh->partial_material[k - 1])
+    for (int64_t k = first; k < first + LANES && k < mesh->own_stiffness_cells; k++) {
+        const uint8_t material = mesh->own_stiffness_material[k];
+        if (k == first || material != mesh->own_stiffness_material[k - 1])
             tension = cells_tension(&m[material], &s, there, dim);
-        if (mesh->partial_stressed[k] && (tension[k - first] > m[material].trigger || m[material].mean_dilatation ||
-                                          cell_mixed(mesh, p, mesh->partial_cell[k], material, dim)))
-            cell_mark(mesh, p, m, mesh->partial_cell[k], dim, finite);
+        if (mesh->own_stiffness_stressed[k] &&
+            (tension[k - first] > m[material].trigger || m[material].mean_dilatation ||
+             cell_mixed(mesh, p, mesh->own_stiffness_cell[k], material, dim)))
+            cell_mark(mesh, p, m, mesh->own_stiffness_cell[k], dim, finite);
     }
 }
 
-/* Returns true if mesh_force has marked one of eight partial cells (with missing points, partial stresses or several
- * materials) as one in which a stress may exceed the conversion stress. group: number of the eight cells, from 0. */
+/* Returns true if mesh_force has marked one of eight own-stiffness cells (with missing points, partial stresses or
+ * several materials) as one in which a stress may exceed the conversion stress. group: number of the eight cells, from
+ * 0. */
 static inline bool group_stressed(const struct mesh *mesh, int64_t group)
 {
     bool any = false;
-    for (int l = 0; l < LANES; l++) any |= mesh->partial_stressed[group * LANES + l];
+    for (int l = 0; l < LANES; l++) any |= mesh->own_stiffness_stressed[group * LANES + l];
     return any;
 }
 
 #define MARK(D, FINITE)                                                                                                \
     static void cells_mark_##D##_##FINITE(const struct mesh *mesh, struct particles *p, const struct elastic *m)       \
     {                                                                                                                  \
-        for (int64_t k = 0; k < mesh_count_groups_of_eight_partial_cells(mesh); k++)                                   \
+        for (int64_t k = 0; k < mesh_count_groups_of_eight_own_stiffness_cells(mesh); k++)                             \
             if (group_stressed(mesh, k)) group_mark(mesh, p, m, k, D, FINITE);                                         \
         for (int64_t r = 0; r < mesh->runs; r++)                                                                       \
             if (mesh->run[r].stressed) run_mark(mesh, p, m, &mesh->run[r], D, FINITE);                                 \

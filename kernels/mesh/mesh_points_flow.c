@@ -1,7 +1,7 @@
 /* Updates the plastic state of the material points of the mesh at the end of each explicit step (mesh_flow.h), so that
  * forces, samples and output frames need no return mapping. */
 #include "mesh_flow.h"
-#include "mesh_partial.h"
+#include "mesh_own_stiffness.h"
 #include "mesh_run.h"
 
 /* Arguments of mesh_points_flow: mesh, particles, elastic constants of all materials, and time step dt [s]. With dt = 0
@@ -64,13 +64,13 @@ static ALWAYS_INLINE void cells_step(const struct flow_step *f, const int32_t *c
     {                                                                                                                  \
         int32_t cell[LANES];                                                                                           \
         lanes u[CORNERS_MAX][3];                                                                                       \
-        mesh_partial_cells_get_indices(f->mesh, group, cell);                                                          \
-        mesh_partial_cells_load_corner_displacements(f->mesh, group, u, D);                                            \
+        mesh_own_stiffness_cells_get_indices(f->mesh, group, cell);                                                    \
+        mesh_own_stiffness_cells_load_displacements(f->mesh, group, u, D);                                             \
         cells_step_##D##_##FINITE(f, cell, u);                                                                         \
     }                                                                                                                  \
     static void all_step_##D##_##FINITE(const struct flow_step *f)                                                     \
     {                                                                                                                  \
-        const int64_t groups = mesh_count_groups_of_eight_partial_cells(f->mesh);                                      \
+        const int64_t groups = mesh_count_groups_of_eight_own_stiffness_cells(f->mesh);                                \
         _Pragma("omp parallel for schedule(static)") for (int64_t k = 0; k < groups + f->mesh->runs; k++)              \
         {                                                                                                              \
             if (k < groups)                                                                                            \

@@ -291,7 +291,7 @@ static ALWAYS_INLINE int points_move_and_find_points_leaving_cell(const struct g
     points_mask inside = (points_mask){0} - 1;
     for (int d = 0; d < dim; d++) {
         const row_of_points x = m->x[d] + m->velocity[d];
-        const row_of_points place = (x - g->anchor[d]) * (1 / g->h); /* grid_coordinate_in_cells */
+        const row_of_points place = (x - g->anchor[d]) * (1 / g->h); /* grid_coordinate_in_cell_lengths */
         points_store(p->x[d], m->point, x, dim);
         inside &= (place >= c->place[d]) & (place < c->place[d] + 1);
     }

@@ -325,7 +325,7 @@ static ALWAYS_INLINE void cell_stencil_compute_weights(struct cell_stencil *s, c
     points_copy_list_indices_to_lanes(s->point, list, n, dim);
     for (int d = 0; d < dim; d++) {
         s->x[d] = points_load(p->x[d], s->point, dim);
-        s->t[d] = (s->x[d] - g->anchor[d]) * inverse - c->place[d] + g->ahead[d]; /* grid_coordinate_in_cells */
+        s->t[d] = (s->x[d] - g->anchor[d]) * inverse - c->place[d] + g->ahead[d]; /* grid_coordinate_in_cell_lengths */
     }
     if (HAS_CORNERS(dim, shape))
         stencil_compute_corner_weights(s, inverse, dim);

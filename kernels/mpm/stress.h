@@ -233,7 +233,7 @@ static ALWAYS_INLINE row_of_points stress_largest_principal_upper_bounds(const r
 static ALWAYS_INLINE real stress_drucker_prager_measure(const struct elastic *m, const real *stress, const int dim)
 {
     const real across = m->space == SPACE_PLANE_STRAIN ? m->poisson : 0;
-    return strength_surface_tensor_stress_to_strength_ratio(&m->surface, stress, across, dim) * m->surface.g0;
+    return strength_surface_stress_tensor_to_strength_ratio(&m->surface, stress, across, dim) * m->surface.g0;
 }
 
 /* Returns true if material point i of p, of material m, converts to a peridynamic particle at the stress `stress`: if

@@ -75,7 +75,7 @@ static ALWAYS_INLINE bool bond_force_rows(const struct bonds *b, struct particle
     const int64_t g = first / LANES;
     const int32_t *row = b->particle + first;
     const bool aligned = b->aligned[g];
-    const int rows = count_of_eight_consecutive_indices_below(first, b->rows);
+    const int rows = count_of_next_eight_indices_below_limit(first, b->rows);
     const int32_t own = aligned ? row[0] : -1;
     const lanes zero = lanes_broadcast(0), x0 = lanes_load_or_gather(p->x[0], own, row);
     struct bond_sums sum = {x0,

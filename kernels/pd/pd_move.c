@@ -12,7 +12,7 @@
         {                                                                                                              \
             _Alignas(sizeof(lanes)) int32_t room[LANES];                                                               \
             diverged += pd_advance_up_to_eight_particles(p, list_get_eight_padded_entries(list, k, n, room),           \
-                                                         count_of_eight_consecutive_indices_below(k, n), NULL, m, D);  \
+                                                         count_of_next_eight_indices_below_limit(k, n), NULL, m, D);   \
         }                                                                                                              \
         return diverged > 0;                                                                                           \
     }

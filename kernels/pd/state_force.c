@@ -99,7 +99,7 @@ static ALWAYS_INLINE void precompute_store(struct bonds *b, int64_t first, const
                                            const enum pd_model model)
 {
     const int32_t *row = b->particle + first;
-    const int rows = count_of_eight_consecutive_indices_below(first, b->rows);
+    const int rows = count_of_next_eight_indices_below_limit(first, b->rows);
     const bool aligned = b->aligned[first / LANES];
     struct state *t = &b->state;
     bond_rows_store_values_of_their_particles(t->pressure, row, rows, aligned, k->pressure);
@@ -174,7 +174,7 @@ static __attribute__((noinline)) void ends_update(struct bonds *b, struct partic
 {
     const lanes_mask end = ends_of(b, p, first);
     const int32_t *row = b->particle + first, own = b->aligned[first / LANES] ? row[0] : -1;
-    const int rows = count_of_eight_consecutive_indices_below(first, b->rows);
+    const int rows = count_of_next_eight_indices_below_limit(first, b->rows);
     k->pressure +=
         f->A * f->share * lanes_choose(end, lanes_load_or_gather(p->end_strain, own, row), lanes_broadcast(0));
     const lanes pull = lanes_choose(end, k->pressure * lanes_load(b->state.weighted + first), lanes_broadcast(0));
@@ -325,7 +325,7 @@ static ALWAYS_INLINE void force_rows(const struct bonds *b, struct particles *p,
 {
     const int32_t *row = b->particle + first;
     const int32_t own = b->aligned[first / LANES] ? row[0] : -1;
-    const int rows = count_of_eight_consecutive_indices_below(first, b->rows);
+    const int rows = count_of_next_eight_indices_below_limit(first, b->rows);
     const struct state *t = &b->state;
     struct state_sums sum;
     sum.pressure = lanes_load_or_gather(t->pressure, own, row), sum.spring = lanes_load_or_gather(t->spring, own, row);

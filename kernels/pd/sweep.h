@@ -51,7 +51,7 @@ static ALWAYS_INLINE void bond_sweep_advance_particles_of_row_block(struct bond_
 {
     const int64_t g = s->row_block[k];
     s->diverged |= pd_advance_up_to_eight_particles(
-        p, b->particle + g * LANES, count_of_eight_consecutive_indices_below(g * LANES, b->rows), m->loaded, m, dim);
+        p, b->particle + g * LANES, count_of_next_eight_indices_below_limit(g * LANES, b->rows), m->loaded, m, dim);
 }
 
 /* Prefetches the data of b and p that the loop over active blocks of eight rows (bonds of eight particles each) needs

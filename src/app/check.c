@@ -309,7 +309,7 @@ static status check_cost(struct run *run, const struct run_arguments *a, int thr
     say_contact_cost(run, &cost);
     say_cost(run, &cost, threads);
     say_busy(load, threads);
-    print_coarse_cells_saving(run, &cost);
+    print_cost_saved_by_coarse_cells(run, &cost);
     return OK;
 }
 
@@ -369,7 +369,7 @@ static void say_settings(const struct run *run)
     print_bodies_in_several_unbonded_pieces(run);
     say_materials(run);
     say_interfaces(run->scene);
-    print_smallest_precrack_length(run);
+    print_smallest_resolvable_precrack_length(run);
     say_frames(run);
     print_coarse_cell_sizes_and_counts(run);
     say_notches(run);

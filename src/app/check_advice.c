@@ -82,9 +82,10 @@ static const int *stiffness_errors(const struct scene *s, enum surface_rule surf
                                     : stiffness_off[row].mospd;
 }
 
-void print_stiffness_error_of_thin_part(const struct scene *s, enum surface_rule surface, double layer_count, FILE *out)
+void print_stiffness_error_of_thin_part(const struct scene *s, enum surface_rule surface, double particle_layer_count,
+                                        FILE *out)
 {
-    const int *off = stiffness_errors(s, surface, layer_count);
+    const int *off = stiffness_errors(s, surface, particle_layer_count);
     if (s->dim < 3)
         fprintf(out, "about %d %% in bending and tension", off[OFF_PLANE]);
     else
@@ -246,7 +247,7 @@ static void advise_waves(const struct scene *s, const struct material_tables *ta
  * the wave front can break their bonds or make them yield. */
 static void advise_shocks(const struct scene *s, FILE *out)
 {
-    const struct shock shock = scene_most_severe_collision(s);
+    const struct shock shock = scene_find_collision_closest_to_damage(s);
     if (shock.share > 0)
         fprintf(out,
                 "accuracy       bodies collide at %.3g m/s, %.3g times the speed at which the stress of the wave front "
@@ -319,7 +320,7 @@ static real pulled_stretch(const struct loads *l, const struct particles *p, rea
  * longer share grid nodes with them, so that the body separates there. */
 static void advise_pulled_metal(const struct scene *s, real stretch, FILE *out)
 {
-    const struct weak_shape_function *weak = shape_function_properties_if_weak_in_tension(s->shape);
+    const struct weak_shape_function *weak = numerical_fracture_properties_of_shape_function(s->shape);
     if (weak && stretch > weak->stretch)
         fprintf(out,
                 "accuracy       metal is pulled to %.3g times its length: with mpm.shape: %s it carries %s %% too "
@@ -361,9 +362,9 @@ void print_accuracy_advice(const struct run *run, FILE *out)
     print_advice_on_widths_of_narrow_parts(run, out);
     print_advice_on_close_crack_tips(run->scene, run->fracture, out);
     print_advice_on_incompressible_bodies(run, out);
-    print_advice_on_stiffening_by_prescribed_layers(run, out);
+    print_advice_on_stiffening_by_prescribed_motion(run, out);
     advise_faces(run->scene, out);
-    print_advice_on_stiffness_of_particle_lists(run, out);
+    print_stiffness_advice_on_particle_list_bodies(run, out);
     advise_waves(run->scene, &run->tables, out);
     advise_shocks(run->scene, out);
     print_advice_on_unbalanced_loads(run, out);

@@ -11,7 +11,7 @@ enum {
     PLACES = 64
 }; /* number of points that are sampled in a cell which a face crosses; errors average out over several cells */
 
-bool piece_contains_point(const struct piece *p, const real *X, real tolerance)
+bool body_piece_contains_point(const struct body_piece *p, const real *X, real tolerance)
 {
     const struct scene_body *b = &p->scene->body[p->body];
     return region_contains(&b->shape, X, p->scene->dim, tolerance) &&
@@ -22,7 +22,7 @@ bool piece_contains_point(const struct piece *p, const real *X, real tolerance)
 /* Returns true if the point X[dim] [m] is inside the piece p (a body, or its part of one material) or within `distance`
  * [m] of it. Always returns false for the part of the basic material of a body: it is the remainder of the body outside
  * the parts of other materials, so that it has no shape of its own. */
-static bool piece_near(const struct piece *p, const real *X, real distance)
+static bool piece_near(const struct body_piece *p, const real *X, real distance)
 {
     const struct scene_body *b = &p->scene->body[p->body];
     bool near = p->material == ANY_MATERIAL;
@@ -31,7 +31,7 @@ static bool piece_near(const struct piece *p, const real *X, real distance)
     return near && region_contains(&b->shape, X, p->scene->dim, distance);
 }
 
-bool piece_compute_bounding_box(const struct piece *p, real lower[DIM_MAX], real upper[DIM_MAX])
+bool body_piece_compute_bounding_box(const struct body_piece *p, real lower[DIM_MAX], real upper[DIM_MAX])
 {
     const struct scene_body *b = &p->scene->body[p->body];
     const int dim = p->scene->dim;
@@ -54,20 +54,20 @@ bool piece_compute_bounding_box(const struct piece *p, real lower[DIM_MAX], real
     return any;
 }
 
-static int64_t cover_index(const struct cover *c, const int64_t *at)
+static int64_t cover_index(const struct cell_coverage *c, const int64_t *at)
 {
     return (at[2] * c->n[1] + at[1]) * c->n[0] + at[0];
 }
 
-void piece_cell_coverage_compute_cell_indices(const struct cover *c, int64_t cell, int64_t *index)
+void cell_coverage_compute_lattice_indices_of_cell(const struct cell_coverage *c, int64_t cell, int64_t *index)
 {
     index[0] = cell % c->n[0], index[1] = cell / c->n[0] % c->n[1], index[2] = cell / c->n[0] / c->n[1];
 }
 
-static void cell_middle(const struct cover *c, int64_t cell, real *X)
+static void cell_middle(const struct cell_coverage *c, int64_t cell, real *X)
 {
     int64_t at[DIM_MAX];
-    piece_cell_coverage_compute_cell_indices(c, cell, at);
+    cell_coverage_compute_lattice_indices_of_cell(c, cell, at);
     for (int d = 0; d < c->dim; d++) X[d] = c->first[d] + (real)at[d] * c->spacing;
 }
 
@@ -75,12 +75,12 @@ static void cell_middle(const struct cover *c, int64_t cell, real *X)
  * `cell` of c. This is so if the cell contains a particle and one of its neighbouring cells does not, or the reverse.
  * It is also so if neither the cell nor its neighbours contain particles, but the piece is within half a cell diagonal
  * of the centre. */
-static bool is_crossed(const struct cover *c, const struct piece *p, int64_t cell)
+static bool is_crossed(const struct cell_coverage *c, const struct body_piece *p, int64_t cell)
 {
     int64_t at[DIM_MAX];
     real X[DIM_MAX];
     bool beside = false;
-    piece_cell_coverage_compute_cell_indices(c, cell, at);
+    cell_coverage_compute_lattice_indices_of_cell(c, cell, at);
     for (int k = 0; k < 27; k++) {
         const int64_t near[DIM_MAX] = {at[0] + k % 3 - 1, at[1] + k / 3 % 3 - 1, at[2] + k / 9 - 1};
         bool within = true;
@@ -100,11 +100,11 @@ static bool is_crossed(const struct cover *c, const struct piece *p, int64_t cel
  * gap in it is only one cell wide there. A cell with a particle is thin if both its neighbours along some axis are
  * empty. An empty cell is thin if both its neighbours along some axis contain particles, or if none of its neighbours
  * does. */
-static bool is_thin(const struct cover *c, int64_t cell)
+static bool is_thin(const struct cell_coverage *c, int64_t cell)
 {
     int64_t at[DIM_MAX], stride = 1;
     bool thin = false, beside = false;
-    piece_cell_coverage_compute_cell_indices(c, cell, at);
+    cell_coverage_compute_lattice_indices_of_cell(c, cell, at);
     for (int d = 0; d < c->dim; stride *= c->n[d], d++) {
         const bool before = at[d] > 0 && c->filled[cell - stride];
         const bool after = at[d] + 1 < c->n[d] && c->filled[cell + stride];
@@ -128,7 +128,7 @@ static bool is_dear(const struct region *shape)
 
 /* Returns the fraction of a lattice cell of c that is inside the region `shape` [1]. X[dim]: centre of the cell [m].
  * The surface in the cell is approximated by a plane, from the distance and the normal of the surface at X. */
-static real share_behind(const struct cover *c, const struct region *shape, const real *X)
+static real share_behind(const struct cell_coverage *c, const struct region *shape, const real *X)
 {
     real normal[DIM_MAX] = {0}, reach = 0;
     const real away = region_signed_distance(shape, X, c->dim, normal);
@@ -141,7 +141,7 @@ static real share_behind(const struct cover *c, const struct region *shape, cons
  * material). plane: true if only one face crosses the cell; the face is then approximated by a plane. Otherwise PLACES
  * points in the cell are tested, which form a Weyl sequence (constants of Roberts) with a different start in each cell.
  */
-static real share_within_cell(const struct cover *c, const struct piece *p, int64_t cell, bool plane)
+static real share_within_cell(const struct cell_coverage *c, const struct body_piece *p, int64_t cell, bool plane)
 {
     static const real step[][DIM_MAX] = {{0.7548776662466927, 0.5698402909980532},
                                          {0.8191725133961645, 0.6710436067037893, 0.5497004779019703}};
@@ -154,19 +154,19 @@ static real share_within_cell(const struct cover *c, const struct piece *p, int6
             const real turn = step[c->dim - 2][d] * (real)(cell % 65521 * PLACES + k) + 0.5;
             X[d] = middle[d] + (turn - floor(turn) - 0.5) * c->spacing;
         }
-        inside += piece_contains_point(p, X, 0);
+        inside += body_piece_contains_point(p, X, 0);
     }
     return (real)inside / PLACES;
 }
 
-bool piece_cell_coverage_make(struct cover *c, const struct piece *p)
+bool cell_coverage_compute_for_body_piece(struct cell_coverage *c, const struct body_piece *p)
 {
     const struct scene *s = p->scene;
     const bool dear = p->material == ANY_MATERIAL && is_dear(&s->body[p->body].shape);
     real from[DIM_MAX], to[DIM_MAX], all = 1;
-    *c = (struct cover){.dim = s->dim, .spacing = s->spacing, .n = {1, 1, 1}};
+    *c = (struct cell_coverage){.dim = s->dim, .spacing = s->spacing, .n = {1, 1, 1}};
     if (s->body[p->body].file || s->dim < 2 || !(s->spacing > 0)) return false;
-    if (!piece_compute_bounding_box(p, from, to) ||
+    if (!body_piece_compute_bounding_box(p, from, to) ||
         body_lattice_compute_first_site_position(s, p->body, c->first) != OK)
         return false;
     for (int d = 0; d < s->dim; d++) {
@@ -182,7 +182,7 @@ bool piece_cell_coverage_make(struct cover *c, const struct piece *p)
     for (int64_t k = 0; k < c->cells; k++) {
         real X[DIM_MAX];
         cell_middle(c, k, X);
-        c->filled[k] = piece_contains_point(p, X, ON_SURFACE * s->spacing);
+        c->filled[k] = body_piece_contains_point(p, X, ON_SURFACE * s->spacing);
     }
 #pragma omp parallel for schedule(dynamic, 1024)
     for (int64_t k = 0; k < c->cells; k++)
@@ -190,9 +190,9 @@ bool piece_cell_coverage_make(struct cover *c, const struct piece *p)
     return true;
 }
 
-void piece_cell_coverage_free(struct cover *c)
+void cell_coverage_free(struct cell_coverage *c)
 {
     memory_free(c->filled);
     memory_free(c->share);
-    *c = (struct cover){0};
+    *c = (struct cell_coverage){0};
 }

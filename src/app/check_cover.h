@@ -5,7 +5,7 @@
 #include "scene/scene.h"
 
 /* A piece of a scene: a body, or the part of a body that consists of one material. body: index into scene.body. */
-struct piece {
+struct body_piece {
     const struct scene *scene;
     int body, material; /* index into scene.material; ANY_MATERIAL: the whole body */
 };
@@ -13,15 +13,15 @@ enum { ANY_MATERIAL = -1 }; /* piece.material: all materials of the body */
 
 /* Returns true if the piece p (a body, or its part of one material) contains the point X[dim] [m]. The shape of the
  * body is enlarged by `tolerance` [m] for this test. */
-bool piece_contains_point(const struct piece *p, const real *X, real tolerance);
+bool body_piece_contains_point(const struct body_piece *p, const real *X, real tolerance);
 
 /* Computes a bounding box of the piece p (a body, or its part of one material). Stores its lower and upper corners [m]
  * in `lower` and `upper`. Returns false if the piece is unbounded, or empty as far as the boxes of its regions show. */
-bool piece_compute_bounding_box(const struct piece *p, real lower[DIM_MAX], real upper[DIM_MAX]);
+bool body_piece_compute_bounding_box(const struct body_piece *p, real lower[DIM_MAX], real upper[DIM_MAX]);
 
 /* The lattice cells in the bounding box of a piece (a body, or its part of one material), one cell per possible
  * particle position. n[d]: number of cells along axis d; in the arrays, the index along x varies fastest. */
-struct cover {
+struct cell_coverage {
     int dim;
     int64_t n[DIM_MAX], cells;
     real first[DIM_MAX], spacing; /* centre of cell 0, edge of a cell [m] */
@@ -30,16 +30,16 @@ struct cover {
 };
 
 /* Initialises c with the lattice cells in the bounding box of a piece (a body, or its part of one material): the share
- * of each cell that the piece covers, and whether the cell contains a particle. Release with piece_cell_coverage_free.
+ * of each cell that the piece covers, and whether the cell contains a particle. Release with cell_coverage_free.
  * Returns false, with nothing to release, for bodies in 1D or from a particle list, for unbounded pieces, and for more
  * cells than can be computed quickly. */
-bool piece_cell_coverage_make(struct cover *c, const struct piece *piece);
+bool cell_coverage_compute_for_body_piece(struct cell_coverage *c, const struct body_piece *piece);
 
 /* Computes the indices index[DIM_MAX] along the axes of cell number `cell` (0 .. c->cells - 1) of the lattice cells c.
  */
-void piece_cell_coverage_compute_cell_indices(const struct cover *c, int64_t cell, int64_t *index);
+void cell_coverage_compute_lattice_indices_of_cell(const struct cell_coverage *c, int64_t cell, int64_t *index);
 
-/* Frees the arrays of the covered cells *c, which piece_cell_coverage_make has allocated. */
-void piece_cell_coverage_free(struct cover *c);
+/* Frees the arrays of the covered cells *c, which cell_coverage_compute_for_body_piece has allocated. */
+void cell_coverage_free(struct cell_coverage *c);
 
 #endif

@@ -198,7 +198,7 @@ static void print_places_of_face(const struct particles *p, real spacing, const 
     memory_free(one);
 }
 
-void print_oblique_fraction_of_loaded_face(const struct run *run, const struct boundary *b)
+void print_fraction_of_loaded_face_not_normal_to_axis(const struct run *run, const struct boundary *b)
 {
     const struct scene *s = run->scene;
     struct elsewhere w = {0};

@@ -207,7 +207,7 @@ static bool holds_layer_of_bonds(const struct scene *s, const struct load *l, co
     return bonds;
 }
 
-void print_advice_on_stiffening_by_prescribed_layers(const struct run *run, FILE *out)
+void print_advice_on_stiffening_by_prescribed_motion(const struct run *run, FILE *out)
 {
     const struct scene *s = run->scene;
     const struct particles *p = &run->part;

@@ -63,7 +63,7 @@ static double points_in_coarse_cells(const struct mesh_levels *l, int dim)
     return n;
 }
 
-void print_coarse_cells_saving(const struct run *run, const struct cost *c)
+void print_cost_saved_by_coarse_cells(const struct run *run, const struct cost *c)
 {
     const struct mesh_levels *l = &run->frame->levels;
     char all[32], made[32], few[32], memory[32], whole[32], now[32], then[32];

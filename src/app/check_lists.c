@@ -86,7 +86,7 @@ static void print_weight_advice(const struct scene *s, FILE *out)
     }
 }
 
-void print_advice_on_stiffness_of_particle_lists(const struct run *run, FILE *out)
+void print_stiffness_advice_on_particle_list_bodies(const struct run *run, FILE *out)
 {
     const struct scene *s = run->scene;
     if (s->method != METHOD_PD || s->dim == 1 || !(s->spacing > 0)) return;

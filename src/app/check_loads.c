@@ -319,7 +319,7 @@ static void say_load(const struct run *run, int which)
     if (b->kind == BOUNDARY_PRESSURE) say_pressed(run, which);
     if (force) say_force(&run->part, run->scene, l);
     if (b->displaces) say_displacement(run->scene, &run->part, l);
-    if (faces) print_oblique_fraction_of_loaded_face(run, b);
+    if (faces) print_fraction_of_loaded_face_not_normal_to_axis(run, b);
     putchar('\n');
 }
 

@@ -27,9 +27,9 @@ enum {
 /* State of the search for necks (narrow parts) in one piece, which is a body or all its parts of one material, with the
  * width along one axis. */
 struct necks {
-    const struct cover *cover; /* share of each cell that the shape covers; its cells index the arrays below */
+    const struct cell_coverage *cover; /* share of each cell that the shape covers; its cells index the arrays below */
     const struct run *engine;
-    const struct piece *piece;
+    const struct body_piece *piece;
     int axis;                /* axis of the widths */
     int64_t stride[DIM_MAX]; /* step of the cell index along each axis */
     uint8_t *rows;  /* [cells] 1 + number of particles in the run along the axis through the cell, at most NARROW; 0: no
@@ -50,10 +50,10 @@ struct chord {
  * although the body partly covers each of them. */
 static bool run_goes_on(const struct necks *k, int64_t cell, int way)
 {
-    const struct cover *c = k->cover;
+    const struct cell_coverage *c = k->cover;
     const int64_t next = cell + way * k->stride[k->axis];
     int64_t at[DIM_MAX];
-    piece_cell_coverage_compute_cell_indices(c, cell, at);
+    cell_coverage_compute_lattice_indices_of_cell(c, cell, at);
     if (at[k->axis] + way < 0 || at[k->axis] + way >= c->n[k->axis]) return false;
     return c->filled[next] == c->filled[cell] && (c->filled[next] || c->share[next] > COVERED);
 }
@@ -71,9 +71,9 @@ static int64_t run_span(const struct necks *k, int64_t from)
  * extends along k->axis and begins with cell number `from` of k->cover. */
 static bool run_touches(const struct necks *k, int64_t from, int64_t n)
 {
-    const struct cover *c = k->cover;
+    const struct cell_coverage *c = k->cover;
     int64_t at[DIM_MAX];
-    piece_cell_coverage_compute_cell_indices(c, from, at);
+    cell_coverage_compute_lattice_indices_of_cell(c, from, at);
     return (at[k->axis] > 0 && c->filled[from - k->stride[k->axis]]) ||
            (at[k->axis] + n < c->n[k->axis] && c->filled[from + n * k->stride[k->axis]]);
 }
@@ -84,7 +84,7 @@ static bool run_touches(const struct necks *k, int64_t from, int64_t n)
  * particle is next to an end of the run. In all other cells it is 0. */
 static void rows_count(struct necks *k)
 {
-    const struct cover *c = k->cover;
+    const struct cell_coverage *c = k->cover;
     array_fill_bytes(k->rows, 0, c->cells, sizeof *k->rows);
     for (int64_t cell = 0; cell < c->cells; cell++) {
         if ((!c->filled[cell] && c->share[cell] <= COVERED) || run_goes_on(k, cell, -1)) continue;
@@ -100,9 +100,9 @@ static void rows_count(struct necks *k)
  * next to the run are offset by one cell in the direction `way` (-1 or 1) along the axis `across`. */
 static int64_t run_beside(const struct necks *k, int64_t cell, int across, int way)
 {
-    const struct cover *c = k->cover;
+    const struct cell_coverage *c = k->cover;
     int64_t at[DIM_MAX], found = -1, from = cell;
-    piece_cell_coverage_compute_cell_indices(c, cell, at);
+    cell_coverage_compute_lattice_indices_of_cell(c, cell, at);
     if (at[across] + way < 0 || at[across] + way >= c->n[across]) return -1;
     while (run_goes_on(k, from, -1)) from -= k->stride[k->axis];
     const int64_t n = run_span(k, from);
@@ -120,7 +120,7 @@ static bool at_mirror(const struct necks *k, int64_t cell, int across, int way)
     const struct run *run = k->engine;
     int64_t at[DIM_MAX];
     bool found = false;
-    piece_cell_coverage_compute_cell_indices(k->cover, cell, at);
+    cell_coverage_compute_lattice_indices_of_cell(k->cover, cell, at);
     const real X = k->cover->first[across] + (real)at[across] * k->cover->spacing;
     for (int m = 0; m < run->source.mirrors; m++)
         found |= run->source.mirror[m].axis == across && run->source.mirror[m].outside == way &&
@@ -128,10 +128,10 @@ static bool at_mirror(const struct necks *k, int64_t cell, int across, int way)
     return found;
 }
 
-static void cell_point(const struct cover *c, int64_t cell, real *X)
+static void cell_point(const struct cell_coverage *c, int64_t cell, real *X)
 {
     int64_t at[DIM_MAX];
-    piece_cell_coverage_compute_cell_indices(c, cell, at);
+    cell_coverage_compute_lattice_indices_of_cell(c, cell, at);
     for (int d = 0; d < DIM_MAX; d++) X[d] = d < c->dim ? c->first[d] + (real)at[d] * c->spacing : 0;
 }
 
@@ -141,9 +141,9 @@ static void cell_point(const struct cover *c, int64_t cell, real *X)
 static bool chord_measure(const struct necks *k, const real *X, struct chord *chord)
 {
     const real h = k->cover->spacing, most = 2 * NARROW * h;
-    if (!piece_contains_point(k->piece, X, -WITHIN * h)) return false;
-    const real down = piece_distance_to_surface_along_axis(k->piece, X, k->axis, -0.25 * h, most);
-    const real up = piece_distance_to_surface_along_axis(k->piece, X, k->axis, 0.25 * h, most);
+    if (!body_piece_contains_point(k->piece, X, -WITHIN * h)) return false;
+    const real down = body_piece_distance_to_surface_along_axis(k->piece, X, k->axis, -0.25 * h, most);
+    const real up = body_piece_distance_to_surface_along_axis(k->piece, X, k->axis, 0.25 * h, most);
     chord->middle = X[k->axis] + 0.5 * (up - down), chord->width = up + down;
     return true;
 }
@@ -363,7 +363,7 @@ static void neck_mark(struct necks *k, int64_t cell)
     while (top > 0) {
         const int64_t here = k->stack[--top];
         int64_t at[DIM_MAX];
-        piece_cell_coverage_compute_cell_indices(k->cover, here, at);
+        cell_coverage_compute_lattice_indices_of_cell(k->cover, here, at);
         for (int way = -1; way <= 1; way += 2)
             for (int d = 0; d < k->cover->dim; d++) {
                 const int64_t next = here + way * k->stride[d];
@@ -399,8 +399,8 @@ static void neck_follow(struct width_misfit_list *list, struct necks *k, int64_t
     memory_free(p);
 }
 
-void width_misfit_list_add_necks_of_piece(struct width_misfit_list *list, const struct run *run, const struct cover *c,
-                                          uint8_t *listed_axes)
+void width_misfit_list_add_necks_of_piece(struct width_misfit_list *list, const struct run *run,
+                                          const struct cell_coverage *c, uint8_t *listed_axes)
 {
     struct necks k = {.cover = c, .engine = run, .piece = &list->piece};
     k.stride[0] = 1, k.stride[1] = c->n[0], k.stride[2] = c->n[0] * c->n[1];
@@ -439,17 +439,17 @@ static void length_judge(struct width_misfit_list *list, real low, real high, re
 
 void width_misfit_list_add_parts_of_1d_body(struct width_misfit_list *list)
 {
-    const struct piece *p = &list->piece;
+    const struct body_piece *p = &list->piece;
     const struct scene *s = p->scene;
     real from[DIM_MAX], to[DIM_MAX], first[DIM_MAX], X[DIM_MAX] = {0};
-    if (s->body[p->body].file || !(s->spacing > 0) || !piece_compute_bounding_box(p, from, to)) return;
+    if (s->body[p->body].file || !(s->spacing > 0) || !body_piece_compute_bounding_box(p, from, to)) return;
     const real step = 0.25 * s->spacing, steps = (to[0] - from[0]) / step;
     if (!(steps < POINTS_MOST) || body_lattice_compute_first_site_position(s, p->body, first) != OK) return;
     for (real m = 0.5; m < steps; m++) {
         X[0] = from[0] + m * step;
-        if (!piece_contains_point(p, X, 0)) continue;
-        const real low = X[0] - piece_distance_to_surface_along_axis(p, X, 0, -step, INFINITY),
-                   high = X[0] + piece_distance_to_surface_along_axis(p, X, 0, step, INFINITY);
+        if (!body_piece_contains_point(p, X, 0)) continue;
+        const real low = X[0] - body_piece_distance_to_surface_along_axis(p, X, 0, -step, INFINITY),
+                   high = X[0] + body_piece_distance_to_surface_along_axis(p, X, 0, step, INFINITY);
         length_judge(list, low, high, first[0]);
         while (m < steps && from[0] + m * step < high) m++;
     }

@@ -72,7 +72,7 @@ void print_tensile_strength_of_brittle_bonds(const struct scene *s, const struct
 
 /* Prints the length of the smallest pre-crack of the run and its ratio to the horizon. Prints nothing unless the body
  * is plane and its bonds soften. */
-void print_smallest_precrack_length(const struct run *run);
+void print_smallest_resolvable_precrack_length(const struct run *run);
 
 /* Writes a remark to `out` for each 2D crack of scene s (the input file) whose two tips are less than FEATURE (4)
  * horizons apart, so that they affect each other. A crack that begins at a face or a plane of symmetry has one tip. It
@@ -130,7 +130,7 @@ void print_advice_on_incompressible_bodies(const struct run *run, FILE *out);
 
 /* Writes a line to `out` for each support of the run that prescribes the motion of a layer of particles behind a face,
  * a horizon deep by default, if this layer stiffens a body of bonds in equilibrium by more than a few percent. */
-void print_advice_on_stiffening_by_prescribed_layers(const struct run *run, FILE *out);
+void print_advice_on_stiffening_by_prescribed_motion(const struct run *run, FILE *out);
 
 /* ---- check_levels.c ---------------------------------------------------------------------------------------------- */
 
@@ -140,7 +140,7 @@ void print_coarse_cell_sizes_and_counts(const struct run *run);
 
 /* Prints the memory and time that coarse cells of the mesh (larger cells, in which no particles are made) save in the
  * run e. cost: measured cost of the run. */
-void print_coarse_cells_saving(const struct run *run, const struct cost *cost);
+void print_cost_saved_by_coarse_cells(const struct run *run, const struct cost *cost);
 
 /* ---- check_sections.c -------------------------------------------------------------------------------------------- */
 
@@ -175,7 +175,7 @@ void print_advice_on_unbalanced_loads(const struct run *run, FILE *out);
  * perpendicular to the axis of the boundary, the mean angle between normal and axis there, and a region that excludes
  * this part of the face. If the face lies in several planes and the boundary has no region, prints instead where it
  * lies. */
-void print_oblique_fraction_of_loaded_face(const struct run *run, const struct boundary *b);
+void print_fraction_of_loaded_face_not_normal_to_axis(const struct run *run, const struct boundary *b);
 
 /* Prints the volume of the particles and the volume of the shape for those bodies of the run that are not boxes
  * (check_filled.c). */
@@ -200,17 +200,17 @@ void hint_implausible_load_signs_and_magnitudes(const struct run *run, struct wa
  * the error and a remedy. The run must not have taken a step. */
 void print_accuracy_advice(const struct run *run, FILE *out);
 
-/* Writes to `out` by how much the stiffness of a part of scene s (the input file) with a thickness of `layer_count`
- * particle layers differs at most from that of the material, for example "about 2 % in bending and tension"; in 3D also
- * in torsion. The values are from a table. surface: correction of bonds near faces. */
-void print_stiffness_error_of_thin_part(const struct scene *s, enum surface_rule surface, double layer_count,
+/* Writes to `out` by how much the stiffness of a part of scene s (the input file) with a thickness of
+ * `particle_layer_count` particle layers differs at most from that of the material, for example "about 2 % in bending
+ * and tension"; in 3D also in torsion. The values are from a table. surface: correction of bonds near faces. */
+void print_stiffness_error_of_thin_part(const struct scene *s, enum surface_rule surface, double particle_layer_count,
                                         FILE *out);
 
 /* Writes lines about inexact stiffness to `out` for those bodies of the peridynamic run whose particles are read from
  * a list: bodies whose list is no lattice along the axes although `pd.weights: isotropic` assumes one, and, without
  * `pd.surface: moments`, bodies with parts of less than 16 layers of particles. Writes nothing for other methods and in
  * 1D. */
-void print_advice_on_stiffness_of_particle_lists(const struct run *run, FILE *out);
+void print_stiffness_advice_on_particle_list_bodies(const struct run *run, FILE *out);
 
 /* Returns true if the set-up of the run (bodies, loads, cracks) equals its mirror image in the plane normal to axis
  * `normal_axis` through the middle of its particles. *plane_position receives the position of this plane along the axis

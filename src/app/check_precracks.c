@@ -110,7 +110,7 @@ void hint_precrack_ends_exactly_on_bonds(const struct run *run, struct warnings 
     }
 }
 
-void print_smallest_precrack_length(const struct run *run)
+void print_smallest_resolvable_precrack_length(const struct run *run)
 {
     const struct scene *s = run->scene;
     real least = INFINITY;

@@ -24,16 +24,19 @@ struct section {
 
 /* All sections of one piece of a body (connected sets of covered cells) in slices normal to one axis. */
 struct sections {
-    const struct cover *cover; /* share of each cell that the shape covers */
-    int axis, across[2];       /* axis of the slices; the other axes */
-    int64_t stride, side[2];   /* index offset from a cell to the next slice; to neighbours in the slice */
+    const struct cell_coverage *cover; /* share of each cell that the shape covers */
+    int axis, across[2];               /* axis of the slices; the other axes */
+    int64_t stride, side[2];           /* index offset from a cell to the next slice; to neighbours in the slice */
     int32_t n;
     struct section *section; /* [n] */
     int32_t *of;             /* [cells] section of a cell, -1: none */
     uint8_t *named; /* [cells] bit d: the cell belongs to a part that was reported for its width along axis d */
 };
 
-static bool is_covered(const struct cover *c, int64_t cell) { return c->filled[cell] || c->share[cell] > COVERED; }
+static bool is_covered(const struct cell_coverage *c, int64_t cell)
+{
+    return c->filled[cell] || c->share[cell] > COVERED;
+}
 
 static int32_t section_new(struct sections *s, int64_t slice, int64_t cell)
 {
@@ -48,7 +51,7 @@ static int32_t section_new(struct sections *s, int64_t slice, int64_t cell)
  * an element for each cell of a slice. */
 static void section_flood(struct sections *s, int64_t slice, int64_t first, int64_t *stack)
 {
-    const struct cover *c = s->cover;
+    const struct cell_coverage *c = s->cover;
     const int32_t number = section_new(s, slice, first);
     struct section *section = &s->section[number];
     int64_t top = 0;
@@ -57,7 +60,7 @@ static void section_flood(struct sections *s, int64_t slice, int64_t first, int6
         const int64_t cell = stack[--top];
         int64_t at[DIM_MAX];
         section->n++, section->area += c->share[cell], section->filled += c->filled[cell];
-        piece_cell_coverage_compute_cell_indices(c, cell, at);
+        cell_coverage_compute_lattice_indices_of_cell(c, cell, at);
         for (int k = 0; k < 4; k++) {
             const int d = s->across[k / 2], way = k % 2 ? 1 : -1;
             const int64_t next = cell + way * s->side[k / 2];
@@ -79,7 +82,7 @@ static int32_t larger(const struct sections *s, int32_t a, int32_t b)
  * connected set of cells that the body covers. Finds for each section the largest section that it touches in the next
  * and in the previous slice. c: lattice cells of the piece; named[cells]: marks of parts that have been reported; c and
  * named are stored by reference in s. Release s with sections_free. */
-static void sections_make(struct sections *s, const struct cover *c, int axis, uint8_t *named)
+static void sections_make(struct sections *s, const struct cell_coverage *c, int axis, uint8_t *named)
 {
     const int64_t stride[DIM_MAX] = {1, c->n[0], c->n[0] * c->n[1]};
     *s = (struct sections){.cover = c, .axis = axis, .stride = stride[axis], .named = named};
@@ -91,14 +94,14 @@ static void sections_make(struct sections *s, const struct cover *c, int axis, u
     for (int64_t k = 0; k < c->cells; k++) {
         int64_t at[DIM_MAX];
         if (s->of[k] >= 0 || !is_covered(c, k)) continue;
-        piece_cell_coverage_compute_cell_indices(c, k, at);
+        cell_coverage_compute_lattice_indices_of_cell(c, k, at);
         section_flood(s, at[axis], k, stack);
     }
     memory_free(stack);
     for (int64_t k = 0; k + s->stride < c->cells; k++) {
         const int64_t next = k + s->stride;
         int64_t at[DIM_MAX];
-        piece_cell_coverage_compute_cell_indices(c, k, at);
+        cell_coverage_compute_lattice_indices_of_cell(c, k, at);
         if (at[axis] + 1 == c->n[axis] || s->of[k] < 0 || s->of[next] < 0) continue;
         struct section *here = &s->section[s->of[k]], *there = &s->section[s->of[next]];
         here->after = larger(s, here->after, s->of[next]);
@@ -126,7 +129,7 @@ static bool goes_on_alike(const struct sections *s, int32_t k, real area)
  * for the area of the shape. */
 static real width_along(const struct sections *s, int32_t number, int k, bool filled)
 {
-    const struct cover *c = s->cover;
+    const struct cell_coverage *c = s->cover;
     const struct section *section = &s->section[number];
     const int64_t lines = c->n[s->across[1 - k]], base = section->slice * s->stride;
     real sum = 0;
@@ -146,7 +149,7 @@ static real width_along(const struct sections *s, int32_t number, int k, bool fi
  * relative error of its area [1]. */
 static struct narrow_part uneven_of(const struct sections *s, int32_t number, real off)
 {
-    const struct cover *c = s->cover;
+    const struct cell_coverage *c = s->cover;
     struct narrow_part u = {.off = off, .across = s->axis};
     real worst = -1, sum = 0;
     for (int k = 0; k < 2; k++) {
@@ -162,7 +165,7 @@ static struct narrow_part uneven_of(const struct sections *s, int32_t number, re
             const int64_t cell = base + a * s->side[0] + b * s->side[1];
             int64_t at[DIM_MAX];
             if (s->of[cell] != number) continue;
-            piece_cell_coverage_compute_cell_indices(c, cell, at);
+            cell_coverage_compute_lattice_indices_of_cell(c, cell, at);
             sum += c->share[cell];
             for (int d = 0; d < c->dim; d++) u.at[d] += c->share[cell] * (c->first[d] + (real)at[d] * c->spacing);
         }
@@ -241,7 +244,7 @@ static void part_judge(const struct sections *s, int32_t first, struct width_mis
 /* Examines the sections of the piece list->piece across each axis and adds to the list the narrow parts whose particles
  * have a wrong area. c: lattice cells of the piece; named[cells]: bit d is set for cells of a listed part whose width
  * along axis d is wrong. */
-static void piece_sections(struct width_misfit_list *list, const struct cover *c, uint8_t *named)
+static void piece_sections(struct width_misfit_list *list, const struct cell_coverage *c, uint8_t *named)
 {
     for (int axis = 0; axis < c->dim; axis++) {
         struct sections s;
@@ -253,17 +256,17 @@ static void piece_sections(struct width_misfit_list *list, const struct cover *c
 
 /* Appends to `list` the narrow parts of list->piece that have a wrong number of particle rows. The piece is a body of
  * the run, or all its parts of one material. Appends nothing if the bounding box of the body has too many cells
- * (piece_cell_coverage_make). */
+ * (cell_coverage_compute_for_body_piece). */
 static void piece_judge(struct width_misfit_list *list, const struct run *run)
 {
-    struct cover c;
+    struct cell_coverage c;
     if (run->scene->dim == 1) width_misfit_list_add_parts_of_1d_body(list);
-    if (run->scene->dim == 1 || !piece_cell_coverage_make(&c, &list->piece)) return;
+    if (run->scene->dim == 1 || !cell_coverage_compute_for_body_piece(&c, &list->piece)) return;
     uint8_t *named = NEW("check.named", c.cells, uint8_t);
     piece_sections(list, &c, named);
     width_misfit_list_add_necks_of_piece(list, run, &c, named);
     memory_free(named);
-    piece_cell_coverage_free(&c);
+    cell_coverage_free(&c);
 }
 
 void print_advice_on_widths_of_narrow_parts(const struct run *run, FILE *out)

@@ -66,8 +66,8 @@ static void say_horizons(const struct scene *s, const struct material *m, real k
     say_horizon(s, m);
     printf("; stress reaches this strength with a horizon below %.4g m, and cracks grow unimpeded by the lattice below "
            "%.4g m",
-           scene_softening_horizon_for_stretch_ratio(s, m, 1),
-           scene_softening_horizon_for_stretch_ratio(s, m, FREE_OF_TRAPPING));
+           scene_horizon_for_failure_to_onset_stretch_ratio(s, m, 1),
+           scene_horizon_for_failure_to_onset_stretch_ratio(s, m, FREE_OF_TRAPPING));
     if (s->dim > 1) say_excess(s, kappa);
     say_few_directions(s);
     printf("\n");

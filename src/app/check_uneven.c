@@ -62,7 +62,8 @@ void width_misfit_list_add_narrow_part(struct width_misfit_list *list, const str
     }
 }
 
-real piece_distance_to_surface_along_axis(const struct piece *p, const real *X, int axis, real step, real max_distance)
+real body_piece_distance_to_surface_along_axis(const struct body_piece *p, const real *X, int axis, real step,
+                                               real max_distance)
 {
     enum { HALVINGS = 30 };
     real Y[DIM_MAX], inside = 0;
@@ -70,13 +71,13 @@ real piece_distance_to_surface_along_axis(const struct piece *p, const real *X, 
     for (int k = 1;; k++, inside += step) {
         if (fabs(inside) >= max_distance) return max_distance;
         Y[axis] = X[axis] + k * step;
-        if (!piece_contains_point(p, Y, 0)) break;
+        if (!body_piece_contains_point(p, Y, 0)) break;
     }
     real outside = inside + step;
     for (int k = 0; k < HALVINGS; k++) {
         const real middle = 0.5 * (inside + outside);
         Y[axis] = X[axis] + middle;
-        if (piece_contains_point(p, Y, 0))
+        if (body_piece_contains_point(p, Y, 0))
             inside = middle;
         else
             outside = middle;
@@ -86,21 +87,21 @@ real piece_distance_to_surface_along_axis(const struct piece *p, const real *X, 
 
 /* Computes the coordinates at which the piece p (a body, or its part of one material) ends below and above the point
  * u->at, along the axis u->axis of the width, and stores them in *low and *high [m]. */
-static void width_ends(const struct piece *p, const struct narrow_part *u, real *low, real *high)
+static void width_ends(const struct body_piece *p, const struct narrow_part *u, real *low, real *high)
 {
     const real h = p->scene->spacing, most = 4000 * h;
-    *low = u->at[u->axis] - piece_distance_to_surface_along_axis(p, u->at, u->axis, -0.05 * h, most);
-    *high = u->at[u->axis] + piece_distance_to_surface_along_axis(p, u->at, u->axis, 0.05 * h, most);
+    *low = u->at[u->axis] - body_piece_distance_to_surface_along_axis(p, u->at, u->axis, -0.05 * h, most);
+    *high = u->at[u->axis] + body_piece_distance_to_surface_along_axis(p, u->at, u->axis, 0.05 * h, most);
 }
 
 /* Measures the width of the narrow part u of piece p on the line along u->axis through the point u->at. u->width must
  * contain an estimate from areas. The measured width replaces this estimate, and u->measured is set to true, if two
  * conditions hold: the two widths differ by less than 10 %, and the measured width differs from u->filled, the width of
  * the rows of particles, by more than half the estimated error. */
-static void width_measure(struct narrow_part *u, const struct piece *p)
+static void width_measure(struct narrow_part *u, const struct body_piece *p)
 {
     real low, high;
-    if (u->measured || !piece_contains_point(p, u->at, 0)) return;
+    if (u->measured || !body_piece_contains_point(p, u->at, 0)) return;
     width_ends(p, u, &low, &high);
     const real width = high - low;
     u->measured = fabs(width - u->width) < 0.1 * u->width && fabs(u->filled - width) > 0.5 * fabs(u->off) * width;
@@ -110,7 +111,7 @@ static void width_measure(struct narrow_part *u, const struct piece *p)
 /* Returns the number of lattice rows of the piece p (a body, or its part of one material) between the coordinates `low`
  * and `high` along `axis` [m], if the spacing of its scene were `spacing` [m]; -1 if the lattice of the body cannot be
  * determined for this spacing. */
-static int64_t rows_at(const struct piece *p, int axis, real low, real high, real spacing)
+static int64_t rows_at(const struct body_piece *p, int axis, real low, real high, real spacing)
 {
     struct scene other = *p->scene;
     real X[DIM_MAX] = {0};
@@ -139,7 +140,7 @@ static struct length_unit unit_of_spacing(real spacing)
 /* Prints to `out` the nearest smaller and the nearest larger spacing with which the narrow part u of piece p gets the
  * right number of lattice rows: its width is then a whole number of spacings. Spacings are truncated to six digits. If
  * the present spacing divides the width already, prints how the part can be moved to fit the lattice. */
-static void say_spacings(const struct narrow_part *u, const struct piece *p, FILE *out)
+static void say_spacings(const struct narrow_part *u, const struct body_piece *p, FILE *out)
 {
     const struct length_unit unit = unit_of_spacing(p->scene->spacing);
     const real cells = u->width / p->scene->spacing, more = ceil(cells * (1 - 1e-3));
@@ -179,7 +180,7 @@ static void say_place(const real *at, int dim, FILE *out)
 
 /* Prints the beginning of a remark on the narrow part u of the piece p (a body, or its part of one material) to `out`:
  * the name of the body and, if the piece is of one material, the name of the material. */
-static void say_owner(const struct narrow_part *u, const struct piece *p, FILE *out)
+static void say_owner(const struct narrow_part *u, const struct body_piece *p, FILE *out)
 {
     fprintf(out, "accuracy       body %s: ", p->scene->body[p->body].name);
     if (u->material != ANY_MATERIAL) fprintf(out, "material %s: ", p->scene->material[u->material].name);
@@ -191,7 +192,7 @@ void print_parts_whose_width_misfits_spacing(struct width_misfit_list *list, FIL
     int measured = 0;
     for (int k = 0; k < list->n; k++) {
         struct narrow_part *u = &list->part[k];
-        const struct piece p = {list->piece.scene, list->piece.body, u->material};
+        const struct body_piece p = {list->piece.scene, list->piece.body, u->material};
         width_measure(u, &p);
         if (!u->measured) continue;
         say_owner(u, &p, out);

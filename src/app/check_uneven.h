@@ -21,7 +21,7 @@ struct narrow_part {
  * UNEVEN_MOST: largest number of parts in the list. */
 enum { UNEVEN_MOST = 3 };
 struct width_misfit_list {
-    struct piece piece; /* piece that is evaluated */
+    struct body_piece piece; /* piece that is evaluated */
     int n;
     struct narrow_part part[UNEVEN_MOST];
 };
@@ -42,7 +42,8 @@ void width_misfit_list_add_narrow_part(struct width_misfit_list *list, const str
 /* Computes the distance from the point X[dim] [m], which is inside the piece p (a body, or its part of one material),
  * to the surface of p along the axis `axis`, by steps and bisection. step: length of a step [m]; its sign is the
  * direction. Returns the distance, or max_distance if the distance is larger [m]. */
-real piece_distance_to_surface_along_axis(const struct piece *p, const real *X, int axis, real step, real max_distance);
+real body_piece_distance_to_surface_along_axis(const struct body_piece *p, const real *X, int axis, real step,
+                                               real max_distance);
 
 /* Measures the width of each narrow part in `list` along a line through the part, and prints to `out` a line for each
  * part whose error the measurement confirms. If it confirms none, prints a line for the part with the largest error.
@@ -54,7 +55,7 @@ void print_parts_whose_width_misfits_spacing(struct width_misfit_list *list, FIL
  * between a hole and an edge. cover: lattice cells of the piece. listed_axes[cells] excludes parts that are in the list
  * already: bit d is set for cells of a listed part whose width is measured along axis d. */
 void width_misfit_list_add_necks_of_piece(struct width_misfit_list *list, const struct run *run,
-                                          const struct cover *cover, uint8_t *listed_axes);
+                                          const struct cell_coverage *cover, uint8_t *listed_axes);
 
 /* Adds to the list `list`, the parts with the largest errors, the parts of the 1D body list->piece (a body, or its part
  * of one material) whose length is no whole number of spacings. */

@@ -102,7 +102,7 @@ bool inputs_folder_find_path(char *path, size_t capacity);
 
 /* Prints to `out` the names of the kinds of input files that the command `cleave new` can create, separated by blanks.
  */
-void new_scene_kinds_print_names(FILE *out);
+void command_new_print_names_of_scene_kinds(FILE *out);
 
 /* Prints to `out` a script by which a shell completes the commands, options and keys of the program. shell: name of the
  * shell, bash or zsh. Returns REFUSED, with a message, for another shell. */

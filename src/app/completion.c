@@ -102,7 +102,7 @@ status completion_print_shell_script(FILE *out, const char *shell)
     fputs("    local commands='", out);
     names_print(out);
     fputs("' kinds='", out);
-    new_scene_kinds_print_names(out);
+    command_new_print_names_of_scene_kinds(out);
     fputs("'\n", out);
     cases_print(out);
     fputs(bash ? rest_of_bash : rest_of_zsh, out);

@@ -44,7 +44,7 @@ static status budget_read(struct convergence_request *request, const char *text)
 static status converge_override(struct converge_arguments *a, const char *text)
 {
     struct varied_key *k = &a->key[a->keys];
-    TRY(varied_key_parse_values(k, text));
+    TRY(varied_key_parse_name_and_values(k, text));
     a->keys++;
     if (k->values > 1) return status_set(REFUSED, "-s %s: give one value; to vary a key use cleave sweep", k->key);
     return OK;
@@ -115,7 +115,7 @@ static status converge_place(struct converge_arguments *a)
     const status fits =
         request->options.overwrite ? OK : study_folder_check_is_usable_for_scene(request->folder, scene.text);
     scene_free(&scene);
-    return fits == OK ? scalar_results_check_replaceable(request->folder) : fits;
+    return fits == OK ? convergence_study_check_output_files_replaceable(request->folder) : fits;
 }
 
 static status converge_all(struct converge_arguments *a)

@@ -121,7 +121,7 @@ static status part_write(const struct kind *k, const char *path)
     return file_close(out, part_path(path).text);
 }
 
-void new_scene_kinds_print_names(FILE *out)
+void command_new_print_names_of_scene_kinds(FILE *out)
 {
     for (size_t k = 0; k < COUNT_OF(kinds); k++) fprintf(out, "%s%s", k ? " " : "", kinds[k].name);
 }

@@ -188,7 +188,7 @@ status command_run_main(int argc, char **argv)
     if (out.folder) snprintf(folder.text, sizeof folder.text, "%s", out.folder);
     output_close(&out);
     scene_free(&s);
-    pilot_free(&pilot);
+    pilot_choice_free(&pilot);
     if (result == OK && page)
         result = report_write_html_page(&(struct report_request){.folder = folder.text, .quiet = a.quiet});
     arguments_free(&a);

@@ -31,7 +31,7 @@ struct sweep_arguments {
  * appends it to a->key. Returns REFUSED, with a message, if the key is given twice or the text is invalid. */
 static status key_add(struct sweep_arguments *a, const char *text)
 {
-    TRY(varied_key_parse_values(&a->key[a->keys], text));
+    TRY(varied_key_parse_name_and_values(&a->key[a->keys], text));
     const char *key = a->key[a->keys++].key;
     for (int k = 0; k + 1 < a->keys; k++)
         if (strcmp(a->key[k].key, key) == 0)
@@ -149,7 +149,7 @@ static status sweep_list(const struct study *s, const struct sweep_arguments *a)
 
 static status sweep_all(struct study *s, struct sweep_arguments *a)
 {
-    TRY(study_make_with_keys(s, a->scene, a->folder, "sweep", a->key, a->keys));
+    TRY(study_initialise_with_varied_keys(s, a->scene, a->folder, "sweep", a->key, a->keys));
     s->options = a->words;
     TRY(study_add_cases_of_all_value_combinations(s, a->key, a->keys));
     TRY(study_find_completed_failed_and_equal_cases(s, a->collect));

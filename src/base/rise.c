@@ -17,20 +17,21 @@ void quantity_samples_add_value(struct quantity_samples *samples, int64_t step, 
 }
 
 enum growth_rate quantity_samples_classify_growth_rate(const struct quantity_samples *samples, int64_t step, real value,
-                                                       real *tenfold_steps)
+                                                       real *steps_of_last_tenfold_rise)
 {
     real newer = value, older = 0, least = 0;
-    *tenfold_steps = INFINITY;
+    *steps_of_last_tenfold_rise = INFINITY;
     for (int64_t k = samples->n; k-- > 0 && k >= samples->n - RISE_VALUES;) {
         const real most = (real)(step - samples->at[k % RISE_VALUES].step);
         older = real_max(samples->at[k % RISE_VALUES].value, NOTHING * value);
         if (older <= 0.1 * value) {
-            *tenfold_steps = least + (most - least) * log(newer / (0.1 * value)) / log(newer / older);
+            *steps_of_last_tenfold_rise = least + (most - least) * log(newer / (0.1 * value)) / log(newer / older);
             break;
         }
         newer = older, least = most;
     }
-    if (least >= RISE_STEPS || (*tenfold_steps > RISE_STEPS && older >= SOMETHING * value && isfinite(*tenfold_steps)))
+    if (least >= RISE_STEPS || (*steps_of_last_tenfold_rise > RISE_STEPS && older >= SOMETHING * value &&
+                                isfinite(*steps_of_last_tenfold_rise)))
         return RISE_SLOW;
-    return *tenfold_steps <= RISE_STEPS ? RISE_FAST : RISE_UNSURE;
+    return *steps_of_last_tenfold_rise <= RISE_STEPS ? RISE_FAST : RISE_UNSURE;
 }

@@ -276,13 +276,13 @@ int machine_physical_core_count(void)
     return cores;
 }
 
-struct cpu_core_partition *cpu_core_partition_make(int share_count)
+struct cpu_core_partition *cpu_core_partition_make(int group_count)
 {
     struct cpu_core_partition *partition = NEW("team.shares", 1, struct cpu_core_partition);
     if (place_make(&partition->place)) {
-        partition->n = share_count;
+        partition->n = group_count;
         partition->cores = core_count(&partition->place);
-        if (share_count > 1 && share_count <= partition->cores && core_at(&partition->place, partition->cores - 1))
+        if (group_count > 1 && group_count <= partition->cores && core_at(&partition->place, partition->cores - 1))
             return partition;
         place_free(&partition->place);
     }
@@ -290,15 +290,15 @@ struct cpu_core_partition *cpu_core_partition_make(int share_count)
     return NULL;
 }
 
-void cpu_core_partition_bind_calling_thread(const struct cpu_core_partition *partition, int share_number)
+void cpu_core_partition_bind_calling_thread(const struct cpu_core_partition *partition, int group_number)
 {
-    if (!partition || share_number >= partition->n) return;
+    if (!partition || group_number >= partition->n) return;
     hwloc_bitmap_t mine = hwloc_bitmap_alloc();
-    const int first = share_number < 0 ? 0 : share_number * partition->cores / partition->n;
-    const int end = share_number < 0 ? partition->cores : (share_number + 1) * partition->cores / partition->n;
+    const int first = group_number < 0 ? 0 : group_number * partition->cores / partition->n;
+    const int end = group_number < 0 ? partition->cores : (group_number + 1) * partition->cores / partition->n;
     for (int k = first; k < end; k++) hwloc_bitmap_or(mine, mine, core_at(&partition->place, k)->cpuset);
     hwloc_bitmap_and(mine, mine, partition->place.mask);
-    hwloc_set_cpubind(partition->place.topology, share_number < 0 ? partition->place.mask : mine, HWLOC_CPUBIND_THREAD);
+    hwloc_set_cpubind(partition->place.topology, group_number < 0 ? partition->place.mask : mine, HWLOC_CPUBIND_THREAD);
     hwloc_bitmap_free(mine);
 }
 

@@ -117,12 +117,12 @@ static void rows_list(struct bonds *b, struct bonds *old, const struct particles
     int32_t row = 0;
     b->rows = 0;
     for (int64_t e = 0; e < eights; e++)
-        b->rows += wanted[e] ? count_of_eight_consecutive_indices_below(e * LANES, p->n) : 0;
+        b->rows += wanted[e] ? count_of_next_eight_indices_below_limit(e * LANES, p->n) : 0;
     b->row_blocks = (b->rows + LANES - 1) / LANES;
     b->particle = NEW("bonds.particle", b->row_blocks * LANES, int32_t);
     b->row_of = row_of_make(old, p->n_all);
     for (int64_t e = 0; e < eights; e++)
-        for (int l = 0; wanted[e] && l < count_of_eight_consecutive_indices_below(e * LANES, p->n); l++, row++)
+        for (int l = 0; wanted[e] && l < count_of_next_eight_indices_below_limit(e * LANES, p->n); l++, row++)
             b->particle[row] = (int32_t)(e * LANES) + l, b->row_of[e * LANES + l] = row;
     for (int64_t r = b->rows; r < b->row_blocks * LANES; r++) b->particle[r] = b->particle[b->rows - 1];
 }
@@ -334,31 +334,32 @@ static void rows_inherit(struct bonds *b, const struct bonds *old)
     }
 }
 
-void bonds_make(struct bonds *b, struct bonds *previous, struct particles *p, const struct bond_source *s)
+void bonds_make(struct bonds *b, struct bonds *previous_bonds, struct particles *p, const struct bond_source *s)
 {
     memset(b, 0, sizeof *b);
-    if (previous) b->reach = previous->reach; /* covers the blocks of eight rows that are kept */
-    b->stencils = stencil_table_add_reference_or_make(previous ? previous->stencils : NULL);
-    struct lattice_site_map *map = lattice_site_map_add_reference_or_make(previous ? previous->site_map : NULL, s, p);
+    if (previous_bonds) b->reach = previous_bonds->reach; /* covers the blocks of eight rows that are kept */
+    b->stencils = stencil_table_add_reference_or_make(previous_bonds ? previous_bonds->stencils : NULL);
+    struct lattice_site_map *map =
+        lattice_site_map_add_reference_or_make(previous_bonds ? previous_bonds->site_map : NULL, s, p);
     int most = bonds_neighbour_count_upper_bound(s);
     uint8_t *wanted = NEW("bonds.wanted", (p->n + LANES - 1) / LANES, uint8_t);
     uint8_t *fresh = NEW("bonds.fresh", p->n, uint8_t);
-    mark_rows(s, p, previous, map, most, wanted, fresh);
-    rows_list(b, previous, p, wanted);
+    mark_rows(s, p, previous_bonds, map, most, wanted, fresh);
+    rows_list(b, previous_bonds, p, wanted);
     memory_free(wanted);
     rows_arrays(b);
-    bonds_allocate_softening_state(b, previous, s, p);
+    bonds_allocate_softening_state(b, previous_bonds, s, p);
     bonds_initialise_state_based_moduli(b, s);
 
-    bonds_rows_make(
-        b, (struct bond_row_inputs){.old = previous, .source = s, .p = p, .fresh = fresh, .map = map, .room = most});
+    bonds_rows_make(b, (struct bond_row_inputs){
+                           .old = previous_bonds, .source = s, .p = p, .fresh = fresh, .map = map, .room = most});
     memory_free(fresh);
-    if (previous) rows_inherit(b, previous);
+    if (previous_bonds) rows_inherit(b, previous_bonds);
     if (p->n_of[KIND_PD] < p->n)
         b->site_map = map;
     else
         lattice_site_map_release_reference(map);
-    bonds_disown_arrays_shared_with_new_bonds(previous, b);
+    bonds_disown_arrays_shared_with_new_bonds(previous_bonds, b);
 
     b->core = s->core;
     b->stiffness = family_micro_modulus(&s->family, &s->material[0]) * square(s->family.cell_volume);

@@ -21,7 +21,7 @@ static void changed_weights(struct bonds *b, real *w, bool saving)
         for (int64_t q = from; q < from + n; q++)
             if (b->w[q] == 0) b->inverse_length[q] = -fabs(b->inverse_length[q]);
         for (int64_t column = b->column[g]; column < b->column[g] + b->column_count[g]; column++)
-            bond_column_update_lane_uniform_properties(b, column);
+            bond_column_update_common_bond_properties(b, column);
         b->stencil[g] = NULL;
     }
 }

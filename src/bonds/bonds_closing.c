@@ -37,12 +37,12 @@ static void ended_bond_release(struct bonds *b, int64_t row, int64_t q)
 
 /* Updates whether the bond with index q in row `row` of b (bonds of one particle) presses, if it has ended. pairs:
  * micro-moduli by pair of materials. Returns the number of changes, 0 or 1. Other arguments:
- * bonds_update_ended_bonds_that_press. */
+ * bonds_update_contact_springs_of_broken_bonds. */
 static int ended_bond_update_whether_it_presses(struct bonds *b, const struct particles *p,
                                                 const struct bond_source *source,
                                                 const struct material_pair_table *pairs, int64_t row, int64_t q)
 {
-    const bool presses = ended_bond_presses(b, row / LANES, q);
+    const bool presses = bond_ended_by_softening_transmits_compression(b, row / LANES, q);
     if (!presses && (b->w[q] != 0 || !bond_is_softening(b, row / LANES, q))) return 0;
     if (presses == (bond_stretch_also_if_broken(b, p, row, q) < 0)) return 0;
     if (presses)
@@ -52,8 +52,8 @@ static int ended_bond_update_whether_it_presses(struct bonds *b, const struct pa
     return 1;
 }
 
-int64_t bonds_update_ended_bonds_that_press(struct bonds *b, const struct particles *p,
-                                            const struct bond_source *source)
+int64_t bonds_update_contact_springs_of_broken_bonds(struct bonds *b, const struct particles *p,
+                                                     const struct bond_source *source)
 {
     int64_t changes = 0;
     if (!b->soft.settled || b->soft.whole) return 0;

@@ -74,7 +74,7 @@ void bond_row_set_softening_state(struct bond_row *row, const struct bond_row_in
 
 /* Returns true if the bond with index `bond` in the arrays of b has ended by softening and presses (closing.h).
  * row_block: block of eight rows (the bonds of eight particles) that contains the bond. */
-static inline bool ended_bond_presses(const struct bonds *b, int64_t row_block, int64_t bond)
+static inline bool bond_ended_by_softening_transmits_compression(const struct bonds *b, int64_t row_block, int64_t bond)
 {
     return bond_row_block_has_begun_softening(b, row_block) && b->soft.settled && !b->soft.whole && b->w[bond] != 0 &&
            !bond_is_softening(b, row_block, bond) && b->soft.settled[bond] > 0;
@@ -87,9 +87,9 @@ static inline bool ended_bond_presses(const struct bonds *b, int64_t row_block, 
 /* Copies the softening state of the bonds in row `previous_row` of `previous_bonds` to row `row` of b, the row of the
  * same particle. new_index: index in p of each particle and mirror image of `previous_bonds`, -1 if it is not in p;
  * limit: critical stretches and softening by pair of materials. */
-void bonds_copy_softening_of_row(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
-                                 int64_t row, const struct bonds *previous_bonds, int64_t previous_row,
-                                 const int32_t *new_index);
+void bonds_copy_softening_state_of_row(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
+                                       int64_t row, const struct bonds *previous_bonds, int64_t previous_row,
+                                       const int32_t *new_index);
 
 /* Saves the softening state of all bonds b to the archive `a` if a->saving, else restores it from there. Marks of each
  * block of eight rows (bonds of eight particles) are included: whether a bond of the block has begun to soften, and
@@ -230,8 +230,8 @@ void stencil_cache_free(struct stencil_cache *t);
  * particles found; -1 if the cache has no such particles, or if the lattice is not uniform. If the lattice is uniform
  * and the search fails, adds `bonds` to the cache. weight_inputs: inputs besides lattice sites on which weights depend;
  * NULL if there are none. */
-int64_t stencil_cache_particle_with_equal_bonds_or_add(const struct lattice_bonds *bonds,
-                                                       const struct bond_source *weight_inputs, int64_t first_particle);
+int64_t stencil_cache_find_or_add_lattice_bonds(const struct lattice_bonds *bonds,
+                                                const struct bond_source *weight_inputs, int64_t first_particle);
 
 /* Computes the inverse lengths inverse_length[8] [1/m] and weights weight[8] (factors on the stiffness, [1]) of the
  * bonds between the particles first_particle + l and first_neighbour + l of p, l = 0 to 7, without regard to cracks and
@@ -265,7 +265,7 @@ struct material_pair_table material_pair_table_compute_micro_moduli(const struct
  * stores: eight, or fewer in the last block. */
 static inline int bond_row_block_row_count(const struct bonds *b, int64_t row_block)
 {
-    return count_of_eight_consecutive_indices_below(row_block * LANES, b->rows);
+    return count_of_next_eight_indices_below_limit(row_block * LANES, b->rows);
 }
 
 /* Working memory in which one thread makes a block of eight rows (the bonds of eight particles). row: the bonds of each
@@ -324,8 +324,8 @@ void bonds_compute_lattice_shell_lengths(struct bonds *b, real spacing);
  * for which the bonds have the length spacing sqrt(k). b: table of these lengths. Stores in round_off_units[LANES] by
  * how many units in the last place each inverse length differs from that of the shell, due to the round-off of
  * positions. Returns k, or 0 if the bonds have no common shell. */
-int bonds_find_lattice_shell_of_eight_lengths(const struct bonds *b, const real *inverse_length,
-                                              int16_t *round_off_units);
+int bonds_find_common_lattice_shell_of_eight_bonds(const struct bonds *b, const real *inverse_length,
+                                                   int16_t *round_off_units);
 
 /* Returns a table of stencils (lists of columns shared by many blocks of eight rows): `existing`, its reference count
  * increased, or a new table if `existing` is NULL (bonds_stencils.c). Release with stencil_table_drop_reference. */

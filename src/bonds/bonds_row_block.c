@@ -265,7 +265,7 @@ void bond_row_block_fill_by_bonds_found_on_lattice(struct bonds *b, struct bond_
     const int32_t i = b->particle[g * LANES];
     const bool follows =
         whole_families(bonds) && bond_row_block_share_stencil_of_particle(
-                                     b, g, stencil_cache_particle_with_equal_bonds_or_add(bonds, inputs->source, i));
+                                     b, g, stencil_cache_find_or_add_lattice_bonds(bonds, inputs->source, i));
     real family_volume[LANES] = {0};
     int columns = 0;
     if (!follows || inputs->p->strength) regular_triggers(b->trigger + g * LANES, bonds, inputs, i);

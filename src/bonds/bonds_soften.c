@@ -123,9 +123,9 @@ static void softness_take(struct bonds *b, int64_t row, int32_t nbr, const struc
     }
 }
 
-void bonds_copy_softening_of_row(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
-                                 int64_t row, const struct bonds *previous_bonds, int64_t previous_row,
-                                 const int32_t *new_index)
+void bonds_copy_softening_state_of_row(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
+                                       int64_t row, const struct bonds *previous_bonds, int64_t previous_row,
+                                       const int32_t *new_index)
 {
     if (!bond_row_block_has_begun_softening(previous_bonds, previous_row / LANES)) return;
     if (!b->soft.begun[row / LANES]) bond_row_block_initialise_softening(b, p, limit, row / LANES);
@@ -133,7 +133,7 @@ void bonds_copy_softening_of_row(struct bonds *b, const struct particles *p, con
         if (new_index[it.bond.nbr] >= 0) softness_take(b, row, new_index[it.bond.nbr], previous_bonds, it.bond.entry);
 }
 
-void bonds_allocate_softening_stretches_of_equilibrium(struct bonds *b)
+void bonds_allocate_max_stretches_at_last_equilibrium(struct bonds *b)
 {
     if (!b->soft.settled) b->soft.settled = memory_new_lazy_zeroed("bonds.settled", b->room * LANES, sizeof(float));
 }
@@ -148,12 +148,12 @@ static void pack_softness(struct bonds *b, struct bond_softening_state *packed, 
             const int64_t q = b->column[g] * LANES + k;
             if (saving) {
                 *packed = bond_softening_state_read(&b->soft, q);
-                if (ended_bond_presses(b, g, q)) packed->whole = b->soft.settled[q];
+                if (bond_ended_by_softening_transmits_compression(b, g, q)) packed->whole = b->soft.settled[q];
                 continue;
             }
             bond_softening_state_write(b, q, *packed);
             if (b->soft.whole || !(packed->whole > 0)) continue;
-            bonds_allocate_softening_stretches_of_equilibrium(b);
+            bonds_allocate_max_stretches_at_last_equilibrium(b);
             b->soft.settled[q] = packed->whole;
         }
 }

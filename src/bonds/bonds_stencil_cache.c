@@ -89,8 +89,8 @@ static bool same_weights(const struct bond_source *s, const struct lattice_bonds
             eight_bytes_as_word(correction->mirrors + i) == eight_bytes_as_word(correction->mirrors + j));
 }
 
-int64_t stencil_cache_particle_with_equal_bonds_or_add(const struct lattice_bonds *bonds,
-                                                       const struct bond_source *weight_inputs, int64_t first_particle)
+int64_t stencil_cache_find_or_add_lattice_bonds(const struct lattice_bonds *bonds,
+                                                const struct bond_source *weight_inputs, int64_t first_particle)
 {
     struct stencil_cache *t = bonds->stencil_cache;
     if (!t->map->uniform) return -1;

@@ -68,8 +68,9 @@ bool stencil_add_column(struct stencil *stencil, const struct bonds *b, const st
     const real *inverse = added_column->inverse_length, *w = added_column->w;
     int16_t excess[LANES];
     int alone = added_column->first < 0, alike = 1, bonds = 0;
-    *column = (struct stencil_column){.offset = (int32_t)(added_column->first - first_particle),
-                                      .shell = (uint8_t)bonds_find_lattice_shell_of_eight_lengths(b, inverse, excess)};
+    *column =
+        (struct stencil_column){.offset = (int32_t)(added_column->first - first_particle),
+                                .shell = (uint8_t)bonds_find_common_lattice_shell_of_eight_bonds(b, inverse, excess)};
     for (int l = 0; l < LANES; l++) {
         stencil->w[stencil->columns][l] = w[l];
         alone |= (w[l] == 0) != (inverse[l] == 0); /* cut or broken */
@@ -213,7 +214,7 @@ void bond_column_write_eight_bonds(const struct bonds *b, int64_t column_number,
     memcpy(b->nbr + column_number * LANES, bonds->nbr, sizeof bonds->nbr);
     memcpy(b->inverse_length + column_number * LANES, bonds->inverse_length, sizeof bonds->inverse_length);
     memcpy(b->w + column_number * LANES, bonds->w, sizeof bonds->w);
-    bond_column_update_lane_uniform_properties(b, column_number);
+    bond_column_update_common_bond_properties(b, column_number);
 }
 
 /* Stores the columns (k-th bonds of all rows) of block `row_block` of eight rows (the bonds of eight particles) in the
@@ -240,6 +241,6 @@ void bond_update_cached_data_after_modification(struct bonds *b, int64_t row_num
 {
     b->stencil[row_number / LANES] = NULL;
     b->changed[row_number / LANES] = 1;
-    bond_column_update_lane_uniform_properties(b, q / LANES);
+    bond_column_update_common_bond_properties(b, q / LANES);
     __atomic_store_n(&b->clamped.stale, true, __ATOMIC_RELAXED); /* several threads may break bonds */
 }

@@ -67,7 +67,7 @@ void bonds_compute_family_volumes(real *volume, const struct particles *p, const
 #pragma omp for schedule(static)
         for (int64_t first = 0; first < p->n_all; first += LANES) {
             if (lattice_bonds_list_neighbours_ignoring_cracks(&map, s, p, first, &bonds)) {
-                const int64_t cached = stencil_cache_particle_with_equal_bonds_or_add(&bonds, NULL, first);
+                const int64_t cached = stencil_cache_find_or_add_lattice_bonds(&bonds, NULL, first);
                 if (cached >= 0)
                     memcpy(volume + first, volume + cached, LANES * sizeof *volume);
                 else
@@ -274,7 +274,7 @@ real bonds_critical_time_step_if_all_peridynamic(const struct particles *p, cons
             if (map.at && first + LANES <= p->n &&
                 lattice_bonds_compute_unless_near_crack(&map, s, &all, first, &regular)) {
                 /* an equal block of eight rows is already in `largest` */
-                if (stencil_cache_particle_with_equal_bonds_or_add(&regular, s, first) < 0)
+                if (stencil_cache_find_or_add_lattice_bonds(&regular, s, first) < 0)
                     largest = real_max(largest, row_block_frequency(&regular, s, p, &pairs, first, stiffness));
                 continue;
             }

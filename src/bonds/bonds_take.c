@@ -33,7 +33,7 @@ void bonds_copy_damage_to_new_particles(struct bonds *b, struct particles *p, co
         b->plastic_work[row] = old_bonds->plastic_work[from];
         b->broken[row] = old_bonds->broken[from];
         if (!old_bonds->changed[from / LANES]) continue;
-        if (old_bonds->soft.curve) bonds_copy_softening_of_row(b, p, limit, row, old_bonds, from, new_index);
+        if (old_bonds->soft.curve) bonds_copy_softening_state_of_row(b, p, limit, row, old_bonds, from, new_index);
         for (struct bond_iterator it = bond_iterator_of_row(old_bonds, from); bond_iterator_advance(&it);)
             if (it.bond.w == 0 && it.bond.inverse_length < 0) bond_take(b, row, new_index[it.bond.nbr]);
     }

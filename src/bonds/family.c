@@ -139,12 +139,13 @@ static void shells_isotropic(struct family *f)
     f->shell_weight[0] *= scale, f->shell_weight[1] *= scale;
 }
 
-void family_make_on_lattice(struct family *f, enum space space, real spacing, real horizon_in_spacings, real section)
+void family_make_on_lattice(struct family *f, enum space space, real spacing, real horizon_in_spacings,
+                            real cross_section)
 {
     f->space = space;
     f->spacing = spacing;
-    f->section = section;
-    f->cell_volume = lattice_particle_volume(section, spacing, space_dim(space));
+    f->section = cross_section;
+    f->cell_volume = lattice_particle_volume(cross_section, spacing, space_dim(space));
     f->horizon = horizon_in_spacings * spacing;
     f->shell_weight[0] = f->shell_weight[1] = 1;
     if (f->calibration == CALIBRATION_VMPD) /* whole neighbours cover (m + 1/2) spacings exactly (Zeng et al. 2021) */

@@ -24,7 +24,7 @@ static void tables_make(struct surface_correction *to, const struct particles_ne
             const int64_t entry = (int64_t) class * n + k, group = a->group_of[entry];
             const real r = near_faces->offset.length[k] * f->spacing;
             to->factor[entry] = group >= 0 ? factor[group] : 1;
-            if (bond_class_first_particle_neighbour_at_offset(a, near_faces, class, k) >= 0)
+            if (bond_class_neighbour_of_first_particle_at_offset(a, near_faces, class, k) >= 0)
                 to->weighted[class] += to->factor[entry] * near_faces->offset.share[k] * square(r);
         }
 }

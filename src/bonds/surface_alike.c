@@ -61,7 +61,7 @@ static uint64_t kinds_around(const struct particles_near_faces *near_faces, cons
         const int32_t j = particles_near_faces_neighbour_at_offset(near_faces, t, k);
         uint64_t word = 0;
         if (j >= 0) {
-            const struct mirrored_particle seen = particle_or_image_source_and_reversed_axes(near_faces, j);
+            const struct mirrored_particle seen = particle_or_image_find_source_and_reversed_axes(near_faces, j);
             const int32_t near = near_faces->place[seen.particle];
             word = near < 0 ? 1 : 2 + ((uint64_t)s->of[near] << 3) + (uint64_t)seen.mirrors;
         }
@@ -77,7 +77,7 @@ static uint64_t colour_seen(const struct particles_near_faces *near_faces, const
                             int mirrors)
 {
     if (j < 0) return 1;
-    const struct mirrored_particle seen = particle_or_image_source_and_reversed_axes(near_faces, j);
+    const struct mirrored_particle seen = particle_or_image_find_source_and_reversed_axes(near_faces, j);
     const int64_t t = near_faces->place[seen.particle];
     return t < 0 ? 2 : s->colour[((int64_t)s->of[t] << near_faces->offset.dim) + (mirrors ^ seen.mirrors)];
 }
@@ -247,7 +247,7 @@ static void bonds_join(const struct bond_classes *a, const struct particles_near
             const int32_t j = particles_near_faces_neighbour_at_offset(near_faces, t, k);
             if (j < 0 || (near_faces->whole[near_faces->particle[t]] && particle_family_is_complete(near_faces, j)))
                 continue;
-            const struct mirrored_particle seen = particle_or_image_source_and_reversed_axes(near_faces, j);
+            const struct mirrored_particle seen = particle_or_image_find_source_and_reversed_axes(near_faces, j);
             const int64_t other = entry_of(a, near_faces, near_faces->place[seen.particle],
                                            bond_offset_seen_from_other_particle(near_faces, &seen, k));
             groups_join(parent, entry_of(a, near_faces, t, k), other);

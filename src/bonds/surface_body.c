@@ -89,7 +89,8 @@ static int offset_between(const struct offsets *o, const struct particles *p, re
 
 /* Returns the source of the mirror image j (an index of the particle arrays of `near_faces`): a particle of the body,
  * possibly through several mirrors, with the axes that these mirrors reverse (bit d: axis d). */
-struct mirrored_particle mirror_image_source_and_reversed_axes(const struct particles_near_faces *near_faces, int64_t j)
+struct mirrored_particle mirror_image_find_source_and_reversed_axes(const struct particles_near_faces *near_faces,
+                                                                    int64_t j)
 {
     struct mirrored_particle to = {mirror_image_source_particle(near_faces->p, near_faces->source->image, j), 0};
     for (int d = 0; d < near_faces->p->dim; d++)

@@ -49,7 +49,7 @@ static struct exposed_face face_seen(const struct raw_faces *raw, int64_t j)
 {
     const struct particles_near_faces *near_faces = raw->body;
     struct exposed_face f = {{0}, {0}, 0};
-    const struct mirrored_particle seen = particle_or_image_source_and_reversed_axes(near_faces, j);
+    const struct mirrored_particle seen = particle_or_image_find_source_and_reversed_axes(near_faces, j);
     const int64_t t = near_faces->place[seen.particle];
     if (t < 0) return f;
     for (int d = 0; d < near_faces->p->dim; d++) {
@@ -190,7 +190,7 @@ static void normals_gather(struct surface_fit_targets *f, const struct particles
     for (int k = 0; k < near_faces->offset.n; k++) {
         const int32_t j = particles_near_faces_neighbour_at_offset(near_faces, t, k);
         if (j < 0) continue;
-        const struct mirrored_particle seen = particle_or_image_source_and_reversed_axes(near_faces, j);
+        const struct mirrored_particle seen = particle_or_image_find_source_and_reversed_axes(near_faces, j);
         const int64_t near = near_faces->place[seen.particle], other = near < 0 ? -1 : s->at[near];
         for (int a = 0; a < dim && other >= 0; a++)
             for (int c = 0; c < dim; c++)

@@ -281,7 +281,7 @@ static void class_make(struct class_fit *c, const struct moments *m, const struc
         }
     for (int x = 0; x < m->fourth.n; x++) c->goal[m->thirds + x] = (1 + alpha * goal->dipole) * m->full[x];
     for (int k = 0; k < near_faces->offset.n; k++) { /* less the bonds that do not change */
-        if (bond_class_first_particle_neighbour_at_offset(a, near_faces, class, k) < 0 ||
+        if (bond_class_neighbour_of_first_particle_at_offset(a, near_faces, class, k) < 0 ||
             a->group_of[(int64_t) class * near_faces->offset.n + k] >= 0)
             continue;
         for (int x = 0; x < m->width; x++) c->goal[x] -= m->of[(int64_t)k * m->width + x];
@@ -366,7 +366,7 @@ static bool at_crack_end(const struct particles_near_faces *near_faces, int64_t 
     for (int k = 0; k < o->n; k++) {
         const int32_t j = particles_near_faces_neighbour_at_offset(near_faces, t, k);
         if (j < 0) continue;
-        const struct mirrored_particle seen = particle_or_image_source_and_reversed_axes(near_faces, j);
+        const struct mirrored_particle seen = particle_or_image_find_source_and_reversed_axes(near_faces, j);
         for (int l = 0; l < o->n && near_faces->place[seen.particle] >= 0; l++) {
             int place = 0;
             bool within = mirrored_particle_neighbour_at_offset(near_faces, &seen, l).particle >= 0;
@@ -413,8 +413,8 @@ static void class_fix(struct surface_fit_problem *q, const struct particles_near
         const int64_t g = a->group_of[(int64_t) class * n + k];
         if (g < 0) continue;
         const int64_t other =
-            near_faces->place[particle_or_image_source_and_reversed_axes(
-                                  near_faces, bond_class_first_particle_neighbour_at_offset(a, near_faces, class, k))
+            near_faces->place[particle_or_image_find_source_and_reversed_axes(
+                                  near_faces, bond_class_neighbour_of_first_particle_at_offset(a, near_faces, class, k))
                                   .particle];
         const real both = own + neighbours(near_faces, other);
         q->low[g] = q->high[g] = one ? 1 : fmin(fmax(2.0 * n / both, LEAST), MOST);

@@ -41,20 +41,20 @@ struct mirrored_particle {
     int mirrors;
 };
 
-/* Returns the source of the mirror image `entry` (a copy beyond a plane of symmetry; index of the particle arrays): a
+/* Returns the source of the mirror image `image` (a copy beyond a plane of symmetry; index of the particle arrays): a
  * particle of the body, possibly through several mirrors, with the axes that these mirrors reverse (bit d: axis d).
  * near_faces: particles near faces. */
-struct mirrored_particle mirror_image_source_and_reversed_axes(const struct particles_near_faces *near_faces,
-                                                               int64_t entry);
+struct mirrored_particle mirror_image_find_source_and_reversed_axes(const struct particles_near_faces *near_faces,
+                                                                    int64_t image);
 
 /* Returns the particle of the body that belongs to entry `entry` of the particle arrays: `entry` itself or, for a
  * mirror image (copy beyond a plane of symmetry), the particle that it mirrors, with the axes that the mirrors in
  * between reverse (bit d: axis d). near_faces: particles near faces. */
 static inline struct mirrored_particle
-particle_or_image_source_and_reversed_axes(const struct particles_near_faces *near_faces, int64_t entry)
+particle_or_image_find_source_and_reversed_axes(const struct particles_near_faces *near_faces, int64_t entry)
 {
     return entry < near_faces->p->n ? (struct mirrored_particle){entry, 0}
-                                    : mirror_image_source_and_reversed_axes(near_faces, entry);
+                                    : mirror_image_find_source_and_reversed_axes(near_faces, entry);
 }
 
 /* Returns the sign that the mirrors `mirrors` (bit d: they reverse axis d) give a vector component along axis `axis`:
@@ -80,17 +80,19 @@ mirrored_particle_neighbour_at_offset(const struct particles_near_faces *near_fa
     const int32_t own = near_faces->offset.mirrored[from->mirrors * near_faces->offset.n + offset];
     const int32_t j = particles_near_faces_neighbour_at_offset(near_faces, near_faces->place[from->particle], own);
     if (j < 0) return (struct mirrored_particle){-1, 0};
-    struct mirrored_particle to = particle_or_image_source_and_reversed_axes(near_faces, j);
+    struct mirrored_particle to = particle_or_image_find_source_and_reversed_axes(near_faces, j);
     to.mirrors ^= from->mirrors;
     return to;
 }
 
 /* Returns true if no neighbour of entry j of the particle arrays is missing, so that no face is near. If j is a mirror
  * image (copy beyond a plane of symmetry), its source particle is examined. near_faces: particles near faces. */
-static inline bool particle_family_is_complete(const struct particles_near_faces *near_faces, int64_t j)
+static inline bool particle_family_is_complete(const struct particles_near_faces *near_faces, int64_t particle_or_image)
 {
     return near_faces
-        ->whole[j < near_faces->p->n ? j : mirror_image_source_particle(near_faces->p, near_faces->source->image, j)];
+        ->whole[particle_or_image < near_faces->p->n
+                    ? particle_or_image
+                    : mirror_image_source_particle(near_faces->p, near_faces->source->image, particle_or_image)];
 }
 
 /* Returns the offset number (index of a lattice vector in near_faces->offset) of a bond as seen from its second
@@ -156,9 +158,9 @@ void bond_classes_group_bonds_near_faces(struct bond_classes *classes, const str
  * `class` in `classes`: a particle or mirror image; -1 if there is none. The particles of a class (near faces, `near`)
  * have equal surroundings up to reflections, so the offset refers to the axes of the class, some of which may be
  * reversed at this particle. */
-static inline int32_t bond_class_first_particle_neighbour_at_offset(const struct bond_classes *classes,
-                                                                    const struct particles_near_faces *near,
-                                                                    int32_t class, int offset_number)
+static inline int32_t bond_class_neighbour_of_first_particle_at_offset(const struct bond_classes *classes,
+                                                                       const struct particles_near_faces *near,
+                                                                       int32_t class, int offset_number)
 {
     const int64_t t = classes->member[class];
     return particles_near_faces_neighbour_at_offset(

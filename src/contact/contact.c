@@ -235,15 +235,15 @@ real contact_elastic_energy(const struct contact *c, const struct particles *p)
 /* ---- state ------------------------------------------------------------------------------------------------------- */
 
 /* Saves the array *array to the archive a if a->saving; else frees it, allocates it anew and restores it from a. The
- * caller owns the array. name: name of the entry in the archive; count: number of elements; size: size of an element
- * [byte]. Returns FAILED if the archive cannot be read or written or the stored size differs. */
-status contact_array_save_or_load(struct archive *a, const char *name, void **array, int64_t count, size_t size)
+ * caller owns the array. name: name of the entry in the archive; count: number of elements; element_size: size of an
+ * element [byte]. Returns FAILED if the archive cannot be read or written or the stored size differs. */
+status contact_array_save_or_load(struct archive *a, const char *name, void **array, int64_t count, size_t element_size)
 {
     if (!a->saving) {
         memory_free(*array);
-        *array = memory_new(name, count, size);
+        *array = memory_new(name, count, element_size);
     }
-    return count > 0 ? a->exchange(a, name, *array, (size_t)count * size) : OK;
+    return count > 0 ? a->exchange(a, name, *array, (size_t)count * element_size) : OK;
 }
 
 /* Checks that all indices of the restored contact list c are in range: numbers of particles (p), of list entries and of

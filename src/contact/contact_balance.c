@@ -30,7 +30,7 @@ real contact_leapfrog_error_correction_force(struct contact_leapfrog_error_accou
 }
 
 struct contact_leapfrog_error_account
-contact_leapfrog_error_account_for_new_list(const struct contact_leapfrog_error_account *previous, real gap)
+contact_leapfrog_error_carry_over_to_new_list(const struct contact_leapfrog_error_account *previous, real gap)
 {
     struct contact_leapfrog_error_account to = {.gap = gap, .older = gap};
     if (!previous) return to;

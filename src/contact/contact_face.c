@@ -184,9 +184,10 @@ static real face_pull(const struct contact *c, int64_t k, int64_t l)
     return face->push - face->lift * (c->rise[l] - face->mean);
 }
 
-struct contact_density_contribution contact_face_density_contribution(const struct contact *c,
-                                                                      const struct particles *p, int64_t k, int64_t l,
-                                                                      real time_before_present)
+struct contact_density_contribution contact_face_kernel_density_contribution_of_pair(const struct contact *c,
+                                                                                     const struct particles *p,
+                                                                                     int64_t k, int64_t l,
+                                                                                     real time_before_present)
 {
     struct contact_density_contribution w = {0};
     const int32_t i = c->particle[k], j = c->particle[l];
@@ -278,7 +279,7 @@ static real face_notch(const struct contact *c, const struct particles *p, int64
         field_share(c, p->dim, row, c->other[q], &reach);
         for (int d = 0; d < p->dim; d++) r2 += square(p->X[d][i] - p->X[d][j]);
         if (r2 < square(reach))
-            widest = real_max(widest, contact_notch_width_between_particles(c, p, row, c->other[q]));
+            widest = real_max(widest, contact_width_of_widest_notch_between_particles(c, p, row, c->other[q]));
     }
     return widest / c->size[row];
 }
@@ -311,10 +312,11 @@ static bool same_pairs(const struct contact *c, const struct contact *before, in
  * row `list_index` begins [spacings]. For a particle already in contact it is such that the contact energy does not
  * change. For others it is the height at which the surfaces of the bodies touch, less the width of a notch between
  * them, or less if the particle is closer in the reference or present configuration: contact then begins without a
- * force. previous: contact list before the search; previous_entry: row of the particle in it, -1 if none; p: particles
- * at their present positions. */
+ * force. previous: contact list before the search; previous_list_index: row of the particle in it, -1 if none; p:
+ * particles at their present positions. */
 void contact_face_set_height_where_contact_begins(struct contact *c, const struct contact *previous,
-                                                  int64_t previous_entry, const struct particles *p, int64_t list_index)
+                                                  int64_t previous_list_index, const struct particles *p,
+                                                  int64_t list_index)
 {
     struct contact_face *face = &c->face[list_index];
     const bool pairs = c->first[list_index + 1] > c->first[list_index];
@@ -323,17 +325,17 @@ void contact_face_set_height_where_contact_begins(struct contact *c, const struc
     real overlap = 0;
     face->stiffness = face_stiffness(c, p, list_index);
     face->push = face->lift = 0, face->mean = now.mean;
-    if (previous_entry >= 0) {
-        const struct face_field then = same_pairs(c, previous, previous_entry, list_index)
+    if (previous_list_index >= 0) {
+        const struct face_field then = same_pairs(c, previous, previous_list_index, list_index)
                                            ? now
-                                           : face_field_at(previous, p, p->x, previous_entry);
-        overlap = real_max(0, -face_gap(previous, &then, previous->face[previous_entry].zero).gap);
-        overlap *= sqrt(previous->face[previous_entry].stiffness / face->stiffness);
+                                           : face_field_at(previous, p, p->x, previous_list_index);
+        overlap = real_max(0, -face_gap(previous, &then, previous->face[previous_list_index].zero).gap);
+        overlap *= sqrt(previous->face[previous_list_index].stiffness / face->stiffness);
     }
     const real height = face_gap(c, &now, 0).height, least = face_gap(c, &reference, 0).height;
     const real zero = real_min(1 + c->rise[list_index], least) - face_notch(c, p, list_index);
     face->zero = overlap > 0 ? height + overlap : real_min(zero, height);
     face->far = real_max(0, least_gap(c, &now, list_index));
-    c->balance[list_index] = contact_leapfrog_error_account_for_new_list(
-        previous_entry < 0 ? NULL : &previous->balance[previous_entry], face_gap(c, &now, face->zero).gap);
+    c->balance[list_index] = contact_leapfrog_error_carry_over_to_new_list(
+        previous_list_index < 0 ? NULL : &previous->balance[previous_list_index], face_gap(c, &now, face->zero).gap);
 }

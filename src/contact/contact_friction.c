@@ -75,7 +75,8 @@ static struct contact_partner partner_mean(const struct contact *c, const struct
 {
     struct contact_partner sum = {.density = 0};
     for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
-        const struct contact_density_contribution w = contact_face_density_contribution(c, p, row, c->other[q], lag);
+        const struct contact_density_contribution w =
+            contact_face_kernel_density_contribution_of_pair(c, p, row, c->other[q], lag);
         const int32_t j = c->particle[c->other[q]];
         if (w.weight == 0) continue;
         sum.density += w.weight;
@@ -135,7 +136,8 @@ static void partner_turn(struct contact_partner *to, const struct contact *c, co
 {
     real inertia[6] = {0}, squares[6] = {0}, momentum[DIM_MAX] = {0};
     for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
-        const struct contact_density_contribution w = contact_face_density_contribution(c, p, row, c->other[q], lag);
+        const struct contact_density_contribution w =
+            contact_face_kernel_density_contribution_of_pair(c, p, row, c->other[q], lag);
         const int32_t j = c->particle[c->other[q]];
         const real share = w.weight / to->density;
         real r[DIM_MAX] = {0}, v[DIM_MAX] = {0}, turning[DIM_MAX];
@@ -196,7 +198,7 @@ void contact_face_advance_friction_spring(struct contact *c, const struct partic
 static void reaction_add(const struct contact *c, const struct particles *p, int64_t l, int64_t row, real *f)
 {
     const struct contact_reaction *reaction = &c->reaction[l];
-    const struct contact_density_contribution w = contact_face_density_contribution(c, p, l, row, 0);
+    const struct contact_density_contribution w = contact_face_kernel_density_contribution_of_pair(c, p, l, row, 0);
     const real share = w.weight / c->spring[l].density;
     real r[DIM_MAX] = {0}, turning[DIM_MAX];
     for (int d = 0; d < p->dim; d++) r[d] = reaction->arm[d] - w.apart[d];
@@ -256,14 +258,14 @@ void contact_friction_springs_copy_from_previous(struct contact *c, const struct
     for (int64_t row = 0; row < c->rows; row++)
         contact_friction_spring_copy_previous(
             &c->spring[row], previous->spring,
-            previous->made ? contact_list_entry_of_particle(previous, c->particle[row]) : -1);
+            previous->made ? contact_list_index_of_particle(previous, c->particle[row]) : -1);
 }
 
 void contact_friction_spring_copy_previous(struct contact_spring *spring, const struct contact_spring *previous,
-                                           int64_t previous_entry)
+                                           int64_t previous_list_index)
 {
-    if (!previous || previous_entry < 0) return;
-    *spring = previous[previous_entry];
+    if (!previous || previous_list_index < 0) return;
+    *spring = previous[previous_list_index];
     spring->lost = 0;
 }
 

@@ -42,12 +42,12 @@ static inline void contact_summary_add_overlap(struct contact_summary *summary, 
     summary->touching++;
 }
 
-/* Computes vector[dim] [m], the vector from the present position of entry `other_entry` of the contact list of c
- * (particles of p that may come into contact) to that of entry `entry`. Returns its square [m^2]. */
+/* Computes vector[dim] [m], the vector from the present position of entry `other_list_index` of the contact list of c
+ * (particles of p that may come into contact) to that of entry `list_index`. Returns its square [m^2]. */
 static inline real contact_pair_vector_and_squared_distance(const struct contact *c, const struct particles *p,
-                                                            int64_t entry, int64_t other_entry, real *vector)
+                                                            int64_t list_index, int64_t other_list_index, real *vector)
 {
-    const int32_t i = c->particle[entry], j = c->particle[other_entry];
+    const int32_t i = c->particle[list_index], j = c->particle[other_list_index];
     real r2 = 0;
     for (int d = 0; d < p->dim; d++) {
         vector[d] = p->x[d][i] - p->x[d][j];
@@ -56,12 +56,12 @@ static inline real contact_pair_vector_and_squared_distance(const struct contact
     return r2;
 }
 
-/* Returns the contact stiffness k [N/m] of the pair of entries `entry` and `other_entry` of the contact list
+/* Returns the contact stiffness k [N/m] of the pair of entries `list_index` and `other_list_index` of the contact list
  * c->particle (particles that may come into contact), from the materials and volumes of both particles in p. */
-static inline real contact_pair_stiffness(const struct contact *c, const struct particles *p, int64_t entry,
-                                          int64_t other_entry)
+static inline real contact_pair_stiffness(const struct contact *c, const struct particles *p, int64_t list_index,
+                                          int64_t other_list_index)
 {
-    const int32_t i = c->particle[entry], j = c->particle[other_entry];
+    const int32_t i = c->particle[list_index], j = c->particle[other_list_index];
     return c->law.stiffness[p->material[i] * c->law.materials + p->material[j]] * (p->volume0[i] * p->volume0[j]);
 }
 
@@ -87,7 +87,7 @@ void contact_activate_newly_moving_particles(struct contact *c, const struct par
                                              struct loads *loads);
 
 /* Returns the array of bytes that selects which contacts between particles act in an equilibrium
- * (contact_select_linear_springs_count_changes): one per particle of the contact list of c (particles that may come
+ * (contact_select_linear_springs_and_count_changes): one per particle of the contact list of c (particles that may come
  * into contact) for the contact law of form `surface` (forces of smooth faces), one per pair of particles for the form
  * `pair`. The array belongs to c. Returns NULL if exactly the overlapping contacts act. */
 static inline const uint8_t *contact_active_set_flags(const struct contact *c)
@@ -96,8 +96,8 @@ static inline const uint8_t *contact_active_set_flags(const struct contact *c)
 }
 
 /* Returns the array of bytes that selects which contacts with rigid body number `body` act in an equilibrium
- * (contact_select_linear_springs_count_changes), one per particle in the list c->near of this body. The array belongs
- * to c. Returns NULL if exactly the overlapping contacts act. */
+ * (contact_select_linear_springs_and_count_changes), one per particle in the list c->near of this body. The array
+ * belongs to c. Returns NULL if exactly the overlapping contacts act. */
 static inline const uint8_t *contact_rigid_body_active_set_flags(const struct contact *c, int body)
 {
     return c->by_overlap ? NULL : c->near[body].touch;
@@ -121,10 +121,10 @@ real contact_face_gap_of_particle(const struct contact *c, const struct particle
 real contact_pair_gap(const struct contact *c, const struct particles *p, int64_t list_index, int64_t pair);
 
 /* Returns the gap [m] between a particle of p and rigid body number `body_number` of c: their distance minus the
- * distance at which contact begins; negative if they overlap. entry: entry of the particle in the list near this body;
- * normal: receives the outward unit vector normal to the surface. */
-real contact_rigid_gap_of_particle(const struct contact *c, const struct particles *p, int body_number, int64_t entry,
-                                   real *normal);
+ * distance at which contact begins; negative if they overlap. near_list_index: entry of the particle in the list near
+ * this body; normal: receives the outward unit vector normal to the surface. */
+real contact_rigid_gap_of_particle(const struct contact *c, const struct particles *p, int body_number,
+                                   int64_t near_list_index, real *normal);
 
 /* Describes the contact of the particle of row `list_index` of the contact list of c (particles of p that may come into
  * contact) with the faces beside it as a linear spring: stiffness, and derivatives of the gap by the positions of the
@@ -137,7 +137,7 @@ void contact_face_linearise_as_spring(const struct contact *c, const struct part
  * particles at rest, which time steps leave out but equilibrium solutions require. */
 void contact_activate_all_listed_particles(struct contact *c);
 
-/* Saves the selection of contacts of c that act in equilibria (contact_select_linear_springs_count_changes) to the
+/* Saves the selection of contacts of c that act in equilibria (contact_select_linear_springs_and_count_changes) to the
  * archive a if a->saving, else restores it. Returns FAILED if the archive cannot be read or written or a stored size
  * differs. */
 status contact_active_set_save_or_load(struct contact *c, struct archive *a);
@@ -151,13 +151,13 @@ static inline real contact_pair_list_margin(const struct contact *c)
 
 /* Returns the entry of particle i in the contact list of c (particles that may come into contact), by bisection; -1 if
  * the particle is not in the list. */
-int64_t contact_list_entry_of_particle(const struct contact *c, int64_t i);
+int64_t contact_list_index_of_particle(const struct contact *c, int64_t particle);
 
-/* Returns the width [m] of the widest notch (a pre-crack with a width) that separates the entries `entry` and `other`
- * of the contact list of c (particles of p that may come into contact) in the reference configuration; 0 if there is
- * none or if the particles belong to different bodies. */
-real contact_notch_width_between_particles(const struct contact *c, const struct particles *p, int64_t entry,
-                                           int64_t other);
+/* Returns the width [m] of the widest notch (a pre-crack with a width) that separates the entries `list_index` and
+ * `other_list_index` of the contact list of c (particles of p that may come into contact) in the reference
+ * configuration; 0 if there is none or if the particles belong to different bodies. */
+real contact_width_of_widest_notch_between_particles(const struct contact *c, const struct particles *p,
+                                                     int64_t list_index, int64_t other_list_index);
 
 /* Computes three arrays for all entries of the contact list (particles of p that may come into contact): c->root, for a
  * mirror image (copy beyond a plane of symmetry) the entry of its source particle, for other entries the entry itself;
@@ -176,12 +176,12 @@ void contact_pair_add_forces_on_particle(const struct contact *c, struct particl
  * belongs to two particles. */
 real contact_pair_half_energy_of_particle(const struct contact *c, const struct particles *p, int64_t list_index);
 
-/* Returns the distance [m] at which contact of the entries `entry` and `other` of the contact list of c (particles of p
- * that may come into contact) begins: the contact distance, reduced if the two particles are closer in the reference
- * configuration or at present. previous_onset_distance: contact distance on the previous list of pairs [m], NAN if the
- * pair was not on it. */
-real contact_pair_onset_distance(const struct contact *c, const struct particles *p, int64_t entry, int64_t other,
-                                 real previous_onset_distance);
+/* Returns the distance [m] at which contact of the entries `list_index` and `other_list_index` of the contact list of c
+ * (particles of p that may come into contact) begins: the contact distance, reduced if the two particles are closer in
+ * the reference configuration or at present. previous_onset_distance: contact distance on the previous list of pairs
+ * [m], NAN if the pair was not on it. */
+real contact_pair_onset_distance(const struct contact *c, const struct particles *p, int64_t list_index,
+                                 int64_t other_list_index, real previous_onset_distance);
 
 /* Computes `table` for a flat face, the outermost layer of a square or cubic lattice of particles: the height of a
  * point above this layer as a function of the density at the point, i.e. the number of particles of the layer nearby,
@@ -207,11 +207,11 @@ real contact_face_energy_of_particle(const struct contact *c, const struct parti
 
 /* Computes into c->face[list_index] the height above the face at which contact begins for the particle of row
  * `list_index` of a new contact list of c (particles of p that may come into contact). Only for laws of the form
- * `surface` (forces of smooth faces). previous_entry: entry of the particle in the previous list `previous`, -1 if it
- * was not listed. If the particle was in contact on that list, the height is chosen so that its contact energy does not
- * change. */
+ * `surface` (forces of smooth faces). previous_list_index: entry of the particle in the previous list `previous`, -1 if
+ * it was not listed. If the particle was in contact on that list, the height is chosen so that its contact energy does
+ * not change. */
 void contact_face_set_height_where_contact_begins(struct contact *c, const struct contact *previous,
-                                                  int64_t previous_entry, const struct particles *p,
+                                                  int64_t previous_list_index, const struct particles *p,
                                                   int64_t list_index);
 
 /* Returns a correction of the contact force, in the unit of stiffness times gap, which removes the energy that
@@ -226,7 +226,7 @@ real contact_leapfrog_error_correction_force(struct contact_leapfrog_error_accou
  * which contact_leapfrog_error_correction_force computes a correcting force. gap: present gap [m] or [spacings];
  * previous: account of the contact on the previous list, which is continued; NULL if the contact was not listed. */
 struct contact_leapfrog_error_account
-contact_leapfrog_error_account_for_new_list(const struct contact_leapfrog_error_account *previous, real gap);
+contact_leapfrog_error_carry_over_to_new_list(const struct contact_leapfrog_error_account *previous, real gap);
 
 /* Contribution of particle l of a face to the density of the face at particle k (contact law of form `surface`).
  * weight: the contribution [1]; pull: derivative of the contact energy of k by the distance of k and l, divided by this
@@ -235,13 +235,13 @@ struct contact_density_contribution {
     real weight, pull, apart[DIM_MAX];
 };
 
-/* Returns the contribution of entry `other` of the contact list of c (particles of p that may come into contact) to the
- * density at entry `entry`, the number of particles of a face nearby, weighted by a kernel. time_before_present:
- * positions are those this time [s] before the present one, x - v t, with present positions x and velocities v. The
- * derivative of the contact energy in the result is that at the present gap. */
-struct contact_density_contribution contact_face_density_contribution(const struct contact *c,
-                                                                      const struct particles *p, int64_t entry,
-                                                                      int64_t other, real time_before_present);
+/* Returns the contribution of entry `other_list_index` of the contact list of c (particles of p that may come into
+ * contact) to the density at entry `list_index`, the number of particles of a face nearby, weighted by a kernel.
+ * time_before_present: positions are those this time [s] before the present one, x - v t, with present positions x and
+ * velocities v. The derivative of the contact energy in the result is that at the present gap. */
+struct contact_density_contribution
+contact_face_kernel_density_contribution_of_pair(const struct contact *c, const struct particles *p, int64_t list_index,
+                                                 int64_t other_list_index, real time_before_present);
 
 /* Advances the friction spring *s by a step. dim: dimensions; normal[dim]: outward unit normal of the face, 0 if
  * contact has ended; slip[dim]: displacement of the particle relative to the face in the step [m]; stiffness: stiffness
@@ -271,10 +271,10 @@ void contact_friction_reactions_allocate(struct contact *c);
  * were on the previous list, `previous`. contact_free releases them. */
 void contact_friction_springs_copy_from_previous(struct contact *c, const struct contact *previous);
 
-/* Copies friction spring number `previous_entry` of the previous list `previous` to *spring. Leaves *spring unchanged
- * if `previous` is NULL or `previous_entry` is -1, i.e. if the particle was not listed. */
+/* Copies friction spring number `previous_list_index` of the previous list `previous` to *spring. Leaves *spring
+ * unchanged if `previous` is NULL or `previous_list_index` is -1, i.e. if the particle was not listed. */
 void contact_friction_spring_copy_previous(struct contact_spring *spring, const struct contact_spring *previous,
-                                           int64_t previous_entry);
+                                           int64_t previous_list_index);
 
 /* Sets the friction work of c, whose list of particles is new, to that of the previous list, `previous`, plus the
  * elastic energy of springs of particles that are not on the new list. */
@@ -304,9 +304,10 @@ void contact_rigid_compute_forces(struct contact *c, struct particles *p, real d
 status contact_rigid_save_or_load_particle_lists(struct contact *c, struct archive *a);
 
 /* Saves the array *array to the archive a if a->saving, else allocates *array with memory_new and restores it from the
- * archive. name: name of the entry; count: number of elements; size: bytes of an element. Returns FAILED if the archive
- * cannot be read or written or the stored size differs. */
-status contact_array_save_or_load(struct archive *a, const char *name, void **array, int64_t count, size_t size);
+ * archive. name: name of the entry; count: number of elements; element_size: bytes of an element. Returns FAILED if the
+ * archive cannot be read or written or the stored size differs. */
+status contact_array_save_or_load(struct archive *a, const char *name, void **array, int64_t count,
+                                  size_t element_size);
 
 /* Returns the elastic energy [J] of the contacts of particles p with all rigid bodies of c at the present positions. */
 real contact_rigid_elastic_energy(const struct contact *c, const struct particles *p);

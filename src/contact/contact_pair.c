@@ -66,7 +66,7 @@ real contact_pair_onset_distance(const struct contact *c, const struct particles
     for (int d = 0; d < p->dim; d++) reference2 += square(p->X[d][i] - p->X[d][j]);
     const real mean = 0.5 * (c->size[k] + c->size[l]);
     if (c->law.distance == DISTANCE_LAMMPS) return real_min(NEAR_LAMMPS * sqrt(reference2), FAR_LAMMPS * mean);
-    const real nominal = real_min(sqrt(reference2), mean) - contact_notch_width_between_particles(c, p, k, l);
+    const real nominal = real_min(sqrt(reference2), mean) - contact_width_of_widest_notch_between_particles(c, p, k, l);
     const real r = sqrt(contact_pair_vector_and_squared_distance(c, p, k, l, apart));
     return real_min(nominal, isnan(previous_onset_distance) ? r : real_max(previous_onset_distance, r));
 }

@@ -77,7 +77,7 @@ static void put_contact_and_rigid(const struct run *run, struct json *j)
 #define OVERLAP_DOUBTFUL 0.3 /* overlap from which a warning is given [spacings] */
 #define OVERLAP_MOST 0.9     /* overlap beyond which particles pass each other [spacings] */
 
-status contact_check_largest_overlap(struct run *run)
+status contact_warn_or_fail_if_overlap_too_large(struct run *run)
 {
     const struct contact *c = run->contact;
     const real overlap = c->overlap / run->scene->spacing;

@@ -51,7 +51,7 @@ static bool is_near(const struct contact *c, const struct particles *p, const st
  * present search; -1 if the particle was not in that list. before: contact before the search. */
 static int64_t near_before(const struct contact *before, int body, int32_t particle)
 {
-    const int64_t row = before->made ? contact_list_entry_of_particle(before, particle) : -1;
+    const int64_t row = before->made ? contact_list_index_of_particle(before, particle) : -1;
     int64_t low = 0, high = row >= 0 ? before->near[body].n : 0;
     while (low < high) {
         const int64_t middle = (low + high) / 2;
@@ -95,7 +95,7 @@ static void near_find_body(struct contact *c, const struct contact *before, cons
         /* an iterate of an equilibrium has moved into the body: contact acts from gap 0 */
         const bool deep = c->marked && before->made && was < 0;
         near->zero[near->n] = deep ? 0 : real_min(0, real_max(zero, gap));
-        near->balance[near->n] = contact_leapfrog_error_account_for_new_list(
+        near->balance[near->n] = contact_leapfrog_error_carry_over_to_new_list(
             was >= 0 ? &before->near[body].balance[was] : NULL, gap - near->zero[near->n]);
         near->n++;
     }

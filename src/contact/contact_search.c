@@ -38,20 +38,21 @@ static bool is_exposed(const struct particles *p, const struct bonds *b, real le
     return everywhere || p->damage[i] > 0 || lacks_family(b, row, 0, least_volume);
 }
 
-int64_t contact_list_entry_of_particle(const struct contact *c, int64_t i)
+int64_t contact_list_index_of_particle(const struct contact *c, int64_t particle)
 {
     int64_t low = 0, high = c->rows;
     while (low < high) {
         const int64_t middle = (low + high) / 2;
-        if (c->particle[middle] < i)
+        if (c->particle[middle] < particle)
             low = middle + 1;
         else
             high = middle;
     }
-    return low < c->rows && c->particle[low] == i ? low : -1;
+    return low < c->rows && c->particle[low] == particle ? low : -1;
 }
 
-real contact_notch_width_between_particles(const struct contact *c, const struct particles *p, int64_t k, int64_t l)
+real contact_width_of_widest_notch_between_particles(const struct contact *c, const struct particles *p, int64_t k,
+                                                     int64_t l)
 {
     const int32_t i = c->particle[k], j = c->particle[l];
     real widest = 0, a[DIM_MAX], b[DIM_MAX];
@@ -102,7 +103,7 @@ void contact_list_set_spacings_and_surface_heights(struct contact *c, const stru
         c->rise[k] =
             contact_rise(&c->law, p, mirror_image_source_particle(p, c->law.image, c->particle[k]), c->size[k]);
         c->root[k] = (int32_t)(k < c->rows ? k
-                                           : contact_list_entry_of_particle(
+                                           : contact_list_index_of_particle(
                                                  c, mirror_image_source_particle(p, c->law.image, c->particle[k])));
     }
 }
@@ -247,7 +248,7 @@ static void pairs_begin(struct contact *c, const struct contact *before, const s
         c->distance = BARE("contact.distance", c->pairs, real);
 #pragma omp parallel for schedule(static)
     for (int64_t row = 0; row < c->rows; row++) {
-        const int64_t was = before->made ? contact_list_entry_of_particle(before, c->particle[row]) : -1;
+        const int64_t was = before->made ? contact_list_index_of_particle(before, c->particle[row]) : -1;
         if (c->law.form == CONTACT_SURFACE)
             contact_face_set_height_where_contact_begins(c, before, was, p, row);
         else

@@ -76,7 +76,7 @@ static void balances_rest(struct contact *c)
         for (int64_t q = 0; q < c->near[b].n; q++) c->near[b].balance[q].drag = 0;
 }
 
-int64_t contact_select_linear_springs_count_changes(struct contact *c, const struct particles *p, real max_gap)
+int64_t contact_select_linear_springs_and_count_changes(struct contact *c, const struct particles *p, real max_gap)
 {
     int64_t changed = 0;
     real normal[DIM_MAX];
@@ -97,7 +97,7 @@ int64_t contact_search_and_select_linear_springs(struct contact *c, const struct
     marks_room(c);
     contact_activate_all_listed_particles(c);
     balances_rest(c);
-    return contact_select_linear_springs_count_changes(c, p, max_gap);
+    return contact_select_linear_springs_and_count_changes(c, p, max_gap);
 }
 
 real contact_pair_list_safe_displacement(const struct contact *c) { return 0.5 * contact_pair_list_margin(c); }
@@ -183,7 +183,7 @@ void contact_visit_linear_springs(const struct contact *c, const struct particle
 
 /* ---- state ------------------------------------------------------------------------------------------------------- */
 
-/* Saves the marks of the contacts of c that act in the equilibrium (contact_select_linear_springs_count_changes) to
+/* Saves the marks of the contacts of c that act in the equilibrium (contact_select_linear_springs_and_count_changes) to
  * the archive a if a->saving, else restores them. Does nothing if contacts are not selected by marks (c->marked).
  * Returns FAILED if the archive cannot be read or written or a stored size differs. */
 status contact_active_set_save_or_load(struct contact *c, struct archive *a)

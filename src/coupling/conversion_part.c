@@ -8,12 +8,11 @@
 #include "mesh/mesh_part.h"
 #include "rigid/rigid_part.h"
 
-void bonded_points_update_strain_from_mesh_or_stress(const struct partial_stress *partial,
-                                                     const struct lagrangian_mesh *reference, struct particles *p,
-                                                     const struct material *material)
+void bonded_mpm_points_update_cell_strain(const struct partial_stress *partial, const struct lagrangian_mesh *reference,
+                                          struct particles *p, const struct material *material)
 {
     if (!p->end_strain) return;
-    bonded_points_compute_strain_from_stress(partial, p, material);
+    bonded_mpm_points_compute_strain_from_stress(partial, p, material);
     if (reference->mesh.points > 0) mesh_ends_update(&reference->mesh, p, reference->finite);
 }
 
@@ -68,7 +67,7 @@ void conversion_update_mesh_after_conversion(struct run *run, int64_t converted_
                                                                            partial, &run->damped);
     if (anew) lagrangian_mesh_list_bonded_or_loaded_points(run->frame, &run->part, &run->bonds, &run->loads);
     if (converted_count > 0 || (due && !anew))
-        bonded_points_update_strain_from_mesh_or_stress(partial, run->frame, &run->part, run->scene->material);
+        bonded_mpm_points_update_cell_strain(partial, run->frame, &run->part, run->scene->material);
     partial->touches = 0;
 }
 
@@ -121,7 +120,7 @@ void interface_zone_rebuild_after_bond_change(struct coupling_state *c, const st
         interface_zone_find_points_and_neighbours(&c->zone, p, source);
 }
 
-void coupling_set_method_and_compute_partial_stress(struct run *run)
+void coupling_set_up_pd_mpm_method_and_interface(struct run *run)
 {
     struct coupling_state *c = run->coupling;
     run->coupling_kind = run->scene->method == METHOD_ADAPTIVE ? run->scene->coupling : COUPLING_HANDSHAKE;

@@ -62,8 +62,7 @@ static void put_conversion(const struct run *run, struct json *j)
 static status coupling_state_of(struct run *run, struct archive *a)
 {
     if (!a->saving)
-        bonded_points_update_strain_from_mesh_or_stress(&run->coupling->partial, run->frame, &run->part,
-                                                        run->scene->material);
+        bonded_mpm_points_update_cell_strain(&run->coupling->partial, run->frame, &run->part, run->scene->material);
     return conversion_save_or_load(&run->coupling->conversion, a);
 }
 

@@ -217,7 +217,7 @@ static void change_make(struct interface_zone *zone, const struct particles *p, 
 /* Returns the second half of the energy that damping has removed in this step [J]: -1/2 sum dp . v over the members of
  * the interface zone, with their change of momentum dp and their present velocity v in p. Call it after the change has
  * been applied; the first half is this sum with the velocities before the step. */
-real interface_zone_damping_loss_by_new_velocity(const struct interface_zone *zone, const struct particles *p)
+real interface_zone_second_half_of_damping_loss(const struct interface_zone *zone, const struct particles *p)
 {
     real lost = 0; /* serial: few members, and the sum must not depend on the number of threads */
     for (int64_t k = 0; k < zone->n; k++)
@@ -225,7 +225,7 @@ real interface_zone_damping_loss_by_new_velocity(const struct interface_zone *zo
     return lost;
 }
 
-real interface_zone_damp_return_loss_by_old_velocity(struct interface_zone *zone, struct particles *p, real viscosity)
+real interface_zone_damp_and_return_first_half_loss(struct interface_zone *zone, struct particles *p, real viscosity)
 {
 #pragma omp parallel
     {
@@ -235,7 +235,7 @@ real interface_zone_damp_return_loss_by_old_velocity(struct interface_zone *zone
 #pragma omp for schedule(static)
         for (int64_t k = 0; k < zone->n; k++) change_make(zone, p, k, viscosity);
     }
-    const real lost = interface_zone_damping_loss_by_new_velocity(zone, p);
+    const real lost = interface_zone_second_half_of_damping_loss(zone, p);
     for (int64_t k = 0; k < zone->n; k++)
         for (int d = 0; d < p->dim; d++)
             p->v[d][zone->particle[k]] += zone->change[k * p->dim + d] / p->mass[zone->particle[k]];

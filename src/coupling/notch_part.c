@@ -80,15 +80,15 @@ void notch_describe_as_slit_or_cut_bonds(const struct notches *n, int crack_numb
 /* ---- in a run ---------------------------------------------------------------------------------------------------- */
 
 /* Marks (FLAG_NEAR) the points beside the slits and voids n whose faces approach each other, so that they convert
- * before the faces touch: moves these points of p with the mesh of the reference frame `frame` first. loads: with the
- * mirror images of the points; spacing: of the particles [m]; time_ahead: time until the next call [s]. Returns true if
- * n has faces. */
-bool mark_points_at_closing_slits_to_become_peridynamic(const struct notches *n, struct lagrangian_mesh *frame,
+ * before the faces touch: moves these points of p with the mesh of the reference frame `reference` first. loads: with
+ * the mirror images of the points; spacing: of the particles [m]; time_ahead: time until the next call [s]. Returns
+ * true if n has faces. */
+bool mark_points_at_closing_slits_to_become_peridynamic(const struct notches *n, struct lagrangian_mesh *reference,
                                                         struct particles *p, const struct loads *loads, real spacing,
                                                         real time_ahead)
 {
     if (n->faces == 0) return false;
-    lagrangian_mesh_update_motion_of_listed_points(frame, p, loads, n->face, n->faces);
+    lagrangian_mesh_update_motion_of_listed_points(reference, p, loads, n->face, n->faces);
     notches_flag_closing_face_points_for_conversion(n, p, spacing, time_ahead);
     return true;
 }

@@ -25,7 +25,8 @@ real segment_fraction_in_cube(const real *segment_start, const real *segment_end
     return out > in ? out - in : 0;
 }
 
-struct reflection mirror_image_reflection(const struct bond_source *s, const struct particles *p, int64_t image)
+struct reflection mirror_image_reflection_from_source_particle(const struct bond_source *s, const struct particles *p,
+                                                               int64_t image)
 {
     struct reflection r = {.sign = {1, 1, 1}, .root = image};
     while (r.root >= p->n) { /* X of this mirror image: reflection of X of its source along one axis */

@@ -30,7 +30,8 @@ struct reflection {
 /* Returns the reflection, by one or several mirrors, that maps a particle of the body to its mirror image `image`, an
  * entry of the particle arrays of p. The reflection is the identity if `image` itself is a particle of the body. s:
  * inputs of the bonds (horizon, materials, cracks, mirrors). */
-struct reflection mirror_image_reflection(const struct bond_source *s, const struct particles *p, int64_t image);
+struct reflection mirror_image_reflection_from_source_particle(const struct bond_source *s, const struct particles *p,
+                                                               int64_t image);
 
 /* Strain response of a bond: derivative of the force F of the bond by a uniform strain eps, times the length of the
  * bond [N m], as the factors of three terms. With the unit vector e along the bond,
@@ -60,7 +61,7 @@ void cell_stiffness_reduction_add_bond_contribution(real *tensor, const real *po
  * point (partial_positive.c). mean_strain_derivative: receives the derivative of the point's mean strain by the strain
  * of its cell, in symmetric components [1]; 0 if the point has no bonds. source: inputs of the bonds (horizon,
  * materials, cracks, mirrors). Returns true if the point has bonds. */
-bool cell_stiffness_reduction_limit_state_based(real *tensor, real *mean_strain_derivative, const struct particles *p,
+bool cell_limit_state_based_stiffness_reduction(real *tensor, real *mean_strain_derivative, const struct particles *p,
                                                 const struct bonds *b, const struct bond_source *source, int64_t point);
 
 /* Reduces the tensor `tensor` [J] (row-major matrix over symmetric components) of the material point `point` of p, by
@@ -68,7 +69,7 @@ bool cell_stiffness_reduction_limit_state_based(real *tensor, real *mean_strain_
  * `tensor`, with the volume V and elastic tensor C of the point, has no negative eigenvalue, with which the cell would
  * be unstable at any time step. This has an effect only if particles are not on a lattice or bonds are stiffer than the
  * material. source: inputs of the bonds (horizon, materials, cracks, mirrors). */
-void cell_stiffness_reduction_limit_bond_based(real *tensor, const struct particles *p,
+void cell_limit_bond_based_stiffness_reduction(real *tensor, const struct particles *p,
                                                const struct bond_source *source, int64_t point);
 
 /* Returns half the edge [m] of the square or cubic cell of particle i of p, from the volume of the particle. source:

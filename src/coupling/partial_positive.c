@@ -117,7 +117,7 @@ static void stay_below(real *T, const struct material *m, int dim, real V, real 
                             (partial_positive_root_of(c, dim) * partial_positive_root_of(d, dim));
 }
 
-bool cell_stiffness_reduction_limit_state_based(real *tensor, real *mean_strain_derivative, const struct particles *p,
+bool cell_limit_state_based_stiffness_reduction(real *tensor, real *mean_strain_derivative, const struct particles *p,
                                                 const struct bonds *b, const struct bond_source *s, int64_t point)
 {
     const int dim = p->dim, n = symmetric_tensor_component_count(dim);
@@ -141,7 +141,7 @@ bool cell_stiffness_reduction_limit_state_based(real *tensor, real *mean_strain_
     return end;
 }
 
-void cell_stiffness_reduction_limit_bond_based(real *tensor, const struct particles *p, const struct bond_source *s,
+void cell_limit_bond_based_stiffness_reduction(real *tensor, const struct particles *p, const struct bond_source *s,
                                                int64_t point)
 {
     const real none[SYM_MAX] = {0};

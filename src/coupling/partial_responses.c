@@ -249,7 +249,7 @@ void bond_fraction_table_sum_cell_stiffness_reduction(const struct bond_fraction
         if (k + ROWS_AHEAD < rows) row_fetch(t, &row[k + ROWS_AHEAD]);
         int signs = 0;
         if (row[k].j >= p->n) {
-            const struct reflection r = mirror_image_reflection(s, p, row[k].j);
+            const struct reflection r = mirror_image_reflection_from_source_particle(s, p, row[k].j);
             for (int d = 0; d < t->dim; d++) signs |= (r.sign[d] < 0) << d;
         }
         if (t->parts == 1)

@@ -71,7 +71,7 @@ static void tensor_add_row(real *T, const struct particles *p, const struct bond
                            const struct box *box, int64_t j, const real *X, real half)
 {
     if (j < p->n && (b->row_of[j] < 0 || box_passes(&box[b->row_of[j]], X, half, p->dim))) return;
-    struct reflection r = mirror_image_reflection(s, p, j);
+    struct reflection r = mirror_image_reflection_from_source_particle(s, p, j);
     int32_t row = b->row_of[r.root];
     if (row < 0 || p->kind[r.root] != KIND_MPM) return;
     real xp[DIM_MAX], xm[DIM_MAX];
@@ -149,7 +149,7 @@ static bool state_entry(real *entry, real *T, const struct partial_stress *parti
                         const struct bonds *b, const struct bond_source *s, int64_t i)
 {
     const int n = symmetric_tensor_component_count(p->dim);
-    const bool end = cell_stiffness_reduction_limit_state_based(T, entry + n * n, p, b, s, i);
+    const bool end = cell_limit_state_based_stiffness_reduction(T, entry + n * n, p, b, s, i);
     if (!partial->gives_all) return partial_matrix(entry, T, p, s, i);
     array_fill_bytes(entry, 0, partial_stress_entry_size(s, p->dim), sizeof *entry);
     return end;
@@ -160,7 +160,7 @@ static bool state_entry(real *entry, real *T, const struct partial_stress *parti
  * [J]; is reduced if the point would be unstable. Returns false if no bond crosses the cell. */
 static bool bond_entry(real *entry, real *T, const struct particles *p, const struct bond_source *s, int64_t i)
 {
-    cell_stiffness_reduction_limit_bond_based(T, p, s, i);
+    cell_limit_bond_based_stiffness_reduction(T, p, s, i);
     return partial_matrix(entry, T, p, s, i);
 }
 
@@ -354,18 +354,19 @@ static void entries_make(real *entry, bool *crossed, const struct partial_stress
 }
 
 void partial_stress_compute_from_bonds(struct partial_stress *partial, const struct particles *p, const struct bonds *b,
-                                       const struct bond_source *source, const int32_t *changed, int64_t n)
+                                       const struct bond_source *source, const int32_t *converted_particles,
+                                       int64_t converted_count)
 {
     const int n_symmetric = symmetric_tensor_component_count(p->dim), size = n_symmetric * n_symmetric;
     const int whole = partial_stress_entry_size(source, p->dim), local = whole - size;
-    const bool all = !changed || !partial->index;
+    const bool all = !converted_particles || !partial->index;
     struct renewal r;
     if (!partial->index) {
         partial->index = NEW("partial.index", p->n, int32_t);
         for (int64_t i = 0; i < p->n; i++) partial->index[i] = -1;
         partial->table = bond_fraction_table_make_for_lattice_cells(p, source, size);
     }
-    renewal_make(&r, p, b, source, partial->table, changed, n);
+    renewal_make(&r, p, b, source, partial->table, converted_particles, converted_count);
     if (bond_fraction_table_is_not_empty(partial->table))
         bond_fraction_table_update_strain_responses(partial->table, p, b, source, all ? NULL : r.list, r.n);
     real *M = BARE("partial.new", r.n * whole, real);
@@ -387,8 +388,8 @@ void partial_stress_compute_from_bonds(struct partial_stress *partial, const str
     renewal_free(&r);
 }
 
-void bonded_points_compute_strain_from_stress(const struct partial_stress *partial, struct particles *p,
-                                              const struct material *material)
+void bonded_mpm_points_compute_strain_from_stress(const struct partial_stress *partial, struct particles *p,
+                                                  const struct material *material)
 {
     const int dim = p->dim, n = symmetric_tensor_component_count(dim);
     real compliance[UINT8_MAX + 1][SYM_MAX * SYM_MAX];

@@ -266,7 +266,7 @@ static void crossing_of(struct crossing *to, const struct particles *p, const st
                                             true);
     for (int k = 0; k < near->n; k++) {
         const int64_t j = near->at[k];
-        const struct reflection r = mirror_image_reflection(source, p, j);
+        const struct reflection r = mirror_image_reflection_from_source_particle(source, p, j);
         const int64_t row = b->row_of[r.root];
         if (row < 0 || p->body[j] != p->body[i]) continue;
         for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_iterator_advance(&it);)

@@ -62,13 +62,13 @@ static real area_to(const struct softening_curve *c, real x)
     return area;
 }
 
-real softening_normalised_dissipated_energy(const struct softening_curve *c, real onset, real breaking_stretch,
+real softening_normalised_dissipated_energy(const struct softening_curve *c, real onset_stretch, real breaking_stretch,
                                             real largest_stretch)
 {
-    const real x = real_min(1, (largest_stretch - onset) / (breaking_stretch - onset));
+    const real x = real_min(1, (largest_stretch - onset_stretch) / (breaking_stretch - onset_stretch));
     if (!(x > 0)) return 0;
-    const real force = onset * softening_curve_normalised_force(c, x);
-    return 0.5 * square(onset) + onset * (breaking_stretch - onset) * area_to(c, x) -
+    const real force = onset_stretch * softening_curve_normalised_force(c, x);
+    return 0.5 * square(onset_stretch) + onset_stretch * (breaking_stretch - onset_stretch) * area_to(c, x) -
            0.5 * force * real_min(largest_stretch, breaking_stretch);
 }
 
@@ -329,18 +329,19 @@ real softening_onset_stretch_from_strength(const struct material *m, enum space 
 
 /* ---- rates ------------------------------------------------------------------------------------------------------- */
 
-/* Interpolates a quantity that is table_values[k] at the strain rate r->rate[k] to the strain rate `rate` [1/s] and
- * returns it: linear in the logarithm of the rate, constant beyond the table. */
-real strength_rate_table_interpolate_in_log_rate(const struct strength_rate *r, const real *table_values, real rate)
+/* Interpolates a quantity that is table_values[k] at the strain rate r->strain_rate[k] to the strain rate `strain_rate`
+ * [1/s] and returns it: linear in the logarithm of the strain_rate, constant beyond the table. */
+real strength_rate_table_interpolate_in_log_rate(const struct strength_rate *r, const real *table_values,
+                                                 real strain_rate)
 {
     int k = 0;
-    while (k < r->points && r->rate[k] < rate) k++;
+    while (k < r->points && r->rate[k] < strain_rate) k++;
     if (k == 0 || k == r->points) return table_values[k == 0 ? 0 : k - 1];
-    const real part = log(rate / r->rate[k - 1]) / log(r->rate[k] / r->rate[k - 1]);
+    const real part = log(strain_rate / r->rate[k - 1]) / log(r->rate[k] / r->rate[k - 1]);
     return table_values[k - 1] + part * (table_values[k] - table_values[k - 1]);
 }
 
-real strength_rate_set_onsets_return_stretch_ratio(struct material *m, enum space space,
+real strength_rate_compute_softening_onset_factors(struct material *m, enum space space,
                                                    const struct softening_model *model)
 {
     real least = INFINITY;

@@ -162,7 +162,7 @@ static void images_index(struct solid *s, int dim)
     memory_free(box);
 }
 
-bool solid_transform_copies_unless_too_many(struct solid *s, const struct solid_motion *m, int dim)
+bool solid_apply_motion_unless_too_many_copies(struct solid *s, const struct solid_motion *m, int dim)
 {
     const int before = s->images > 0 ? s->images : 1;
     const real count = motion_count(m, dim) * before;

@@ -98,6 +98,6 @@ struct surface_strengths material_strengths_from_strength_surface(const struct m
 
 real material_stress_to_strength_ratio(const struct material *m, enum space space, const real *stress)
 {
-    return strength_surface_tensor_stress_to_strength_ratio(
+    return strength_surface_stress_tensor_to_strength_ratio(
         &m->surface, stress, space == SPACE_PLANE_STRAIN ? m->poisson : 0, space_dim(space));
 }

@@ -152,9 +152,9 @@ static void runs_make(struct corotating_groups *groups, const struct member *all
 
 void corotating_groups_make(struct corotating_groups *groups, const struct particles *p, real spacing,
                             const real *symmetry_plane, const int *first_joined_body, const bool *body_is_supported,
-                            int bodies)
+                            int body_count)
 {
-    struct division *division = divisions_make(p, spacing, symmetry_plane, first_joined_body, bodies);
+    struct division *division = divisions_make(p, spacing, symmetry_plane, first_joined_body, body_count);
     struct member *all = members_sorted(p, spacing, division, first_joined_body);
     memory_free(division);
     corotating_groups_free(groups);

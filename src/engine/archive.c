@@ -103,7 +103,7 @@ static status body_restore(struct run *run, struct archive *a)
     run->grid->sort_needed = SORT_ALL;
     TRY(bonds_save_or_load(&run->bonds, &run->part, a));
     state_based_update_weighted_volumes(&run->bonds, &run->part, &run->source);
-    coupling_set_method_and_compute_partial_stress(run);
+    coupling_set_up_pd_mpm_method_and_interface(run);
     mesh_levels_free(&run->frame->levels);
     mesh_free(&run->frame->mesh);
     memory_free(run->frame->elastic);

@@ -246,8 +246,9 @@ static int law_arrays(const struct law *law)
 static int optional_arrays(const struct scene *s)
 {
     int optional = (s->transfer == TRANSFER_APIC ? WITH_GRADIENT : 0) | (s->shape == SHAPE_CPGIMP ? WITH_STRETCH : 0);
-    const int meshed =
-        scene_has_load_steps(s) || scene_has_yielding_body_on_mesh(s) ? WITH_PLASTIC_CORRECTION | WITH_MESH_STRESS : 0;
+    const int meshed = scene_has_load_steps(s) || scene_has_yielding_total_lagrangian_mpm_body(s)
+                           ? WITH_PLASTIC_CORRECTION | WITH_MESH_STRESS
+                           : 0;
     for (int m = 0; m < s->materials; m++)
         if (s->material[m].law.given) optional |= meshed | law_arrays(&s->material[m].law);
     if (optional & WITH_PLASTIC && s->space == SPACE_PLANE_STRAIN) optional |= WITH_OUT_OF_PLANE;
@@ -367,10 +368,10 @@ static status make_forces(struct run *run, struct predecessor *before)
         s, joined_bodies_check_within_bond_reach(s, &run->part, &run->cells, run->source.family.cutoff)));
     TRY(scene_prepend_location_to_error_message(s, load_steps_check_scene_is_supported(run)));
     make_contact(run->contact, s, &run->source, run->rigid);
-    coupling_set_method_and_compute_partial_stress(run);
+    coupling_set_up_pd_mpm_method_and_interface(run);
     TRY(scene_prepend_location_to_error_message(s, coupling_build_total_lagrangian_mesh(run, before != NULL)));
     TRY(prescribed_motion_check_is_admissible(&run->loads, &run->part, s, before == NULL));
-    bonded_points_update_strain_from_mesh_or_stress(&run->coupling->partial, run->frame, &run->part, s->material);
+    bonded_mpm_points_update_cell_strain(&run->coupling->partial, run->frame, &run->part, s->material);
     stability_store_largest_initial_speed(run->stability, &run->part);
     return make_time(run, before);
 }

@@ -52,8 +52,7 @@ static void nodes_take(struct run *run, struct run *old)
     mesh_levels_reconnect_coarse_to_finest_mesh(&reference->levels, &run->part, &reference->source);
     mesh_levels_update_lists_of_loaded_nodes(reference, &run->part, &run->bonds, &run->loads);
     lagrangian_mesh_update_point_motion(reference, &run->part, &run->loads);
-    bonded_points_update_strain_from_mesh_or_stress(&run->coupling->partial, reference, &run->part,
-                                                    run->scene->material);
+    bonded_mpm_points_update_cell_strain(&run->coupling->partial, reference, &run->part, run->scene->material);
 }
 
 /* Moves from the run `old` to run, which replaces it, the state that the state functions of struct part do not

@@ -42,7 +42,7 @@ static status refine(struct run *run)
 status run_adapt_mesh_and_advance_one_step(struct run *run)
 {
     TRY(refine(run));
-    return step(run);
+    return run_advance_by_one_time_step(run);
 }
 
 /* Runs the scene of the run to its end: as one equilibrium, in load steps or in time, as its solver requires. Returns

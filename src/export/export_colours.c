@@ -96,8 +96,8 @@ int particles_at_cut_bonds_assign_and_count_colours(int32_t *colour, const struc
     return a.n;
 }
 
-uint8_t *colour_pairs_find_bonded_or_cut(const int32_t *colour, int colour_count,
-                                         const struct particles_at_cut_bonds *t)
+uint8_t *colour_pairs_classify_as_bonded_or_cut(const int32_t *colour, int colour_count,
+                                                const struct particles_at_cut_bonds *t)
 {
     uint8_t *pair = NEW("colours.pairs", (int64_t)colour_count * colour_count, uint8_t);
     for (int64_t k = 0; k < t->n; k++)

@@ -72,8 +72,8 @@ int particles_at_cut_bonds_assign_and_count_colours(int32_t *colour, const struc
  * colour[touched->n]: colours of the particles in `touched`, those at bonds that LAMMPS must cut. Returns an allocated
  * array with the entry PAIR_BONDED, PAIR_CUT or PAIR_UNKNOWN (no such neighbours) at index a * colour_count + b, which
  * the caller releases with memory_free. Returns NULL if a pair of colours has both bonded and cut neighbours. */
-uint8_t *colour_pairs_find_bonded_or_cut(const int32_t *colour, int colour_count,
-                                         const struct particles_at_cut_bonds *touched);
+uint8_t *colour_pairs_classify_as_bonded_or_cut(const int32_t *colour, int colour_count,
+                                                const struct particles_at_cut_bonds *touched);
 
 /* ---- bonds of LAMMPS (export_bonds.c) ---------------------------------------------------------------------------- */
 

@@ -123,7 +123,7 @@ status lammps_types_assign_to_particles(struct lammps_types *types, struct lammp
                        "%s: the cracks touch %lld particles, which need more than %d atom types, the limit of the "
                        "tables of LAMMPS; use straight cracks along the lattice",
                        printable_name(x->s->path).text, (long long)touched.n, COLOURS_MOST);
-    if (s == OK && colours > 0 && !(pair = colour_pairs_find_bonded_or_cut(colour, colours, &touched)))
+    if (s == OK && colours > 0 && !(pair = colour_pairs_classify_as_bonded_or_cut(colour, colours, &touched)))
         s = status_set(FAILED, "export: the cracks cut bonds that the atom types of LAMMPS cannot distinguish from "
                                "uncut ones; use straight cracks");
     if (s == OK) s = types_give(types, x, &touched, colour, colours, pair);

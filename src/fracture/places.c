@@ -78,9 +78,9 @@ static void group_middle(const struct place *place, const int32_t *group, int64_
     if (least > square(reach)) array_copy(middle, place[nearest].X, dim, sizeof *middle);
 }
 
-int64_t position_clusters_count_and_find_foremost_centre(const struct place *position, int64_t position_count, int dim,
-                                                         real max_step, const real *ignored_direction,
-                                                         real *cluster_centre)
+int64_t position_clusters_count_and_centre_at_largest_x(const struct place *position, int64_t position_count, int dim,
+                                                        real max_step, const real *ignored_direction,
+                                                        real *cluster_centre)
 {
     const int64_t looked = position_count < POSITIONS_MOST ? position_count : POSITIONS_MOST;
     int64_t last = -1;

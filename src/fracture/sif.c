@@ -142,7 +142,7 @@ static void sif_point_stress(const struct sif_tip *tip, const struct sif_motion 
                              struct crack_state *state)
 {
     if (tip->stress == SIF_HOOKE) {
-        crack_stress_from_displacement_gradient(&tip->medium, state->gradient, state->stress);
+        crack_medium_stress_from_displacement_gradient(&tip->medium, state->gradient, state->stress);
         return;
     }
     real global[2][2] = {{m->stress[0][i], m->stress[2][i]}, {m->stress[2][i], m->stress[1][i]}};
@@ -225,7 +225,7 @@ static void points_block(const void *context, int64_t first, int64_t end, real *
         const real inside = s->inner ? core_share(tip, r) : 0;
         struct crack_field field;
         for (int mode = 0; mode < MODES; mode++) {
-            crack_tip_field_resting_or_moving(&tip->medium, mode, tip->speed, point->x, &field);
+            crack_tip_unit_sif_field_at_any_speed(&tip->medium, mode, tip->speed, point->x, &field);
             sum[mode] +=
                 point->area * sif_interaction_integrand(tip, s->contour, point->x, &point->state, &field.state, inside);
         }

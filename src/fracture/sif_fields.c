@@ -27,7 +27,8 @@ struct crack_medium crack_medium_of_material(const struct material *m, enum spac
                                  .rayleigh = m->rayleigh_speed};
 }
 
-void crack_stress_from_displacement_gradient(const struct crack_medium *m, real gradient[2][2], real stress[2][2])
+void crack_medium_stress_from_displacement_gradient(const struct crack_medium *m, real gradient[2][2],
+                                                    real stress[2][2])
 {
     const real dilatation = gradient[0][0] + gradient[1][1];
     for (int i = 0; i < 2; i++)
@@ -53,7 +54,8 @@ static void williams_angular(real kappa, enum crack_mode mode, real theta, real 
     }
 }
 
-void crack_tip_field_at_rest(const struct crack_medium *m, enum crack_mode mode, const real x[2], struct crack_field *f)
+void crack_tip_unit_sif_field_at_rest(const struct crack_medium *m, enum crack_mode mode, const real x[2],
+                                      struct crack_field *f)
 {
     const real r = hypot(x[0], x[1]), theta = atan2(x[1], x[0]), c = cos(theta), s = sin(theta);
     const real size = sqrt(r / (2 * pi)) / (2 * m->shear);
@@ -65,7 +67,7 @@ void crack_tip_field_at_rest(const struct crack_medium *m, enum crack_mode mode,
         f->state.gradient[i][0] = size / r * (0.5 * g[i] * c - slope[i] * s);
         f->state.gradient[i][1] = size / r * (0.5 * g[i] * s + slope[i] * c);
     }
-    crack_stress_from_displacement_gradient(m, f->state.gradient, f->state.stress);
+    crack_medium_stress_from_displacement_gradient(m, f->state.gradient, f->state.stress);
 }
 
 /* ---- a moving crack ---------------------------------------------------------------------------------------------- */
@@ -102,8 +104,8 @@ static void wave_weights(const struct crack_medium *m, enum crack_mode mode, rea
         for (int w = 0; w < 2; w++) weight[i][w] = size * (mode == MODE_I ? one : two)[i][w];
 }
 
-void crack_tip_field_moving(const struct crack_medium *m, enum crack_mode mode, real speed, const real x[2],
-                            struct crack_field *f)
+void crack_tip_unit_sif_field_moving(const struct crack_medium *m, enum crack_mode mode, real speed, const real x[2],
+                                     struct crack_field *f)
 {
     real a[2], weight[2][2], twice_along[2] = {0};
     slownesses(m, speed, a);
@@ -121,7 +123,7 @@ void crack_tip_field_moving(const struct crack_medium *m, enum crack_mode mode, 
             twice_along[i] += creal(unit * bend);
         }
     }
-    crack_stress_from_displacement_gradient(m, f->state.gradient, f->state.stress);
+    crack_medium_stress_from_displacement_gradient(m, f->state.gradient, f->state.stress);
     for (int i = 0; i < 2; i++) { /* steady in the moving frame: d/dt = -speed d/dx1 */
         f->state.velocity[i] = -speed * f->state.gradient[i][0];
         f->state.velocity_along[i] = -speed * twice_along[i];
@@ -129,13 +131,13 @@ void crack_tip_field_moving(const struct crack_medium *m, enum crack_mode mode, 
     }
 }
 
-void crack_tip_field_resting_or_moving(const struct crack_medium *m, enum crack_mode mode, real speed, const real x[2],
-                                       struct crack_field *f)
+void crack_tip_unit_sif_field_at_any_speed(const struct crack_medium *m, enum crack_mode mode, real speed,
+                                           const real x[2], struct crack_field *f)
 {
     if (speed < REST * m->shear_speed)
-        crack_tip_field_at_rest(m, mode, x, f);
+        crack_tip_unit_sif_field_at_rest(m, mode, x, f);
     else
-        crack_tip_field_moving(m, mode, speed, x, f);
+        crack_tip_unit_sif_field_moving(m, mode, speed, x, f);
 }
 
 real crack_tip_speed_universal_function(const struct crack_medium *m, enum crack_mode mode, real speed)

@@ -161,7 +161,7 @@ static void flood_run(struct flood *f)
         int32_t i = f->queue[head];
         particle_reference_position(p, i, X);
         int tip = f->t->label[i] - 1,
-            n = tip_search_find_particles_near(&f->search, X, (TIP_TOUCH + TIP_EQUAL) * f->t->spacing);
+            n = tip_search_find_particles_near_position(&f->search, X, (TIP_TOUCH + TIP_EQUAL) * f->t->spacing);
         for (int k = 0; k < n; k++) {
             int32_t j = f->search.found[k];
             if (j >= p->n || p->body[j] != p->body[i]) continue;
@@ -198,7 +198,8 @@ static int crack_touched(struct flood *f, int64_t i)
     const struct particles *p = f->search.p;
     real X[DIM_MAX];
     particle_reference_position(p, i, X);
-    int lowest = -1, n = tip_search_find_particles_near(&f->search, X, (TIP_TOUCH + TIP_EQUAL) * f->t->spacing);
+    int lowest = -1,
+        n = tip_search_find_particles_near_position(&f->search, X, (TIP_TOUCH + TIP_EQUAL) * f->t->spacing);
     for (int k = 0; k < n; k++) {
         int32_t j = f->search.found[k];
         if (j >= p->n || p->body[j] != p->body[i]) continue;

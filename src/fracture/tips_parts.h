@@ -16,11 +16,11 @@ enum { TIP_BEFORE = 255 }; /* label of particles damaged by a pre-crack */
 enum { TIP_PIECE = 64 };
 
 /* Returns the end (index after the last entry) of the part of the list of peridynamic particles of p that begins at
- * entry `piece_start`: piece_start + TIP_PIECE, or the length of the list if that is smaller. The list is tested in
+ * entry `chunk_start`: piece_start + TIP_PIECE, or the length of the list if that is smaller. The list is tested in
  * parts of TIP_PIECE entries. */
-static inline int64_t peridynamic_particle_list_chunk_end_index(const struct particles *p, int64_t piece_start)
+static inline int64_t peridynamic_particle_list_chunk_end_index(const struct particles *p, int64_t chunk_start)
 {
-    return piece_start + TIP_PIECE < p->n_of[KIND_PD] ? piece_start + TIP_PIECE : p->n_of[KIND_PD];
+    return chunk_start + TIP_PIECE < p->n_of[KIND_PD] ? chunk_start + TIP_PIECE : p->n_of[KIND_PD];
 }
 
 /* Returns true if the particle numbers particle_number[0] .. particle_number[count - 1] are consecutive integers. They
@@ -56,7 +56,7 @@ struct tip_search {
 /* Finds the particles, mirror images (copies beyond planes of symmetry) included, whose reference positions are within
  * `radius` [m] of the position `position` [m]. The indices are written to s->found, which grows as needed and which the
  * caller frees after the last search. Returns the number of particles found. */
-int tip_search_find_particles_near(struct tip_search *s, const real *position, real radius);
+int tip_search_find_particles_near_position(struct tip_search *s, const real *position, real radius);
 
 /* Computes the vector `offset` from the nearest point of a segment to the point `point`. centre: middle of the segment;
  * half_vector: vector from the middle to one end; all vectors have dim components [m]. Returns the length of `offset`

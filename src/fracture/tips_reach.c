@@ -98,8 +98,8 @@ void tips_compute_crack_extents(const struct crack_tips *t, const struct particl
     for (int k = 0; k < t->n; k++) {
         const real touch = (TIP_TOUCH + TIP_EQUAL) * t->spacing;
         if (a.n[k] > 0)
-            extent[k].ends = position_clusters_count_and_find_foremost_centre(a.place[k], a.n[k], t->dim, touch,
-                                                                              t->tip[k].edge, extent[k].place);
+            extent[k].ends = position_clusters_count_and_centre_at_largest_x(a.place[k], a.n[k], t->dim, touch,
+                                                                             t->tip[k].edge, extent[k].place);
         memory_free(a.place[k]);
     }
 }

@@ -12,7 +12,7 @@
 /* Finds the particles, mirror images included, whose reference position is within `radius` [m] of position[dim] [m].
  * The radius is reduced to the edge of the search cells if it is larger. Stores their indices in s->found, which grows
  * as needed; the caller frees it. Returns the number of these particles. */
-int tip_search_find_particles_near(struct tip_search *s, const real *position, real radius)
+int tip_search_find_particles_near_position(struct tip_search *s, const real *position, real radius)
 {
     radius = real_min(radius, s->c->edge);
     int n = cells_list_particles_near_point(s->c, s->p, position, radius, -1, s->found, s->room);
@@ -71,7 +71,7 @@ static int body_ahead(const struct crack_tips *t, struct tip_search *s, const re
 {
     real ahead[DIM_MAX];
     for (int d = 0; d < t->dim; d++) ahead[d] = X[d] + t->spacing * along[d];
-    int n = tip_search_find_particles_near(s, ahead, AHEAD_REACH * t->spacing), free_ones = 0, body = -1;
+    int n = tip_search_find_particles_near_position(s, ahead, AHEAD_REACH * t->spacing), free_ones = 0, body = -1;
     for (int k = 0; k < n; k++) {
         int32_t i = s->found[k];
         if (i >= s->p->n || s->p->flag[i] & FLAG_DRIVEN) continue;

@@ -31,7 +31,8 @@ static status nodes_read(struct abaqus_input_deck *d)
         return geometry_file_report_fault(
             d->s, "coordinates of the system %.10s are not supported; use Cartesian x, y, z", system);
     TRY(abaqus_find_or_create_set_named_by_parameter(d, "NSET", true, &set));
-    for (char field[FIELD]; abaqus_find_data_line(d->s); geometry_file_skip_to_next_line(d->s)) {
+    for (char field[FIELD]; abaqus_skip_blank_lines_and_test_for_data_line(d->s);
+         geometry_file_skip_to_next_line(d->s)) {
         int32_t label;
         real X[DIM_MAX] = {0};
         abaqus_read_field(d->s, field);
@@ -56,7 +57,7 @@ static status element_nodes(struct abaqus_input_deck *d, const struct abaqus_sha
         int32_t label;
         if (!abaqus_read_field(d->s, field)) {
             geometry_file_skip_to_next_line(d->s);
-            if (!abaqus_find_data_line(d->s))
+            if (!abaqus_skip_blank_lines_and_test_for_data_line(d->s))
                 return geometry_file_report_fault(
                     d->s, "an element should have the %d nodes of its type, but lists only %d; add the missing nodes",
                     size->nodes, k);
@@ -91,7 +92,7 @@ static status elements_read(struct abaqus_input_deck *d)
         text_replace_control_characters(d->m->skipped);
         return OK;
     }
-    for (; abaqus_find_data_line(d->s); geometry_file_skip_to_next_line(d->s)) {
+    for (; abaqus_skip_blank_lines_and_test_for_data_line(d->s); geometry_file_skip_to_next_line(d->s)) {
         int32_t label, node[ELEMENT_CORNERS_MAX], middle[ELEMENT_MIDDLES_MAX];
         abaqus_read_field(d->s, field);
         TRY(abaqus_parse_label(d->s, field, &label));
@@ -187,11 +188,11 @@ static status instance_read(struct abaqus_input_deck *d)
     if (p->placed)
         return geometry_file_report_fault(
             d->s, "part %.40s is in the assembly twice; give each instance a part of its own", p->name);
-    if (abaqus_find_data_line(d->s)) {
+    if (abaqus_skip_blank_lines_and_test_for_data_line(d->s)) {
         for (int k = 0; k < 3 && abaqus_read_field(d->s, field); k++) TRY(abaqus_parse_real(d->s, field, &shift[k]));
         geometry_file_skip_to_next_line(d->s);
     }
-    if (abaqus_find_data_line(d->s))
+    if (abaqus_skip_blank_lines_and_test_for_data_line(d->s))
         for (int k = 0; k < 7 && abaqus_read_field(d->s, field); k++) TRY(abaqus_parse_real(d->s, field, &turn[k]));
     const bool turns = turn[6] != 0 && memcmp(turn, turn + 3, 3 * sizeof *turn) != 0;
     for (int64_t k = p->node; k < p->node_end; k++) {
@@ -231,10 +232,10 @@ static status input_read(struct abaqus_input_deck *d, status (*read)(struct abaq
         return geometry_file_report_fault(d->s, "*%s: %.200s", keyword, status_message());
     d->s = &file, d->depth++, d->length += file.length;
     status s = OK;
-    if (keywords && abaqus_find_data_line(&file))
+    if (keywords && abaqus_skip_blank_lines_and_test_for_data_line(&file))
         s = geometry_file_report_fault(&file, "an included file does not begin with a keyword; add one, such as *NODE");
     if (s == OK) s = read(d);
-    while (s == OK && abaqus_find_data_line(&file))
+    while (s == OK && abaqus_skip_blank_lines_and_test_for_data_line(&file))
         geometry_file_skip_to_next_line(&file); /* of types that are left out */
     if (s == OK && file.at < file.length)
         s = geometry_file_report_fault(
@@ -280,7 +281,8 @@ static status keyword_follow(struct abaqus_input_deck *d)
 static status keywords_read(struct abaqus_input_deck *d)
 {
     while (geometry_file_skip_blanks(d->s)) {
-        while (abaqus_find_data_line(d->s)) geometry_file_skip_to_next_line(d->s); /* data lines of a skipped keyword */
+        while (abaqus_skip_blank_lines_and_test_for_data_line(d->s))
+            geometry_file_skip_to_next_line(d->s); /* data lines of a skipped keyword */
         if (d->s->at >= d->s->length) break;
         geometry_file_skip_blanks(d->s);
         abaqus_read_keyword(d->s, &d->key);

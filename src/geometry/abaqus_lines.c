@@ -30,7 +30,7 @@ bool abaqus_read_field(struct geometry_file *file, char field[FIELD])
     return true;
 }
 
-bool abaqus_find_data_line(struct geometry_file *file)
+bool abaqus_skip_blank_lines_and_test_for_data_line(struct geometry_file *file)
 {
     while (file->at < file->length) {
         int64_t at = file->at;
@@ -107,7 +107,8 @@ void abaqus_read_keyword(struct geometry_file *file, struct abaqus_keyword *keyw
         while (abaqus_read_field(file, field)) parameter_add(keyword, field);
         int64_t last = file->at - 1;
         while (last > 0 && (file->text[last] == ' ' || file->text[last] == '\r')) last--;
-        more = file->at < file->length && last >= 0 && file->text[last] == ',' && abaqus_find_data_line(file);
+        more = file->at < file->length && last >= 0 && file->text[last] == ',' &&
+               abaqus_skip_blank_lines_and_test_for_data_line(file);
     } while (more);
 }
 

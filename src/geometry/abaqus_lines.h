@@ -23,7 +23,7 @@ bool abaqus_read_field(struct geometry_file *file, char field[FIELD]);
 
 /* Advances the file to the next line that is neither empty nor a comment. Returns true if it is a line of data, false
  * if it is a keyword line or if the file has ended. */
-bool abaqus_find_data_line(struct geometry_file *file);
+bool abaqus_skip_blank_lines_and_test_for_data_line(struct geometry_file *file);
 
 /* Parses the text `field` as a number into *value, also with Fortran's exponent letter d. An empty field is 0, as
  * Abaqus prescribes. file: file, for the message. Returns REFUSED, with a message, unless the field is a finite number.

@@ -205,7 +205,8 @@ status abaqus_read_set(struct abaqus_input_deck *d, bool of_nodes)
     if (instance && !part)
         return geometry_file_report_fault(d->s, "the assembly has no instance %.40s; check the spelling", instance);
     if (of_nodes && elements) TRY(set_join_nodes_of(d, set, part, elements));
-    for (char field[FIELD]; abaqus_find_data_line(d->s); geometry_file_skip_to_next_line(d->s)) {
+    for (char field[FIELD]; abaqus_skip_blank_lines_and_test_for_data_line(d->s);
+         geometry_file_skip_to_next_line(d->s)) {
         int32_t label;
         if (generate) {
             TRY(generate_line(d, set, part));

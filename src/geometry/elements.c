@@ -103,17 +103,19 @@ void element_mesh_add_to_set(struct element_mesh *m, int number, int64_t member)
     set->member[set->n++] = (int32_t)member;
 }
 
-void element_mesh_rotate_node(struct element_mesh *m, int64_t node, const real *a, const real *b, real angle)
+void element_mesh_rotate_node(struct element_mesh *m, int64_t node, const real *axis_start, const real *axis_end,
+                              real angle)
 {
     real *X = m->node[node];
     real axis[DIM_MAX], arm[DIM_MAX], length = 0;
-    for (int d = 0; d < DIM_MAX; d++) axis[d] = b[d] - a[d], arm[d] = X[d] - a[d], length += square(axis[d]);
+    for (int d = 0; d < DIM_MAX; d++)
+        axis[d] = axis_end[d] - axis_start[d], arm[d] = X[d] - axis_start[d], length += square(axis[d]);
     length = sqrt(length);
     for (int d = 0; d < DIM_MAX; d++) axis[d] /= length;
     const real along = dot(axis, arm, DIM_MAX), c = cos(angle), s = sin(angle);
     for (int d = 0; d < DIM_MAX; d++) {
         const int e = (d + 1) % 3, f = (d + 2) % 3;
-        X[d] = a[d] + c * arm[d] + s * (axis[e] * arm[f] - axis[f] * arm[e]) + (1 - c) * along * axis[d];
+        X[d] = axis_start[d] + c * arm[d] + s * (axis[e] * arm[f] - axis[f] * arm[e]) + (1 - c) * along * axis[d];
     }
 }
 

@@ -115,8 +115,9 @@ int element_mesh_find_or_create_set(struct element_mesh *m, const char *name, bo
 void element_mesh_add_to_set(struct element_mesh *m, int set, int64_t member);
 
 /* Rotates a node of the mesh m by `angle` [rad] about the axis from the point a to the point b (Rodrigues' formula). a
- * and b must differ. node: index of the node; a, b: three coordinates each [unit of the file]. */
-void element_mesh_rotate_node(struct element_mesh *m, int64_t node, const real *a, const real *b, real angle);
+ * and b must differ. node: index of the node; axis_start, axis_end: three coordinates each [unit of the file]. */
+void element_mesh_rotate_node(struct element_mesh *m, int64_t node, const real *axis_start, const real *axis_end,
+                              real angle);
 
 /* Releases all arrays of the mesh m and sets all its members to 0. */
 void element_mesh_free(struct element_mesh *m);
@@ -170,8 +171,8 @@ status stl_read(struct element_mesh *m, struct geometry_file *file);
  * of the file [m]; max_chord_error: largest distance between a curved edge and the chords that approximate it [m], NAN
  * for 1/256 of the largest sagitta. Middle nodes may be added to m. Returns REFUSED, with a message, if no element has
  * the dimension of the body, a 2D mesh is not plane, or curved edges need too many chords. */
-status geometry_from_elements(struct geometry *g, struct element_mesh *m, const char *path, int dim, real unit_length,
-                              real max_chord_error);
+status geometry_create_from_element_mesh(struct geometry *g, struct element_mesh *m, const char *path, int dim,
+                                         real unit_length, real max_chord_error);
 
 /* ---- faces of a surface (elements_curved.c) ---- */
 

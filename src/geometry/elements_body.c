@@ -372,8 +372,8 @@ static status check_elements_differ(const struct element_mesh *m, const char *pa
                       path, (long long)doubles, doubles == 1 ? " has" : "s have", other, first);
 }
 
-status geometry_from_elements(struct geometry *g, struct element_mesh *m, const char *path, int dim, real unit_length,
-                              real max_chord_error)
+status geometry_create_from_element_mesh(struct geometry *g, struct element_mesh *m, const char *path, int dim,
+                                         real unit_length, real max_chord_error)
 {
     struct surface_builder b = {.m = m, .dim = dim, .scale = unit_length, .file_nodes = m->nodes};
     int32_t *node_of = NULL;

@@ -78,7 +78,7 @@ static status kind_of(const struct exodus *x, const char *type, int64_t nodes, e
 {
     *skip = false;
     if (strcmp(type, "NSIDED") == 0 || strcmp(type, "NFACED") == 0)
-        return exodus_refuse_with_message(
+        return exodus_set_message_and_return_refused(
             &x->file,
             "elements of type %s (polygons and polyhedra) are not read; write the mesh with "
             "triangles, quadrilaterals, tetrahedra or hexahedra",
@@ -93,7 +93,7 @@ static status kind_of(const struct exodus *x, const char *type, int64_t nodes, e
             if (nodes == sizes[*kind][order]) return OK;
         break;
     }
-    return exodus_refuse_with_message(
+    return exodus_set_message_and_return_refused(
         &x->file,
         "elements of type %s with %lld nodes cannot be read; use triangles, quadrilaterals, "
         "tetrahedra, pyramids, wedges or hexahedra of first or second order",
@@ -109,9 +109,9 @@ static status element_add(struct exodus *x, enum element_kind kind, const int64_
     for (int k = 0; k < ELEMENT_MIDDLES_MAX; k++) middle[k] = -1;
     for (int k = 0; k < nodes; k++) {
         if (label[k] < 1 || label[k] > x->m->nodes)
-            return exodus_refuse_with_message(&x->file,
-                                              "element %lld has node %lld; give its nodes numbers from 1 to %lld",
-                                              (long long)x->elements + 1, (long long)label[k], (long long)x->m->nodes);
+            return exodus_set_message_and_return_refused(
+                &x->file, "element %lld has node %lld; give its nodes numbers from 1 to %lld",
+                (long long)x->elements + 1, (long long)label[k], (long long)x->m->nodes);
         const int slot = k < corners ? -1 : middle_at[kind][k - corners];
         if (k < corners) node[k] = (int32_t)(label[k] - 1);
         if (slot >= 0) middle[slot] = (int32_t)(label[k] - 1);
@@ -141,8 +141,8 @@ static status set_begin(struct exodus *x, const char *names, const char *numbers
     }
     *set = element_mesh_find_or_create_set(x->m, name, of_nodes);
     return *set >= 0 ? OK
-                     : exodus_refuse_with_message(&x->file, "the mesh has more than %d blocks and sets; join some",
-                                                  ELEMENT_SETS_MAX);
+                     : exodus_set_message_and_return_refused(
+                           &x->file, "the mesh has more than %d blocks and sets; join some", ELEMENT_SETS_MAX);
 }
 
 /* Appends the elements of block `number` (from 1) of the file x to the mesh, and makes a set of them. Returns REFUSED,
@@ -221,9 +221,9 @@ static status side_add(struct exodus *x, int set, int64_t element, int64_t side)
     }
     const int sides = solid ? element_sides[e.kind].n : element_edges[e.kind].n + (shell ? 2 : 0);
     if (side < 1 || side > sides)
-        return exodus_refuse_with_message(&x->file,
-                                          "set %s has side %lld of an element that has only %d sides; correct the set",
-                                          x->m->set[set].name, (long long)side, sides);
+        return exodus_set_message_and_return_refused(
+            &x->file, "set %s has side %lld of an element that has only %d sides; correct the set", x->m->set[set].name,
+            (long long)side, sides);
     if (shell && side <= 2) {
         element_mesh_add_to_set(x->m, set, element);
         return OK;
@@ -239,8 +239,8 @@ static status side_add(struct exodus *x, int set, int64_t element, int64_t side)
 static status element_of(const struct exodus *x, int set, int64_t label, int64_t *element)
 {
     if (label < 1 || label > x->elements)
-        return exodus_refuse_with_message(&x->file, "set %s has element %lld; give a number from 1 to %lld",
-                                          x->m->set[set].name, (long long)label, (long long)x->elements);
+        return exodus_set_message_and_return_refused(&x->file, "set %s has element %lld; give a number from 1 to %lld",
+                                                     x->m->set[set].name, (long long)label, (long long)x->elements);
     *element = x->element[label - 1];
     return OK;
 }
@@ -280,8 +280,8 @@ static status node_set_add(struct exodus *x, int64_t number)
     status s = OK;
     for (int64_t k = 0; k < n && s == OK; k++)
         if (node[k] < 1 || node[k] > x->m->nodes)
-            s = exodus_refuse_with_message(&x->file, "set %s has node %lld; give a number from 1 to %lld",
-                                           x->m->set[set].name, (long long)node[k], (long long)x->m->nodes);
+            s = exodus_set_message_and_return_refused(&x->file, "set %s has node %lld; give a number from 1 to %lld",
+                                                      x->m->set[set].name, (long long)node[k], (long long)x->m->nodes);
         else
             element_mesh_add_to_set(x->m, set, node[k] - 1);
     memory_free(node);
@@ -316,7 +316,8 @@ static status mesh_read(struct exodus *x)
     const struct exodus_file *f = &x->file;
     if (f->blocks > ELEMENT_SETS_MAX || f->side_sets > ELEMENT_SETS_MAX || f->node_sets > ELEMENT_SETS_MAX ||
         f->element_sets > ELEMENT_SETS_MAX)
-        return exodus_refuse_with_message(f, "the mesh has more than %d blocks and sets; join some", ELEMENT_SETS_MAX);
+        return exodus_set_message_and_return_refused(f, "the mesh has more than %d blocks and sets; join some",
+                                                     ELEMENT_SETS_MAX);
     TRY(nodes_add(x));
     for (int64_t k = 1; k <= f->blocks; k++) TRY(element_block_add(x, k));
     for (int64_t k = 1; k <= f->side_sets; k++) TRY(side_set_add(x, k));

@@ -16,7 +16,7 @@
  * factor. */
 enum { UNPACKED_MOST = 1024 };
 
-status exodus_refuse_with_message(const struct exodus_file *f, const char *format, ...)
+status exodus_set_message_and_return_refused(const struct exodus_file *f, const char *format, ...)
 {
     char what[256];
     va_list more;
@@ -47,7 +47,8 @@ static status arrays_open(struct exodus_file *f)
     if (f->length >= 8 && memcmp(text, hdf5, 8) == 0) return exodus_hdf5_open(f);
     if (f->length >= 8 && memcmp(text, "CDF", 3) == 0 && (text[3] == 1 || text[3] == 2 || text[3] == 5))
         return exodus_classic_open(f);
-    return exodus_refuse_with_message(f, "does not begin like a netCDF file; give a file in the format Exodus II");
+    return exodus_set_message_and_return_refused(
+        f, "does not begin like a netCDF file; give a file in the format Exodus II");
 }
 
 /* Reads the dimension and the numbers of nodes, blocks and sets, which every mesh has, into f. Returns REFUSED, with a
@@ -62,7 +63,7 @@ static status counts_read(struct exodus_file *f)
     f->element_sets = exodus_read_dimension_length(f, "num_elem_sets", 0);
     f->dim = (int)dim;
     if (dim >= 1 && dim <= DIM_MAX && f->nodes >= 1) return OK;
-    return exodus_refuse_with_message(
+    return exodus_set_message_and_return_refused(
         f,
         "this netCDF file has num_dim = %lld and num_nodes = %lld, so it is not a mesh; give "
         "one in the format Exodus II",
@@ -145,16 +146,16 @@ bool exodus_has_array(const struct exodus_file *f, const char *name, int64_t nam
 static status array_check(const struct exodus_file *f, const char *name, int64_t n, struct exodus_array *a)
 {
     if (!array_find(f, name, a))
-        return exodus_refuse_with_message(f, "the array %s is missing; write the file again", name);
+        return exodus_set_message_and_return_refused(f, "the array %s is missing; write the file again", name);
     if (a->type == EXODUS_CHAR)
-        return exodus_refuse_with_message(f, "array %s contains letters in place of numbers; write the file again",
-                                          name);
+        return exodus_set_message_and_return_refused(
+            f, "array %s contains letters in place of numbers; write the file again", name);
     if (a->extent[0] * a->extent[1] != n)
-        return exodus_refuse_with_message(f,
-                                          "array %s has %lld x %lld numbers, but must have %lld; write the file again",
-                                          name, (long long)a->extent[0], (long long)a->extent[1], (long long)n);
+        return exodus_set_message_and_return_refused(
+            f, "array %s has %lld x %lld numbers, but must have %lld; write the file again", name,
+            (long long)a->extent[0], (long long)a->extent[1], (long long)n);
     if (f->hdf5 < 0 || n <= f->length * UNPACKED_MOST) return OK;
-    return exodus_refuse_with_message(
+    return exodus_set_message_and_return_refused(
         f,
         "array %s claims %lld numbers, more than the file can contain, so it is cut off or "
         "damaged; write the file again",
@@ -179,12 +180,12 @@ static status array_read(const struct exodus_file *f, const char *name, int64_t 
     if (f->hdf5 < 0)
         exodus_classic_read_array(f, &a, n, real_value, whole_value);
     else if (n > 0 && !exodus_hdf5_read_array(f, &a, real_value, whole_value, NULL))
-        s = exodus_refuse_with_message(f, "array %s cannot be read, because the file is damaged; write it again",
-                                       called);
+        s = exodus_set_message_and_return_refused(
+            f, "array %s cannot be read, because the file is damaged; write it again", called);
     for (int64_t k = 0; k < n && s == OK && real_value; k++)
         if (!isfinite(real_value[k]))
-            s = exodus_refuse_with_message(f, "array %s: number %lld is infinite or not a number; correct it", called,
-                                           (long long)k + 1);
+            s = exodus_set_message_and_return_refused(
+                f, "array %s: number %lld is infinite or not a number; correct it", called, (long long)k + 1);
     if (s != OK) {
         memory_free(real_value), memory_free(whole_value);
         return s;
@@ -223,18 +224,18 @@ status exodus_read_coordinates(const struct exodus_file *f, real *coordinates[DI
     return OK;
 }
 
-void exodus_read_text_row(const struct exodus_file *f, const char *name, int64_t name_suffix, int64_t row, int64_t rows,
-                          char *text)
+void exodus_read_text_row(const struct exodus_file *f, const char *name, int64_t name_suffix, int64_t row,
+                          int64_t row_count, char *text)
 {
     char called[NAME_MAX_LENGTH], *all = NULL;
     struct exodus_array a;
     text[0] = '\0';
     name_numbered(called, name, name_suffix);
-    if (!array_find(f, called, &a) || a.type != EXODUS_CHAR || a.extent[0] != rows) return;
+    if (!array_find(f, called, &a) || a.type != EXODUS_CHAR || a.extent[0] != row_count) return;
     const int64_t length = a.extent[1];
     const char *from = f->hdf5 < 0 ? (const char *)f->text + a.at + row * length : NULL;
-    if (!from && rows * length <= f->length * UNPACKED_MOST) {
-        all = NEW("exodus.names", rows * length, char);
+    if (!from && row_count * length <= f->length * UNPACKED_MOST) {
+        all = NEW("exodus.names", row_count * length, char);
         if (exodus_hdf5_read_array(f, &a, NULL, NULL, all)) from = all + row * length;
     }
     if (from) snprintf(text, LONG_NAME_LENGTH, "%.*s", (int)length, from);
@@ -242,21 +243,21 @@ void exodus_read_text_row(const struct exodus_file *f, const char *name, int64_t
     exodus_text_make_printable(text);
 }
 
-status exodus_read_block_header(const struct exodus_file *f, int64_t block_number, char *type, int64_t *elements,
+status exodus_read_block_header(const struct exodus_file *f, int64_t block_number, char *type, int64_t *element_count,
                                 int64_t *nodes_per_element)
 {
     char called[NAME_MAX_LENGTH];
     struct exodus_array a;
     name_numbered(called, "connect", block_number);
     if (!array_find(f, called, &a) || a.type == EXODUS_CHAR)
-        return exodus_refuse_with_message(
+        return exodus_set_message_and_return_refused(
             f, "block %lld lacks the array %s, the nodes of its elements; add the array, or remove the block",
             (long long)block_number, called);
     if (!a.elements[0])
-        return exodus_refuse_with_message(
+        return exodus_set_message_and_return_refused(
             f, "block %lld does not name the type of its elements; add the attribute elem_type to the variable %s",
             (long long)block_number, called);
-    *elements = a.extent[0], *nodes_per_element = a.extent[1];
+    *element_count = a.extent[0], *nodes_per_element = a.extent[1];
     memcpy(type, a.elements, NAME_MAX_LENGTH);
     for (char *c = type; *c; c++) *c = (char)toupper((unsigned char)*c);
     return OK;

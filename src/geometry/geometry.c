@@ -84,7 +84,7 @@ static status read_elements(struct geometry *g, const char *path, int dim, real 
     TRY(geometry_file_read_whole(&source, path));
     status s = format->read(&m, &source);
     geometry_file_close(&source);
-    if (s == OK) s = geometry_from_elements(g, &m, path, dim, scale, fine);
+    if (s == OK) s = geometry_create_from_element_mesh(g, &m, path, dim, scale, fine);
     element_mesh_free(&m);
     return s == OK && g->whole.dim > 0 ? check_closed(&g->whole, path) : s;
 }
@@ -102,7 +102,7 @@ bool geometry_set_name_matches_after_instance_prefix(const struct geometry_set *
     return set->own > 0 && strcasecmp(set->name + set->own, name) == 0;
 }
 
-const struct geometry_set *geometry_find_named_part(const struct geometry *g, const char *name)
+const struct geometry_set *geometry_find_set_by_name(const struct geometry *g, const char *name)
 {
     for (int k = 0; k < g->sets; k++)
         if (strcasecmp(g->set[k].name, name) == 0) return &g->set[k];

@@ -68,7 +68,7 @@ static status entity_read(struct gmsh *g, int64_t dim)
     TRY(geometry_file_check_count_fits_size(g->s, "groups", groups, 2));
     for (int64_t k = 0; k < groups; k++) {
         TRY(geometry_file_read_int32(g->s, "tag of a group", &group));
-        entity_group_add(g, gmsh_key_of_dimension_and_tag(dim, tag), group < 0 ? -group : group);
+        entity_group_add(g, gmsh_entity_key_from_dimension_and_tag(dim, tag), group < 0 ? -group : group);
     }
     if (dim == 0) return OK;
     TRY(geometry_file_read_int64(g->s, "number of bounding entities", &bounds));

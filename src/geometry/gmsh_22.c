@@ -24,7 +24,7 @@ status gmsh22_read_nodes(struct gmsh *g)
         for (int d = 0; d < DIM_MAX; d++) TRY(geometry_file_read_real(g->s, "coordinate", &X[d]));
         TRY(element_mesh_add_node(g->m, g->s, X, label));
     }
-    return gmsh_map_node_labels(g);
+    return gmsh_create_map_from_node_labels_to_indices(g);
 }
 
 /* Removes the last element of the mesh of g if its kind and corners equal those of the element before it, which has

@@ -57,7 +57,7 @@ status gmsh41_read_nodes(struct gmsh *g)
     TRY(read_head_of_section(g, "number of nodes", &blocks, &total));
     for (int64_t k = 0; k < blocks; k++) TRY(read_node_block(g));
     TRY(check_total(g, "nodes", total, g->m->nodes - first));
-    return gmsh_map_node_labels(g);
+    return gmsh_create_map_from_node_labels_to_indices(g);
 }
 
 /* Reads a block of elements of the file g in format 4.1, which have one type and belong to one entity, and adds them to
@@ -72,7 +72,7 @@ static status read_element_block(struct gmsh *g)
     TRY(geometry_file_read_int64(g->s, "number of elements", &n));
     TRY(gmsh_find_element_type(g->s, number, &type));
     TRY(geometry_file_check_count_fits_size(g->s, "elements", n, 4));
-    const int64_t key = gmsh_key_of_dimension_and_tag(dim, tag), link = label_map_find(&g->of_entity, key),
+    const int64_t key = gmsh_entity_key_from_dimension_and_tag(dim, tag), link = label_map_find(&g->of_entity, key),
                   first = g->m->elements;
     for (int64_t k = 0; k < n; k++) {
         TRY(geometry_file_read_int64(g->s, "number of an element", &label));

@@ -113,7 +113,7 @@ status gmsh_read_element(struct gmsh *g, const struct gmsh_type *type, int64_t l
     return OK;
 }
 
-status gmsh_map_node_labels(struct gmsh *g)
+status gmsh_create_map_from_node_labels_to_indices(struct gmsh *g)
 {
     int64_t twice;
     label_map_make(&g->node, g->m->node_label, 0, g->m->nodes);

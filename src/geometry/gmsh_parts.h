@@ -31,8 +31,8 @@ struct gmsh {
         int64_t dim, tag;
         char text[LONG_NAME_LENGTH];
     } * name;
-    int64_t links;              /* number of pairs of an entity and a physical group to which it belongs */
-    int64_t *entity, *group;    /* [links] key of the entity (gmsh_key_of_dimension_and_tag); tag of the group */
+    int64_t links;           /* number of pairs of an entity and a physical group to which it belongs */
+    int64_t *entity, *group; /* [links] key of the entity (gmsh_entity_key_from_dimension_and_tag); tag of the group */
     struct label_map of_entity; /* pairs of each entity */
     int64_t last_dim, last_tag; /* dimension and tag of the group of the last element added; last_set: its set */
     int last_set;
@@ -40,7 +40,7 @@ struct gmsh {
 
 /* Returns a number that identifies an entity of a Gmsh file (point, curve, surface or volume) by its dimension dim (0
  * to 3) and its number `tag` in the file. */
-static inline int64_t gmsh_key_of_dimension_and_tag(int64_t dim, int64_t tag) { return tag * 4 + dim; }
+static inline int64_t gmsh_entity_key_from_dimension_and_tag(int64_t dim, int64_t tag) { return tag * 4 + dim; }
 
 /* Sets *type to the element type with Gmsh's number `number`. Returns REFUSED, with a message, for an unsupported type.
  */
@@ -58,7 +58,7 @@ status gmsh_read_element(struct gmsh *g, const struct gmsh_type *type, int64_t l
 
 /* Creates g->node, the map from labels of nodes to their indices. Returns REFUSED, with a message, if a label occurs
  * twice. */
-status gmsh_map_node_labels(struct gmsh *g);
+status gmsh_create_map_from_node_labels_to_indices(struct gmsh *g);
 
 /* Reads the section of nodes of the file g in format 2.2 into the mesh. Returns REFUSED, with a message, if it is
  * malformed or a label occurs twice. */

@@ -262,18 +262,18 @@ static void cracks_of_group(struct crack **crack, int *n, const struct sheet *s,
     memory_free(corner);
 }
 
-void geometry_append_mesh_slits_as_precracks(const struct hull *h, struct crack **crack, int *n)
+void geometry_append_mesh_slits_as_precracks(const struct hull *h, struct crack **crack, int *crack_count)
 {
     if (h->open) return;
     struct sheets s = sheets_doubled(h);
     if (h->dim == 2) segments_merge(&s);
     for (int64_t k = 0; k < s.n; k++) {
         if (h->dim == 2) {
-            crack_of_sheet(crack, n, &s.at[k], 2);
+            crack_of_sheet(crack, crack_count, &s.at[k], 2);
             continue;
         }
         const int64_t group = group_gather(&s, k);
-        cracks_of_group(crack, n, &s.at[k], group);
+        cracks_of_group(crack, crack_count, &s.at[k], group);
         k += group - 1;
     }
     memory_free(s.at);

@@ -141,7 +141,7 @@ static void point_reach(struct grid_contact *c, const struct shared *s, const st
 {
     int64_t low[DIM_MAX] = {0}, high[DIM_MAX] = {0}, k[DIM_MAX];
     for (int d = 0; d < g->dim; d++) {
-        const real at = grid_coordinate_in_cells(g, d, p->x[d][i]), reach = 1 + c->half_width / g->h - TOUCHING;
+        const real at = grid_coordinate_in_cell_lengths(g, d, p->x[d][i]), reach = 1 + c->half_width / g->h - TOUCHING;
         low[d] = (int64_t)ceil(at - reach) - s->first[d], high[d] = (int64_t)floor(at + reach) - s->first[d];
         if (low[d] < 0) low[d] = 0;
         if (high[d] >= s->count[d]) high[d] = s->count[d] - 1;
@@ -340,7 +340,7 @@ real grid_contact_add_second_mapping_dissipation(struct grid_contact *c, const s
     return lost;
 }
 
-void grid_contact_record_first_and_last_contact(struct grid_contact *c, real t)
+void grid_contact_record_first_and_last_contact_time(struct grid_contact *c, real t)
 {
     if (c->touching == 0) return;
     c->ended = t;

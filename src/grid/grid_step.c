@@ -299,7 +299,7 @@ status grid_advance_material_points_one_step(struct run *run, real t_middle)
     grids_move(run, side, t_middle, run->grid->transfer.dt_velocity); /* 3: motion of nodes */
     timer_add_elapsed_to_section(&run->timers, TIMER_GRID);
     if (run->scene->transfer == TRANSFER_FLIP) grids_remap(run, side); /* 4, 6: velocities; momentum to the nodes */
-    if (side) grid_contact_record_first_and_last_contact(&run->grid->contact, run->clock.t);
+    if (side) grid_contact_record_first_and_last_contact_time(&run->grid->contact, run->clock.t);
     for (int k = 0; k < run->grid->fields; k++) { /* 4, 7: positions, strain, stress */
         const struct transfer_data own = field_data(run->grid, k);
         moved += run->kernels.g2p(&run->grid->field[k].grid, p, &own);

@@ -45,7 +45,7 @@ static int64_t site_key(int body, const int64_t *k, int dim)
 
 /* Computes k[dim], the lattice indices of particle i relative to the first particle of its body. Returns false if the
  * particle is not on a lattice site, to within OFF_LATTICE spacings. */
-static bool place_on_lattice(const struct sites *s, int32_t i, int64_t *k)
+static bool place_on_lattice(const struct lattice_sites *s, int32_t i, int64_t *k)
 {
     bool on = true;
     for (int d = 0; d < s->p->dim; d++) {
@@ -57,7 +57,7 @@ static bool place_on_lattice(const struct sites *s, int32_t i, int64_t *k)
 }
 
 /* Returns the particle at the site with key `key`, by binary search in the sorted sites, or -1 if the site is empty. */
-static int32_t site_find(const struct sites *s, int64_t key)
+static int32_t site_find(const struct lattice_sites *s, int64_t key)
 {
     const struct site wanted = {key, 0};
     int64_t low = 0, high = s->n;
@@ -73,7 +73,7 @@ static int32_t site_find(const struct sites *s, int64_t key)
 
 /* Lists the lattice sites of all particles of those bodies that have faces in f, sorted, in s->site. Returns REFUSED,
  * with a message, if a particle of these bodies is not on the lattice. */
-static status sites_make(struct sites *s, const struct surface_faces *f)
+static status sites_make(struct lattice_sites *s, const struct surface_faces *f)
 {
     bool has[UINT8_MAX + 1] = {false};
     int64_t k[DIM_MAX];
@@ -94,14 +94,14 @@ static status sites_make(struct sites *s, const struct surface_faces *f)
 
 /* Returns the distance of the mirror plane m from the first particle of `body` [half spacings]. It is an odd number if
  * the plane is midway between lattice sites. s: has the spacing and the first particles. */
-static real mirror_steps(const struct sites *s, const struct boundary *m, int body)
+static real mirror_steps(const struct lattice_sites *s, const struct boundary *m, int body)
 {
     return 2 * (m->at - s->p->X[m->axis][s->first[body]]) / s->spacing;
 }
 
 /* Returns REFUSED, with a message, if a mirror plane within BESIDE spacings of a face of f is not midway between
  * lattice sites of the body. s: lattice sites, with the planes. */
-static status mirrors_between(const struct sites *s, const struct surface_faces *f)
+static status mirrors_between(const struct lattice_sites *s, const struct surface_faces *f)
 {
     for (int m = 0; m < s->boundaries; m++)
         for (int64_t q = 0; q < f->n && s->all[m].kind == BOUNDARY_MIRROR; q++) {
@@ -121,7 +121,7 @@ static status mirrors_between(const struct sites *s, const struct surface_faces 
 
 /* Returns the particle of body `body` at lattice site `site` or, beyond mirrors, the particle whose image is there; -1
  * if the site is empty. *turned: bit d is set if the mirrors reverse component d of the displacement. */
-static int32_t site_or_image_find(const struct sites *s, int body, const int64_t *site, uint8_t *turned)
+static int32_t site_or_image_find(const struct lattice_sites *s, int body, const int64_t *site, uint8_t *turned)
 {
     int64_t k[DIM_MAX];
     *turned = 0;
@@ -141,7 +141,7 @@ static int32_t site_or_image_find(const struct sites *s, int body, const int64_t
 
 /* Computes k[dim], the indices of the lattice site whose cube has corner number c of face f at its lower end along each
  * axis. c: 0 .. 1 in 2D, 0 .. 3 in 3D. */
-static void corner_site(const struct sites *s, const struct surface_face *f, int c, int64_t *k)
+static void corner_site(const struct lattice_sites *s, const struct surface_face *f, int c, int64_t *k)
 {
     const int dim = s->p->dim, u = dim == 2 ? 1 - f->axis : (f->axis + 1) % 3, v = (f->axis + 2) % 3;
     place_on_lattice(s, f->particle, k);
@@ -153,7 +153,7 @@ static void corner_site(const struct sites *s, const struct surface_face *f, int
 /* Numbers the corners of the faces f, so that corners at one position have one number: sets a->corners (their count)
  * and a->corner[face][corner]. s: lattice sites. Returns the corners of all faces, sorted by position, with value =
  * FACE_CORNERS face + corner. Release with memory_free. */
-static struct site *corners_number(struct surface *a, const struct sites *s, const struct surface_faces *f)
+static struct site *corners_number(struct surface *a, const struct lattice_sites *s, const struct surface_faces *f)
 {
     const int each = a->dim == 2 ? 2 : FACE_CORNERS;
     struct site *all = NEW("loads.corners", f->n * each, struct site);
@@ -198,8 +198,8 @@ struct around {
 /* Adds the particle of body `body` at lattice site `site` to *t with the weight `counts` [1]; beyond a mirror, adds the
  * particle whose image is there. Does nothing if *t has the particle already or is full. off[dim]: indices of `site`
  * relative to the site above the corner. Returns false if `site` is empty. */
-static bool corner_reach(struct around *t, const struct sites *s, int body, const int64_t *site, const int64_t *off,
-                         real counts)
+static bool corner_reach(struct around *t, const struct lattice_sites *s, int body, const int64_t *site,
+                         const int64_t *off, real counts)
 {
     const int dim = s->p->dim;
     uint8_t turned;
@@ -217,7 +217,7 @@ static bool corner_reach(struct around *t, const struct sites *s, int body, cons
 /* Collects in *t the particles that determine the position of a corner, half a spacing below lattice site `site` of
  * body `body` along each axis: those whose cubes have this corner, with weight 1, and those in the second layer along
  * each axis, with weight SECOND_LAYER. s: lattice sites. */
-static void corner_around(struct around *t, const struct sites *s, int body, const int64_t *site)
+static void corner_around(struct around *t, const struct lattice_sites *s, int body, const int64_t *site)
 {
     const int dim = s->p->dim;
     t->n = 0;
@@ -278,8 +278,8 @@ static void corner_weights(const struct around *t, int dim, real *w)
 /* Computes the reference position a->place of corner c [m] as the weighted mean of the reference positions of the
  * particles and images t that move the corner. No other value is used, so that forces on the corner cause no moment of
  * the body. first: first particle of the body; site[dim]: indices of the lattice site above the corner. */
-static void corner_place_make(struct surface *a, int64_t c, const struct sites *s, int32_t first, const int64_t *site,
-                              const struct around *t)
+static void corner_place_make(struct surface *a, int64_t c, const struct lattice_sites *s, int32_t first,
+                              const int64_t *site, const struct around *t)
 {
     for (int d = 0; d < a->dim; d++) {
         const real corner = s->p->X[d][first] + ((real)site[d] - 0.5) * s->spacing;
@@ -292,7 +292,7 @@ static void corner_place_make(struct surface *a, int64_t c, const struct sites *
 
 /* Finds for each corner of surface a the particles that move it, their weights, and the reference position of the
  * corner. s: lattice sites; f: faces; all: corners of the faces f, sorted, from corners_number. */
-static void corners_make(struct surface *a, const struct sites *s, const struct site *all,
+static void corners_make(struct surface *a, const struct lattice_sites *s, const struct site *all,
                          const struct surface_faces *f)
 {
     const int64_t most = a->corners * STENCIL_MOST;
@@ -316,13 +316,14 @@ static void corners_make(struct surface *a, const struct sites *s, const struct 
     }
 }
 
-status surface_sites_make(struct sites *s, const struct surface_faces *faces)
+status lattice_sites_list_of_bodies_with_faces(struct lattice_sites *s, const struct surface_faces *faces)
 {
     const status made = sites_make(s, faces);
     return made == OK ? mirrors_between(s, faces) : made;
 }
 
-void surface_corners_make(struct surface *a, const struct sites *s, const struct surface_faces *faces)
+void load_surface_compute_face_corners(struct surface *a, const struct lattice_sites *s,
+                                       const struct surface_faces *faces)
 {
     struct site *all = corners_number(a, s, faces);
     parts_make(a, all, faces->n * (a->dim == 2 ? 2 : FACE_CORNERS));

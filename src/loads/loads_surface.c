@@ -39,10 +39,10 @@ static void shares_transpose(struct surface *a, const struct load *l, int64_t pa
 
 /* Fills surface a of load l from its free faces f: corners, weights and working memory. The particles that move the
  * corners become the particles of l, with their inward reference areas [m^2] as shares. s: sorted lattice sites. */
-static void surface_fill(struct surface *a, struct load *l, const struct sites *s, const struct surface_faces *f,
-                         struct particles *p)
+static void surface_fill(struct surface *a, struct load *l, const struct lattice_sites *s,
+                         const struct surface_faces *f, struct particles *p)
 {
-    surface_corners_make(a, s, f);
+    load_surface_compute_face_corners(a, s, f);
     a->sign = NEW("loads.sign", f->n, int8_t);
     for (int64_t q = 0; q < f->n; q++)
         a->sign[q] = (int8_t)(a->dim == 2 && f->face[q].axis == 1 ? -f->face[q].side : f->face[q].side);
@@ -62,13 +62,13 @@ status load_surface_make_from_free_faces(struct load *l, const struct surface_fa
                                          const struct boundary *all_boundaries, int boundary_count, struct particles *p,
                                          real spacing)
 {
-    struct sites s = {.p = p, .all = all_boundaries, .boundaries = boundary_count, .spacing = spacing};
+    struct lattice_sites s = {.p = p, .all = all_boundaries, .boundaries = boundary_count, .spacing = spacing};
     if (free_faces->n == 0)
         return status_set(REFUSED,
                           "boundary %s: no particle in its region has a free face; let the region contain part of the "
                           "surface of the body",
                           l->boundary->name);
-    const status made = surface_sites_make(&s, free_faces);
+    const status made = lattice_sites_list_of_bodies_with_faces(&s, free_faces);
     if (made == OK) {
         l->surface = NEW("loads.surface", 1, struct surface);
         *l->surface = (struct surface){.dim = p->dim,

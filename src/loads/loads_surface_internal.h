@@ -30,8 +30,8 @@ struct surface {
 struct site; /* a lattice site with its particle (loads_corners.c) */
 
 /* The lattice sites that particles occupy in all bodies with free faces of a load, and the planes of mirrors, from
- * which surface_corners_make finds the corners of the faces. `site` is owned. */
-struct sites {
+ * which load_surface_compute_face_corners finds the corners of the faces. `site` is owned. */
+struct lattice_sites {
     const struct particles *p;
     const struct boundary *all; /* boundaries of the scene, including mirrors */
     int boundaries;
@@ -45,11 +45,12 @@ struct sites {
  * the first particle of each body in s->first. The caller has set the other members of s, and cleared these. Returns
  * REFUSED, with a message, if a particle of these bodies is on no lattice, or if a mirror plane near a face is not
  * midway between two lattice sites. Release s->site with memory_free, also after a refusal. */
-status surface_sites_make(struct sites *s, const struct surface_faces *faces);
+status lattice_sites_list_of_bodies_with_faces(struct lattice_sites *s, const struct surface_faces *faces);
 
 /* Makes the corners of `faces` in the surface a: their numbers in a->corner, the faces that meet in each, the particles
  * that move each with their weights, and the reference positions. a->dim must be set and the arrays of corners not yet
- * allocated. s: lattice sites, from surface_sites_make. */
-void surface_corners_make(struct surface *a, const struct sites *s, const struct surface_faces *faces);
+ * allocated. s: lattice sites, from lattice_sites_list_of_bodies_with_faces. */
+void load_surface_compute_face_corners(struct surface *a, const struct lattice_sites *s,
+                                       const struct surface_faces *faces);
 
 #endif

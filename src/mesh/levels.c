@@ -91,13 +91,13 @@ void mesh_levels_copy_motion_to_ghost_nodes(struct mesh_levels *l)
 void mesh_levels_prolong_motion_to_all_finest_nodes(struct mesh_levels *l)
 {
     mesh_levels_copy_motion_to_ghost_nodes(l);
-    if (l->n > 0) mesh_levels_interpolate_motion_to_fine_nodes(l, true);
+    if (l->n > 0) mesh_levels_interpolate_motion_into_coarse_cells(l, true);
 }
 
 void mesh_levels_prolong_motion_near_particles_only(struct mesh_levels *l)
 {
     mesh_levels_copy_motion_to_ghost_nodes(l);
-    if (l->n > 0) mesh_levels_interpolate_motion_to_fine_nodes(l, false);
+    if (l->n > 0) mesh_levels_interpolate_motion_into_coarse_cells(l, false);
 }
 
 bool mesh_levels_find_inverted_coarse_cell(const struct mesh_levels *l, real *X)
@@ -120,8 +120,8 @@ int64_t mesh_levels_list_cells_without_particles(const struct mesh_levels *l, in
     for (int64_t I = 0; I < mesh->grid.n && l->fine->absent; I++, grid_advance_to_next_node_indices(&mesh->grid, k)) {
         bool absent = false;
         if (mesh->kind[I] != CELL_WHOLE) continue;
-        for (int part = 0; part < mesh_levels_fine_cells_per_cell(l, level) && !absent; part++)
-            absent = l->fine->absent[mesh_levels_fine_cell_in_coarse_cell(
+        for (int part = 0; part < mesh_levels_fine_cells_per_coarse_cell(l, level) && !absent; part++)
+            absent = l->fine->absent[mesh_levels_nth_fine_cell_in_coarse_cell(
                 l, level, mesh_levels_fine_node_of_coarse_node(l, level, k), part)];
         if (absent && cell_index) cell_index[n] = I;
         n += absent;
@@ -210,10 +210,10 @@ static status stressed_archive(struct mesh *mesh, int level, struct archive *a)
 static void cells_from_levels(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source)
 {
     mesh_rebuild_cells_after_level_change(l->fine, p, source, l->level);
-    mesh_levels_compute_coarse_cells_and_masses(l, p);
+    mesh_levels_rebuild_coarse_cells_and_node_masses(l, p);
     mesh_levels_find_ghost_and_hanging_nodes(l);
-    mesh_levels_add_masses_of_dependent_nodes(l, false);
-    mesh_levels_find_one_material_cell_runs_and_node_ranges(l);
+    mesh_levels_add_dependent_node_masses_to_masters(l, false);
+    mesh_levels_list_cell_runs_and_nodes_with_mass(l);
     mesh_levels_classify_cells_by_distance_to_coarse(l);
 }
 

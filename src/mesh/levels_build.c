@@ -9,8 +9,8 @@
 
 /* Makes the coarse cells of l from l->level, the coarsening level of each cell of level 0 (the finest): kind and
  * material of the cells, their number, and the masses of their nodes from the particles p. Transfers no mass between
- * levels; mesh_levels_add_masses_of_dependent_nodes does that. */
-void mesh_levels_compute_coarse_cells_and_masses(struct mesh_levels *l, const struct particles *p)
+ * levels; mesh_levels_add_dependent_node_masses_to_masters does that. */
+void mesh_levels_rebuild_coarse_cells_and_node_masses(struct mesh_levels *l, const struct particles *p)
 {
     const struct mesh *fine = l->fine;
     const int corners = 1 << fine->grid.dim;
@@ -23,7 +23,7 @@ void mesh_levels_compute_coarse_cells_and_masses(struct mesh_levels *l, const st
     }
     for (int64_t I = 0; I < fine->grid.n; I++, grid_advance_to_next_node_indices(&fine->grid, k)) {
         const int level = l->level[I];
-        if (level == 0 || !mesh_levels_fine_cell_is_at_lower_corner(l, level, k)) continue;
+        if (level == 0 || !mesh_levels_fine_cell_is_lowest_in_coarse_cell(l, level, k)) continue;
         struct mesh *mesh = &l->at[level].mesh;
         const int64_t J = mesh_levels_coarse_cell_of_fine_cell(l, level, k, NULL);
         mesh->kind[J] = CELL_WHOLE;
@@ -163,7 +163,7 @@ static void hanging_give(struct grid *g, const struct mesh_hanging *h, int d)
     g->momentum[d][h->node] = 0;
 }
 
-void mesh_levels_add_masses_of_dependent_nodes(struct mesh_levels *l, bool transfer_momenta)
+void mesh_levels_add_dependent_node_masses_to_masters(struct mesh_levels *l, bool transfer_momenta)
 {
     for (int level = 1; level <= l->n; level++) {
         struct mesh_level *m = &l->at[level];
@@ -191,11 +191,11 @@ void mesh_levels_add_masses_of_dependent_nodes(struct mesh_levels *l, bool trans
     }
 }
 
-void mesh_levels_find_one_material_cell_runs_and_node_ranges(struct mesh_levels *l)
+void mesh_levels_list_cell_runs_and_nodes_with_mass(struct mesh_levels *l)
 {
-    for (int level = 1; level <= l->n; level++) mesh_find_uniform_cell_rows_and_node_spans(&l->at[level].mesh);
-    mesh_find_node_spans_with_mass(l->fine);
-    mesh_activate_node_blocks_at_cells(l->fine);
+    for (int level = 1; level <= l->n; level++) mesh_list_cell_runs_and_nodes_with_mass(&l->at[level].mesh);
+    mesh_find_span_of_nodes_with_mass_per_row(l->fine);
+    mesh_activate_only_node_blocks_next_to_cells(l->fine);
 }
 
 void mesh_levels_match_wave_dispersion_of_bonds(struct mesh_levels *l, real edge, real wave_speed, real dt)

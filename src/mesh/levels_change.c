@@ -92,7 +92,7 @@ static void row_interpolate(struct mesh_levels *l, int64_t row)
     for (int64_t I = first; I < first + g->count[0]; I++, k[0]++) node_interpolate(l, I, k);
 }
 
-void mesh_levels_interpolate_motion_to_fine_nodes(struct mesh_levels *l, bool all_nodes)
+void mesh_levels_interpolate_motion_into_coarse_cells(struct mesh_levels *l, bool all_nodes)
 {
     struct mesh *fine = l->fine;
     if (all_nodes || !fine->absent) {
@@ -140,11 +140,11 @@ static void nodes_sample(struct mesh_levels *l)
  * field: a value for each node of level 0. */
 static real cell_mean(const struct mesh_levels *l, int level, int64_t first, const real *field)
 {
-    const int dim = l->fine->grid.dim, parts = mesh_levels_fine_cells_per_cell(l, level);
+    const int dim = l->fine->grid.dim, parts = mesh_levels_fine_cells_per_coarse_cell(l, level);
     real sum = 0;
     for (int part = 0; part < parts; part++)
         for (int c = 0; c < 1 << dim; c++)
-            sum += field[mesh_levels_fine_cell_in_coarse_cell(l, level, first, part) + l->fine->corner[c]];
+            sum += field[mesh_levels_nth_fine_cell_in_coarse_cell(l, level, first, part) + l->fine->corner[c]];
     return sum / (real)(parts << dim);
 }
 
@@ -183,7 +183,7 @@ static void merged_cells_correct(struct mesh_levels *l, const uint8_t *before)
         int64_t q[DIM_MAX] = {0};
         for (int64_t J = 0; J < mesh->grid.n; J++, grid_advance_to_next_node_indices(&mesh->grid, q)) {
             if (mesh->kind[J] != CELL_WHOLE) continue;
-            if (mesh_levels_coarse_cell_contains_finer_level(l, level,
+            if (mesh_levels_coarse_cell_contains_finer_cells(l, level,
                                                              mesh_levels_fine_node_of_coarse_node(l, level, q), before))
                 merged_correct(l, level, J, q);
         }
@@ -265,17 +265,17 @@ void mesh_levels_change_refinement(struct mesh_levels *l, const struct particles
     const int64_t cells = l->fine->grid.n;
     uint8_t *before = NEW("levels.before", 2 * cells + LANES, uint8_t), *dirty = before + cells;
     mesh_levels_copy_motion_to_ghost_nodes(l);
-    mesh_levels_interpolate_motion_to_fine_nodes(l, true);
+    mesh_levels_interpolate_motion_into_coarse_cells(l, true);
     array_copy(before, l->level, cells, 1);
     for (int64_t I = 0; I < cells; I++) dirty[I] = before[I] != new_cell_level[I];
     array_copy(l->level, new_cell_level, cells, 1);
     mesh_rebuild_cells_after_level_change(l->fine, p, source, dirty);
-    mesh_levels_compute_coarse_cells_and_masses(l, p);
+    mesh_levels_rebuild_coarse_cells_and_node_masses(l, p);
     mesh_levels_find_ghost_and_hanging_nodes(l);
     nodes_sample(l);
     merged_cells_correct(l, before);
-    mesh_levels_add_masses_of_dependent_nodes(l, true);
-    mesh_levels_find_one_material_cell_runs_and_node_ranges(l);
+    mesh_levels_add_dependent_node_masses_to_masters(l, true);
+    mesh_levels_list_cell_runs_and_nodes_with_mass(l);
     velocities_make(l);
     for (int k = 1; k <= l->n; k++) mesh_levels_interpolate_motion_of_hanging_nodes(l, k);
     mesh_levels_copy_motion_to_ghost_nodes(l);

@@ -157,9 +157,9 @@ bool mesh_levels_coarse_cells_are_consistent_and_filled(const struct mesh_levels
         const int level = l->level[I];
         coarse += level > 0;
         sound = level <= l->n && (level > 0 || !l->fine->absent || !l->fine->absent[I]);
-        if (level == 0 || !sound || !mesh_levels_fine_cell_is_at_lower_corner(l, level, k)) continue;
-        for (int part = 0; part < mesh_levels_fine_cells_per_cell(l, level) && sound; part++, covered++) {
-            const int64_t J = mesh_levels_fine_cell_in_coarse_cell(l, level, I, part);
+        if (level == 0 || !sound || !mesh_levels_fine_cell_is_lowest_in_coarse_cell(l, level, k)) continue;
+        for (int part = 0; part < mesh_levels_fine_cells_per_coarse_cell(l, level) && sound; part++, covered++) {
+            const int64_t J = mesh_levels_nth_fine_cell_in_coarse_cell(l, level, I, part);
             sound = J < g->n && l->level[J] == level &&
                     (l->fine->kind[J] == CELL_WHOLE || (l->fine->absent && l->fine->absent[J]));
         }
@@ -205,14 +205,14 @@ void mesh_levels_extend_marks_to_whole_coarse_cells(const struct mesh_levels *l,
     const struct grid *g = &l->fine->grid;
     int64_t k[DIM_MAX] = {0};
     for (int64_t I = 0; I < g->n; I++, grid_advance_to_next_node_indices(g, k)) {
-        const int parts = cell_level[I] > 0 && mesh_levels_fine_cell_is_at_lower_corner(l, cell_level[I], k)
-                              ? mesh_levels_fine_cells_per_cell(l, cell_level[I])
+        const int parts = cell_level[I] > 0 && mesh_levels_fine_cell_is_lowest_in_coarse_cell(l, cell_level[I], k)
+                              ? mesh_levels_fine_cells_per_coarse_cell(l, cell_level[I])
                               : 0;
         bool any = false;
         for (int part = 0; part < parts && !any; part++)
-            any = cell_is_marked[mesh_levels_fine_cell_in_coarse_cell(l, cell_level[I], I, part)] != 0;
+            any = cell_is_marked[mesh_levels_nth_fine_cell_in_coarse_cell(l, cell_level[I], I, part)] != 0;
         for (int part = 0; part < parts && any; part++)
-            cell_is_marked[mesh_levels_fine_cell_in_coarse_cell(l, cell_level[I], I, part)] = 1;
+            cell_is_marked[mesh_levels_nth_fine_cell_in_coarse_cell(l, cell_level[I], I, part)] = 1;
     }
 }
 

@@ -50,8 +50,8 @@ static inline int64_t mesh_levels_fine_node_of_coarse_node(const struct mesh_lev
 
 /* Returns true if a cell of level 0 (the finest) is the one at the lower corner of the cell of coarsening level `level`
  * of the mesh l that contains it. fine_index: indices of the cell of level 0 along the axes. */
-static inline bool mesh_levels_fine_cell_is_at_lower_corner(const struct mesh_levels *l, int level,
-                                                            const int64_t *fine_index)
+static inline bool mesh_levels_fine_cell_is_lowest_in_coarse_cell(const struct mesh_levels *l, int level,
+                                                                  const int64_t *fine_index)
 {
     bool lowest = true;
     for (int d = 0; d < l->fine->grid.dim; d++)
@@ -61,7 +61,7 @@ static inline bool mesh_levels_fine_cell_is_at_lower_corner(const struct mesh_le
 
 /* Returns the number of cells of level 0 (the finest) in one cell of coarsening level `level` of the mesh l: 2^(dim
  * level). */
-static inline int mesh_levels_fine_cells_per_cell(const struct mesh_levels *l, int level)
+static inline int mesh_levels_fine_cells_per_coarse_cell(const struct mesh_levels *l, int level)
 {
     return 1 << l->fine->grid.dim * level;
 }
@@ -69,8 +69,8 @@ static inline int mesh_levels_fine_cells_per_cell(const struct mesh_levels *l, i
 /* Returns the index of one of the cells of level 0 (the finest) that form a cell of coarsening level `level` of the
  * mesh l. number_in_coarse_cell: number of this cell of level 0 in the coarse cell, 0 to 2^(dim level) - 1, x fastest;
  * first_cell: index of the cell of level 0 at the lower corner of the coarse cell. */
-static inline int64_t mesh_levels_fine_cell_in_coarse_cell(const struct mesh_levels *l, int level, int64_t first_cell,
-                                                           int number_in_coarse_cell)
+static inline int64_t mesh_levels_nth_fine_cell_in_coarse_cell(const struct mesh_levels *l, int level,
+                                                               int64_t first_cell, int number_in_coarse_cell)
 {
     for (int d = 0; d < l->fine->grid.dim; d++, number_in_coarse_cell >>= level)
         first_cell += (number_in_coarse_cell & ((1 << level) - 1)) * l->fine->grid.stride[d];
@@ -80,12 +80,12 @@ static inline int64_t mesh_levels_fine_cell_in_coarse_cell(const struct mesh_lev
 /* Returns true if one of the cells of level 0 (the finest) in a cell of coarsening level `level` of the mesh l has a
  * lower level in `cell_level`, an array with a level for each cell of level 0. first_cell: index of the cell of level 0
  * at the lower corner. */
-static inline bool mesh_levels_coarse_cell_contains_finer_level(const struct mesh_levels *l, int level,
+static inline bool mesh_levels_coarse_cell_contains_finer_cells(const struct mesh_levels *l, int level,
                                                                 int64_t first_cell, const uint8_t *cell_level)
 {
     bool any = false;
-    for (int part = 0; part < mesh_levels_fine_cells_per_cell(l, level) && !any; part++)
-        any = cell_level[mesh_levels_fine_cell_in_coarse_cell(l, level, first_cell, part)] < level;
+    for (int part = 0; part < mesh_levels_fine_cells_per_coarse_cell(l, level) && !any; part++)
+        any = cell_level[mesh_levels_nth_fine_cell_in_coarse_cell(l, level, first_cell, part)] < level;
     return any;
 }
 
@@ -117,8 +117,9 @@ void mesh_levels_interpolate_motion_of_hanging_nodes(struct mesh_levels *l, int 
 
 /* Determines the cells of all coarse levels with particles p from l->level, the coarsening level of each cell of level
  * 0 (the finest): their kind, material and number, and the masses of their nodes (the mass of a cell is divided equally
- * among its corners). The transfer of mass between levels follows in mesh_levels_add_masses_of_dependent_nodes. */
-void mesh_levels_compute_coarse_cells_and_masses(struct mesh_levels *l, const struct particles *p);
+ * among its corners). The transfer of mass between levels follows in mesh_levels_add_dependent_node_masses_to_masters.
+ */
+void mesh_levels_rebuild_coarse_cells_and_node_masses(struct mesh_levels *l, const struct particles *p);
 
 /* Finds the nodes at interfaces of the coarsening levels of the mesh l: ghosts, at the position of a node of the next
  * finer level, and hanging nodes, in the middle of an edge or face of a coarser cell. Also finds the coarse cells whose
@@ -128,17 +129,17 @@ void mesh_levels_find_ghost_and_hanging_nodes(struct mesh_levels *l);
 /* Adds the masses of ghosts and hanging nodes of the mesh l to the nodes that determine their motion. Ghosts are at the
  * position of a node of the next finer level, hanging nodes in the middle of an edge or face of a coarser cell.
  * transfer_momenta: true to transfer their momentum in grid.momentum [kg m/s], too. */
-void mesh_levels_add_masses_of_dependent_nodes(struct mesh_levels *l, bool transfer_momenta);
+void mesh_levels_add_dependent_node_masses_to_masters(struct mesh_levels *l, bool transfer_momenta);
 
 /* Finds the runs of all coarsening levels of l (rows of consecutive cells of equal material), the spans of nodes with
  * mass, and the active blocks of nodes (eight nodes each, included in computations). To be called after
- * mesh_levels_add_masses_of_dependent_nodes. */
-void mesh_levels_find_one_material_cell_runs_and_node_ranges(struct mesh_levels *l);
+ * mesh_levels_add_dependent_node_masses_to_masters. */
+void mesh_levels_list_cell_runs_and_nodes_with_mass(struct mesh_levels *l);
 
 /* Interpolates displacement and velocity of coarse cells of the mesh l to nodes of level 0 (the finest) inside them
  * that belong to no cell of level 0. all_nodes: true for all such nodes, false for those with particles in an adjacent
  * cell. */
-void mesh_levels_interpolate_motion_to_fine_nodes(struct mesh_levels *l, bool all_nodes);
+void mesh_levels_interpolate_motion_into_coarse_cells(struct mesh_levels *l, bool all_nodes);
 
 /* Computes grid.momentum of the nodes of coarse cells of l, i.e. momentum divided by nodal mass [m/s], from the nodal
  * velocities. It differs from the velocity where the mass matrix is not diagonal. Inverts the kernel mesh_velocity

@@ -49,14 +49,15 @@ bool mesh_levels_limit_coarsening_by_energy_loss(const struct mesh_levels *l, co
     int64_t k[DIM_MAX] = {0}, q[DIM_MAX];
     bool any = false;
     for (int64_t I = 0; I < g->n; I++, grid_advance_to_next_node_indices(g, k)) {
-        if (intended_cell_level[I] == 0 || !mesh_levels_fine_cell_is_at_lower_corner(l, intended_cell_level[I], k) ||
-            !mesh_levels_coarse_cell_contains_finer_level(l, intended_cell_level[I], I, l->level))
+        if (intended_cell_level[I] == 0 ||
+            !mesh_levels_fine_cell_is_lowest_in_coarse_cell(l, intended_cell_level[I], k) ||
+            !mesh_levels_coarse_cell_contains_finer_cells(l, intended_cell_level[I], I, l->level))
             continue;
         mesh_levels_coarse_cell_of_fine_cell(l, intended_cell_level[I], k, q);
         if (!(departure(l, intended_cell_level[I], q) > max_energy)) continue;
         any = true;
-        for (int part = 0; part < mesh_levels_fine_cells_per_cell(l, intended_cell_level[I]); part++)
-            highest_level[mesh_levels_fine_cell_in_coarse_cell(l, intended_cell_level[I], I, part)] =
+        for (int part = 0; part < mesh_levels_fine_cells_per_coarse_cell(l, intended_cell_level[I]); part++)
+            highest_level[mesh_levels_nth_fine_cell_in_coarse_cell(l, intended_cell_level[I], I, part)] =
                 intended_cell_level[I] - 1;
     }
     return any;

@@ -1,5 +1,5 @@
 /* Makes the mesh of the undeformed body: positions of material points in cells, nodal masses, runs of whole cells and
- * partial cells. Updates it when points are converted to peridynamic particles. */
+ * own-stiffness cells. Updates it when points are converted to peridynamic particles. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -26,7 +26,8 @@ static status meshed_body(const struct particles *p, int64_t i, const char *what
         p->X[0][i], p->dim > 1 ? p->X[1][i] : 0.0, p->dim > 2 ? p->X[2][i] : 0.0, what);
 }
 
-int64_t mesh_packed_cell_and_point_of_particle(const struct mesh *mesh, const struct particles *p, int64_t particle)
+int64_t mesh_find_quadrature_point_index_of_particle(const struct mesh *mesh, const struct particles *p,
+                                                     int64_t particle)
 {
     const struct grid *g = &mesh->grid;
     int64_t cell = 0;
@@ -52,7 +53,7 @@ static status points_place(struct mesh *mesh, const struct particles *p)
     for (int64_t i = 0; i < p->n; i++) {
         mesh->place[i] = -1;
         if (!(p->flag[i] & FLAG_MESHED)) continue;
-        const int64_t place = mesh_packed_cell_and_point_of_particle(mesh, p, i);
+        const int64_t place = mesh_find_quadrature_point_index_of_particle(mesh, p, i);
         if (place < 0)
             return meshed_body(p, i,
                                "is not at its place in a grid cell of two particles in each direction, which needs a "
@@ -113,8 +114,8 @@ static status bodies_apart(const struct mesh *mesh, const struct particles *p)
 /* ---- cells ------------------------------------------------------------------------------------------------------- */
 
 /* Returns the kind of cell I of the mesh. A whole cell has all its points, of one material and without partial stresses
- * (the share of stress left to bonds), and all its corners are nodes of the grid. A partial cell has points, but lacks
- * one of these properties; an empty cell has no points. p: particles; s: partial stresses. */
+ * (the share of stress left to bonds), and all its corners are nodes of the grid. A own-stiffness cell has points, but
+ * lacks one of these properties; an empty cell has no points. p: particles; s: partial stresses. */
 static enum cell_kind cell_kind(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
                                 int64_t I)
 {
@@ -152,7 +153,7 @@ static int64_t band_layers(int dim) { return dim == 1 ? INT64_MAX : dim == 2 ? 4
 
 /* Stores in mesh->span for each row of nodes along x the range from the first node with mass to one past the last. The
  * range may contain nodes without mass. */
-void mesh_find_node_spans_with_mass(struct mesh *mesh)
+void mesh_find_span_of_nodes_with_mass_per_row(struct mesh *mesh)
 {
     const struct grid *g = &mesh->grid;
 #pragma omp parallel for schedule(static)
@@ -171,22 +172,22 @@ static uint8_t material_of(const struct mesh *mesh, const struct particles *p, i
     return p ? p->material[mesh->point[I << mesh->grid.dim]] : mesh->material[I];
 }
 
-/* Lists the runs and the partial cells of the mesh. A run is a row of consecutive whole cells of one material. Partial
- * cells lack points, or have several materials, partial stresses or doubled nodes. Runs are listed band by band (layers
- * of cells that one thread processes). p: particles; NULL for a mesh without points. */
+/* Lists the runs and the own-stiffness cells of the mesh. A run is a row of consecutive whole cells of one material.
+ * Partial cells lack points, or have several materials, partial stresses or doubled nodes. Runs are listed band by band
+ * (layers of cells that one thread processes). p: particles; NULL for a mesh without points. */
 static void cells_list(struct mesh *mesh, const struct particles *p)
 {
     const struct grid *g = &mesh->grid;
     const int last = g->dim - 1;
     const int64_t layers = g->dim == 1 ? 1 : g->count[last], each = band_layers(g->dim);
-    mesh->runs = mesh->bands = mesh->partial_cells = 0;
+    mesh->runs = mesh->bands = mesh->own_stiffness_cells = 0;
     for (int64_t layer = 0; layer < layers; layer += each < layers ? each : layers) {
         const int64_t end = layer + each < layers && each < layers ? layer + each : layers;
         const int64_t from = g->dim == 1 ? 0 : layer * g->stride[last], to = g->dim == 1 ? g->n : end * g->stride[last];
         mesh->band[mesh->bands] = mesh->runs;
         for (int64_t I = from; I < to; I++) {
             if (mesh->kind[I] == CELL_WHOLE) run_add(mesh, I, material_of(mesh, p, I));
-            if (mesh->kind[I] == CELL_PARTIAL) mesh_partial_cells_add(mesh, I);
+            if (mesh->kind[I] == CELL_PARTIAL) mesh_own_stiffness_cells_add(mesh, I);
         }
         mesh->bands++;
     }
@@ -194,13 +195,13 @@ static void cells_list(struct mesh *mesh, const struct particles *p)
 }
 
 /* Determines the kind of each cell of the mesh from its points. Then rebuilds the list of runs (rows of whole cells,
- * which have all points, of one material) and the list of partial cells (other cells with points) with their stiffness.
- * p: particles; s: elastic constants and partial stresses; dirty[grid.n]: not 0 for the cells whose kind may have
- * changed; NULL: all cells. */
+ * which have all points, of one material) and the list of own-stiffness cells (other cells with points) with their
+ * stiffness. p: particles; s: elastic constants and partial stresses; dirty[grid.n]: not 0 for the cells whose kind may
+ * have changed; NULL: all cells. */
 static void cells_sort_out(struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
                            const uint8_t *dirty)
 {
-    struct mesh_partial_cells old = mesh_partial_cells_remove_and_return(mesh);
+    struct mesh_own_stiffness_cells old = mesh_own_stiffness_cells_remove_and_return(mesh);
     if (!dirty) {
 #pragma omp parallel for schedule(static)
         for (int64_t I = 0; I < mesh->grid.n; I++) mesh->kind[I] = (uint8_t)cell_kind(mesh, p, s, I);
@@ -208,12 +209,12 @@ static void cells_sort_out(struct mesh *mesh, const struct particles *p, const s
         for (int64_t I = next_marked_index(dirty, 0, mesh->grid.n); I < mesh->grid.n;
              I = next_marked_index(dirty, I + 1, mesh->grid.n))
             mesh->kind[I] = (uint8_t)cell_kind(mesh, p, s, I);
-    mesh_find_node_spans_with_mass(mesh);
+    mesh_find_span_of_nodes_with_mass_per_row(mesh);
     cells_list(mesh, p);
-    mesh_partial_cells_compute_stiffness(mesh, p, s, dirty, &old);
+    mesh_own_stiffness_cells_compute_stiffness(mesh, p, s, dirty, &old);
 }
 
-void mesh_activate_node_blocks_at_cells(struct mesh *mesh)
+void mesh_activate_only_node_blocks_next_to_cells(struct mesh *mesh)
 {
     struct active_set *set = &mesh->active;
     array_fill_bytes(set->level, 0, set->blocks, 1);
@@ -224,11 +225,11 @@ void mesh_activate_node_blocks_at_cells(struct mesh *mesh)
     set->empty = set->blocks - set->active;
 }
 
-void mesh_find_uniform_cell_rows_and_node_spans(struct mesh *mesh)
+void mesh_list_cell_runs_and_nodes_with_mass(struct mesh *mesh)
 {
-    mesh_find_node_spans_with_mass(mesh);
+    mesh_find_span_of_nodes_with_mass_per_row(mesh);
     cells_list(mesh, NULL);
-    mesh_activate_node_blocks_at_cells(mesh);
+    mesh_activate_only_node_blocks_next_to_cells(mesh);
 }
 
 /* Recomputes the masses of the nodes of the mesh at the corners of coarse cells and of the cells I with dirty[I] (array
@@ -279,7 +280,7 @@ status mesh_allocate_arrays_for_box(struct mesh *mesh, const struct grid *node_g
     mesh->span = NEW("mesh.span", 2 * mesh->rows, int32_t);
     mesh->segments = (g->count[0] + LANES - 2) / LANES + 1;
     active_set_make_with_all_blocks_active(&mesh->active, mesh->rows * mesh->segments);
-    mesh_slits_link_node_blocks_for_activation(mesh);
+    mesh_slits_link_node_blocks_to_duplicates(mesh);
     mesh->rounding = scalbn(1.5, ilogb(g->h) - DISPLACEMENT_BITS + DBL_MANT_DIG - 1);
     mesh->band = NEW("mesh.band", g->count[dim - 1] + 2, int64_t);
     return OK;
@@ -331,7 +332,7 @@ static status nodes_make(struct mesh *mesh, const struct particles *p, const str
 }
 
 /* Projects displacement and velocity of the points of p to the nodes of the mesh at the start of a run
- * (mesh_fit_nodal_values). */
+ * (mesh_fit_nodal_values_to_point_values). */
 static void mesh_nodes_start(struct mesh *mesh, const struct particles *p)
 {
     real *u[DIM_MAX];
@@ -339,8 +340,8 @@ static void mesh_nodes_start(struct mesh *mesh, const struct particles *p)
         u[d] = NEW("mesh.u", p->n, real);
         for (int64_t i = 0; i < p->n; i++) u[d][i] = p->x[d][i] - p->X[d][i];
     }
-    mesh_fit_nodal_values(mesh, p, u, mesh->displacement);
-    mesh_fit_nodal_values(mesh, p, p->v, mesh->grid.velocity);
+    mesh_fit_nodal_values_to_point_values(mesh, p, u, mesh->displacement);
+    mesh_fit_nodal_values_to_point_values(mesh, p, p->v, mesh->grid.velocity);
     for (int d = 0; d < p->dim; d++) memory_free(u[d]);
 }
 
@@ -375,7 +376,7 @@ void mesh_free(struct mesh *mesh)
     memory_free(mesh->absent), memory_free(mesh->filled_cell), memory_free(mesh->filled_node);
     memory_free(mesh->band);
     memory_free(mesh->run);
-    mesh_partial_cells_free(mesh);
+    mesh_own_stiffness_cells_free(mesh);
     memory_free(mesh->exposed_list);
     memory_free(mesh->span);
     mesh_slits_free(&mesh->slits);
@@ -461,7 +462,7 @@ bool mesh_try_update_stiffness_for_partial_stress(struct mesh *mesh, const struc
         dirty[cell] = 1;
         same = mesh->kind[cell] == CELL_PARTIAL && cell_kind(mesh, p, source, cell) == CELL_PARTIAL;
     }
-    if (same) mesh_partial_cells_recompute_marked_stiffness(mesh, p, source, dirty);
+    if (same) mesh_own_stiffness_cells_recompute_marked(mesh, p, source, dirty);
     memory_free(dirty);
     return same;
 }

@@ -20,8 +20,8 @@ static void nodes_find(struct nodes *t, const struct mesh *mesh, const struct pa
     uint8_t *mark = NEW("mesh_insert.mark", mesh->grid.n, uint8_t);
     for (int64_t k = 0; k < n; k++)
         for (int c = 0; c < 1 << p->dim; c++)
-            mark[mesh_cell_corner_node(mesh, mesh_packed_cell_and_point_of_particle(mesh, p, list[k]) >> p->dim, c)] =
-                1;
+            mark[mesh_cell_corner_node(mesh, mesh_find_quadrature_point_index_of_particle(mesh, p, list[k]) >> p->dim,
+                                       c)] = 1;
     for (int64_t I = 0; I < mesh->grid.n; I++) t->n += mark[I];
     t->at = NEW("mesh_insert.node", t->n, int32_t);
     t->n = 0;
@@ -51,7 +51,7 @@ static void points_enter(struct mesh *mesh, struct particles *p, const struct no
     }
     for (int64_t k = 0; k < n; k++) {
         const int32_t i = list[k];
-        const int64_t place = mesh_packed_cell_and_point_of_particle(mesh, p, i);
+        const int64_t place = mesh_find_quadrature_point_index_of_particle(mesh, p, i);
         mesh->place[i] = (int32_t)place;
         mesh->point[place] = i;
         mesh->points++;
@@ -107,7 +107,7 @@ real mesh_insert_points_and_return_lost_energy(struct mesh *mesh, struct particl
         for (int64_t i = 0; i < p->n; i++) u[d][i] = p->x[d][i] - p->X[d][i];
     }
     mesh_insert_nodes_start(mesh, p, light, inserted_points, inserted_count);
-    mesh_fit_values_of_listed_nodes(mesh, p, u, mesh->displacement, t.at, t.n);
+    mesh_fit_listed_nodal_values_to_point_values(mesh, p, u, mesh->displacement, t.at, t.n);
     for (int d = 0; d < p->dim; d++) memory_free(u[d]);
     memory_free(light);
     memory_free(t.at);

@@ -1,5 +1,5 @@
-/* Declarations shared by the files of src/mesh: partial cells and their stiffness, slits, fits of nodal values, masses
- * and blocks of nodes. */
+/* Declarations shared by the files of src/mesh: own-stiffness cells and their stiffness, slits, fits of nodal values,
+ * masses and blocks of nodes. */
 #ifndef CLEAVE_MESH_PARTS
 #define CLEAVE_MESH_PARTS
 
@@ -11,45 +11,46 @@
  * coarse cell. */
 enum cell_kind { CELL_EMPTY, CELL_WHOLE, CELL_PARTIAL, CELL_COARSE };
 
-/* Partial cells (with missing points, partial stresses, several materials or doubled nodes), moved out of a mesh by
- * mesh_partial_cells_remove_and_return before its cells are classified again. partial_cell: [partial_cells] indices of
- * the cells; stiffness: their stiffness matrices. mesh_partial_cells_compute_stiffness copies the stiffness of
- * unchanged cells from here and frees the arrays. */
-struct mesh_partial_cells {
-    int64_t partial_cells;
-    int32_t *partial_cell;
+/* Own-stiffness cells (with missing points, partial stresses, several materials or doubled nodes), moved out of a mesh
+ * by mesh_own_stiffness_cells_remove_and_return before its cells are classified again. own_stiffness_cell:
+ * [own_stiffness_cells] indices of the cells; stiffness: their stiffness matrices.
+ * mesh_own_stiffness_cells_compute_stiffness copies the stiffness of unchanged cells from here and frees the arrays. */
+struct mesh_own_stiffness_cells {
+    int64_t own_stiffness_cells;
+    int32_t *own_stiffness_cell;
     real *stiffness;
 };
 
-/* Removes all partial cells (cells with missing points, points whose stress is partly carried by bonds, several
+/* Removes all own-stiffness cells (cells with missing points, points whose stress is partly carried by bonds, several
  * materials or doubled nodes) from the mesh, and returns their list with their stiffness, for
- * mesh_partial_cells_compute_stiffness. */
-struct mesh_partial_cells mesh_partial_cells_remove_and_return(struct mesh *mesh);
+ * mesh_own_stiffness_cells_compute_stiffness. */
+struct mesh_own_stiffness_cells mesh_own_stiffness_cells_remove_and_return(struct mesh *mesh);
 
-/* Appends cell number `cell` to the list of partial cells of the mesh: cells in which points are missing or have
+/* Appends cell number `cell` to the list of own-stiffness cells of the mesh: cells in which points are missing or have
  * different materials, or whose nodes were doubled by a slit (a pre-crack). Their stiffness is computed later by
- * mesh_partial_cells_compute_stiffness. */
-void mesh_partial_cells_add(struct mesh *mesh, int64_t cell);
+ * mesh_own_stiffness_cells_compute_stiffness. */
+void mesh_own_stiffness_cells_add(struct mesh *mesh, int64_t cell);
 
-/* Computes the stiffness of all partial cells of the mesh with particles p (cells with missing points, points whose
- * stress is partly carried by bonds, several materials or doubled nodes). source: material constants, and the parts of
- * stresses that bonds carry; cell_needs_update: a byte for each cell, not 0 where the stiffness must be computed anew,
- * NULL for all cells; previous_cells: result of mesh_partial_cells_remove_and_return, from which the stiffness of all
- * other cells is copied, and which is freed. */
-void mesh_partial_cells_compute_stiffness(struct mesh *mesh, const struct particles *p,
-                                          const struct mesh_source *source, const uint8_t *cell_needs_update,
-                                          struct mesh_partial_cells *previous_cells);
+/* Computes the stiffness of all own-stiffness cells of the mesh with particles p (cells with missing points, points
+ * whose stress is partly carried by bonds, several materials or doubled nodes). source: material constants, and the
+ * parts of stresses that bonds carry; cell_needs_update: a byte for each cell, not 0 where the stiffness must be
+ * computed anew, NULL for all cells; previous_cells: result of mesh_own_stiffness_cells_remove_and_return, from which
+ * the stiffness of all other cells is copied, and which is freed. */
+void mesh_own_stiffness_cells_compute_stiffness(struct mesh *mesh, const struct particles *p,
+                                                const struct mesh_source *source, const uint8_t *cell_needs_update,
+                                                struct mesh_own_stiffness_cells *previous_cells);
 
-/* Recomputes the stiffness of the partial cells of `mesh` with particles p (cells with missing points, points whose
- * stress is partly carried by bonds, several materials or doubled nodes) marked in `cell_is_marked`, a byte for each
- * cell. The list of partial cells is unchanged. source: material constants, and the parts of stresses that bonds carry.
+/* Recomputes the stiffness of the own-stiffness cells of `mesh` with particles p (cells with missing points, points
+ * whose stress is partly carried by bonds, several materials or doubled nodes) marked in `cell_is_marked`, a byte for
+ * each cell. The list of own-stiffness cells is unchanged. source: material constants, and the parts of stresses that
+ * bonds carry.
  */
-void mesh_partial_cells_recompute_marked_stiffness(struct mesh *mesh, const struct particles *p,
-                                                   const struct mesh_source *source, const uint8_t *cell_is_marked);
+void mesh_own_stiffness_cells_recompute_marked(struct mesh *mesh, const struct particles *p,
+                                               const struct mesh_source *source, const uint8_t *cell_is_marked);
 
-/* Frees the list of partial cells of the mesh (cells with missing points, several materials or doubled nodes) and their
- * stiffness. */
-void mesh_partial_cells_free(struct mesh *mesh);
+/* Frees the list of own-stiffness cells of the mesh (cells with missing points, several materials or doubled nodes) and
+ * their stiffness. */
+void mesh_own_stiffness_cells_free(struct mesh *mesh);
 
 /* Finds the nodes of `mesh` with particles p at which slits (pre-cracks) or voids (narrow gaps of a body) of `source`
  * separate the points around them, and adds second nodes there. The box of nodes, which covers the range between the
@@ -61,13 +62,14 @@ status mesh_slits_duplicate_nodes(struct mesh *mesh, const struct particles *p, 
 /* Connects each block of nodes (eight along x) beside slits (pre-cracks as free surfaces of the mesh) with the blocks
  * of the second nodes at the same positions, so that a block becomes active, i.e. is computed, when the other one
  * moves. To be called after the blocks are made. */
-void mesh_slits_link_node_blocks_for_activation(struct mesh *mesh);
+void mesh_slits_link_node_blocks_to_duplicates(struct mesh *mesh);
 
-/* Stores in mesh->slits the node indices of the corners of partial cells (cells with missing points, several materials
- * or doubled nodes) that touch a slit, a pre-crack as free surface. Partial cells are computed in groups of eight; the
- * indices are stored for all cells of a group if one of them touches a slit. Needed because slits double nodes, so that
- * the corners of such cells are not at fixed index distances from the cell. To be called after the groups are made. */
-void mesh_slits_store_corner_nodes_of_cells(struct mesh *mesh);
+/* Stores in mesh->slits the node indices of the corners of own-stiffness cells (cells with missing points, several
+ * materials or doubled nodes) that touch a slit, a pre-crack as free surface. Own-stiffness cells are computed in
+ * groups of eight; the indices are stored for all cells of a group if one of them touches a slit. Needed because slits
+ * double nodes, so that the corners of such cells are not at fixed index distances from the cell. To be called after
+ * the groups are made. */
+void mesh_slits_store_corner_nodes_of_adjacent_cells(struct mesh *mesh);
 
 /* Frees the arrays of s, the slits (pre-cracks as free surfaces) of a mesh, which mesh_slits_duplicate_nodes has made.
  */
@@ -76,19 +78,21 @@ void mesh_slits_free(struct mesh_slits *s);
 /* Computes nodal values of a vector field from values at the points p of the mesh, by least squares weighted with mass;
  * the iteration starts from the projection with the lumped mass matrix. point_value: dim arrays with a value for each
  * particle; nodal_value: dim arrays, receives a value for each node. */
-void mesh_fit_nodal_values(const struct mesh *mesh, const struct particles *p, real *const *point_value,
-                           real *const *nodal_value);
+void mesh_fit_nodal_values_to_point_values(const struct mesh *mesh, const struct particles *p, real *const *point_value,
+                                           real *const *nodal_value);
 
-/* Computes nodal values of a vector field as mesh_fit_nodal_values does, from point_value (at the points p) to
- * nodal_value, but for the listed nodes only; the iteration starts from their present values, and all other nodes are
- * unchanged. node_list[node_count]: node indices. */
-void mesh_fit_values_of_listed_nodes(const struct mesh *mesh, const struct particles *p, real *const *point_value,
-                                     real *const *nodal_value, const int32_t *node_list, int64_t node_count);
+/* Computes nodal values of a vector field as mesh_fit_nodal_values_to_point_values does, from point_value (at the
+ * points p) to nodal_value, but for the listed nodes only; the iteration starts from their present values, and all
+ * other nodes are unchanged. node_list[node_count]: node indices. */
+void mesh_fit_listed_nodal_values_to_point_values(const struct mesh *mesh, const struct particles *p,
+                                                  real *const *point_value, real *const *nodal_value,
+                                                  const int32_t *node_list, int64_t node_count);
 
 /* Returns the cell of `mesh` that contains `particle` of p, and the number (0 to 2^dim - 1) of the quadrature point of
  * this cell at which the particle is, as (cell << dim) + number, from its reference position. Returns -1 if the
  * particle is not at a quarter or three quarters of each edge of a cell. */
-int64_t mesh_packed_cell_and_point_of_particle(const struct mesh *mesh, const struct particles *p, int64_t particle);
+int64_t mesh_find_quadrature_point_index_of_particle(const struct mesh *mesh, const struct particles *p,
+                                                     int64_t particle);
 
 /* Recomputes mass [kg] and inverse mass of the mesh node with the index `node` from the points p in the cells around
  * it; points in coarse cells (larger cells of a coarser level) are left out, since the nodes of the coarse cells carry
@@ -99,24 +103,24 @@ void mesh_node_update_mass(struct mesh *mesh, const struct particles *p, int64_t
  * some cells; cells of a level above 0 are parts of larger cells, which belong to a coarser mesh. Determines the kind
  * of each changed cell: whole (all points, of one material, none with partial stress, i.e. a share of its stress that
  * bonds carry), partial (points, but not all of these properties), empty, or part of a larger cell. Then lists whole
- * cells in runs (rows of consecutive cells of one material) and partial cells with their stiffness, and recomputes
- * nodal masses. p: particles; source: elastic constants and partial stresses; level_has_changed[mesh->grid.n + LANES]:
- * not 0 for cells whose level has changed. */
+ * cells in runs (rows of consecutive cells of one material) and own-stiffness cells with their stiffness, and
+ * recomputes nodal masses. p: particles; source: elastic constants and partial stresses; level_has_changed[mesh->grid.n
+ * + LANES]: not 0 for cells whose level has changed. */
 void mesh_rebuild_cells_after_level_change(struct mesh *mesh, const struct particles *p,
                                            const struct mesh_source *source, const uint8_t *level_has_changed);
 
 /* Groups the cells of `mesh`, a mesh of coarse cells without points, into rows of consecutive cells of equal material,
  * the runs of the mesh. Finds the span of nodes with mass in each row of nodes, and the active blocks of nodes (eight
  * nodes each, included in computations). Input: kinds and materials of the cells and masses of the nodes. */
-void mesh_find_uniform_cell_rows_and_node_spans(struct mesh *mesh);
+void mesh_list_cell_runs_and_nodes_with_mass(struct mesh *mesh);
 
 /* Finds in each row of nodes of `mesh` along the first axis the span of nodes with mass, to which loops over nodes are
  * limited, and stores it in mesh->span (first node, and the one after the last). */
-void mesh_find_node_spans_with_mass(struct mesh *mesh);
+void mesh_find_span_of_nodes_with_mass_per_row(struct mesh *mesh);
 
 /* Makes the blocks of nodes of `mesh` (eight along x) next to cells active, i.e. included in computations, and all
  * other blocks inactive. */
-void mesh_activate_node_blocks_at_cells(struct mesh *mesh);
+void mesh_activate_only_node_blocks_next_to_cells(struct mesh *mesh);
 
 /* Returns true if the deformation has turned a cell of the mesh inside out: the determinant of the deformation gradient
  * is 0 or negative at one of its 2^dim points at a quarter or three quarters of each edge. */

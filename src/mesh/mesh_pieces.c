@@ -68,7 +68,7 @@ int64_t mesh_count_connected_parts(const struct particles *p, const struct grid 
     if (!fits) return 0;
     int32_t *above = NEW("mesh.above", box.grid.n, int32_t);
     for (int64_t i = 0; i < p->n && fits; i++) {
-        const int64_t place = mesh_packed_cell_and_point_of_particle(&box, p, i), cell = place >> p->dim;
+        const int64_t place = mesh_find_quadrature_point_index_of_particle(&box, p, i), cell = place >> p->dim;
         fits = place >= 0;
         for (int c = 0; c < 1 << p->dim && fits && cell != last; c++)
             join(above, (int32_t)cell, (int32_t)cell + box.corner[c]);

@@ -299,14 +299,15 @@ static void project_all(struct projection m, real *const *value, real *const *no
     memory_free(m.row);
 }
 
-void mesh_fit_nodal_values(const struct mesh *mesh, const struct particles *p, real *const *point_value,
-                           real *const *nodal_value)
+void mesh_fit_nodal_values_to_point_values(const struct mesh *mesh, const struct particles *p, real *const *point_value,
+                                           real *const *nodal_value)
 {
     project_all((struct projection){.mesh = mesh, .p = p}, point_value, nodal_value);
 }
 
-void mesh_fit_values_of_listed_nodes(const struct mesh *mesh, const struct particles *p, real *const *point_value,
-                                     real *const *nodal_value, const int32_t *node_list, int64_t node_count)
+void mesh_fit_listed_nodal_values_to_point_values(const struct mesh *mesh, const struct particles *p,
+                                                  real *const *point_value, real *const *nodal_value,
+                                                  const int32_t *node_list, int64_t node_count)
 {
     uint8_t *mark = NEW("mesh.unknown", mesh->grid.n, uint8_t);
     for (int64_t k = 0; k < node_count; k++) mark[node_list[k]] = 1;

@@ -266,7 +266,7 @@ static void slits_divide(struct slit_maker *m)
     const int dim = m->p->dim;
     for (int64_t k = 0; k < n << dim; k++) m->point[k] = -1;
     for (int64_t i = 0; i < m->p->n; i++) {
-        const int64_t place = mesh_packed_cell_and_point_of_particle(m->mesh, m->p, i);
+        const int64_t place = mesh_find_quadrature_point_index_of_particle(m->mesh, m->p, i);
         if (place < 0) continue;
         m->point[place] = (int32_t)i;
         if (particle_is_beside_void(m->source->voids, i)) void_mark(&m->mesh->grid, place >> dim, m->voids);
@@ -442,7 +442,7 @@ static void link_add(struct mesh *mesh, int64_t extra, int64_t base)
     s->link[s->links++] = link;
 }
 
-void mesh_slits_link_node_blocks_for_activation(struct mesh *mesh)
+void mesh_slits_link_node_blocks_to_duplicates(struct mesh *mesh)
 {
     struct mesh_slits *s = &mesh->slits;
     int64_t extras = s->nodes;
@@ -457,11 +457,11 @@ void mesh_slits_link_node_blocks_for_activation(struct mesh *mesh)
         for (int64_t cell = s->next[I]; cell >= 0; cell = s->next[cell]) link_add(mesh, cell, I);
 }
 
-void mesh_slits_store_corner_nodes_of_cells(struct mesh *mesh)
+void mesh_slits_store_corner_nodes_of_adjacent_cells(struct mesh *mesh)
 {
     struct mesh_slits *s = &mesh->slits;
     const int corners = 1 << mesh->grid.dim;
-    const int64_t groups = mesh_count_groups_of_eight_partial_cells(mesh);
+    const int64_t groups = mesh_count_groups_of_eight_own_stiffness_cells(mesh);
     int32_t n = 0;
     if (!s->cell) return;
     memory_free(s->group);
@@ -469,7 +469,7 @@ void mesh_slits_store_corner_nodes_of_cells(struct mesh *mesh)
     s->group = BARE("slits.group", groups, int32_t);
     for (int64_t g = 0; g < groups; g++) {
         bool own = false;
-        for (int l = 0; l < LANES; l++) own |= s->cell[mesh->partial_cell[g * LANES + l]] >= 0;
+        for (int l = 0; l < LANES; l++) own |= s->cell[mesh->own_stiffness_cell[g * LANES + l]] >= 0;
         s->group[g] = own ? n++ : -1;
     }
     s->lane = BARE("slits.lane", (int64_t)n * corners * LANES, int32_t);
@@ -477,7 +477,7 @@ void mesh_slits_store_corner_nodes_of_cells(struct mesh *mesh)
         for (int c = 0; c < corners && s->group[g] >= 0; c++)
             for (int l = 0; l < LANES; l++)
                 s->lane[((int64_t)s->group[g] * corners + c) * LANES + l] =
-                    (int32_t)mesh_cell_corner_node(mesh, mesh->partial_cell[g * LANES + l], c);
+                    (int32_t)mesh_cell_corner_node(mesh, mesh->own_stiffness_cell[g * LANES + l], c);
 }
 
 void mesh_slits_free(struct mesh_slits *s)

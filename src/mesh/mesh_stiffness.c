@@ -154,9 +154,9 @@ real mesh_critical_time_step(const struct mesh *mesh, const struct mesh_source *
 {
     const int dim = mesh->grid.dim, sets = 1 << (1 << dim);
     bool *there = NEW("mesh.there", sets, bool);
-    for (int64_t k = 0; k < mesh->partial_cells; k++)
-        if (!leaves_stress(mesh, source->partial, mesh->partial_cell[k]))
-            there[mesh_stiffness_places_of(mesh, mesh->partial_cell[k])] = true;
+    for (int64_t k = 0; k < mesh->own_stiffness_cells; k++)
+        if (!leaves_stress(mesh, source->partial, mesh->own_stiffness_cell[k]))
+            there[mesh_stiffness_places_of(mesh, mesh->own_stiffness_cell[k])] = true;
     real most = 0;
     for (int set = 1; set < sets; set++) {
         if (!after_any_conversion && !there[set] && set != sets - 1) continue;

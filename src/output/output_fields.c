@@ -353,8 +353,8 @@ static void copy_rows(const struct frame_field *field, const struct frame_conten
         copy_derived(derived_field_find_by_name(strrchr(field->path, '/') + 1), source, row, first, end, rows);
 }
 
-void frame_field_copy_values_of_particles(const struct frame_field *field, const struct frame_contents *source,
-                                          const struct frame_rows *row_order, char *rows)
+void frame_field_copy_particle_values_to_rows(const struct frame_field *field, const struct frame_contents *source,
+                                              const struct frame_rows *row_order, char *rows)
 {
     enum { BLOCK = 4096 }; /* rows that a thread copies at a time */
     const int64_t own = row_order->own, others = row_order->n - own;

@@ -50,12 +50,12 @@ unsigned frame_contents_field_bits_to_write(const struct frame_contents *source)
  * in *source to `rows`, an array of row_order->n rows with frame_field_bytes_per_row bytes each. row_order: which
  * particle each row belongs to. Rows of points inside coarse cells (larger mesh cells without particles;
  * source->extra.more) are 0 in fields that such points lack. */
-void frame_field_copy_values_of_particles(const struct frame_field *field, const struct frame_contents *source,
-                                          const struct frame_rows *row_order, char *rows);
+void frame_field_copy_particle_values_to_rows(const struct frame_field *field, const struct frame_contents *source,
+                                              const struct frame_rows *row_order, char *rows);
 
 /* Writes the field `field` of an output frame as a dataset with its unit to `file`. rows: stored numbers of the field
- * at `row_count` points, as frame_field_copy_values_of_particles makes them; dim: dimension of the space. A failure is
- * recorded in file->failed. */
+ * at `row_count` points, as frame_field_copy_particle_values_to_rows makes them; dim: dimension of the space. A failure
+ * is recorded in file->failed. */
 void frame_field_write(struct hdf *file, const struct frame_field *field, int64_t row_count, int dim, const char *rows);
 
 /* Writes one line `field [unit]` for every field with a unit to text[capacity]; a longer text is cut. field_bits: set

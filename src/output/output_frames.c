@@ -66,7 +66,7 @@ static void job_copy_fields(struct frame_job *job, const struct frame_contents *
         if (!has_rows(job, k)) continue;
         job->field[k] = o->frame_copy + at;
         at += job->n * (int64_t)frame_field_bytes_per_row(&frame_fields[k], job->dim);
-        frame_field_copy_values_of_particles(&frame_fields[k], source, &job->series->rows, job->field[k]);
+        frame_field_copy_particle_values_to_rows(&frame_fields[k], source, &job->series->rows, job->field[k]);
     }
 }
 

@@ -15,7 +15,8 @@ void frame_compose_file_name(const struct frame_series *series, char *name, size
     snprintf(name, capacity, "frames%s%s/%06d.hdf", series->name[0] ? "_" : "", series->name, frame_number);
 }
 
-void series_compose_index_file_name(const struct frame_series *series, char *name, size_t capacity, const char *ending)
+void frame_series_compose_index_file_name(const struct frame_series *series, char *name, size_t capacity,
+                                          const char *ending)
 {
     snprintf(name, capacity, "%s%s", series->name[0] ? series->name : "frames", ending);
 }
@@ -102,7 +103,7 @@ static struct path index_path(const char *folder, const struct frame_series *s, 
 {
     static const char *const end[INDICES] = {".hdf.series", ".xdmf"};
     char name[PATH_NAME_ROOM];
-    series_compose_index_file_name(s, name, sizeof name, end[which]);
+    frame_series_compose_index_file_name(s, name, sizeof name, end[which]);
     return path_join(folder, name);
 }
 

@@ -35,6 +35,7 @@ void frame_compose_file_name(const struct frame_series *series, char *name, size
 /* Writes the name of an index file of a series of output frames (states at output times), relative to the folder of the
  * run, to name[capacity]: the name of the region, or `frames` for the whole body, followed by the ending `ending`. A
  * longer name is cut. */
-void series_compose_index_file_name(const struct frame_series *series, char *name, size_t capacity, const char *ending);
+void frame_series_compose_index_file_name(const struct frame_series *series, char *name, size_t capacity,
+                                          const char *ending);
 
 #endif

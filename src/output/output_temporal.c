@@ -172,7 +172,7 @@ static status series_temporal(struct output *o, const struct frame_series *serie
     a.has = NEW("temporal.has", series->frames, uint32_t);
     a.start = NEW("temporal.start", series->frames, int64_t);
     frames_look(&a, series);
-    series_compose_index_file_name(series, name, sizeof name, ".vtkhdf");
+    frame_series_compose_index_file_name(series, name, sizeof name, ".vtkhdf");
     if (a.n > 0) s = temporal_write(&a, path_join(o->folder, name).text, scene_text, &o->broken);
     memory_free(a.start), memory_free(a.has), memory_free(a.particles), memory_free(a.frame);
     memory_free(a.source), memory_free(a.time);
@@ -183,7 +183,7 @@ void output_remove_single_vtkhdf_with_all_frames(const struct output *o)
 {
     for (int k = 0; k <= o->n_series; k++) {
         char name[PATH_NAME_ROOM];
-        series_compose_index_file_name(&o->series[k], name, sizeof name, ".vtkhdf");
+        frame_series_compose_index_file_name(&o->series[k], name, sizeof name, ".vtkhdf");
         unlink(path_join(o->folder, name).text);
     }
 }

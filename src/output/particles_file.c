@@ -48,7 +48,7 @@ void particles_file_collect_contents(struct particles_file *f, const struct fram
     char *rows = f->rows;
     for (int k = 0; k < FRAME_FIELDS; k++) {
         if (!is_inside(f, k)) continue;
-        frame_field_copy_values_of_particles(&frame_fields[k], source, &series->rows, rows);
+        frame_field_copy_particle_values_to_rows(&frame_fields[k], source, &series->rows, rows);
         hash = bytes_hash(hash, rows, field_bytes(f, k));
         rows += field_bytes(f, k);
     }

@@ -116,10 +116,10 @@ void curves_write_horizontal_tics(FILE *to, const struct curves_layout *l, doubl
     fprintf(to, "set xtics %.9g\n", axis_choose_tic_distance(high - low, pixels, 12 + 11 * letters));
 }
 
-void title_append_count_of_particles_outside_view(char *text, const char *title, int64_t outside)
+void title_append_count_of_particles_outside_view(char *text, const char *title, int64_t outside_count)
 {
     int length = snprintf(text, TITLE_LENGTH, "%.*s", TITLE_LENGTH - 64, title);
-    if (outside > 0)
+    if (outside_count > 0)
         snprintf(text + length, TITLE_LENGTH - (size_t)length, "%s(%lld particle%s outside the picture)",
-                 length > 0 ? " " : "", (long long)outside, outside > 1 ? "s are" : " is");
+                 length > 0 ? " " : "", (long long)outside_count, outside_count > 1 ? "s are" : " is");
 }

@@ -50,9 +50,9 @@ void curves_write_gnuplot_data_block(FILE *gnuplot, const struct series *series,
 /* Capacity of a colour in gnuplot's notation, #rrggbb, with its terminator [byte]. */
 enum { COLOUR_ROOM = 8 };
 
-/* Writes the colour of curve number k, from 0, of `curve_count` curves that show successive times to `text`, in
- * gnuplot's notation: a shade of the sequential colour scale, dark for the first time. */
-void curve_colour_write_by_time_order(char text[COLOUR_ROOM], int k, int curve_count);
+/* Writes the colour of curve number curve_index, from 0, of `curve_count` curves that show successive times to `text`,
+ * in gnuplot's notation: a shade of the sequential colour scale, dark for the first time. */
+void curve_colour_write_by_time_order(char text[COLOUR_ROOM], int curve_index, int curve_count);
 
 /* Layout of a picture of curves: its size, and the distances of its panels from the left, right, upper and lower edge
  * [pixel]; columns and lines of its key, and whether the key is below the panels. */
@@ -122,8 +122,8 @@ enum { PANEL_GAP = 26, TIME_LETTERS = 9 };
 void curves_write_title(struct gnuplot *gnuplot, const char *title, const char *quantity);
 
 /* Writes the heading of a picture to text[TITLE_LENGTH]: `title`, followed by a note on the number of particles outside
- * the picture, `outside`, unless this number is 0. */
-void title_append_count_of_particles_outside_view(char *text, const char *title, int64_t outside);
+ * the picture, `outside_count`, unless this number is 0. */
+void title_append_count_of_particles_outside_view(char *text, const char *title, int64_t outside_count);
 
 /* Writes the gnuplot commands for the horizontal axis of a picture, with its range and label, to the stream `gnuplot`.
  * The axis shows the time or the number of the load step. series: history that is drawn. */

@@ -28,13 +28,13 @@ void panel_write_margins(FILE *gnuplot, const struct maps_layout *l, double left
 }
 
 void panel_write_image(FILE *gnuplot, const struct colour *pixel, int pixel_columns, int pixel_rows,
-                       const double *lower_left_corner, const double *pixel_size, const char *further_elements)
+                       const double *lower_left_corner, const double *pixel_size, const char *further_plot_elements)
 {
     fprintf(gnuplot,
             "plot '-' binary array=(%d,%d) dx=%.12g dy=%.12g origin=(%.12g,%.12g) format='%%uchar' "
             "with rgbimage notitle%s\n",
             pixel_columns, pixel_rows, pixel_size[0], pixel_size[1], lower_left_corner[0] + 0.5 * pixel_size[0],
-            lower_left_corner[1] + 0.5 * pixel_size[1], further_elements);
+            lower_left_corner[1] + 0.5 * pixel_size[1], further_plot_elements);
     for (int64_t q = 0; q < (int64_t)pixel_columns * pixel_rows; q++)
         fwrite((uint8_t[]){pixel[q].red, pixel[q].green, pixel[q].blue}, 1, 3, gnuplot);
 }
@@ -70,7 +70,7 @@ double horizontal_axis_choose_tic_distance(double low, double high, double axis_
     return touch && tics_within(low, high, single) > 0 ? single : tics;
 }
 
-struct unit panel_axis_unit(const struct view *v)
+struct unit panel_choose_length_unit_of_axes(const struct view *v)
 {
     return unit_for_length(fmax(v->to[0] - v->from[0], v->to[1] - v->from[1]));
 }
@@ -82,7 +82,7 @@ struct panel_scale {
 
 static struct panel_scale panel_scale_of(const struct view *v, int axis, double length)
 {
-    const double factor = panel_axis_unit(v).factor;
+    const double factor = panel_choose_length_unit_of_axes(v).factor;
     struct panel_scale s = {v->from[axis] / factor, v->to[axis] / factor, 0};
     s.tics = axis == 0
                  ? horizontal_axis_choose_tic_distance(s.low, s.high, length)

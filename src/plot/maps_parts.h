@@ -110,7 +110,7 @@ void panel_write_margins(FILE *gnuplot, const struct maps_layout *layout, double
 /* Returns the unit of length of the axes of all panels (one for each output frame) of a picture. It is chosen by the
  * longer edge of the rectangle that `view` shows, regardless of the coordinates of the body: millimetres from 0.5 mm to
  * 1 m, else metres with the SI prefix that gives one to three digits. */
-struct unit panel_axis_unit(const struct view *view);
+struct unit panel_choose_length_unit_of_axes(const struct view *view);
 
 /* Returns the width [pixel] of the longest number at the tics of the horizontal axis of a panel. view: rectangle of the
  * panel; width: width of the panel [pixel]. */
@@ -138,8 +138,8 @@ void panel_write_axis_arrows(FILE *gnuplot, const struct maps_layout *layout, co
 
 /* Writes the gnuplot commands and data that plot the image pixel[pixel_rows * pixel_columns], rows from bottom to top.
  * lower_left_corner[2]: lower left corner of the image; pixel_size[2]: width and height of a pixel, both in units of
- * the axes. further_elements: further elements of the plot command, each preceded by a comma, or "". */
+ * the axes. further_plot_elements: further elements of the plot command, each preceded by a comma, or "". */
 void panel_write_image(FILE *gnuplot, const struct colour *pixel, int pixel_columns, int pixel_rows,
-                       const double *lower_left_corner, const double *pixel_size, const char *further_elements);
+                       const double *lower_left_corner, const double *pixel_size, const char *further_plot_elements);
 
 #endif

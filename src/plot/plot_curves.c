@@ -68,10 +68,10 @@ void curves_write_gnuplot_data_block(FILE *gnuplot, const struct series *series,
     fputs("EOD\n", gnuplot);
 }
 
-void curve_colour_write_by_time_order(char text[COLOUR_ROOM], int k, int curve_count)
+void curve_colour_write_by_time_order(char text[COLOUR_ROOM], int curve_index, int curve_count)
 {
     const double lightest = 0.82; /* yellow is not visible on white */
-    const struct colour c = colour_on_sequential_scale(lightest * k / fmax(curve_count - 1, 1));
+    const struct colour c = colour_on_sequential_scale(lightest * curve_index / fmax(curve_count - 1, 1));
     snprintf(text, COLOUR_ROOM, "#%02x%02x%02x", c.red, c.green, c.blue);
 }
 

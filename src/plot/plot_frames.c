@@ -234,7 +234,7 @@ void picture_compose_title(char *title, const struct plot_request *r, const char
     if (summary_read_string(folder, "name", name, sizeof name) != OK) path_copy_base_name(name, sizeof name, folder);
     bool known = summary_read_string(folder, "method", method, sizeof method) == OK;
     if (plotted != NULL && plotted->normal >= 0) {
-        const struct unit metre = panel_axis_unit(view);
+        const struct unit metre = panel_choose_length_unit_of_axes(view);
         snprintf(layer, sizeof layer, ", %c = %.4g %s", 'x' + plotted->normal, plotted->layer / metre.factor,
                  metre.name);
     }

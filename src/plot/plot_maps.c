@@ -18,7 +18,7 @@ static void plot_maps_draw_panel(FILE *to, const struct maps_layout *l, const st
     int column = place % l->columns, row = place / l->columns;
     double from[2], step[2];
     int size[2] = {l->panel_width, l->panel_height};
-    const struct unit metre = panel_axis_unit(view);
+    const struct unit metre = panel_choose_length_unit_of_axes(view);
     const double left = l->left + column * (l->panel_width + l->gap),
                  above = l->above + row * (l->panel_height + GAP_Y);
     panel_write_margins(to, l, left, above);

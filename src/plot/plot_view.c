@@ -257,7 +257,7 @@ static status view_check_crop(const struct view *v, const struct view *around, c
     bool huge = r->cropped;
     for (int a = 0; a < 2; a++) huge = huge && v->to[a] - v->from[a] > CROP_MOST * (around->to[a] - around->from[a]);
     if (!r->cropped || (!huge && view_shows_any(v, cloud, clouds))) return OK;
-    const struct unit metre = panel_axis_unit(around);
+    const struct unit metre = panel_choose_length_unit_of_axes(around);
     const double f = metre.factor;
     return status_set(REFUSED, "plot: --crop: %s; give a part of %.6g%s:%.6g%s,%.6g%s:%.6g%s",
                       huge ? "the body would be a point in this rectangle (its unit is m if none is given)"

@@ -359,7 +359,7 @@ static status draw_scene(struct output_picture sheet, struct run *run, struct pl
     size_t length = 0, bytes = 0;
     const double arrow = arrow_length(plotted);
     const struct view v = scene_view(plotted, arrow);
-    const struct unit metre = panel_axis_unit(&v);
+    const struct unit metre = panel_choose_length_unit_of_axes(&v);
     struct scene_overlay m = {.to = memory_stream_open(&data, &bytes),
                               .plot = memory_stream_open(&elements, &length),
                               .engine = run,

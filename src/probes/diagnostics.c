@@ -91,8 +91,8 @@ int64_t diagnostics_count_clusters_of_new_bond_breaks(const struct particles *p,
         const int64_t i = searched_particles ? searched_particles[k] : k;
         if (p->flag[i] & FLAG_CRACKED) particle_reference_position(p, i, place[cut++].X);
     }
-    const int64_t ends = position_clusters_count_and_find_foremost_centre(place, cut, p->dim, horizon * (1 + 1e-6),
-                                                                          along, cluster_centre);
+    const int64_t ends = position_clusters_count_and_centre_at_largest_x(place, cut, p->dim, horizon * (1 + 1e-6),
+                                                                         along, cluster_centre);
     memory_free(place);
     return ends;
 }

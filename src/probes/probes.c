@@ -121,7 +121,7 @@ void probes_sample_position_dependent_values(struct probes *probes, const struct
             growing_crack_compute_probe_values(&o->growth[probe->growth], value);
             break;
         case PROBE_RIGID:
-            rigid_probe_compute_angle_and_stresses(probe, o, value);
+            rigid_probe_compute_rotation_angle_and_stresses(probe, o, value);
             break;
         default:
             break;

@@ -45,14 +45,14 @@ static void add_bonds(const struct bar *b, const struct observed_run *o, real *b
     }
 }
 
-void bar_probe_compute_bond_flux_stress(const struct bar *bar, const struct observed_run *o, real *flux)
+void bar_probe_compute_bond_flux_stress(const struct bar *bar, const struct observed_run *o, real *stress)
 {
     real *between = NEW("probes.between", bar->n + 1, real), *end = NEW("probes.end", bar->n + 1, real), crossing = 0;
     if (o->bonds && o->bonds->rows > 0) add_bonds(bar, o, between, end);
     for (int64_t k = 0; k < bar->n; k++) {
         crossing += between[k];
-        flux[k] = o->part->kind[bar->order[k]] == KIND_PD ? (crossing + end[k]) / o->thickness
-                                                          : o->part->stress[0][bar->order[k]];
+        stress[k] = o->part->kind[bar->order[k]] == KIND_PD ? (crossing + end[k]) / o->thickness
+                                                            : o->part->stress[0][bar->order[k]];
     }
     memory_free(between);
     memory_free(end);

@@ -266,7 +266,7 @@ status rigid_probe_store_initial_motion(struct probe *probe, const struct observ
 /* Computes the rotation angle value[0] of the body of a RIGID probe (conservation in a body that moves rigidly) [rad],
  * its largest absolute principal stress value[1] and its largest in-plane shear stress value[2] [Pa] at the present
  * positions, and updates probe->memory.rigid. o: the run as probes see it (particles, bonds, time). */
-void rigid_probe_compute_angle_and_stresses(struct probe *probe, const struct observed_run *o, real *value);
+void rigid_probe_compute_rotation_angle_and_stresses(struct probe *probe, const struct observed_run *o, real *value);
 
 /* Computes the change of the angular momentum, value[3], and of the kinetic energy, value[4], of the body of the RIGID
  * probe (conservation in a body that moves rigidly), from the particles p, relative to the values at the start [1];
@@ -300,12 +300,12 @@ void bar_probe_free_bar(struct bar *bar);
  * `displacement`, `velocity`, `flux` and `strain` of *bar, in the order of the particles from left to right. */
 void bar_probe_measure_fields(struct bar *bar, const struct observed_run *o);
 
-/* Computes the stress by bond flux of each particle of `bar` in the run o, flux[n] by rank from left to right [Pa]: the
- * sum of the forces of all bonds that cross the centre of the particle, divided by the cross section of the bar. A bond
- * counts fully for particles strictly between its two ends and by half for the particles at its ends. Bonds to mirror
- * images (copies of particles beyond planes of symmetry) are included. Material points have their Cauchy stress
+/* Computes the stress by bond flux of each particle of `bar` in the run o, stress[n] by rank from left to right [Pa]:
+ * the sum of the forces of all bonds that cross the centre of the particle, divided by the cross section of the bar. A
+ * bond counts fully for particles strictly between its two ends and by half for the particles at its ends. Bonds to
+ * mirror images (copies of particles beyond planes of symmetry) are included. Material points have their Cauchy stress
  * instead. */
-void bar_probe_compute_bond_flux_stress(const struct bar *bar, const struct observed_run *o, real *flux);
+void bar_probe_compute_bond_flux_stress(const struct bar *bar, const struct observed_run *o, real *stress);
 
 /* Largest number of quantities that an EXACT probe (comparison of a bar with a closed-form solution) reports. Each
  * quantity is also a column of history.csv. */

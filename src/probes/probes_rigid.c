@@ -115,7 +115,7 @@ static void rigid_most(struct rigid_memory *m, const real *value, int first, int
  * value[0], the rotation angle of the body [rad]; value[1], the largest absolute principal stress of any of its
  * particles [Pa]; value[2], the largest in-plane shear stress [Pa]. The angle continues beyond half a turn if the body
  * rotates by less than half a turn between samples. */
-void rigid_probe_compute_angle_and_stresses(struct probe *probe, const struct observed_run *o, real *value)
+void rigid_probe_compute_rotation_angle_and_stresses(struct probe *probe, const struct observed_run *o, real *value)
 {
     struct rigid_memory *m = &probe->memory.rigid;
     real spin, scale, kinetic;

@@ -132,7 +132,7 @@ static status check_stop(const struct run_report *report, const struct run_clock
                       (long long)clock->step + 1, (long long)clock->steps);
 }
 
-status equilibrium_solve_without_work_account(struct run *run, real pseudo_time, real *const *present_applied_forces)
+status equilibrium_solve_without_updating_work(struct run *run, real pseudo_time, real *const *present_applied_forces)
 {
     struct statics *s = run->statics;
     TRY(check_stop(run->report, &run->clock));
@@ -159,7 +159,7 @@ static status solve_at(struct run *run, real t, bool *crossed)
     TRY(loads_check_formula_values_are_finite(&run->loads, &run->part, t));
     statics_move_rigid_bodies_and_search_contacts(run, t);
     work_account_store_initial_equilibrium(&account, s, &run->part);
-    const status found = equilibrium_solve_without_work_account(run, t, account.applied);
+    const status found = equilibrium_solve_without_updating_work(run, t, account.applied);
     run_move_to_solution_and_update_plastic_state(run);
     lagrangian_mesh_update_point_motion_and_stress(run->frame, &run->part, &run->loads);
     loads_update_mirror_images_of_particles(&run->loads, &run->part);

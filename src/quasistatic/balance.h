@@ -16,7 +16,7 @@ status equilibrium_find_at_time(struct run *run, real pseudo_time);
  * be the arrays run->statics->applied. Returns FAILED, with the position of the largest residual in the message, if no
  * equilibrium is found: `pseudo_time` is then set, and the displacements are those of the last iteration. Before
  * anything is changed, returns INTERRUPTED if the run is to stop, and FAILED if the formula of a load is not finite. */
-status equilibrium_solve_without_work_account(struct run *run, real pseudo_time, real *const *present_applied_forces);
+status equilibrium_solve_without_updating_work(struct run *run, real pseudo_time, real *const *present_applied_forces);
 
 /* Converts the material points of the run that lost bonds or have a high stress to peridynamic particles, and finds the
  * equilibrium again, until no further point has to be converted. broken_bonds: number of directed bonds that have

@@ -122,17 +122,17 @@ bool statics_update_contacts_and_test_unchanged(void *run)
     loads_update_mirror_images_of_particles(&e->loads, &e->part);
     const int64_t changed = contact_search_is_needed(c, &e->part)
                                 ? 1 + statics_contact_search(e, 0)
-                                : contact_select_linear_springs_count_changes(c, &e->part, 0);
+                                : contact_select_linear_springs_and_count_changes(c, &e->part, 0);
     s->balance.applied = applied_forces_norm(s, &e->part, &e->loads, c);
     s->balance.largest = s->largest;
     if (changed > 0) unconstrained_update(e);
     return changed == 0;
 }
 
-void statics_contact_fix_active_set_or_use_overlaps(void *run, bool set_is_fixed)
+void statics_contact_use_fixed_set_or_all_overlaps(void *run, bool use_fixed_set)
 {
     struct run *e = run;
-    if (e->statics->has_contact) contact_restrict_forces_to_linear_springs(e->contact, set_is_fixed);
+    if (e->statics->has_contact) contact_restrict_forces_to_linear_springs(e->contact, use_fixed_set);
 }
 
 real rigid_body_work_add_and_estimate_error(struct run *run, real load_work, real solver_loss)

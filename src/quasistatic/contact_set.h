@@ -35,8 +35,8 @@ void statics_move_rigid_bodies_and_search_contacts(struct run *run, real pseudo_
 bool statics_update_contacts_and_test_unchanged(void *run);
 
 /* Selects the contacts that exert forces (callback `laws` of solver/equilibrium.h): the fixed set of active contacts
- * if `set_is_fixed` is true, else all pairs that overlap. run: a struct run. */
-void statics_contact_fix_active_set_or_use_overlaps(void *run, bool set_is_fixed);
+ * if `use_fixed_set` is true, else all pairs that overlap. run: a struct run. */
+void statics_contact_use_fixed_set_or_all_overlaps(void *run, bool use_fixed_set);
 
 /* Completes the solution for an equilibrium of the run: adds the work done on rigid bodies in this solution to
  * their total work and, if anything is or was in contact, computes the energy that the solution has lost. load_work:

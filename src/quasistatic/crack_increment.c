@@ -154,7 +154,7 @@ static status increment_find_now(struct run *run, real stressed)
     struct statics *s = run->statics;
     struct memory_archive saved;
     struct crack_increment second;
-    if (sif_cracks_find_tips_and_test_can_grow(run)) {
+    if (sif_cracks_find_tips_and_test_if_any_can_grow(run)) {
         TRY(sif_cracks_find_increment_by_trial_equilibria(run));
         if (s->next.n > 0 || s->stretch_ratio <= 1) return OK; /* else bonds break away from the tips */
     }
@@ -165,11 +165,11 @@ static status increment_find_now(struct run *run, real stressed)
     const int64_t bonds = s->next.n;
     if (tried == OK && bonds > 0 && pre_crack_unbroken(&run->fracture->tips, s)) {
         tried = increment_break_try(run, &second);
-        if (second.cost > 0) s->behind = crack_increment_extrapolate_before_first(&s->ahead, &second);
+        if (second.cost > 0) s->behind = crack_increment_extrapolate_predecessor_of_first(&s->ahead, &second);
     }
     trial_equilibrium_end(run, &saved, false, &s->next);
     s->next.n = bonds;
-    s->due = crack_increments_load_size_at_joint_balance(&s->ahead, &s->behind);
+    s->due = two_crack_increments_load_size_at_energy_balance(&s->ahead, &s->behind);
     return tried;
 }
 

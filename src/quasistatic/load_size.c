@@ -65,8 +65,8 @@ real statics_energy_released_since_start(const struct statics *s, const struct b
     return bonds_fracture_energy(b) + s->balance.lost;
 }
 
-real crack_increments_load_size_at_joint_balance(const struct crack_increment *increment,
-                                                 const struct crack_increment *other_increment)
+real two_crack_increments_load_size_at_energy_balance(const struct crack_increment *increment,
+                                                      const struct crack_increment *other_increment)
 {
     const real release = increment->release + other_increment->release;
     return increment->cost > 0 && release > 0 ? sqrt((increment->cost + other_increment->cost) / release) : INFINITY;
@@ -74,11 +74,11 @@ real crack_increments_load_size_at_joint_balance(const struct crack_increment *i
 
 real crack_increment_load_size_at_energy_balance(const struct crack_increment *increment)
 {
-    return crack_increments_load_size_at_joint_balance(increment, &(struct crack_increment){0});
+    return two_crack_increments_load_size_at_energy_balance(increment, &(struct crack_increment){0});
 }
 
-struct crack_increment crack_increment_extrapolate_before_first(const struct crack_increment *first,
-                                                                const struct crack_increment *second)
+struct crack_increment crack_increment_extrapolate_predecessor_of_first(const struct crack_increment *first,
+                                                                        const struct crack_increment *second)
 {
     const real rate = first->release / first->cost, growth = second->release / second->cost - rate;
     const real release = first->release - 2 * growth * square(first->cost) / (first->cost + second->cost);

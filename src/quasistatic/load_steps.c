@@ -188,7 +188,7 @@ static status step_by_opening(struct run *run)
     const real wanted = s->opening * (real)(run->clock.step + 1) / (real)s->number;
     const real first = run->statics->t + run->scene->duration / (real)s->number;
     real t = time_of_opening(&run->part, run->statics, wanted, first);
-    if (run->statics->next.n == 0 && body_may_yield(&run->part, &run->bonds)) {
+    if (run->statics->next.n == 0 && particles_or_bonds_may_yield(&run->part, &run->bonds)) {
         struct memory_archive saved;
         trial_equilibrium_begin(run, &saved);
         const status found = equilibrium_find_at_crack_opening(run, wanted, t);
@@ -239,7 +239,7 @@ static status load_step_begin(struct run *run, real t)
         statics_preconditioner_make(run);
     s->kept = false;
     s->directions = 0;
-    if (!load_step_flag_points_near_rigid_bodies(run, s->t, t)) return OK;
+    if (!load_step_flag_points_near_contact_to_convert(run, s->t, t)) return OK;
     TRY(equilibrium_convert_points_to_pd_and_solve_again(run, 0));
     return increment && s->solutions > solutions ? crack_increment_find_by_trial_equilibria(run) : OK;
 }
@@ -408,7 +408,7 @@ status run_solve_load_steps(struct run *run)
     statics_contact_search_before_first_solution(run);
     run->statics->gauge[0] = particles_index_nearest_to_position(&run->part, run->scene->steps.from);
     run->statics->gauge[1] = particles_index_nearest_to_position(&run->part, run->scene->steps.to);
-    sif_cracks_find_tips_and_test_can_grow(run); /* for the plane of the tips, which a resumed run lacks */
+    sif_cracks_find_tips_and_test_if_any_can_grow(run); /* for the plane of the tips, which a resumed run lacks */
     if (run->clock.step == 0) history_sample_write_in_equilibrium(run);
     plastic_flow_measure_direction_change(run->statics, &run->part, run->tables.elastic, 0);
     while (run->clock.step < run->clock.steps) {

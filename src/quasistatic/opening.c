@@ -51,7 +51,7 @@ real crack_gauge_opening(const struct particles *part, const struct statics *sta
     return sqrt(now) - sqrt(initial);
 }
 
-bool body_may_yield(const struct particles *part, const struct bonds *bonds)
+bool particles_or_bonds_may_yield(const struct particles *part, const struct bonds *bonds)
 {
     return part->plastic_correction[0] || bonds->plastic_stretch;
 }
@@ -118,18 +118,18 @@ static status find_opening_of_yielding_body(struct run *run, real wanted, real t
     return OK;
 }
 
-status equilibrium_find_at_crack_opening(struct run *run, real wanted_opening, real t)
+status equilibrium_find_at_crack_opening(struct run *run, real wanted_opening, real pseudo_time_guess)
 {
-    const bool yields = body_may_yield(&run->part, &run->bonds);
+    const bool yields = particles_or_bonds_may_yield(&run->part, &run->bonds);
     real at = crack_gauge_opening(&run->part, run->statics);
-    if (yields) TRY(find_opening_of_yielding_body(run, wanted_opening, t, &at));
+    if (yields) TRY(find_opening_of_yielding_body(run, wanted_opening, pseudo_time_guess, &at));
     for (int k = 0; k < SECANTS_MOST && !yields; k++) { /* secant method */
         const real from = run->statics->t, before = at;
-        TRY(equilibrium_find_at_time(run, real_max(t, 0)));
+        TRY(equilibrium_find_at_time(run, real_max(pseudo_time_guess, 0)));
         at = crack_gauge_opening(&run->part, run->statics);
         const real change = run->statics->t - from, slope = (at - before) / change;
         if (opening_is_near(at, wanted_opening, OPENING_ERROR) || change == 0 || !(slope != 0)) break;
-        t = run->statics->t + (wanted_opening - at) / slope;
+        pseudo_time_guess = run->statics->t + (wanted_opening - at) / slope;
     }
     if (opening_is_near(at, wanted_opening, OPENING_FAR)) return OK;
     return status_set(

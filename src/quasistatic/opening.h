@@ -16,12 +16,12 @@ status crack_gauge_check_positions(const struct scene *scene, const struct parti
 real crack_gauge_opening(const struct particles *part, const struct statics *statics);
 
 /* Returns true if material points or bonds of the body `part` may yield (have plastic strain). */
-bool body_may_yield(const struct particles *part, const struct bonds *bonds);
+bool particles_or_bonds_may_yield(const struct particles *part, const struct bonds *bonds);
 
 /* Finds the equilibrium of the run at which the opening between the two gauge particles (on both sides of a crack)
- * equals `wanted_opening` [m], by varying the pseudo-time. t: first pseudo-time tried [s]. Returns FAILED, with a
- * message, if an equilibrium is not found, or if the opening that is reached differs from `wanted_opening` by more than
- * a hundredth. */
-status equilibrium_find_at_crack_opening(struct run *run, real wanted_opening, real t);
+ * equals `wanted_opening` [m], by varying the pseudo-time. pseudo_time_guess: first pseudo-time tried [s]. Returns
+ * FAILED, with a message, if an equilibrium is not found, or if the opening that is reached differs from
+ * `wanted_opening` by more than a hundredth. */
+status equilibrium_find_at_crack_opening(struct run *run, real wanted_opening, real pseudo_time_guess);
 
 #endif

@@ -15,7 +15,7 @@
 #define ESTIMATE_STEPS 10 /* steps between estimates of damping and residual */
 #define MOTION_SMALL 1e-6 /* ratio of kinetic to strain energy of a body at rest */
 
-real grid_relaxation_ramp_time(real body_length, real wave_speed, real time_step)
+real grid_relaxation_load_ramp_time(real body_length, real wave_speed, real time_step)
 {
     return ceil(2 * body_length / (wave_speed * time_step)) * time_step;
 }
@@ -104,7 +104,7 @@ static void damp_velocities(struct particles *p, const struct loads *loads, int 
 
 status grid_relaxation_step(struct run *run, bool *is_in_equilibrium)
 {
-    TRY(step(run));
+    TRY(run_advance_by_one_time_step(run));
     TRY(run_check_stability_after_step(run));
     if (run->clock.step % ESTIMATE_STEPS == 0) estimate(run, is_in_equilibrium);
     damp_velocities(&run->part, &run->loads, run->optional & WITH_GRADIENT ? run->part.dim * run->part.dim : 0,

@@ -102,7 +102,7 @@ static status steps_in_time(struct run *run, int64_t *broken)
     int64_t last = 0, damped = 0, had = run->diagnostics->bonds_broken;
     *broken = 0;
     for (int64_t k = 0; k < most && damped < damped_most; k++) {
-        TRY(step(run));
+        TRY(run_advance_by_one_time_step(run));
         TRY(run_check_particles_for_divergence(run, true, true));
         if (run->diagnostics->bonds_broken > had) *broken += run->diagnostics->bonds_broken - had, last = k, damped = 0;
         had = run->diagnostics->bonds_broken;

@@ -115,8 +115,8 @@ bool sif_tip_compute_intensity_factors(const struct sif_cracks *cracks, const st
     return seen;
 }
 
-void sif_tip_choose_direction(const struct sif_cracks *cracks, const struct particles *p, bool faces_in_contact,
-                              struct sif_crack_tip *tip)
+void sif_tip_compute_growth_direction(const struct sif_cracks *cracks, const struct particles *p, bool faces_in_contact,
+                                      struct sif_crack_tip *tip)
 {
     if (tip->straight > AHEAD * cracks->plane.spacing ||
         !sif_tip_compute_intensity_factors(cracks, p, tip, faces_in_contact, tip->K)) {

@@ -96,8 +96,8 @@ real sif_tip_toughness(const struct sif_cracks *cracks, const struct particles *
  * direction of its next increment, by the criterion of maximum hoop stress (Erdogan & Sih 1963). The direction remains
  * unchanged while tip->straight (length [m] that the tip still grows straight after a kink) is positive, or if too few
  * particles are near the tip. faces_in_contact: crack faces are in contact; cracks: data common to all tips. */
-void sif_tip_choose_direction(const struct sif_cracks *cracks, const struct particles *p, bool faces_in_contact,
-                              struct sif_crack_tip *tip);
+void sif_tip_compute_growth_direction(const struct sif_cracks *cracks, const struct particles *p, bool faces_in_contact,
+                                      struct sif_crack_tip *tip);
 
 /* Moves tip number `tip` of `cracks` to the end of its next increment, appends the segment to the path of the cracks,
  * and sets `ended` of the tip if it has reached a surface of the body p or another crack. */
@@ -105,7 +105,7 @@ void sif_tip_move_to_end_of_increment(struct sif_cracks *cracks, const struct pa
 
 /* Computes the stress-intensity factors of the tip of `cracks` that has grown most among those that can still grow,
  * from the particles p, and stores them in K[] [Pa m^(1/2)]; NAN if no tip can grow. faces_in_contact: crack faces are
- * in contact. Call sif_cracks_find_tips_and_test_can_grow before. */
+ * in contact. Call sif_cracks_find_tips_and_test_if_any_can_grow before. */
 void sif_leading_tip_compute_intensity_factors(const struct sif_cracks *cracks, const struct particles *p,
                                                bool faces_in_contact, real K[2]);
 
@@ -143,6 +143,6 @@ void sif_tips_move_those_in_crack_increment(struct sif_cracks *cracks, const str
 /* Finds, on the first call only, the tips of the pre-cracks of the run and the plane in which they move. Returns true
  * if at least one tip can grow. Returns false if no tip can grow, or if the cracks of the input file are not SIF-driven
  * (growth direction from stress-intensity factors); in the latter case run->statics->sif.fault is the reason. */
-bool sif_cracks_find_tips_and_test_can_grow(struct run *run);
+bool sif_cracks_find_tips_and_test_if_any_can_grow(struct run *run);
 
 #endif

@@ -141,7 +141,7 @@ static status tips_turn_all(struct run *run)
         marked = 0;
         for (int k = 0; k < cracks->n; k++)
             if (!cracks->tip[k].ended)
-                sif_tip_choose_direction(cracks, &run->part, closed, &cracks->tip[k]),
+                sif_tip_compute_growth_direction(cracks, &run->part, closed, &cracks->tip[k]),
                     marked += segment_convert(cracks, &run->part, &cracks->tip[k]);
         if (marked > 0) TRY(equilibrium_convert_points_to_pd_and_solve_again(run, 0));
     }
@@ -176,7 +176,7 @@ static status behind_first_set(struct run *run, struct sif_crack_tip *tip)
     if (list.n > 0) {
         tried = list_break_try(run, &list, &second);
         bonds_restore_broken(run->statics, &run->bonds, &run->part, &list);
-        tip->behind = crack_increment_extrapolate_before_first(&tip->ahead, &second);
+        tip->behind = crack_increment_extrapolate_predecessor_of_first(&tip->ahead, &second);
     }
     memory_free(list.bond);
     return tried;
@@ -224,7 +224,7 @@ static void increment_choose(struct statics *s, struct break_list *list)
         s->ahead.cost += tip->ahead.cost, s->ahead.release += tip->ahead.release;
         s->behind.cost += tip->behind.cost, s->behind.release += tip->behind.release;
     }
-    s->due = crack_increments_load_size_at_joint_balance(&s->ahead, &s->behind);
+    s->due = two_crack_increments_load_size_at_energy_balance(&s->ahead, &s->behind);
 }
 
 /* If several tips of the run are selected for the next crack increment, recomputes its energy release s->ahead.release
@@ -247,7 +247,7 @@ static status increment_try_together(struct run *run)
     trial_equilibrium_end(run, &saved, false, &s->next);
     for (int k = 0; k < s->sif.n && separate > 0; k++)
         if (s->sif.tip[k].selected) s->sif.tip[k].ahead.release *= s->ahead.release / separate;
-    if (grown) s->due = crack_increments_load_size_at_joint_balance(&s->ahead, &s->behind);
+    if (grown) s->due = two_crack_increments_load_size_at_energy_balance(&s->ahead, &s->behind);
     return tried;
 }
 
@@ -263,7 +263,7 @@ static status tip_try(struct run *run, struct sif_crack_tip *tip, struct break_l
     tip->ended = list->n == 0;
     if (tip->ended) return OK;
     TRY(segment_try(run, tip, list));
-    tip->due = crack_increments_load_size_at_joint_balance(&tip->ahead, &tip->behind);
+    tip->due = two_crack_increments_load_size_at_energy_balance(&tip->ahead, &tip->behind);
     return OK;
 }
 

@@ -111,7 +111,7 @@ status sif_growth_check_direction_is_determinable(const struct run *run)
                  : OK;
 }
 
-bool sif_cracks_find_tips_and_test_can_grow(struct run *run)
+bool sif_cracks_find_tips_and_test_if_any_can_grow(struct run *run)
 {
     struct sif_cracks *cracks = &run->statics->sif;
     cracks->scene = run->scene, cracks->source = &run->source;

@@ -143,14 +143,14 @@ static void settle_bond(struct bonds *b, const struct particles *p, const struct
         b, q, bond_softening_state_before_onset(bond_softening_range(p, limit, b->particle[row], bond->nbr)));
 }
 
-void bonds_store_softening_stretches_of_equilibrium(struct bonds *b, const struct particles *p,
-                                                    const struct bond_limit *limit)
+void bonds_store_max_stretches_at_last_equilibrium(struct bonds *b, const struct particles *p,
+                                                   const struct bond_limit *limit)
 {
-    bonds_allocate_softening_stretches_of_equilibrium(b);
+    bonds_allocate_max_stretches_at_last_equilibrium(b);
     FOR_SOFTENING_BONDS(b, row, it) settle_bond(b, p, limit, row, &it.bond);
 }
 
-void bonds_restore_softening_stretches_of_equilibrium(struct bonds *b)
+void bonds_restore_max_stretches_at_last_equilibrium(struct bonds *b)
 {
     FOR_SOFTENING_BONDS(b, row, it)
     {
@@ -185,22 +185,22 @@ static void row_raise_settled(struct bonds *b, const struct particles *p, int64_
 }
 
 void bonds_add_softening_losses_to_fracture_energy(struct bonds *b, const struct particles *midway,
-                                                   const struct particles *end, bool last)
+                                                   const struct particles *end, bool is_last_part)
 {
 #pragma omp parallel for schedule(dynamic, 8)
     for (int64_t g = 0; g < b->row_blocks; g++)
         for (int64_t row = g * LANES; b->soft.begun[g] && row < b->rows && row < (g + 1) * LANES; row++) {
             row_weigh_softened(b, row, true);
             const real before = state_row_energy(b, midway, row, 0);
-            row_raise_settled(b, end, row, last);
+            row_raise_settled(b, end, row, is_last_part);
             row_weigh_softened(b, row, true);
             b->fracture_energy[row] += before - state_row_energy(b, midway, row, 0);
             row_weigh_softened(b, row, false);
         }
 }
 
-real bonds_largest_growth_over_softening(const struct bonds *b, const struct particles *before,
-                                         const struct particles *now)
+real bonds_largest_stretch_growth_per_softening_range(const struct bonds *b, const struct particles *before,
+                                                      const struct particles *now)
 {
     real most = 0;
     FOR_SOFTENING_BONDS(b, row, it)

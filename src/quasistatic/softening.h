@@ -49,26 +49,26 @@ void softening_bond_list_store_largest_stretches(const struct softening_bond_lis
  * yet softening, so that the stress across them is compared with the strength again. limit: critical stretches and
  * softening of bonds. The first call allocates storage in b->soft; from then on forces are computed from the stored
  * largest stretches. */
-void bonds_store_softening_stretches_of_equilibrium(struct bonds *b, const struct particles *p,
-                                                    const struct bond_limit *limit);
+void bonds_store_max_stretches_at_last_equilibrium(struct bonds *b, const struct particles *p,
+                                                   const struct bond_limit *limit);
 
 /* For state-based models, computes the energy that the neighbourhood of each particle (all its neighbours) loses over a
  * part of a load step because bonds of b soften, and adds it to the fracture energy of the row of the particle (its
  * bonds). The largest stretches of the last equilibrium in b->soft.settled are raised to those at the end of the part,
  * but not above those at the end of the step. midway, end: particles at the positions in the middle and at the end of
- * the part; the loss is that at `midway`, so that its error is of second order in the size of the part. last: the part
- * is the last one of the step. */
+ * the part; the loss is that at `midway`, so that its error is of second order in the size of the part. is_last_part:
+ * the part is the last one of the step. */
 void bonds_add_softening_losses_to_fracture_energy(struct bonds *b, const struct particles *midway,
-                                                   const struct particles *end, bool last);
+                                                   const struct particles *end, bool is_last_part);
 
 /* Returns the largest growth of the stretch of a bond of b that has softened in the present load step, divided by the
  * difference of the stretches between which it softens [1]. before, now: particles at the last and at the present
  * equilibrium. */
-real bonds_largest_growth_over_softening(const struct bonds *b, const struct particles *before,
-                                         const struct particles *now);
+real bonds_largest_stretch_growth_per_softening_range(const struct bonds *b, const struct particles *before,
+                                                      const struct particles *now);
 
 /* Resets the largest stretches of all softening bonds of b to those of the last equilibrium, which
- * bonds_store_softening_stretches_of_equilibrium has stored, so that another solution can start from there. */
-void bonds_restore_softening_stretches_of_equilibrium(struct bonds *b);
+ * bonds_store_max_stretches_at_last_equilibrium has stored, so that another solution can start from there. */
+void bonds_restore_max_stretches_at_last_equilibrium(struct bonds *b);
 
 #endif

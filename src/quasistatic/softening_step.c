@@ -137,7 +137,7 @@ static void body_unload(struct newton_solver *newton)
  * load steps s keep of the former bonds. */
 static void cracks_close_and_open(struct statics *s, const struct search *f)
 {
-    if (bonds_update_ended_bonds_that_press(f->bonds, f->part, f->source) == 0) return;
+    if (bonds_update_contact_springs_of_broken_bonds(f->bonds, f->part, f->source) == 0) return;
     statics_preconditioner_free(s);
     s->fragments_stale = true;
 }
@@ -171,7 +171,7 @@ static status search_run(struct run *run, struct search *f)
         if (last == 0 && t == f->end) body_unload(f->q);
         applied_forces_allocate_and_copy(applied, s, &run->part);
         s->balance.tolerance = real_max(tolerance, real_min(SOLVED_LEAST, SOLVED_TO * f->residual));
-        found = equilibrium_solve_without_work_account(run, t, applied);
+        found = equilibrium_solve_without_updating_work(run, t, applied);
         s->balance.tolerance = tolerance, s->balance.lost = lost;
         for (int d = 0; d < run->part.dim; d++) memory_free(applied[d]);
     }
@@ -208,7 +208,7 @@ static void family_losses_add(struct bonds *b, const struct particles *p, const 
         end.x[d] = BARE("softening.end", p->n_all, real);
     }
     particles_place_between(&midway, p, loads, before, 0);
-    const real growth = bonds_largest_growth_over_softening(b, &midway, p);
+    const real growth = bonds_largest_stretch_growth_per_softening_range(b, &midway, p);
     const int parts = (int)real_min(PATH_PARTS_MOST, ceil(real_max(1, growth / PART_GROWTH)));
     for (int k = 0; k < parts; k++) {
         particles_place_between(&midway, p, loads, before, (k + 0.5) / parts);
@@ -236,7 +236,7 @@ static status step_try(struct run *run, real t, real spent)
     memory_free(f.list.bond);
     if (found != OK) {
         work_account_free(&account);
-        bonds_restore_softening_stretches_of_equilibrium(&run->bonds);
+        bonds_restore_max_stretches_at_last_equilibrium(&run->bonds);
         trial_equilibrium_end(run, &saved, false, NULL);
         cracks_close_and_open(s, &f);
         return found;
@@ -247,7 +247,7 @@ static status step_try(struct run *run, real t, real spent)
     const real lost = run->loads.work + run->loads.constraint_work - worked + stored -
                       run->kernels.bond_energy(&run->bonds, &run->part, NULL) - bonds_fracture_energy(&run->bonds);
     if (!isfinite(spent)) s->balance.lost += real_max(0, lost), run->damped += real_max(0, lost);
-    bonds_store_softening_stretches_of_equilibrium(&run->bonds, &run->part, &run->source.limit);
+    bonds_store_max_stretches_at_last_equilibrium(&run->bonds, &run->part, &run->source.limit);
     return OK;
 }
 
@@ -280,7 +280,7 @@ status load_step_solve_with_softening_bonds(struct run *run, real pseudo_time)
     if (before == 0) spent *= FIRST_SHARE;
     do {
         bonds_start_softening_at_strength_surface(&run->bonds, &run->part, &run->source);
-        bonds_store_softening_stretches_of_equilibrium(&run->bonds, &run->part, &run->source.limit);
+        bonds_store_max_stretches_at_last_equilibrium(&run->bonds, &run->part, &run->source.limit);
         status tried = step_try(run, pseudo_time, spent);
         for (int k = 1; k < TRIES_MOST && tried == FAILED && by_energy; k++, spent *= 0.5)
             tried = step_try(run, pseudo_time, 0.5 * spent);

@@ -32,10 +32,11 @@ status run_make_single_equilibrium_solver(struct run *run)
 {
     const struct scene *s = run->scene;
     const struct static_body body = static_body_of(run);
-    const real ramp_time = s->method == METHOD_PD
-                               ? 1
-                               : grid_relaxation_ramp_time(particles_bounding_box_longest_edge(&run->part) + s->spacing,
-                                                           run->tables.wave_speed, run->clock.dt);
+    const real ramp_time =
+        s->method == METHOD_PD
+            ? 1
+            : grid_relaxation_load_ramp_time(particles_bounding_box_longest_edge(&run->part) + s->spacing,
+                                             run->tables.wave_speed, run->clock.dt);
     static_boundaries_make_from_dynamic(run->boundary, s->boundary, s->boundaries, s->duration, ramp_time);
     TRY(static_solver_make(run->solver, &body, ramp_time));
     if (s->method == METHOD_PD)

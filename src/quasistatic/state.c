@@ -109,7 +109,7 @@ status load_steps_save_or_load_state(struct run *run, struct archive *a)
     if (whole) TRY(search_archive(s, &run->clock, a));
     if (!a->saving) applied_forces_compute(s, &run->part, &run->loads, s->t);
     if (!a->saving && whole && run->bonds.soft.curve)
-        bonds_store_softening_stretches_of_equilibrium(&run->bonds, &run->part, &run->source.limit);
+        bonds_store_max_stretches_at_last_equilibrium(&run->bonds, &run->part, &run->source.limit);
     if (!a->saving && whole) plastic_state_save(&run->statics->plastic, &run->bonds, &run->part, run->optional);
     return OK;
 }

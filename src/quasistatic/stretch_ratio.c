@@ -73,7 +73,7 @@ static real half_energy_to_limit(const struct bonds *b, const struct particles *
         hardening = b->yield.hardening[b->pair[bond->entry]];
         yield = b->yield.stretch[b->pair[bond->entry]] + hardening * b->plastic_path[bond->entry];
     }
-    const real work = bond_normalised_work_to_stretch(real_max(0, elastic), yield, hardening);
+    const real work = bond_normalised_work_to_elastic_stretch(real_max(0, elastic), yield, hardening);
     return 0.5 * b->stiffness * bond->w * work / bond->inverse_length;
 }
 

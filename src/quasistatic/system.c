@@ -121,7 +121,7 @@ void statics_equation_system_make(struct run *run)
     s->balance = (struct newton_solver){.force = statics_forces,
                                         .precondition = statics_preconditioner_apply,
                                         .settle = statics_update_contacts_and_test_unchanged,
-                                        .laws = statics_contact_fix_active_set_or_use_overlaps,
+                                        .laws = statics_contact_use_fixed_set_or_all_overlaps,
                                         .context = run,
                                         .tolerance = run->scene->solver_tolerance,
                                         .length = run->scene->spacing,

@@ -4,7 +4,7 @@
 
 #include "toughness.h"
 
-real bond_normalised_work_to_stretch(real elastic_stretch, real yield_stretch, real hardening_ratio)
+real bond_normalised_work_to_elastic_stretch(real elastic_stretch, real yield_stretch, real hardening_ratio)
 {
     const real beyond = real_max(0, elastic_stretch - yield_stretch), slope = hardening_ratio / (1 + hardening_ratio);
     return 0.5 * square(elastic_stretch - beyond) + (beyond > 0 ? beyond * (yield_stretch + 0.5 * slope * beyond) : 0);
@@ -17,7 +17,7 @@ real toughness_of_material(const struct family *family, enum model model, const 
     const real elastic = family_energy_release_rate_at_critical_stretch(family, m), limit = m->critical_stretch;
     if (!material_yields(m) || !isfinite(limit)) return elastic;
     const real taken =
-        bond_normalised_work_to_stretch(limit, m->yield_stress / m->young, m->yield_hardening / m->young);
+        bond_normalised_work_to_elastic_stretch(limit, m->yield_stress / m->young, m->yield_hardening / m->young);
     return elastic * taken / (0.5 * square(limit));
 }
 

@@ -24,6 +24,6 @@ real toughness_between_particles(const struct scene *s, const struct bond_source
  * `yield_stretch` [1] (INFINITY: the bond does not yield), then with the slope h/(1 + h), where h = `hardening_ratio`
  * is the ratio of plastic modulus to stiffness [1], as in a bar with linear isotropic hardening (Simo & Hughes 1998,
  * section 1.2). */
-real bond_normalised_work_to_stretch(real elastic_stretch, real yield_stretch, real hardening_ratio);
+real bond_normalised_work_to_elastic_stretch(real elastic_stretch, real yield_stretch, real hardening_ratio);
 
 #endif

@@ -64,15 +64,15 @@ static real unbalanced_share_of_nodes(const struct statics *s, const struct part
     return nodes > 0 && applied > 0 ? most / applied : 0;
 }
 
-status unconstrained_fragments_check_force_balance(const struct statics *s, const struct particles *p, bool balanced,
-                                                   int64_t step)
+status unconstrained_fragments_check_force_balance(const struct statics *s, const struct particles *p,
+                                                   bool nodes_are_in_equilibrium, int64_t step)
 {
     for (int64_t q = 0; q < s->fragments && s->applied[0]; q++) {
         const struct unconstrained_fragment *f = &s->fragment[q];
         real size;
         real share = unbalanced_share(s, p, f, &size);
         if (size <= UNHELD_SMALL * applied_sum(p, s, f->n)) share = 0;
-        if (balanced) share = real_max(share, unbalanced_share_of_nodes(s, p, f));
+        if (nodes_are_in_equilibrium) share = real_max(share, unbalanced_share_of_nodes(s, p, f));
         if (share <= UNHELD_MOST) continue;
         return status_set(FAILED,
                           "load step %lld, t = %.6g s: nothing holds %s (%.3g %% of it, around x = %.6g, y = %.6g, z = "

@@ -35,7 +35,7 @@ static void write_unit(void *context, const char *key, double value)
     const struct units *u = context;
     char unit[UNIT_ROOM];
     (void)value;
-    study_write_unit_of_result(unit, sizeof unit, u->header, key);
+    study_determine_unit_of_result(unit, sizeof unit, u->header, key);
     if (unit[0]) json_write_text(&u->page->json, key, unit);
 }
 

@@ -164,7 +164,7 @@ static void write_study_units(struct html_page *p, const char *folder)
         if (keys)
             snprintf(unit, sizeof unit, "%s", scene_key_unit(column));
         else
-            study_write_unit_of_result(unit, sizeof unit, header, column);
+            study_determine_unit_of_result(unit, sizeof unit, header, column);
         if (unit[0]) json_write_text(&p->json, column, unit);
     }
     json_end_object_or_list(&p->json, '}');

@@ -34,8 +34,8 @@ static status value_take(struct exodus_list *x, int column, int64_t entry, real 
 {
     const char *fault = particle_list_reason_value_is_invalid(column, value);
     if (fault)
-        return exodus_refuse_with_message(&x->file, "element %lld: %s: %g %s", (long long)entry + 1,
-                                          list_quantity[column].name, value, fault);
+        return exodus_set_message_and_return_refused(&x->file, "element %lld: %s: %g %s", (long long)entry + 1,
+                                                     list_quantity[column].name, value, fault);
     (*particle_list_address_of_column_array(x->l, column))[entry] = value;
     return OK;
 }
@@ -51,7 +51,7 @@ static status block_read(struct exodus_list *x, int64_t number)
     real *attribute = NULL;
     TRY(exodus_read_block_header(&x->file, number, type, &elements, &nodes));
     if (nodes != 1)
-        return exodus_refuse_with_message(
+        return exodus_set_message_and_return_refused(
             &x->file,
             "block %lld has elements of type %s with %lld nodes; a list of particles has the "
             "type SPHERE with one node. For a mesh use shape: {mesh: {file: ..}}",
@@ -59,7 +59,7 @@ static status block_read(struct exodus_list *x, int64_t number)
     const int64_t attributes = exodus_read_dimension_length(&x->file, "num_att_in_blk", number);
     const int64_t volume = volume_column(&x->file, number, attributes), first = l->n;
     if (first > 0 && (volume >= 0) != x->volumes)
-        return exodus_refuse_with_message(
+        return exodus_set_message_and_return_refused(
             &x->file, "block %lld has %svolumes, unlike the blocks before it; give volumes to all blocks or to none",
             (long long)number, volume >= 0 ? "" : "no ");
     x->volumes = volume >= 0;
@@ -70,9 +70,9 @@ static status block_read(struct exodus_list *x, int64_t number)
     if (volume >= 0) GROW("list.column", l->volume, first + elements);
     for (int64_t k = 0; k < elements && s == OK; k++, l->n++) {
         if (node[k] < 1 || node[k] > x->file.nodes)
-            s = exodus_refuse_with_message(&x->file,
-                                           "element %lld has node %lld; give its nodes numbers from 1 to %lld",
-                                           (long long)l->n + 1, (long long)node[k], (long long)x->file.nodes);
+            s = exodus_set_message_and_return_refused(
+                &x->file, "element %lld has node %lld; give its nodes numbers from 1 to %lld", (long long)l->n + 1,
+                (long long)node[k], (long long)x->file.nodes);
         for (int d = 0; d < l->dim && s == OK; d++)
             s = value_take(x, COLUMN_X + d, l->n,
                            x->axis[d][node[k] - 1] * particle_list_default_factor_to_si(l, COLUMN_X));
@@ -92,7 +92,7 @@ static status blocks_read(struct exodus_list *x)
 {
     bool has[COLUMNS] = {false};
     if (x->file.dim < x->l->dim)
-        return exodus_refuse_with_message(
+        return exodus_set_message_and_return_refused(
             &x->file, "has %d coordinates, but the space of the scene has %d; change the key space, or the file",
             x->file.dim, x->l->dim);
     TRY(exodus_read_coordinates(&x->file, x->axis));

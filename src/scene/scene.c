@@ -38,7 +38,7 @@ status scene_read_values_from_yaml_tree(struct reader *r, const struct yaml_node
     TRY(read_interfaces(r, root));
     resolve_default_time_step_safety_factor(r, root);
     detect_lattices_and_resolve_surface_correction(r, root);
-    scene_resolve_auto_shape_function_frames(s);
+    scene_resolve_auto_shape_function_configuration(s);
     TRY(check_particle_count_fits_indices(r, root));
     TRY(read_cracks(r, root));
     TRY(read_initial_states(r, root));
@@ -51,7 +51,7 @@ status scene_read_values_from_yaml_tree(struct reader *r, const struct yaml_node
     TRY(read_regions_of_output_frames(r, root));
     TRY(read_crack_growths(r, root));
     TRY(resolve_default_contact_bodies(r, root));
-    return check_keys_for_static_solver(r, root);
+    return check_keys_supported_by_static_solver(r, root);
 }
 
 status scene_text_parse_with_includes_and_overrides(struct reader *r, const char *text, size_t length,
@@ -65,7 +65,7 @@ status scene_text_parse_with_includes_and_overrides(struct reader *r, const char
     TRY(tree_merge_included_files(r, *root));
     TRY(tree_apply_all_overrides(r, *root));
     TRY(tree_rename_old_keys(r, *root)); /* values of overrides may be mappings */
-    return read_variables(r, *root);
+    return read_and_evaluate_variables(r, *root);
 }
 
 void scene_free(struct scene *s)

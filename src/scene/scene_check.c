@@ -389,14 +389,14 @@ static status check_model(struct reader *r, const struct yaml_node *root)
  * keys of load steps that are not used and softening that is not supported; for static solvers, also keys that they do
  * not support. Must be called after materials and probes are read. root: YAML tree of the input file, for the location
  * in the message. */
-status check_keys_for_static_solver(struct reader *r, const struct yaml_node *root)
+status check_keys_supported_by_static_solver(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
     const struct yaml_node *solver = yaml_node_find(root, "solver");
     TRY(check_no_load_step_keys_with_other_solver(r, root));
     TRY(check_softening_is_supported(r, root));
     if (!solver || scene_is_dynamic(s)) return OK;
-    if (scene_has_load_steps(s)) return check_keys_for_load_steps(r, root);
+    if (scene_has_load_steps(s)) return check_keys_supported_by_load_step_solver(r, root);
     for (int m = 0; m < s->materials; m++)
         if (material_yields(&s->material[m]))
             return fault_report_at_node(

@@ -62,7 +62,7 @@ static const char *current_frame_key(const struct scene *s)
     return NULL;
 }
 
-bool scene_has_yielding_body_on_mesh(const struct scene *s)
+bool scene_has_yielding_total_lagrangian_mpm_body(const struct scene *s)
 {
     bool any = false;
     for (int b = 0; b < s->bodies; b++) any |= s->body[b].frame == FRAME_REFERENCE && body_yields(s, b);
@@ -74,7 +74,7 @@ bool scene_has_yielding_body_on_mesh(const struct scene *s)
  * frame `auto`, marks the keys mpm.shape, mpm.transfer and interface_damping as given, so that scene_echo.c writes
  * them. While a body has the frame `auto` they must not be written: these keys have a meaning in the current frame
  * only, and a scene that gives them requires it. */
-void scene_resolve_auto_shape_function_frames(struct scene *s)
+void scene_resolve_auto_shape_function_configuration(struct scene *s)
 {
     bool open = false;
     s->current_frame_key = current_frame_key(s);
@@ -87,7 +87,8 @@ void scene_resolve_auto_shape_function_frames(struct scene *s)
         }
         open |= body->frame == FRAME_AUTO;
     }
-    if (s->levels == LEVELS_AUTO && scene_has_yielding_body_on_mesh(s)) s->levels = 0; /* cells have one time step */
+    if (s->levels == LEVELS_AUTO && scene_has_yielding_total_lagrangian_mpm_body(s))
+        s->levels = 0; /* cells have one time step */
     if (open) return;
     s->has_shape = s->has_transfer = s->has_interface_damping = true;
     if (s->frame == FRAME_AUTO) s->frame = s->body[0].frame;

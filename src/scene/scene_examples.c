@@ -31,11 +31,11 @@ static void write_example_number(const struct key *k, char *text, size_t capacit
         snprintf(text, capacity, "%s", k->type == KEY_INT ? "20" : unit_rows[k->unit].example);
 }
 
-void key_write_example_vector(const struct key *k, int dim, const char *first, char *text, size_t capacity)
+void key_write_example_vector(const struct key *k, int dim, const char *first_number, char *text, size_t capacity)
 {
     char number[48];
-    if (first)
-        snprintf(number, sizeof number, "%s", first);
+    if (first_number)
+        snprintf(number, sizeof number, "%s", first_number);
     else
         write_example_number(k, number, sizeof number);
     size_t used = (size_t)snprintf(text, capacity, "[%s", number);

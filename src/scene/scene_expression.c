@@ -201,7 +201,7 @@ static bool compile_coordinate(struct expression_compiler *c, char name)
 
 static bool compile_variable(struct expression_compiler *c, const char *name, const char *at)
 {
-    const struct quantity *q = variable_value(c->r, name, c->what, c->room);
+    const struct quantity *q = variable_get_value_by_name(c->r, name, c->what, c->room);
     if (!q) return false;
     return deeper(c, 2) && keep_value(c, at, q) && compile_append_step_that_pushes_operand(c, EXPRESSION_NUMBER, q);
 }
@@ -330,7 +330,8 @@ static bool compile_text(struct expression_compiler *c)
 
 /* Evaluates an expression without x, y, z and t, and stores its value and unit in *q. Returns false if it is invalid,
  * with the fault in message[capacity] as the rest of a sentence that begins with `text`. */
-bool quantity_evaluate_text(struct reader *r, const char *text, struct quantity *q, char *message, size_t capacity)
+bool quantity_evaluate_expression_text(struct reader *r, const char *text, struct quantity *q, char *message,
+                                       size_t capacity)
 {
     struct expression_compiler c = {.r = r, .text = text, .what = message, .room = capacity};
     if (!compile_text(&c)) return false;

@@ -159,8 +159,8 @@ struct pilot_requirements;
 /* Reads what an input file with `method: auto` requires of its pilot runs (short runs by which the method is chosen)
  * into *requirements, which the caller has set to zero. r, root: reader and tree of the input file; text[length]: its
  * text. Returns REFUSED, with a message, for an invalid file. */
-status pilot_run_requirements_read(struct reader *r, const struct yaml_node *root, const char *text, size_t length,
-                                   struct pilot_requirements *requirements);
+status auto_method_pilot_run_requirements_read(struct reader *r, const struct yaml_node *root, const char *text,
+                                               size_t length, struct pilot_requirements *requirements);
 
 /* ---- numbers and units (scene_numbers.c, scene_units.c) ---------------------------------------------------------- */
 
@@ -225,8 +225,8 @@ status read_expression(struct reader *r, const struct key *k, const struct yaml_
 /* Evaluates the expression `text`, which must not contain x, y, z or t, and stores its value and unit in *quantity. r:
  * reader of the input file. On failure returns false and writes the fault to message[capacity], as the rest of a
  * sentence that begins with `text`. */
-bool quantity_evaluate_text(struct reader *r, const char *text, struct quantity *quantity, char *message,
-                            size_t capacity);
+bool quantity_evaluate_expression_text(struct reader *r, const char *text, struct quantity *quantity, char *message,
+                                       size_t capacity);
 
 /* Returns true if messages about `text` should call it an expression, not a number: it contains operators or brackets,
  * or begins with a name. r: reader of the input file. */
@@ -239,11 +239,11 @@ bool text_is_formula_variable(const char *text);
 
 /* Evaluates the variables of the input file with the tree `root` and stores them in its reader r. Returns REFUSED, with
  * a message, for an invalid variable, and for one that an override sets but no value uses. */
-status read_variables(struct reader *r, const struct yaml_node *root);
+status read_and_evaluate_variables(struct reader *r, const struct yaml_node *root);
 
 /* Returns the value of the variable `name`. r: reader of the input file. Returns NULL, and writes the fault to
  * message[capacity], if there is none of this name or it cannot be evaluated. */
-const struct quantity *variable_value(struct reader *r, const char *name, char *message, size_t capacity);
+const struct quantity *variable_get_value_by_name(struct reader *r, const char *name, char *message, size_t capacity);
 
 /* Reads a number of an input file from `text` into *value [SI]. It may be a number with a unit, or an expression of
  * variables. kind_of_unit: expected kind of unit; allow_infinity: true if inf is allowed. r: reader of the input file.
@@ -343,9 +343,9 @@ const char *key_get_group_path_of_list_items(const struct key *k);
 void key_write_example(const struct key *k, int dim, const char *subkey_to_show, char *text, size_t capacity);
 
 /* Writes an example of a vector of dim numbers, a value of key k, for messages to text[capacity], such as [0.5 mm, 0].
- * The components after the first are 0, or equal to the first if k has a range. first: text of the first component;
- * NULL for an example of a number of key k. */
-void key_write_example_vector(const struct key *k, int dim, const char *first, char *text, size_t capacity);
+ * The components after the first are 0, or equal to the first if k has a range. first_number: text of the first
+ * component; NULL for an example of a number of key k. */
+void key_write_example_vector(const struct key *k, int dim, const char *first_number, char *text, size_t capacity);
 
 /* Returns the key whose last part is `name_in_group` directly below the key `group_path` ("" for the top of an input
  * file); NULL if there is none. */
@@ -428,7 +428,7 @@ const char *allowed_words_join_for_message(struct reader *r, const char *words);
 
 /* Returns REFUSED, with a message, if a key of the mapping `mapping` is unknown in the group `group_path` or occurs
  * twice; else OK. r: reader of the input file. */
-status check_keys_known(struct reader *r, const struct yaml_node *mapping, const char *group_path);
+status check_mapping_keys_known_and_unique(struct reader *r, const struct yaml_node *mapping, const char *group_path);
 
 /* Returns REFUSED if keys of the input file with the reader r and the tree `root` are not in the table of keys, with a
  * message of one line for each of the first ten of them; else OK. Does not check names that the user chooses, such as
@@ -460,7 +460,7 @@ status read_number(struct reader *r, const struct key *k, const struct yaml_node
 
 /* Reads a point or vector in the unit and range of key k from node n into point[r->dim] [SI]. r: reader of the input
  * file. Returns REFUSED, with a message, for an invalid value. */
-status read_point(struct reader *r, const struct key *k, const struct yaml_node *n, real *point);
+status read_point_or_vector(struct reader *r, const struct key *k, const struct yaml_node *n, real *point);
 
 /* Returns, as words for messages, the space whose dimensions points must have where the reader r is at present: that of
  * the input file, such as `space plane stress`, or `the plane of extrude` inside the section of an extruded solid. */

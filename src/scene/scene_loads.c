@@ -20,7 +20,7 @@ static status read_profile(struct reader *r, const struct yaml_node *n, struct p
         return fault_report_at_node(r, n,
                                     "%s is not a profile; give uniform or a mapping such as {sine: {wavelength: 1 m}}",
                                     node_value_to_text_for_message(r, n));
-    TRY(check_keys_known(r, n, "boundary.profile"));
+    TRY(check_mapping_keys_known_and_unique(r, n, "boundary.profile"));
     if (n->n != 1) return fault_report_at_node(r, n, "has %d keys; give one, such as {sine: {wavelength: 1 m}}", n->n);
     f->kind = PROFILE_SINE;
     TRY(read_keys_of_group(r, n->first, n->first, "boundary.profile.sine", f));
@@ -91,7 +91,8 @@ status read_vector_of_formulas(struct reader *r, const struct key *k, const stru
     int d = 0;
     if (vector_node->kind == NODE_SCALAR && r->dim == 1)
         return read_formula(r, k, vector_node, further_variables, value, formula);
-    if (vector_node->kind != NODE_LIST || vector_node->n != r->dim) return read_point(r, k, vector_node, value);
+    if (vector_node->kind != NODE_LIST || vector_node->n != r->dim)
+        return read_point_or_vector(r, k, vector_node, value);
     for (const struct yaml_node *c = vector_node->first; c; c = c->next, d++)
         TRY(read_formula(r, k, c, further_variables, &value[d], &formula[d]));
     return OK;
@@ -356,7 +357,7 @@ static status read_boundary(struct reader *r, const struct yaml_node *n, struct 
 {
     const struct yaml_node *kind;
     TRY(check_node_is_mapping(r, n, "boundary"));
-    TRY(check_keys_known(r, n, "boundary"));
+    TRY(check_mapping_keys_known_and_unique(r, n, "boundary"));
     TRY(kind_of_boundary(r, n, &kind));
     TRY(read_keys_of_group(r, n, n, "boundary", b));
     TRY(read_kind(r, n, kind, b));

@@ -68,7 +68,7 @@ static status read_mirror_image(struct reader *r, const struct yaml_node *n, str
 static status read_pattern(struct reader *r, const struct yaml_node *n, struct solid_motion *m)
 {
     TRY(check_node_kind(r, n, NODE_MAP, "give a pattern such as grid: {count: [..], step: [..]}"));
-    TRY(check_keys_known(r, n, "solid.pattern"));
+    TRY(check_mapping_keys_known_and_unique(r, n, "solid.pattern"));
     if (n->n != 1) return fault_report_at_node(r, n, "has %d keys; give one, grid or ring", n->n);
     const struct yaml_node *form = n->first;
     const bool ring = strcmp(form->key, "ring") == 0;
@@ -100,13 +100,13 @@ static status read_motion(struct reader *r, const struct yaml_node *n, const str
     }
 }
 
-status read_motions(struct reader *r, const struct yaml_node *solid_node, struct solid *solid)
+status read_solid_motions(struct reader *r, const struct yaml_node *solid_node, struct solid *solid)
 {
     for (const struct yaml_node *c = solid_node->first; c; c = c->next) {
         struct solid_motion m = {0};
         if (!node_is_motion_key_of_solid(c)) continue;
         TRY(read_motion(r, c, solid, &m));
-        if (!solid_transform_copies_unless_too_many(solid, &m, r->dim))
+        if (!solid_apply_motion_unless_too_many_copies(solid, &m, r->dim))
             return fault_report_at_node(r, c, "makes more than %d copies of the solid; use fewer", IMAGES_MOST);
     }
     return OK;

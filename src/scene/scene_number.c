@@ -33,7 +33,8 @@ static bool evaluate(struct reader *r, struct variable *v, char *message, size_t
     }
     v->state = OPEN;
     r->variables_open++;
-    if (!quantity_parse(&v->q, v->n->text)) fine = quantity_evaluate_text(r, v->n->text, &v->q, message, capacity);
+    if (!quantity_parse(&v->q, v->n->text))
+        fine = quantity_evaluate_expression_text(r, v->n->text, &v->q, message, capacity);
     r->variables_open--;
     v->state = KNOWN;
     if (!fine || value_is_in_unit_bounds(v->q.value, UNIT_NONE, message, capacity)) return fine;
@@ -53,7 +54,7 @@ static struct variable *variable_nearest(struct reader *r, const char *name)
     return nearest;
 }
 
-const struct quantity *variable_value(struct reader *r, const char *name, char *message, size_t capacity)
+const struct quantity *variable_get_value_by_name(struct reader *r, const char *name, char *message, size_t capacity)
 {
     char why[200];
     if (r->variables == 0) {
@@ -130,7 +131,7 @@ static status check_overrides(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-status read_variables(struct reader *r, const struct yaml_node *root)
+status read_and_evaluate_variables(struct reader *r, const struct yaml_node *root)
 {
     const struct key *k = key_find("", "variables");
     const struct yaml_node *map = yaml_node_find(root, k->path);
@@ -164,7 +165,7 @@ bool number_evaluate_text(struct reader *r, real *value, const char *text, enum 
     char other[256];
     struct quantity q;
     if (number_parse_with_unit(value, text, kind_of_unit, allow_infinity, message, capacity)) return true;
-    const bool known = quantity_evaluate_text(r, text, &q, other, sizeof other);
+    const bool known = quantity_evaluate_expression_text(r, text, &q, other, sizeof other);
     if (known && kind_of_unit == UNIT_ANGLE && q.bare) { /* a bare 30 could be degrees */
         snprintf(message, capacity, "has no unit; give %s, such as %s", unit_rows[kind_of_unit].name,
                  unit_rows[kind_of_unit].example);

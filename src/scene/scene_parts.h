@@ -37,7 +37,7 @@ bool node_is_motion_key_of_solid(const struct yaml_node *n);
 
 /* Reads the keys of the node `solid_node` that move, turn and repeat a solid, and stores these motions in *solid. r:
  * reader of the input file. Returns REFUSED, with a message, for invalid keys. */
-status read_motions(struct reader *r, const struct yaml_node *solid_node, struct solid *solid);
+status read_solid_motions(struct reader *r, const struct yaml_node *solid_node, struct solid *solid);
 
 /* Reads the materials of the input file with the tree `root` and the reader r into r->scene. Returns REFUSED, with a
  * message, if one is invalid. */
@@ -196,7 +196,7 @@ status check_loads_are_supported(struct reader *r, const struct yaml_node *root)
  * `reference`, and stores the reason in body.frame_reason. With `current` shape functions are evaluated at the present
  * positions of material points, with `reference` at their reference positions. Other bodies keep `auto` until the
  * particles exist. Bodies must have been read before. */
-void scene_resolve_auto_shape_function_frames(struct scene *s);
+void scene_resolve_auto_shape_function_configuration(struct scene *s);
 
 /* Finds out which particle lists form a lattice, and then sets the default of the correction of bonds near faces (key
  * pd.surface), which depends on it. Bodies must have been read before. r, root: reader and tree of the input file, to
@@ -206,11 +206,11 @@ void detect_lattices_and_resolve_surface_correction(struct reader *r, const stru
 /* Checks the keys of an input file that requests a static solver. Returns REFUSED, with a message, for keys that static
  * solvers do not support. Materials and probes must have been read before. r, root: reader and tree of the input file.
  */
-status check_keys_for_static_solver(struct reader *r, const struct yaml_node *root);
+status check_keys_supported_by_static_solver(struct reader *r, const struct yaml_node *root);
 
 /* Checks the keys of an input file that requests load steps (successive static equilibria). Returns REFUSED, with a
  * message, for keys that this solver does not support. r, root: reader and tree of the input file. */
-status check_keys_for_load_steps(struct reader *r, const struct yaml_node *root);
+status check_keys_supported_by_load_step_solver(struct reader *r, const struct yaml_node *root);
 
 /* Returns true if scene s (the input file) is solved in load steps (successive static equilibria) and has a material
  * whose bonds soften. */

@@ -108,12 +108,12 @@ static void place_of_name(const struct scene *s, const char *text, char *place)
     if (!*place && sscanf(text, "crack %d", &crack) == 1 && crack > 0) place_of_item(s, "cracks", crack - 1, place);
 }
 
-void scene_find_file_location_of_warning(const void *scene, const char *text, char *place)
+void scene_find_file_location_of_warning(const void *scene, const char *text, char *location)
 {
-    *place = 0;
-    place_of_name(scene, text, place);
-    if (!*place && text[strcspn(text, ": ")] == ':') place_of_key(scene, text, place);
-    char *end = strstr(place, ": "); /* the name of the key, which the message has */
+    *location = 0;
+    place_of_name(scene, text, location);
+    if (!*location && text[strcspn(text, ": ")] == ':') place_of_key(scene, text, location);
+    char *end = strstr(location, ": "); /* the name of the key, which the message has */
     if (end) *end = 0;
 }
 

@@ -20,10 +20,10 @@ static status kind_of_probe(struct reader *r, const struct yaml_node *n, enum pr
     *map = NULL;
     if (n->kind == NODE_SCALAR) {
         word.key = n->text, word.next = NULL;
-        TRY(check_keys_known(r, &list, "probes"));
+        TRY(check_mapping_keys_known_and_unique(r, &list, "probes"));
     } else {
         TRY(check_node_kind(r, n, NODE_MAP, "give a probe, such as tip (of the crack) or point: {at: [..]}"));
-        TRY(check_keys_known(r, n, "probes"));
+        TRY(check_mapping_keys_known_and_unique(r, n, "probes"));
         if (n->n != 1)
             return fault_report_at_node(r, n, "has %d keys; give one, the kind of the probe, such as point: {at: [..]}",
                                         n->n);

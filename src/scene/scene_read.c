@@ -40,7 +40,7 @@ static status scene_read_all(struct reader *r, const char *text, size_t length, 
     struct yaml_node *root;
     TRY(scene_text_parse_with_includes_and_overrides(r, text, length, &root));
     const struct yaml_node *method = auto_method(root);
-    if (method && wish) return pilot_run_requirements_read(r, root, text, length, wish);
+    if (method && wish) return auto_method_pilot_run_requirements_read(r, root, text, length, wish);
     if (method)
         return fault_report_at_node(
             r, method,

@@ -211,7 +211,7 @@ static status read_mesh_set(struct reader *r, const struct yaml_node *n, const s
                             const struct geometry *g, struct solid *s)
 {
     const struct yaml_node *within = yaml_node_find(n, "within");
-    const struct geometry_set *set = words->set[0] ? geometry_find_named_part(g, words->set) : NULL;
+    const struct geometry_set *set = words->set[0] ? geometry_find_set_by_name(g, words->set) : NULL;
     if (words->set[0] && !set) return refuse_set(r, yaml_node_find(n, "set"), words->set, g);
     if (set && set->fault)
         return fault_report_at_node(r, yaml_node_find(n, "set"), "%s of the file %s", set->name, set->fault);

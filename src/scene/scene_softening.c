@@ -37,8 +37,8 @@ static void set_stretches(const struct scene *s, struct material *m)
     }
 }
 
-real scene_softening_horizon_for_stretch_ratio(const struct scene *s, const struct material *m,
-                                               real squared_stretch_ratio)
+real scene_horizon_for_failure_to_onset_stretch_ratio(const struct scene *s, const struct material *m,
+                                                      real squared_stretch_ratio)
 {
     const struct softening_curve curve = softening_curve_of_law(m->softening);
     const struct softening_model model = scene_softening_model_of_bonds(s, m);
@@ -55,10 +55,10 @@ real scene_softening_horizon_for_stretch_ratio(const struct scene *s, const stru
 static status check_reachable(struct reader *r, const struct yaml_node *n, const struct material *m)
 {
     const struct scene *s = r->scene;
-    const real most = scene_softening_horizon_for_stretch_ratio(s, m, 1);
+    const real most = scene_horizon_for_failure_to_onset_stretch_ratio(s, m, 1);
     const bool spacing_counts = !isnan(m->energy_release_rate);
     if (spacing_counts && spacing_search_reduce_upper_bound_if_active(
-                              r, scene_softening_horizon_for_stretch_ratio(s, m, FREE_OF_TRAPPING) / s->horizon))
+                              r, scene_horizon_for_failure_to_onset_stretch_ratio(s, m, FREE_OF_TRAPPING) / s->horizon))
         return OK;
     if (m->onset_stretch < m->critical_stretch) return OK;
     if (isnan(m->energy_release_rate))
@@ -126,7 +126,7 @@ static status read_rate(struct reader *r, const struct yaml_node *n, struct mate
     const real strongest = m->tensile_strength * m->rate.factor[m->rate.points - 1];
     TRY(check_strength_below_tenth_of_modulus(r, table, m, strongest));
     const struct softening_model model = scene_softening_model_of_bonds(s, m);
-    const real least = strength_rate_set_onsets_return_stretch_ratio(m, s->space, &model);
+    const real least = strength_rate_compute_softening_onset_factors(m, s->space, &model);
     const real most = s->horizon * s->spacing * least / RATE_LEAST_RATIO;
     if (least >= RATE_LEAST_RATIO || spacing_search_reduce_upper_bound_if_active(r, most / s->horizon)) return OK;
     return fault_report_at_node(

@@ -91,7 +91,7 @@ static status read_corners(struct reader *r, const struct yaml_node *n, struct s
     s->polygon->n = list->n;
     s->polygon->corner = memory_new("solids.corner", list->n, sizeof *s->polygon->corner);
     for (const struct yaml_node *p = list->first; p; p = p->next)
-        TRY(read_point(r, &corner, p, s->polygon->corner[at++]));
+        TRY(read_point_or_vector(r, &corner, p, s->polygon->corner[at++]));
     switch (polygon_check_and_compute_rounded_corners(s->polygon, &at)) {
     case POLYGON_SHORT:
         return fault_report_at_node(r, list, "corner %d and the next one are at the same position; remove one of them",
@@ -303,7 +303,7 @@ static status read_solid(struct reader *r, const struct yaml_node *n, struct sol
     const struct solid_word *word = NULL;
     int solids = 0;
     TRY(check_node_kind(r, n, NODE_MAP, "give a solid such as box: {from: [..], to: [..]}"));
-    TRY(check_keys_known(r, n, "solid"));
+    TRY(check_mapping_keys_known_and_unique(r, n, "solid"));
     for (const struct yaml_node *c = n->first; c; c = c->next)
         if (!node_is_motion_key_of_solid(c)) child = c, solids++;
     if (solids != 1)
@@ -325,7 +325,7 @@ static status read_solid(struct reader *r, const struct yaml_node *n, struct sol
                                     "cannot be inside add, subtract or intersect; give a solid such as box there");
     else
         TRY(read_operation(r, n, child, s));
-    TRY(read_motions(r, n, s));
+    TRY(read_solid_motions(r, n, s));
     if (solid_query_cost_relative_to_ball(s) <= EFFORT_MOST) return OK;
     return fault_report_at_node(r, n, "makes more than %g solids with its copies; use fewer copies", EFFORT_MOST);
 }
@@ -411,7 +411,8 @@ static status read_polygon(struct reader *r, const struct yaml_node *n, struct c
     corner.range.given = false;
     TRY(check_node_is_list_of_valid_length(r, k, n));
     crack_make(c, n->n);
-    for (const struct yaml_node *p = n->first; p; p = p->next) TRY(read_point(r, &corner, p, c->corner[at++]));
+    for (const struct yaml_node *p = n->first; p; p = p->next)
+        TRY(read_point_or_vector(r, &corner, p, c->corner[at++]));
     return check_polygon(r, n, c);
 }
 
@@ -422,7 +423,7 @@ static status read_crack_place(struct reader *r, const struct yaml_node *n, stru
     static const char *const first[] = {"at", "from", "polygon"}, *const form[] = {"at", "from and to", "polygon"};
     const char *word = first[r->dim - 1];
     TRY(check_node_kind(r, n, NODE_MAP, "give a crack such as {from: [..], to: [..]}"));
-    TRY(check_keys_known(r, n, "cracks"));
+    TRY(check_mapping_keys_known_and_unique(r, n, "cracks"));
     for (const struct yaml_node *k = n->first; k; k = k->next)
         if (strcmp(k->key, word) != 0 && strcmp(k->key, "width") != 0 && (r->dim != 2 || strcmp(k->key, "to") != 0))
             return fault_report_at_node(r, k, "cannot be used in space %s; give the crack by %s",
@@ -432,9 +433,9 @@ static status read_crack_place(struct reader *r, const struct yaml_node *n, stru
     if (r->dim == 2 && !b) return fault_report_missing_key(r, n, key_find("cracks", "to"));
     if (r->dim == 3) return read_polygon(r, a, c);
     crack_make(c, r->dim);
-    TRY(read_point(r, key_find("cracks", word), a, c->corner[0]));
+    TRY(read_point_or_vector(r, key_find("cracks", word), a, c->corner[0]));
     if (r->dim == 1) return OK;
-    TRY(read_point(r, key_find("cracks", "to"), b, c->corner[1]));
+    TRY(read_point_or_vector(r, key_find("cracks", "to"), b, c->corner[1]));
     if (c->corner[0][0] != c->corner[1][0] || c->corner[0][1] != c->corner[1][1]) return OK;
     return fault_report_at_node(r, n, "has the length 0; give two different ends, from and to");
 }

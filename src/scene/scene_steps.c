@@ -110,7 +110,7 @@ static status check_steps_loaded(struct reader *r, const struct yaml_node *root)
         "force, or a rigid body with a velocity");
 }
 
-status check_keys_for_load_steps(struct reader *r, const struct yaml_node *root)
+status check_keys_supported_by_load_step_solver(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
     const struct yaml_node *steps = yaml_node_find(root, "steps");

@@ -216,7 +216,7 @@ status read_time_function(struct reader *r, const struct yaml_node *function_nod
     if (function_node->kind != NODE_MAP)
         return fault_report_at_node(r, function_node, "%s is not a function of time; give %s",
                                     node_value_to_text_for_message(r, function_node), forms);
-    TRY(check_keys_known(r, function_node, "boundary.time"));
+    TRY(check_mapping_keys_known_and_unique(r, function_node, "boundary.time"));
     if (yaml_node_find(function_node, "file") || yaml_node_find(function_node, "column")) {
         for (const struct yaml_node *other = function_node->first; other; other = other->next)
             if (word_index_in_list("file|column", other->key) < 0)

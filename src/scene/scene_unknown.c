@@ -68,7 +68,7 @@ static void describe_unknown_key(const struct yaml_node *n, const char *group, c
         snprintf(text, capacity, "unknown key; `cleave help%s%s` lists the known ones", *group ? " " : "", group);
 }
 
-status check_keys_known(struct reader *r, const struct yaml_node *mapping, const char *group_path)
+status check_mapping_keys_known_and_unique(struct reader *r, const struct yaml_node *mapping, const char *group_path)
 {
     char text[500];
     for (const struct yaml_node *n = mapping->first; n; n = n->next) {

@@ -209,7 +209,7 @@ const char *reader_get_expected_point_space_as_text(const struct reader *r)
     return r->dim == r->scene->dim ? shown_as[r->scene->space] : "the plane of extrude";
 }
 
-status read_point(struct reader *r, const struct key *k, const struct yaml_node *n, real *point)
+status read_point_or_vector(struct reader *r, const struct key *k, const struct yaml_node *n, real *point)
 {
     int d = 0;
     if (r->dim == 1 && n->kind == NODE_SCALAR) return read_number(r, k, n, point);
@@ -241,7 +241,7 @@ static status read_matrix(struct reader *r, const struct key *k, const struct ya
         return fault_report_at_node(r, n, "%s is not a matrix; give %d rows of %d numbers",
                                     node_value_to_text_for_message(r, n), dim, dim);
     for (const struct yaml_node *c = n->first; c; c = c->next) {
-        TRY(rows ? read_point(r, k, c, &matrix[entry]) : read_number(r, k, c, &matrix[entry]));
+        TRY(rows ? read_point_or_vector(r, k, c, &matrix[entry]) : read_number(r, k, c, &matrix[entry]));
         entry += rows ? dim : 1;
     }
     return OK;
@@ -339,7 +339,7 @@ status read_value_of_key(struct reader *r, const struct key *k, const struct yam
     case KEY_NAME:
         return k->words ? read_any_text(r, n, place, LONG_NAME_LENGTH) : read_name(r, n, place);
     case KEY_POINT:
-        return k->place ? read_point(r, k, n, place) : OK;
+        return k->place ? read_point_or_vector(r, k, n, place) : OK;
     case KEY_MATRIX:
         return read_matrix(r, k, n, place);
     case KEY_REGION:
@@ -369,7 +369,7 @@ status read_keys_of_group(struct reader *r, const struct yaml_node *location_nod
                           const char *group_path, void *group_values)
 {
     if (mapping) TRY(check_node_is_mapping(r, mapping, group_path));
-    if (mapping) TRY(check_keys_known(r, mapping, group_path));
+    if (mapping) TRY(check_mapping_keys_known_and_unique(r, mapping, group_path));
     for (int i = 0; i < keys_count; i++) {
         const struct key *k = &keys[i];
         if (!key_is_directly_below(k, group_path)) continue;

@@ -35,7 +35,7 @@ static status accuracy_read(struct reader *r, const struct yaml_node *root, stru
     w->within = WITHIN_USUAL, w->budget = BUDGET_USUAL, w->figure[0] = '\0';
     if (!n) return OK;
     if (n->kind != NODE_MAP) return read_number(r, key_find("accuracy", "within"), n, &w->within);
-    TRY(check_keys_known(r, n, "accuracy"));
+    TRY(check_mapping_keys_known_and_unique(r, n, "accuracy"));
     const struct yaml_node *of = yaml_node_find(n, "of"), *within = yaml_node_find(n, "within"),
                            *budget = yaml_node_find(n, "budget");
     if (of) TRY(figure_read(r, of, w->figure, sizeof w->figure));
@@ -128,8 +128,8 @@ static status provisional_scene(struct reader *r, const char *text, size_t lengt
 /* Reads into *requirements what a scene with `method: auto` requires of its pilot runs (runs that choose method and
  * spacing). root: YAML tree of the input file (scene); text[length]: its text. Returns REFUSED, with a message, for an
  * invalid scene, and for one with load steps. */
-status pilot_run_requirements_read(struct reader *r, const struct yaml_node *root, const char *text, size_t length,
-                                   struct pilot_requirements *requirements)
+status auto_method_pilot_run_requirements_read(struct reader *r, const struct yaml_node *root, const char *text,
+                                               size_t length, struct pilot_requirements *requirements)
 {
     const struct yaml_node *model = tree_find_node_by_path(root, "model"),
                            *solver = tree_find_node_by_path(root, "solver");

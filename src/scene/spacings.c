@@ -89,18 +89,18 @@ static bool spacing_fits(const struct lengths *l, const struct scene *s, real h,
     return true;
 }
 
-real spacing_that_fits_box_edges(const struct scene *s, real h, bool even_edge_counts)
+real spacing_that_fits_box_edges(const struct scene *s, real h, bool prefer_even_edge_counts)
 {
     struct lengths l;
     real least = INFINITY;
     lengths_collect(&l, s);
     for (int k = 0; k < l.n; k++) least = real_min(least, l.of[k]);
     if (!isfinite(least)) return h;
-    for (int strict = even_edge_counts; strict >= 0; strict--)
+    for (int strict = prefer_even_edge_counts; strict >= 0; strict--)
         for (real n = spacings_in(least, h); least / n > 0.75 * h; n++)
             if (spacing_fits(&l, s, least / n, strict)) return least / n;
     const real edge = box_extent(s, 0, 0), cells = spacings_in(edge, h);
-    return edge > 0 ? edge / (even_edge_counts ? 2 * ceil(cells / 2) : cells) : h;
+    return edge > 0 ? edge / (prefer_even_edge_counts ? 2 * ceil(cells / 2) : cells) : h;
 }
 
 /* ---- a coarse spacing ----------------------------------------------------------------------------------------------

@@ -73,7 +73,7 @@ static real capped(real decay) { return real_min(decay, EXPONENT_MOST); }
 
 real damping_velocity_increment_factor(real rate_times_dt) { return exp(-0.5 * capped(rate_times_dt)); }
 
-struct undamped_velocity_excess damping_undamped_velocity_excess(real rate_times_dt, bool first_step)
+struct undamped_velocity_excess damping_relative_excess_of_undamped_velocities(real rate_times_dt, bool first_step)
 {
     const real half = expm1(0.5 * capped(rate_times_dt));
     return (struct undamped_velocity_excess){first_step ? half : expm1(capped(rate_times_dt)), half};
@@ -108,8 +108,8 @@ static real slow_all(struct particles *p, const struct mesh *mesh, struct loads 
     return kinetic;
 }
 
-real damping_apply_first_half_return_energy_loss(struct particles *p, const struct mesh *mesh, struct loads *l,
-                                                 real rate_times_dt)
+real damping_apply_first_half_step_and_sum_loss(struct particles *p, const struct mesh *mesh, struct loads *l,
+                                                real rate_times_dt)
 {
     const real share = damping_velocity_increment_factor(rate_times_dt);
     return (1 - share) * slow_all(p, mesh, l, share);

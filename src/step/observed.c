@@ -72,7 +72,7 @@ static void say_torn(struct warnings *to, const struct loads *loads, const struc
     warnings_add_and_print(to, text);
 }
 
-void run_record_broken_bonds_of_step(struct run *run, int64_t broken_bond_count)
+void run_record_first_break_and_update_break_probes(struct run *run, int64_t broken_bond_count)
 {
     /* a load step breaks bonds before its end, but is recorded at its end */
     const bool in_steps = scene_has_load_steps(run->scene);

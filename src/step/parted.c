@@ -23,7 +23,7 @@ enum { PARTS_OF_DURATION = 50 }; /* number of comparisons per run: a delay of a 
 static const struct weak_shape_function weak_shapes[] = {{SHAPE_LINEAR, 1.02, 1.25, 0.01, "linear", "12 to 45"},
                                                          {SHAPE_GIMP, 1.4, 1.4, 0.08, "gimp", "6 to 10"}};
 
-const struct weak_shape_function *shape_function_properties_if_weak_in_tension(enum shape shape)
+const struct weak_shape_function *numerical_fracture_properties_of_shape_function(enum shape shape)
 {
     for (size_t k = 0; k < COUNT_OF(weak_shapes); k++)
         if (weak_shapes[k].shape == shape) return &weak_shapes[k];
@@ -196,7 +196,8 @@ static struct pair_counts pairs_count(const struct point_pairs *pairs, const str
  * current time [s]. */
 static void warn_of_parted(const struct scene *s, const struct pair_counts *c, int64_t n, real t, struct warnings *to)
 {
-    const struct weak_shape_function *w = c->parted > 0 ? NULL : shape_function_properties_if_weak_in_tension(s->shape);
+    const struct weak_shape_function *w =
+        c->parted > 0 ? NULL : numerical_fracture_properties_of_shape_function(s->shape);
     const struct position_text at = position_text(c->farthest.middle, s->dim, 4);
     char text[640], what[400];
     if (w)
@@ -232,7 +233,7 @@ bool material_points_warn_of_numerical_fracture(struct point_pairs *pairs, const
     for (int64_t i = 0; i < p->n; i++) most = real_max(most, p->plastic_strain[i]);
     if (!(most > FLOWED_LEAST)) return false;
     if (!pairs->made) pairs_make(pairs, cells, p, s);
-    const struct weak_shape_function *w = shape_function_properties_if_weak_in_tension(s->shape);
+    const struct weak_shape_function *w = numerical_fracture_properties_of_shape_function(s->shape);
     const struct pair_counts c = pairs_count(pairs, p, &grid->field[0].grid, s, w ? w->pulled : INFINITY);
     const bool weak = !pairs->pulled && w && (real)c.pulled > w->share * (real)pairs->n;
     if (c.parted == 0 && !weak) return false;

@@ -121,8 +121,8 @@ static bool region_frame_due(const struct run_clock *clock, real every, real dur
     return step >= (due < clock->steps ? common_step(clock, due) : clock->steps);
 }
 
-unsigned report_bitmask_of_frame_series_due(const struct output *out, const struct scene *s,
-                                            const struct run_clock *clock, int64_t step)
+unsigned report_frame_series_due_after_step_as_bitmask(const struct output *out, const struct scene *s,
+                                                       const struct run_clock *clock, int64_t step)
 {
     const bool at_rest = scene_is_single_equilibrium(s);
     unsigned due = 0;
@@ -245,7 +245,7 @@ status report_open_history_and_write_first_frame(struct run *run)
     if (s == OK && r->out && !resumed) {
         profiles_remove_files_of_earlier_run(&run->probing->probes, r->out);
         /* frame 0 of the body is always written */
-        s = write_frames(run, report_bitmask_of_frame_series_due(r->out, run->scene, &run->clock, 0) | 1);
+        s = write_frames(run, report_frame_series_due_after_step_as_bitmask(r->out, run->scene, &run->clock, 0) | 1);
         if (s == OK) s = write_checkpoint(run);
         r->checkpoints_spent = 0;
     }
@@ -357,7 +357,8 @@ status report_write_outputs_due_after_step(struct run *run)
     if (in_steps)
         say_overlap(&run->bonds, &run->part, &run->source.limit, run->scene->model, run->clock.t, &run->warnings);
     if (r->out) {
-        const unsigned due = report_bitmask_of_frame_series_due(r->out, run->scene, &run->clock, run->clock.step);
+        const unsigned due =
+            report_frame_series_due_after_step_as_bitmask(r->out, run->scene, &run->clock, run->clock.step);
         if (due) TRY(write_frames(run, due));
         const bool late = wall_is_over(run->scene, r), stop = late || (r->stop && *r->stop);
         if (stop || checkpoint_due(r, run->scene)) TRY(write_checkpoint(run));

@@ -304,7 +304,7 @@ static real kick_now(const struct run *run)
            run->loads.absorbing.kick;
 }
 
-void history_sample_begin_before_step(struct run *run)
+void history_sample_begin_before_step_if_due(struct run *run)
 {
     struct sampling *sampling = &run->report->sampling;
     sampling->due = report_history_sample_is_due(run->scene, &run->clock);
@@ -354,7 +354,7 @@ static bool start_separable(const struct scene *s, const struct particles *p, co
     return p->n_free == 0 || (s->transfer == TRANSFER_FLIP && !velocity_jumps(s) && grid->contact.touching == 0);
 }
 
-void history_sample_complete_after_step(struct run *run)
+void history_sample_complete_after_step_if_due(struct run *run)
 {
     struct sampling *sampling = &run->report->sampling;
     const bool first = run->clock.step == 0;

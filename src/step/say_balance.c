@@ -41,7 +41,8 @@ static void say_released(const struct scene *s, const struct diagnostics *diagno
     warnings_add_and_print(to, text);
 }
 
-bool fracture_energy_warn_if_negative(const struct scene *s, const struct diagnostics *diagnostics, struct warnings *to)
+bool fracture_energy_warn_if_negative(const struct scene *s, const struct diagnostics *diagnostics,
+                                      struct warnings *warning_list)
 {
     char text[480];
     const real released = diagnostics_bond_energy_release_beyond_stored(diagnostics);
@@ -53,7 +54,7 @@ bool fracture_energy_warn_if_negative(const struct scene *s, const struct diagno
         "have released more energy than they had stored, so bodies move too fast%s; see energy.fracture at the end",
         -released, diagnostics->now.time, 100 * released / diagnostics->energy_scale,
         states ? " (particles under pressure gain energy when they lose bonds); compare with model: bond" : "");
-    warnings_add_and_print(to, text);
+    warnings_add_and_print(warning_list, text);
     return true;
 }
 
@@ -130,7 +131,7 @@ static void say_damped(real share, struct warnings *to)
  * warning. diagnostics: time of the first break. */
 static bool shock_text(const struct scene *s, const struct diagnostics *diagnostics, char *text, size_t capacity)
 {
-    const struct shock shock = scene_most_severe_collision(s);
+    const struct shock shock = scene_find_collision_closest_to_damage(s);
     if (!(shock.share > 0) || isnan(diagnostics->break_time) || s->method == METHOD_MPM ||
         scene_silences_warning(s, ACCEPT_SHOCK))
         return false;

@@ -93,7 +93,7 @@ static const char *remedy_of(const struct scene *s)
     return "use material.viscosity: {}, which spreads the front";
 }
 
-struct shock scene_most_severe_collision(const struct scene *s)
+struct shock scene_find_collision_closest_to_damage(const struct scene *s)
 {
     struct shock shock = {0};
     bool viscous = true;

@@ -336,7 +336,7 @@ status run_check_stability_after_step(struct run *run)
     if (diverged) lagrangian_mesh_update_point_motion(run->frame, &run->part, &run->loads);
     TRY(run_check_particles_for_divergence(run, run->stability->diverged || run->part.n_grid_coupled > 0, diverged));
     TRY(inversion_check(&run->clock, &run->part, run->frame));
-    TRY(contact_check_largest_overlap(run));
+    TRY(contact_warn_or_fail_if_overlap_too_large(run));
     TRY(rigids_check_motion_per_step_is_small(run->rigid, run->scene, &run->clock));
     if (run->clock.step % RISE_STRIDE == 0)
         quantity_samples_add_value(&run->stability->speed, run->clock.step,

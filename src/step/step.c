@@ -44,7 +44,7 @@ static struct step step_begin(const struct run_clock *clock, real damping, struc
 static void conversion(struct run *run, struct step *now)
 {
     const bool marked = conversion_flag_points_near_contact(run);
-    run_record_broken_bonds_of_step(run, now->broken);
+    run_record_first_break_and_update_break_probes(run, now->broken);
     now->converted = run_convert_flagged_points_to_peridynamic(
         run, now->broken, marked, any_growing_crack_weakens_bonds_gradually(run->fracture));
     timer_add_elapsed_to_section(&run->timers, TIMER_CONVERT);
@@ -80,7 +80,7 @@ static void zone_damp(struct run *run, struct step *now)
     now->damps = run->coupling->zone.points > 0 && run->coupling->damping_share > 0;
     if (!now->damps) return;
     run->damped +=
-        interface_zone_damp_return_loss_by_old_velocity(&run->coupling->zone, &run->part, run->coupling->damping_share);
+        interface_zone_damp_and_return_first_half_loss(&run->coupling->zone, &run->part, run->coupling->damping_share);
     loads_update_mirror_images_of_particles(&run->loads,
                                             &run->part); /* breaking bonds read the velocities of mirror images */
 }
@@ -91,11 +91,11 @@ static void zone_damp(struct run *run, struct step *now)
 static void damping_begin(struct run *run, const struct step *now)
 {
     real *const *before = run->report->sampling.before;
-    run->loads.damped = damping_undamped_velocity_excess(now->decay, run->clock.step == 0);
+    run->loads.damped = damping_relative_excess_of_undamped_velocities(now->decay, run->clock.step == 0);
     if (!(now->decay > 0)) return;
     if (run->clock.step == 0) {
         run->damped +=
-            damping_apply_first_half_return_energy_loss(&run->part, &run->frame->mesh, &run->loads, now->decay);
+            damping_apply_first_half_step_and_sum_loss(&run->part, &run->frame->mesh, &run->loads, now->decay);
         for (int d = 0; d < run->part.dim && before[d]; d++)
             for (int64_t i = 0; i < run->part.n; i++) before[d][i] *= now->share;
     }
@@ -137,7 +137,8 @@ static void push_bonds(struct run *run, struct step *now)
 static void push_contact(struct contact *c, struct particles *p, const struct run_report *report, const struct scene *s,
                          const struct run_clock *clock)
 {
-    c->recorded = c->push[0] && report_bitmask_of_frame_series_due(report->out, s, clock, clock->step + 1) != 0;
+    c->recorded =
+        c->push[0] && report_frame_series_due_after_step_as_bitmask(report->out, s, clock, clock->step + 1) != 0;
     contact_compute_forces(c, p, clock->step > 0 ? clock->dt : 0);
     contact_record_first_and_last_contact_time(c, clock->t);
 }
@@ -160,16 +161,16 @@ static void move_peridynamic(struct run *run, struct pd_motion *motion)
 static status move_grid(struct run *run, const struct step *now)
 {
     const bool any = run->part.n_free + run->part.n_grid_coupled > 0;
-    viscosity_subtract_or_restore_pressure(run->viscosity, &run->part, true);
+    bulk_viscosity_change_or_restore_point_stress(run->viscosity, &run->part, true);
     grid_transfer_mass_momentum_forces_to_nodes(run->grid, &run->part, &run->kernels,
                                                 &run->timers); /* 1, 3: mass, momentum, force to nodes */
-    viscosity_subtract_or_restore_pressure(run->viscosity, &run->part, false);
+    bulk_viscosity_change_or_restore_point_stress(run->viscosity, &run->part, false);
     if (run->clock.step == 0) patch_test_store_largest_residual_force(run->probing, run->scene, &run->part, run->grid);
     TRY(grid_advance_material_points_one_step(run, now->middle)); /* 3, 4, 6, 7 */
     if (any && run->part.end_strain)
-        bonded_points_compute_strain_from_stress(&run->coupling->partial, &run->part, run->scene->material);
+        bonded_mpm_points_compute_strain_from_stress(&run->coupling->partial, &run->part, run->scene->material);
     if (any) timer_add_elapsed_to_section(&run->timers, TIMER_GATHER);
-    if (now->damps) run->damped += interface_zone_damping_loss_by_new_velocity(&run->coupling->zone, &run->part);
+    if (now->damps) run->damped += interface_zone_second_half_of_damping_loss(&run->coupling->zone, &run->part);
     return OK;
 }
 
@@ -179,7 +180,7 @@ static void move_frame(struct run *run, const struct step *now)
 {
     if (run->frame->mesh.points == 0) return;
     lagrangian_mesh_compute_nodal_forces(run->frame, &run->part, run->clock.step);
-    viscosity_add_nodal_forces(run);
+    bulk_viscosity_add_nodal_forces(run);
     if (run->clock.step == 0) patch_test_include_mesh_residual_force(run->probing, run->scene, &run->frame->mesh);
     lagrangian_mesh_move_nodes(run->frame, &run->part, &run->loads, &run->clock, now->middle, now->dt_velocity);
 }
@@ -207,17 +208,18 @@ static void finish(struct run *run, const struct step *now)
             : 0;
     run->damped += loss;
     run->report->sampling.energy.damped += loss;
-    history_sample_complete_after_step(run);
+    history_sample_complete_after_step_if_due(run);
     if (damps) damping_apply_full_step(&run->part, &run->frame->mesh, &run->loads, now->decay);
     run->clock.t = (real)(run->clock.step + 1) * run->clock.dt;
     run->clock.step++;
     timer_add_elapsed_to_section(&run->timers, TIMER_SAMPLE);
 }
 
-bool load_step_flag_points_near_rigid_bodies(struct run *run, real present_pseudo_time, real t)
+bool load_step_flag_points_near_contact_to_convert(struct run *run, real present_pseudo_time,
+                                                   real rigid_body_pseudo_time)
 {
     if (!run->coupling->approaches || run->rigid->n == 0) return false;
-    rigids_move_to_prescribed_positions(run->rigid, t);
+    rigids_move_to_prescribed_positions(run->rigid, rigid_body_pseudo_time);
     conversion_flag_points_near_contact(run);
     rigids_move_to_prescribed_positions(run->rigid, present_pseudo_time);
     return true;
@@ -247,19 +249,19 @@ bool load_step_convert_points_near_breaks_to_pd(struct run *run, int64_t broken_
  * Bonds break at the positions after step 4 of the previous time step, so that step 5 of the paper is made
  * one time step later. Returns FAILED, with a message, if positions of points are not finite or a grid needs
  * too many nodes. */
-status step(struct run *run)
+status run_advance_by_one_time_step(struct run *run)
 {
     struct step now = step_begin(&run->clock, run->scene->damping, &run->grid->transfer);
     if (run->coupling->approaches && run->clock.step == 0) conversion(run, &now); /* bodies that touch at the start */
     reversion_convert_relaxed_particles_to_mpm(run);
     motion_begin(run, &now);
-    history_sample_begin_before_step(run);
+    history_sample_begin_before_step_if_due(run);
     TRY(sort(run));
     zone_damp(run, &now);
     damping_begin(run, &now);
 
     push_bonds(run, &now); /* 2, 5 */
-    viscosity_add_bond_forces_and_pressure(run);
+    bulk_viscosity_add_bond_forces_and_pressure(run);
     push_contact(run->contact, &run->part, run->report, run->scene, &run->clock);
     rigids_update_drive_work_and_contact_impulse(run->rigid, now.dt_velocity, run->loads.impulse);
     loads_apply_forces_and_motion_constraints(&run->loads, &run->part, now.middle, run->clock.dt, now.dt_velocity);

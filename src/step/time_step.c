@@ -227,7 +227,7 @@ status run_choose_time_step_and_step_count(struct run *run)
     run->clock.dt_critical = real_min(real_min(critical_of_bonds(run), points),
                                       lagrangian_mesh_critical_time_step(run->frame, s, run->coupling_kind)) *
                              sqrt(lightest_share(s, &run->part)) *
-                             viscosity_time_step_factor(s, &run->loads, &run->part, run->stability->start_speed);
+                             bulk_viscosity_time_step_factor(s, &run->loads, &run->part, run->stability->start_speed);
     const real contact = contact_critical_time_step(run->contact, &run->part, s->material, run->clock.dt_critical);
     const int levels = mesh_levels_choose_level_count(run->frame, &run->part, s, run->clock.dt_critical).levels;
     const real safety = levels > 0 ? real_min(s->safety, LEVELS_STEP_MOST) : s->safety;

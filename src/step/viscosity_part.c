@@ -113,20 +113,21 @@ static void points_pressure(struct viscosity *v, const struct particles *p, cons
  * step (trapezoidal rule); 0 in the first step, which has no previous forces. */
 static real half_step(const struct run_clock *clock) { return clock->step > 0 ? 0.5 * clock->dt : 0; }
 
-void viscosity_add_bond_forces_and_pressure(struct run *run)
+void bulk_viscosity_add_bond_forces_and_pressure(struct run *run)
 {
     if (!viscosity_made(run->viscosity, run->scene, run->part.n, run->frame->mesh.grid.n)) return;
     bonds_push(run->viscosity, &run->bonds, &run->part, half_step(&run->clock));
     points_pressure(run->viscosity, &run->part, &run->coupling->partial, run->clock.dt);
 }
 
-void viscosity_subtract_or_restore_pressure(struct viscosity *v, const struct particles *p, bool subtract)
+void bulk_viscosity_change_or_restore_point_stress(struct viscosity *v, const struct particles *p,
+                                                   bool subtract_pressure)
 {
     for (int d = 0; d < p->dim && v->work; d++) {
 #pragma omp parallel for schedule(static)
         for (int64_t k = 0; k < p->n_free; k++) {
             const int32_t i = p->list_free[k];
-            if (subtract)
+            if (subtract_pressure)
                 v->stress[d][i] = p->stress[d][i], p->stress[d][i] -= v->pressure[i];
             else
                 p->stress[d][i] = v->stress[d][i];
@@ -239,7 +240,7 @@ static void nodes_book(struct viscosity *v, const struct grid *g, real half, rea
     memory_free(work);
 }
 
-void viscosity_add_nodal_forces(struct run *run)
+void bulk_viscosity_add_nodal_forces(struct run *run)
 {
     const struct mesh *mesh = &run->frame->mesh;
     const int dim = run->part.dim;
@@ -279,8 +280,8 @@ static real speed_of_load(const struct load *l, const struct particles *p, real 
     return b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_PRESSURE ? most * size / impedance : 0;
 }
 
-real viscosity_time_step_factor(const struct scene *s, const struct loads *l, const struct particles *p,
-                                real initial_speed)
+real bulk_viscosity_time_step_factor(const struct scene *s, const struct loads *l, const struct particles *p,
+                                     real initial_speed)
 {
     real impedance = INFINITY;
     for (int m = 0; m < s->materials; m++)

@@ -54,7 +54,8 @@ static double error_of_mean(double deviation, int freedom, int runs)
     return freedom > 0 ? student_t_quantile_975(freedom) * deviation / sqrt(runs) : 0;
 }
 
-void convergence_compute_mean_over_runs(struct spacing_level_statistics *l, const double *value, int run_count)
+void convergence_compute_mean_and_deviation_over_runs(struct spacing_level_statistics *l, const double *value,
+                                                      int run_count)
 {
     level_find(l, NULL, value, NULL, run_count, 0);
     l->error = error_of_mean(l->deviation, l->runs - 1, l->runs);
@@ -162,18 +163,19 @@ static void convergence_judge(struct convergence *c)
 }
 
 bool convergence_evaluate_scalar_result(struct convergence *c, const double *spacing, const double *value,
-                                        const int *level, int run_count, int level_count, const double *resolution)
+                                        const int *spacing_level_of_run, int run_count, int level_count,
+                                        const double *half_quantisation_step)
 {
     INVARIANT(level_count >= LEVELS_LEAST && level_count <= LEVELS_MOST);
     *c = (struct convergence){.levels = level_count};
     for (int k = 0; k < level_count; k++) {
-        level_find(&c->level[k], spacing, value, level, run_count, k);
+        level_find(&c->level[k], spacing, value, spacing_level_of_run, run_count, k);
         if (c->level[k].runs > 0) continue;
         if (k < LEVELS_LEAST) return false;
         c->levels = k; /* levels coarser than a gap are ignored */
         break;
     }
-    errors_find(c, resolution);
+    errors_find(c, half_quantisation_step);
     convergence_judge(c);
     convergence_fit_order_and_uncertainty_intervals(c);
     return true;

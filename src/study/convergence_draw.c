@@ -13,7 +13,7 @@
  * number of intervals of an axis of spacings. */
 enum { SHOWN_MOST = 6, SHOWN_WIDE = 3, TICS_MOST = 7 };
 
-status scalar_results_check_replaceable(const char *folder)
+status convergence_study_check_output_files_replaceable(const char *folder)
 {
     static const char *const begin[] = {"figure,unit,"};
     if (study_folder_check_is_usable(folder) != OK) return OK; /* study_lock_folder reports the fault */

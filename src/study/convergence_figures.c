@@ -164,7 +164,7 @@ static void figures_units(const struct convergence_study *s, struct scalar_resul
     char header[HEADER_ROOM];
     study_read_history_header(header, sizeof header, &s->study);
     for (int f = 0; f < figures; f++)
-        study_write_unit_of_result(figure[f].unit, sizeof figure[f].unit, header, figure[f].name);
+        study_determine_unit_of_result(figure[f].unit, sizeof figure[f].unit, header, figure[f].name);
 }
 
 status scalar_results_determine_convergence(const struct convergence_study *s, const char *const *wanted_names,

@@ -142,12 +142,13 @@ static double normal_half_width(double share)
     return high;
 }
 
-double convergence_confidence_interval_half_width(const struct convergence *c, double centre, double probability)
+double convergence_confidence_interval_half_width(const struct convergence *c, double interval_centre,
+                                                  double probability)
 {
     struct mixture m;
     const double scale = range_scale(c), rest = c->bias > 0 ? c->bias * normal_half_width(probability) : 0;
     if (!mixture_make(&m, c, scale)) return rest;
-    return hypot(scale * mixture_half_width(&m, (centre - c->level[0].mean) / scale, probability), rest);
+    return hypot(scale * mixture_half_width(&m, (interval_centre - c->level[0].mean) / scale, probability), rest);
 }
 
 void convergence_fit_order_and_uncertainty_intervals(struct convergence *c)

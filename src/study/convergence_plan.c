@@ -100,14 +100,14 @@ static double spacing_near(const struct places *p, double wanted, double reach, 
 }
 
 void spacings_choose_for_convergence_study(struct spacings *spacings, const struct scene *s, int level_count,
-                                           double finest)
+                                           double finest_spacing)
 {
     struct places p = {0};
     places_find(&p, s);
     *spacings = (struct spacings){.levels = level_count};
     for (int k = 0; k < level_count; k++) {
         double *at = spacings->at[k];
-        const double wanted = finest * pow(2, 0.5 * k);
+        const double wanted = finest_spacing * pow(2, 0.5 * k);
         at[0] = fabs(wanted / s->spacing - 1) < 1e-9 ? s->spacing : spacing_near(&p, wanted, NEAR_WANTED, NULL, 0);
         if (misfit(&p, at[0]) > MEETS) at[0] = spacing_near(&p, wanted, FAR_WANTED, NULL, 0);
         if (at[0] == 0) at[0] = wanted;

@@ -315,7 +315,7 @@ static status study_go(struct convergence_study *s, const struct convergence_req
 {
     struct study_options options = request->options;
     const int cores = machine_physical_core_count();
-    TRY(study_make(&s->study, request->scene, request->folder, "converge"));
+    TRY(study_initialise(&s->study, request->scene, request->folder, "converge"));
     s->study.options = request->words;
     spacings_choose_for_convergence_study(&s->spacings, &s->scene, request->levels, s->scene.spacing);
     if (horizon_at(s, s->spacings.at[0][0]) > HORIZON_MOST)

@@ -35,7 +35,7 @@ static void chosen_put(struct pilot_choice *to, int *n, const char *key, const c
 
 /* Sets to->override to the overrides of the user, followed by those that select the method c, a candidate of `method:
  * auto`: method, model, solver, and the particle spacing `spacing` [m]. p: input file (scene) and overrides of the
- * user. Free with pilot_free. */
+ * user. Free with pilot_choice_free. */
 static void candidate_write(struct pilot_choice *to, const struct pilot_search *p, const struct pilot_candidate *c,
                             double spacing)
 {
@@ -79,7 +79,7 @@ static status candidate_study(struct pilot_search *p, struct pilot_candidate *c,
     }
     c->failed[0] = '\0';
     if (done != OK) snprintf(c->failed, sizeof c->failed, "%.*s", (int)sizeof c->failed - 1, status_message());
-    pilot_free(&own);
+    pilot_choice_free(&own);
     return done;
 }
 
@@ -233,7 +233,7 @@ static status pilot_search_all(struct pilot_choice *to, struct pilot_search *p)
 {
     TRY(folder_create_with_parents(p->folder));
     TRY(study_folder_mark_as_study(p->folder));
-    TRY(scalar_results_check_replaceable(p->folder));
+    TRY(convergence_study_check_output_files_replaceable(p->folder));
     if (!p->options.quiet)
         fprintf(stderr,
                 "pilot          pilot runs at coarse spacings choose the method and the spacing for an error of %s "
@@ -279,6 +279,6 @@ status scene_read_and_choose_method_by_pilot_runs(struct scene *s, struct pilot_
     status done = pilot_choose(to, &p, folder);
     scene_free(&p.wish.provisional);
     if (done == OK) done = scene_read(s, scene, to->override, to->overrides);
-    if (done != OK) pilot_free(to);
+    if (done != OK) pilot_choice_free(to);
     return done;
 }

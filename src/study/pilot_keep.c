@@ -25,7 +25,7 @@ void pilot_runs_combine_user_and_chosen_overrides(struct pilot_choice *choice,
         choice->override[user_override_count + k] = (struct scene_override){choice->key[k], choice->value[k]};
 }
 
-void pilot_free(struct pilot_choice *to)
+void pilot_choice_free(struct pilot_choice *to)
 {
     memory_free(to->override);
     *to = (struct pilot_choice){0};

@@ -36,7 +36,7 @@ static status place_read(char *to, size_t capacity, const char *path, const char
     return OK;
 }
 
-status study_make(struct study *s, const char *scene, const char *folder, const char *study_kind)
+status study_initialise(struct study *s, const char *scene, const char *folder, const char *study_kind)
 {
     *s = (struct study){.scene = scene, .lock.fd = -1};
     if (folder && !*folder) return status_set(REFUSED, "-o is empty: give the name of a folder");
@@ -70,8 +70,8 @@ static status scene_unread(char **text, const char *path, const struct scene_ove
     return OK;
 }
 
-status study_make_with_keys(struct study *s, const char *scene, const char *folder, const char *study_kind,
-                            const struct varied_key *key, int keys)
+status study_initialise_with_varied_keys(struct study *s, const char *scene, const char *folder, const char *study_kind,
+                                         const struct varied_key *key, int keys)
 {
     struct scene_override *first = NEW("study.first", keys, struct scene_override);
     struct scene_override *fixed = NEW("study.fixed", keys, struct scene_override);
@@ -95,7 +95,7 @@ status study_make_with_keys(struct study *s, const char *scene, const char *fold
         study_compose_default_folder(place, sizeof place, &is, study_kind);
         scene_free(&is);
     }
-    if (done == OK) done = study_make(s, scene, folder ? folder : place, study_kind);
+    if (done == OK) done = study_initialise(s, scene, folder ? folder : place, study_kind);
     s->text = text;
     memory_free(fixed);
     memory_free(first);

@@ -120,7 +120,7 @@ static void plot_mean_of_seeds(FILE *to, const struct study_picture *p, int pane
 {
     const double factor = p->unit_of_figure[panel].factor;
     struct spacing_level_statistics all;
-    convergence_compute_mean_over_runs(&all, p->table->value[p->figure[panel]], p->table->cases);
+    convergence_compute_mean_and_deviation_over_runs(&all, p->table->value[p->figure[panel]], p->table->cases);
     for (int k = -1; k <= 1 && all.runs > 1; k++)
         fprintf(to, ", %.10g with lines lw 1.2 dt %d lc rgb '#333333' notitle", (all.mean + k * all.deviation) / factor,
                 k == 0 ? 1 : 2);

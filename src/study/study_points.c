@@ -51,7 +51,7 @@ static struct unit figure_unit(const struct study_picture *p, int figure)
     double largest = 0;
     for (int c = 0; c < p->table->cases; c++)
         if (isfinite(value[c])) largest = fmax(largest, fabs(value[c]));
-    study_write_unit_of_result(unit, sizeof unit, p->header, p->table->figure[figure]);
+    study_determine_unit_of_result(unit, sizeof unit, p->header, p->table->figure[figure]);
     return unit_with_si_prefix_if_unit_allows_it(unit, largest);
 }
 

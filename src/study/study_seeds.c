@@ -14,16 +14,16 @@ static void mean_print(FILE *to, const char *header, const char *name, const dou
 {
     char text[UNIT_ROOM];
     struct spacing_level_statistics all;
-    convergence_compute_mean_over_runs(&all, value, cases);
+    convergence_compute_mean_and_deviation_over_runs(&all, value, cases);
     if (all.runs < 2) return;
-    study_write_unit_of_result(text, sizeof text, header, name);
+    study_determine_unit_of_result(text, sizeof text, header, name);
     const struct unit unit = unit_with_si_prefix_if_unit_allows_it(text, fabs(all.mean));
     fprintf(to, "%s: mean %.4g +- %.2g%s%s (95 %% interval), standard deviation %.2g%s%s, %d runs\n", name,
             all.mean / unit.factor, all.error / unit.factor, *unit.name ? " " : "", unit.name,
             all.deviation / unit.factor, *unit.name ? " " : "", unit.name, all.runs);
 }
 
-status study_print_means_over_seeds(FILE *to, const struct study_table *t, const struct study *s,
+status study_print_means_over_seeds(FILE *out, const struct study_table *t, const struct study *s,
                                     const struct varied_key *key, int keys, const char *const *result, int results)
 {
     char header[HEADER_ROOM];
@@ -35,7 +35,7 @@ status study_print_means_over_seeds(FILE *to, const struct study_table *t, const
     for (int k = 0; k < p.panels; k++) {
         const char *name = t->figure[p.figure[k]];
         if (results > 0 || !result_describes_computation_instead_of_body(name))
-            mean_print(to, header, name, t->value[p.figure[k]], t->cases);
+            mean_print(out, header, name, t->value[p.figure[k]], t->cases);
     }
     return OK;
 }

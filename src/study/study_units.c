@@ -60,7 +60,7 @@ void study_read_history_header(char *header, size_t capacity, const struct study
         history_read_header(header, capacity, study_case_folder(s, &s->at[k]).text);
 }
 
-void study_write_unit_of_result(char *unit, size_t capacity, const char *header, const char *result_name)
+void study_determine_unit_of_result(char *unit, size_t capacity, const char *header, const char *result_name)
 {
     const char *dot = strrchr(result_name, '.'), *own = dot ? dot + 1 : result_name;
     const bool probe = !strncmp(result_name, "probes.", 7), energy = !strncmp(result_name, "energy.", 7);

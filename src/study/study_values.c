@@ -162,7 +162,7 @@ static void key_unify(char *key)
     *to = '\0';
 }
 
-status varied_key_parse_values(struct varied_key *k, const char *text)
+status varied_key_parse_name_and_values(struct varied_key *k, const char *text)
 {
     const char *equals = strchr(text, '=');
     *k = (struct varied_key){0};

@@ -53,7 +53,7 @@ static void block_make_with(struct block *b, enum space space, bool hole, bool c
         p->flag[i] |= FLAG_MESHED;
     }
     assert_ok(mesh_make(&b->mesh, p, &like, &b->source));
-    assert_true(b->mesh.runs > 0 && b->mesh.partial_cells > 0);
+    assert_true(b->mesh.runs > 0 && b->mesh.own_stiffness_cells > 0);
 }
 
 /* Creates the block b of material points as block_make_with does, without further arrays. space, hole, cubic: as there.

@@ -400,7 +400,7 @@ static void test_account(void **state)
     static const int gaps[] = {4, 6};
     const real K = 7.3;
     for (int k = 0; k < 2; k++) {
-        struct contact_leapfrog_error_account b = contact_leapfrog_error_account_for_new_list(NULL, gap[k][0]);
+        struct contact_leapfrog_error_account b = contact_leapfrog_error_carry_over_to_new_list(NULL, gap[k][0]);
         real work = 0;
         for (int n = 1; n < gaps[k]; n++) {
             if (gap[k][n] < 0) work += 0.5 * K * gap[k][n] * 0.5 * (gap[k][n + 1] - gap[k][n - 1]);
@@ -441,8 +441,8 @@ static void test_sizes(void **state)
         contact_list_set_spacings_and_surface_heights(&c, &p);
         assert_close(c.size[0], h, 1e-14);
         assert_close(c.size[1], dim == 1 ? 0.3 * h : dim == 2 ? sqrt(0.3) * h : cbrt(0.3) * h, 1e-12);
-        assert_near(contact_notch_width_between_particles(&c, &p, 0, 1), dim == 2 ? 0.31 * h : 0, 0);
-        assert_near(contact_notch_width_between_particles(&c, &p, 0, 2), 0, 0);
+        assert_near(contact_width_of_widest_notch_between_particles(&c, &p, 0, 1), dim == 2 ? 0.31 * h : 0, 0);
+        assert_near(contact_width_of_widest_notch_between_particles(&c, &p, 0, 2), 0, 0);
         memory_free(c.particle), memory_free(c.size), memory_free(c.rise), memory_free(c.root);
         particles_free(&p);
     }

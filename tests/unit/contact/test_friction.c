@@ -268,7 +268,8 @@ static void weights_of_sizes(void **state)
             const real own = p->body[i] == 1 ? 1.3e-3 : 1e-3, felt = p->body[j] == 1 ? 1.3e-3 : 1e-3;
             const real mean = 0.5 * (own + felt), r = hypot(p->x[0][i] - p->x[0][j], p->x[1][i] - p->x[1][j]);
             const real z = r / (2 * mean), W = z < 1 ? square(square(1 - z)) * (1 + 4 * z) : 0;
-            assert_near(contact_face_density_contribution(c, p, row, l, 0).weight, felt / mean * W, 1e-9);
+            assert_near(contact_face_kernel_density_contribution_of_pair(c, p, row, l, 0).weight, felt / mean * W,
+                        1e-9);
             tried += own != felt && W > 0;
         }
     assert_true(tried > 10);

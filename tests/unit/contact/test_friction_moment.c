@@ -264,7 +264,8 @@ static real couple_of(int felt, real aside, int along, real *balance)
     contact_face_advance_friction_spring(&c, &p, 0, 1e-7);
     vector_product(reaction.arm, spring.drag, moment);
     for (int j = 0; j < felt; j++) {
-        const struct contact_density_contribution w = contact_face_density_contribution(&c, &p, 0, j + 1, 0);
+        const struct contact_density_contribution w =
+            contact_face_kernel_density_contribution_of_pair(&c, &p, 0, j + 1, 0);
         real r[3], turning[3];
         for (int d = 0; d < 3; d++) r[d] = reaction.arm[d] - w.apart[d];
         vector_product(reaction.turn, r, force);

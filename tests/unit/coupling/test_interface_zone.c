@@ -63,8 +63,8 @@ static void test_kept(void **state)
         for (int step = 0; step < 20; step++) {
             real energy[SUMS];
             sums_of(&c.p, energy, scale);
-            const real lost = interface_zone_damp_return_loss_by_old_velocity(&r, &c.p, 1.0 / 16) +
-                              interface_zone_damping_loss_by_new_velocity(&r, &c.p);
+            const real lost = interface_zone_damp_and_return_first_half_loss(&r, &c.p, 1.0 / 16) +
+                              interface_zone_second_half_of_damping_loss(&r, &c.p);
             sums_of(&c.p, after, scale);
             assert_true(after[6] < energy[6]);
             assert_near(lost, 0.5 * (energy[6] - after[6]), 1e-13 * energy[6]);
@@ -92,7 +92,7 @@ static void test_rigid(void **state)
         }
         struct particles was;
         cloud_copy(&was, &c.p, 0);
-        for (int step = 0; step < 10; step++) interface_zone_damp_return_loss_by_old_velocity(&r, &c.p, 1.0 / 16);
+        for (int step = 0; step < 10; step++) interface_zone_damp_and_return_first_half_loss(&r, &c.p, 1.0 / 16);
         for (int d = 0; d < dim; d++) assert_true(cloud_difference(c.p.v[d], was.v[d], c.p.n) < 1e-13);
         particles_free(&was);
         half_free(&c, &r);
@@ -115,7 +115,7 @@ static void test_waves(void **state)
         const real q = wave_number[k], phase = q < pi ? -q * middle + 0.5 * pi : 0.5 * pi - pi * middle;
         assert_int_equal(r.points, 4);
         for (int64_t i = 0; i < c.p.n; i++) c.p.v[0][i] = sin(q * (real)i + phase);
-        interface_zone_damp_return_loss_by_old_velocity(&r, &c.p, 1.0 / 16);
+        interface_zone_damp_and_return_first_half_loss(&r, &c.p, 1.0 / 16);
         assert_near(c.p.v[0][middle], 1 - square(2 - 2 * cos(q)) / 16, 1e-12);
         assert_exact(c.p.v[0][30], sin(q * 30 + phase));
         half_free(&c, &r);
@@ -141,7 +141,7 @@ static void test_parted(void **state)
             c.p.v[0][i] = above ? 0.4 : -0.3, c.p.v[1][i] = above ? 0.7 : -1.3;
         }
         interface_zone_find_points_and_neighbours(&r, &c.p, &c.source);
-        interface_zone_damp_return_loss_by_old_velocity(&r, &c.p, 1.0 / 16);
+        interface_zone_damp_and_return_first_half_loss(&r, &c.p, 1.0 / 16);
         for (int64_t i = 0; i < c.p.n; i++)
             change = real_max(change, fabs(c.p.v[1][i] - (c.p.X[1][i] > 6 * CLOUD_SPACING ? 0.7 : -1.3)));
         assert_true(parted ? change < 1e-15 : change > 0.1);

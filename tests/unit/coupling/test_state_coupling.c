@@ -63,7 +63,7 @@ static void forces(struct both *b, enum pd_model model)
 {
     struct particle_cloud *c = &b->s.c;
     partial_stress_compute_from_bonds(&b->s.partial, &c->p, &c->bonds, &c->source, NULL, 0);
-    bonded_points_compute_strain_from_stress(&b->s.partial, &c->p, c->material);
+    bonded_mpm_points_compute_strain_from_stress(&b->s.partial, &c->p, c->material);
     state_force_table[c->p.dim][model](&c->bonds, &c->p, &c->source.limit, NULL);
 }
 
@@ -329,7 +329,7 @@ static void test_positive(void **state)
         for (int a = 0; a < n; a++)
             for (int c = 0; c <= a; c++) T[a * n + c] = T[c * n + a] = V * m->c11 * cloud_between(&seed, -1, 1.5);
         for (int a = 0; a < n * n; a++) rest[a] = T[a];
-        cell_stiffness_reduction_limit_bond_based(T, &b.s.c.p, &b.s.c.source, 0);
+        cell_limit_bond_based_stiffness_reduction(T, &b.s.c.p, &b.s.c.source, 0);
         before = 0;
         for (int a = 0; a < n; a++)
             for (int c = 0; c < n; c++) { /* components of shear count twice: a factor sqrt(2) each */

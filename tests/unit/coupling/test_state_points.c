@@ -178,7 +178,7 @@ static void check_points(const char *text)
     for (int64_t i = 0; i < e.part.n; i++)
         for (int c = 0; c < symmetric_tensor_component_count(e.part.dim); c++)
             e.part.stress[c][i] = cloud_between(&seed, -1e9, 1e9);
-    bonded_points_update_strain_from_mesh_or_stress(&e.coupling->partial, e.frame, &e.part, e.scene->material);
+    bonded_mpm_points_update_cell_strain(&e.coupling->partial, e.frame, &e.part, e.scene->material);
     families_compute_pressure_rotation_and_stiffness(&e.bonds, &e.part, &e.source);
     for (int64_t row = 0; row < e.bonds.rows; row++) {
         const int64_t i = e.bonds.particle[row];

@@ -165,9 +165,9 @@ static void test_every_kind_moved(void **state)
         struct solid_motion turn = {.kind = MOTION_ROTATE, .about = {0.3, 0.1}, .axis = {1, -2, 0.5}, .angle = 0.7};
         struct solid_motion mirror = {.kind = MOTION_MIRROR, .about = {0.2}, .axis = {1, 0.5, 0}};
         struct solid_motion move = {.kind = MOTION_MOVE, .step = {0.3, -0.2, 0.1}};
-        assert_true(solid_transform_copies_unless_too_many(&s, &turn, dim) &&
-                    solid_transform_copies_unless_too_many(&s, &mirror, dim) &&
-                    solid_transform_copies_unless_too_many(&s, &move, dim));
+        assert_true(solid_apply_motion_unless_too_many_copies(&s, &turn, dim) &&
+                    solid_apply_motion_unless_too_many_copies(&s, &mirror, dim) &&
+                    solid_apply_motion_unless_too_many_copies(&s, &move, dim));
         assert_int_equal(s.images, 1);
         check_volume(&s, dim, examples[k].volume);
         check_bounds(&s, dim);
@@ -187,7 +187,7 @@ static void test_quarter_turns(void **state)
         struct solid s = {.kind = SOLID_BOX, .from = {1, 2}, .to = {4, 3}};
         struct solid_motion turn = {.kind = MOTION_ROTATE, .angle = k * 90 * pi / 180};
         real from[DIM_MAX], to[DIM_MAX];
-        assert_true(solid_transform_copies_unless_too_many(&s, &turn, 2));
+        assert_true(solid_apply_motion_unless_too_many_copies(&s, &turn, 2));
         assert_true(region_compute_bounding_box_if_finite(&(struct region){.n = 1, .solid = &s}, 2, from, to));
         assert_true(from[0] == corners[k][0] && from[1] == corners[k][1]);
         assert_true(to[0] == corners[k][2] && to[1] == corners[k][3]);
@@ -207,7 +207,7 @@ static void test_gear(void **state)
     int corner;
     uint64_t seed = 3;
     assert_int_equal(polygon_check_and_compute_rounded_corners(&flank, &corner), POLYGON_FINE);
-    assert_true(solid_transform_copies_unless_too_many(&s[1], &ring, 2));
+    assert_true(solid_apply_motion_unless_too_many_copies(&s[1], &ring, 2));
     assert_int_equal(s[1].images, 18);
     for (int k = 0; k < 5000; k++) {
         const real r = 8 + 5 * random_next(&seed), angle = 2 * pi * random_next(&seed), turned = angle + 7 * pi / 9;
@@ -241,8 +241,8 @@ static void test_grid_and_mirror(void **state)
         list[1 + k].centre[0] += 2 * (k % 3), list[1 + k].centre[1] += 2 * (k / 3);
     }
     struct solid holes = hole, two = hole;
-    assert_true(solid_transform_copies_unless_too_many(&holes, &grid, 2) &&
-                solid_transform_copies_unless_too_many(&two, &mirror, 2));
+    assert_true(solid_apply_motion_unless_too_many_copies(&holes, &grid, 2) &&
+                solid_apply_motion_unless_too_many_copies(&two, &mirror, 2));
     struct solid perforated[] = {plate, holes}, pair[] = {plate, two}, said[] = {plate, hole, list[3]};
     for (int k = 0; k < 4000; k++) {
         const real X[] = {7 * random_next(&seed) - 0.5, 5 * random_next(&seed) - 0.5, 0};
@@ -256,7 +256,7 @@ static void test_grid_and_mirror(void **state)
     box_tree_free(&holes.tree), box_tree_free(&two.tree);
     struct solid many = hole;
     grid.count[0] = 3000;
-    assert_false(solid_transform_copies_unless_too_many(&many, &grid, 2));
+    assert_false(solid_apply_motion_unless_too_many_copies(&many, &grid, 2));
 }
 
 /* ---- index ------------------------------------------------------------------------------------------------------- */
@@ -310,8 +310,8 @@ static void test_index_of_list(void **state)
             list[k] = e->s;
             list[k].subtract = k / 30 % 2;
             if (k == 70) continue;
-            assert_true((k % 3 == 0 || solid_transform_copies_unless_too_many(&list[k], &turn, dim)) &&
-                        solid_transform_copies_unless_too_many(&list[k], &move, dim));
+            assert_true((k % 3 == 0 || solid_apply_motion_unless_too_many_copies(&list[k], &turn, dim)) &&
+                        solid_apply_motion_unless_too_many_copies(&list[k], &move, dim));
         }
         list[70] = (struct solid){.kind = SOLID_BALL, .intersect = true, .centre = {10, 10, 10}, .radius = 11};
         const struct region plain = {.n = MANY, .solid = list};
@@ -336,8 +336,8 @@ static void test_index_of_copies(void **state)
     struct solid plate[] = {{.kind = SOLID_BOX, .to = {20, 20}},
                             {.kind = SOLID_BOX, .subtract = true, .from = {0, 0, -1}, .to = {1.4, 0.3, 1}}},
                  list[MANY];
-    assert_true(solid_transform_copies_unless_too_many(&plate[1], &turn, 2) &&
-                solid_transform_copies_unless_too_many(&plate[1], &grid, 2));
+    assert_true(solid_apply_motion_unless_too_many_copies(&plate[1], &turn, 2) &&
+                solid_apply_motion_unless_too_many_copies(&plate[1], &grid, 2));
     for (int k = 0; k < MANY; k++) {
         list[k] = plate[1], list[k].image = &plate[1].image[k], list[k].images = 1;
         const struct bounds endless = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};

@@ -93,7 +93,7 @@ static int colours_of(const struct points *s)
     struct particles_at_cut_bonds t = touched_of(s);
     int32_t *colour = NEW("test", t.n, int32_t);
     const int n = particles_at_cut_bonds_assign_and_count_colours(colour, &t);
-    uint8_t *pair = colour_pairs_find_bonded_or_cut(colour, n, &t);
+    uint8_t *pair = colour_pairs_classify_as_bonded_or_cut(colour, n, &t);
     assert_non_null(pair);
     for (int64_t k = 0; k < t.n; k++)
         for (int64_t m = 0; m < t.n; m++) {
@@ -150,13 +150,13 @@ static void both_kinds_are_found(void **state)
     uint64_t key[] = {5, 5, 6};
     const struct particles_at_cut_bonds t = {3, particle, first, near, cut, key};
     (void)state;
-    assert_null(colour_pairs_find_bonded_or_cut(colour, 2, &t));
-    pair = colour_pairs_find_bonded_or_cut(own, 3, &t);
+    assert_null(colour_pairs_classify_as_bonded_or_cut(colour, 2, &t));
+    pair = colour_pairs_classify_as_bonded_or_cut(own, 3, &t);
     assert_non_null(pair);
     memory_free(pair);
     int32_t made[3];
     const int n = particles_at_cut_bonds_assign_and_count_colours(made, &t);
-    pair = colour_pairs_find_bonded_or_cut(made, n, &t);
+    pair = colour_pairs_classify_as_bonded_or_cut(made, n, &t);
     assert_non_null(pair);
     memory_free(pair);
 }

@@ -30,12 +30,12 @@ static void field_is_a_solution(const struct crack_medium *m, enum crack_mode mo
     struct crack_field here, to[2][2], face;
     for (int k = 0; k < 7; k++) {
         const real theta = 0.9 * pi * (k - 3) / 3.0, x[2] = {2 * cos(theta), 2 * sin(theta)};
-        crack_tip_field_resting_or_moving(m, mode, v, x, &here);
+        crack_tip_unit_sif_field_at_any_speed(m, mode, v, x, &here);
         for (int j = 0; j < 2; j++)
             for (int side = 0; side < 2; side++) {
                 real y[2] = {x[0], x[1]};
                 y[j] += side ? e : -e;
-                crack_tip_field_resting_or_moving(m, mode, v, y, &to[j][side]);
+                crack_tip_unit_sif_field_at_any_speed(m, mode, v, y, &to[j][side]);
             }
         const real size = fabs(here.state.gradient[0][0]) + fabs(here.state.gradient[1][0]);
         for (int i = 0; i < 2; i++) {
@@ -51,11 +51,11 @@ static void field_is_a_solution(const struct crack_medium *m, enum crack_mode mo
         }
     }
     for (int sign = -1; sign <= 1; sign += 2) {
-        crack_tip_field_resting_or_moving(m, mode, v, (real[2]){-2, copysign(0, sign)}, &face);
+        crack_tip_unit_sif_field_at_any_speed(m, mode, v, (real[2]){-2, copysign(0, sign)}, &face);
         assert_near(face.state.stress[0][1], 0, 1e-12);
         assert_near(face.state.stress[1][1], 0, 1e-12);
     }
-    crack_tip_field_resting_or_moving(m, mode, v, (real[2]){2, 0}, &here);
+    crack_tip_unit_sif_field_at_any_speed(m, mode, v, (real[2]){2, 0}, &here);
     assert_near(here.state.stress[mode == MODE_I ? 1 : 0][1] * sqrt(2 * pi * 2), 1, 1e-12);
 }
 
@@ -79,10 +79,10 @@ static void fields_meet_at_low_speed(void **state)
     for (int mode = 0; mode < MODES; mode++)
         for (int k = 0; k < 5; k++) {
             const real theta = 0.45 * pi * (k - 2), x[2] = {cos(theta), sin(theta)};
-            crack_tip_field_resting_or_moving(&m, mode, 0, x, &rest);
-            crack_tip_field_moving(&m, mode, 0.01 * m.shear_speed, x, &moving);
+            crack_tip_unit_sif_field_at_any_speed(&m, mode, 0, x, &rest);
+            crack_tip_unit_sif_field_moving(&m, mode, 0.01 * m.shear_speed, x, &moving);
             assert_true(state_difference(&moving.state, &rest.state) < 2e-4);
-            crack_tip_field_moving(&m, mode, 0.1 * m.shear_speed, x, &moving);
+            crack_tip_unit_sif_field_moving(&m, mode, 0.1 * m.shear_speed, x, &moving);
             assert_true(state_difference(&moving.state, &rest.state) > 1e-3);
         }
 }
@@ -140,7 +140,7 @@ static void direction_is_that_of_the_largest_hoop_stress(void **state)
             struct crack_field f[MODES];
             real hoop = 0;
             for (int mode = 0; mode < MODES; mode++) {
-                crack_tip_field_at_rest(&m, mode, (real[2]){c, s}, &f[mode]);
+                crack_tip_unit_sif_field_at_rest(&m, mode, (real[2]){c, s}, &f[mode]);
                 const struct crack_state *t = &f[mode].state;
                 hoop += K[k][mode] * (t->stress[0][0] * s * s + t->stress[1][1] * c * c - 2 * t->stress[0][1] * s * c);
             }
@@ -176,8 +176,8 @@ static real integral(const struct sif_tip *tip, const struct contour *c, enum cr
         const real r = bound[part] + width * (ring + gauss_place[a]), theta = step * (b + 0.5) - pi;
         const real x[2] = {r * cos(theta), r * sin(theta)};
         struct crack_field f[2];
-        crack_tip_field_resting_or_moving(&tip->medium, actual, tip->speed, x, &f[0]);
-        crack_tip_field_resting_or_moving(&tip->medium, auxiliary, tip->speed, x, &f[1]);
+        crack_tip_unit_sif_field_at_any_speed(&tip->medium, actual, tip->speed, x, &f[0]);
+        crack_tip_unit_sif_field_at_any_speed(&tip->medium, auxiliary, tip->speed, x, &f[1]);
         sum +=
             gauss_weight[a] * width * step * r * sif_interaction_integrand(tip, c, x, &f[0].state, &f[1].state, true);
     }

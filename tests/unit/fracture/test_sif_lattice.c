@@ -232,7 +232,7 @@ static void lattice_field(struct lattice_site_map *l, const real K[MODES])
         if (fabs(x[1]) < 1e-9) x[1] = copysign(0, l->tip.face);
         for (int mode = 0; mode < MODES; mode++) {
             struct crack_field f;
-            crack_tip_field_resting_or_moving(&l->tip.medium, mode, l->tip.speed, x, &f);
+            crack_tip_unit_sif_field_at_any_speed(&l->tip.medium, mode, l->tip.speed, x, &f);
             for (int k = 0; k < 2; k++) {
                 sum[0][k] += K[mode] * f.displacement[k];
                 sum[1][k] += K[mode] * f.state.velocity[k];
@@ -306,7 +306,7 @@ static real exact_gradient_error(const struct lattice_site_map *l, real outer, e
         const real x[2] = {d[0] * e[0] + d[1] * e[1], d[1] * e[0] - d[0] * e[1]};
         struct crack_field f[MODES];
         if (hypot(x[0], x[1]) > outer || hypot(x[0], x[1]) < 0.5 * outer) continue;
-        for (int m = 0; m < MODES; m++) crack_tip_field_resting_or_moving(&l->tip.medium, m, 0, x, &f[m]);
+        for (int m = 0; m < MODES; m++) crack_tip_unit_sif_field_at_any_speed(&l->tip.medium, m, 0, x, &f[m]);
         for (int m = 0; m < MODES; m++)
             sum[m] += sif_interaction_integrand(&l->tip, &c, x, &f[mode].state, &f[m].state, false);
     }
@@ -432,7 +432,7 @@ static void particle_stresses_are_turned(void **state)
         real gradient[2][2], t[2][2];
         gradient_stencil_compute_weights(&s, &l.rule, &l.patch.p, &l.patch.c, i);
         gradient_stencil_apply(&s, i, field, gradient);
-        crack_stress_from_displacement_gradient(&l.tip.medium, gradient, t);
+        crack_medium_stress_from_displacement_gradient(&l.tip.medium, gradient, t);
         stress[0][i] = t[0][0], stress[1][i] = t[1][1], stress[2][i] = t[0][1];
     }
     l.tip.stress = SIF_PARTICLE;

@@ -170,19 +170,19 @@ static void places_of_groups(void **state)
         place[k] = (struct place){{7 + 5 * cos(angle), 3 + 5 * sin(angle)}, false};
         place[24 + k] = (struct place){{-7 + cos(angle), 3, 0.37 * k}, k < 12};
     }
-    assert_int_equal(position_clusters_count_and_find_foremost_centre(place, 24, 2, 1.5, none, middle), 1);
+    assert_int_equal(position_clusters_count_and_centre_at_largest_x(place, 24, 2, 1.5, none, middle), 1);
     assert_near(hypot(middle[0] - 7, middle[1] - 3), 5, ROUND_OFF);
-    assert_int_equal(position_clusters_count_and_find_foremost_centre(place, 24, 2, 1.2, none, middle),
+    assert_int_equal(position_clusters_count_and_centre_at_largest_x(place, 24, 2, 1.2, none, middle),
                      24); /* their distance is 1.305 */
     assert_near(middle[0], 12, ROUND_OFF);
     assert_near(middle[1], 3, ROUND_OFF);
-    assert_int_equal(position_clusters_count_and_find_foremost_centre(place, 48, 3, 1.5, none, middle), 2);
+    assert_int_equal(position_clusters_count_and_centre_at_largest_x(place, 48, 3, 1.5, none, middle), 2);
     assert_true(middle[0] > 1);
-    assert_int_equal(position_clusters_count_and_find_foremost_centre(place + 24, 24, 3, 4.5, along, middle),
+    assert_int_equal(position_clusters_count_and_centre_at_largest_x(place + 24, 24, 3, 4.5, along, middle),
                      1); /* the mean of the twelve that count */
     assert_near(middle[2], 0.37 * 17.5, ROUND_OFF);
-    assert_int_equal(position_clusters_count_and_find_foremost_centre(place + 24, 12, 3, 4.5, along, middle), 0);
-    assert_int_equal(position_clusters_count_and_find_foremost_centre(place, 0, 2, 1.5, none, middle), 0);
+    assert_int_equal(position_clusters_count_and_centre_at_largest_x(place + 24, 12, 3, 4.5, along, middle), 0);
+    assert_int_equal(position_clusters_count_and_centre_at_largest_x(place, 0, 2, 1.5, none, middle), 0);
 }
 
 /* Checks what does not count as growth: the faces of the pre-crack beside its end are part of the crack; fixed

@@ -167,8 +167,8 @@ static void a_ring_is_round(void **state)
         struct geometry g;
         write_ring("r.inp", types[k]);
         assert_ok(geometry_read(&g, "r.inp", 2, 1, fine));
-        const struct geometry_set *outer = geometry_find_named_part(&g, "outer"),
-                                  *inner = geometry_find_named_part(&g, "inner");
+        const struct geometry_set *outer = geometry_find_set_by_name(&g, "outer"),
+                                  *inner = geometry_find_set_by_name(&g, "inner");
         assert_near(g.whole.volume, 0.75 * pi, 2 * 3.3e-4 * 3 + 5 * fine);
         assert_near(inner->hull.volume, (2.25 - 1) * pi / 4, 2 * 3.3e-4 * 1.25 + 4 * fine);
         assert_int_equal(g.whole.shells, 1);

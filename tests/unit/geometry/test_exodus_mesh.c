@@ -99,7 +99,7 @@ static void each_type(void **state)
                 const int *corner = elements[k].side[side];
                 char name[32];
                 snprintf(name, sizeof name, "surface_%d", side + 1);
-                const struct geometry_set *set = geometry_find_named_part(&g, name);
+                const struct geometry_set *set = geometry_find_set_by_name(&g, name);
                 assert_true(set && set->hull.open);
                 for (int c = 1; c <= elements[k].corners; c++) {
                     real X[DIM_MAX];
@@ -149,7 +149,7 @@ static void curved_edges(void **state)
     NC(nc_close(file));
     assert_ok(geometry_read(&g, "a.exo", 2, 1e-3, 1e-7));
     assert_close(g.whole.volume, 1e-6 * (6 + 2. / 3 * 0.3 * 4), 1e-4); /* chords are 1e-4 mm off at most */
-    assert_near(hull_signed_distance(&geometry_find_named_part(&g, "surface_1")->hull, (real[]){2e-3, -0.3e-3}, NULL),
+    assert_near(hull_signed_distance(&geometry_find_set_by_name(&g, "surface_1")->hull, (real[]){2e-3, -0.3e-3}, NULL),
                 0, 1e-7);
     geometry_free(&g);
     unlink("a.exo");
@@ -184,7 +184,7 @@ static void write_plate(const char *path, int mode, int dim)
 /* Returns the distance of the point (x, y) of the plane from the set `name` of g, all in units of the file. */
 static real off(const struct geometry *g, const char *name, real x, real y)
 {
-    const struct geometry_set *set = geometry_find_named_part(g, name);
+    const struct geometry_set *set = geometry_find_set_by_name(g, name);
     assert_non_null(set);
     return hull_signed_distance(&set->hull, (real[]){1e-2 * x, 1e-2 * y, 0.07}, NULL) / 1e-2;
 }
@@ -199,8 +199,8 @@ static void blocks_and_sets(void **state)
         assert_ok(geometry_read(&g, "a.exo", 2, 1e-2, NAN));
         assert_close(g.whole.volume, 18e-4, 1e-12);
         assert_int_equal(g.sets, 8);
-        assert_close(geometry_find_named_part(&g, "glass")->hull.volume, 6e-4, 1e-12);
-        assert_close(geometry_find_named_part(&g, "block_20")->hull.volume, 12e-4, 1e-12);
+        assert_close(geometry_find_set_by_name(&g, "glass")->hull.volume, 6e-4, 1e-12);
+        assert_close(geometry_find_set_by_name(&g, "block_20")->hull.volume, 12e-4, 1e-12);
         assert_near(off(&g, "grip", 6, 1), 0, 1e-12); /* the sides: nodes of this name come after them */
         assert_close(off(&g, "grip", 1, 1), 5, 1e-12);
         assert_near(off(&g, "surface_2", 1, 3), 0, 1e-12);
@@ -208,8 +208,8 @@ static void blocks_and_sets(void **state)
         assert_near(off(&g, "nodelist_1", 0, 2), 0, 1e-12);
         assert_close(off(&g, "nodelist_1", 1, 2), 1, 1e-12);
         assert_close(off(&g, "corner", 6, 1), 2, 1e-12);
-        assert_non_null(strstr(geometry_find_named_part(&g, "rod")->fault, "is empty, or has only elements that are"));
-        assert_non_null(geometry_find_named_part(&g, "nobody")->fault);
+        assert_non_null(strstr(geometry_find_set_by_name(&g, "rod")->fault, "is empty, or has only elements that are"));
+        assert_non_null(geometry_find_set_by_name(&g, "nobody")->fault);
         geometry_free(&g);
     }
     unlink("a.exo");
@@ -325,7 +325,7 @@ static void bad_files(void **state)
     struct geometry g;
     assert_ok(geometry_read(&g, "bad.e", 2, 1, NAN)); /* particles: sets without a body */
     assert_int_equal(g.whole.dim, 0);
-    assert_near(hull_signed_distance(&geometry_find_named_part(&g, "block_1")->hull, (real[]){2, 3.5}, NULL), 0.5,
+    assert_near(hull_signed_distance(&geometry_find_set_by_name(&g, "block_1")->hull, (real[]){2, 3.5}, NULL), 0.5,
                 1e-12);
     geometry_free(&g);
     file = begin_bad(1, 0);

@@ -146,12 +146,12 @@ static void check_msh2(const char *name)
     assert_int_equal(g.whole.open_edges, 0);
     assert_int_equal(g.whole.shells, 1);
     assert_int_equal(g.sets, 3);
-    assert_close(geometry_find_named_part(&g, "Left")->hull.volume, 1, 1e-12);
-    assert_close(geometry_find_named_part(&g, "right")->hull.volume, 1, 1e-12);
-    assert_true(geometry_find_named_part(&g, "grip")->hull.open);
-    assert_close(hull_signed_distance(&geometry_find_named_part(&g, "grip")->hull, (real[]){0.25, 0.5, 0.7}, NULL),
+    assert_close(geometry_find_set_by_name(&g, "Left")->hull.volume, 1, 1e-12);
+    assert_close(geometry_find_set_by_name(&g, "right")->hull.volume, 1, 1e-12);
+    assert_true(geometry_find_set_by_name(&g, "grip")->hull.open);
+    assert_close(hull_signed_distance(&geometry_find_set_by_name(&g, "grip")->hull, (real[]){0.25, 0.5, 0.7}, NULL),
                  0.25, 1e-12);
-    assert_null(geometry_find_named_part(&g, "leg"));
+    assert_null(geometry_find_set_by_name(&g, "leg"));
     geometry_free(&g);
 }
 
@@ -183,9 +183,9 @@ static void check_msh4(const char *name)
     assert_close(g.whole.volume, 1.5e-6, 1e-12);
     assert_int_equal(g.whole.faces, 5);
     assert_int_equal(g.sets, 2);
-    assert_true(geometry_find_named_part(&g, "plate") && geometry_find_named_part(&g, "edge"));
-    assert_close(geometry_find_named_part(&g, "plate")->hull.volume, 1.5e-6, 1e-12);
-    assert_close(hull_signed_distance(&geometry_find_named_part(&g, "edge")->hull, (real[]){0.5e-3, 2e-3}, NULL), 2e-3,
+    assert_true(geometry_find_set_by_name(&g, "plate") && geometry_find_set_by_name(&g, "edge"));
+    assert_close(geometry_find_set_by_name(&g, "plate")->hull.volume, 1.5e-6, 1e-12);
+    assert_close(hull_signed_distance(&geometry_find_set_by_name(&g, "edge")->hull, (real[]){0.5e-3, 2e-3}, NULL), 2e-3,
                  1e-12);
     geometry_free(&g);
 }
@@ -325,9 +325,9 @@ static void abaqus_decks(void **state)
     assert_ok(geometry_read(&g, "a.inp", 2, 1, NAN));
     assert_close(g.whole.volume, 2, 1e-12);
     assert_int_equal(g.whole.faces, 6);
-    assert_close(geometry_find_named_part(&g, "right")->hull.volume, 1, 1e-12);
-    assert_close(geometry_find_named_part(&g, "both")->hull.volume, 2, 1e-12);
-    const struct geometry_set *e[] = {geometry_find_named_part(&g, "left"), geometry_find_named_part(&g, "rod")};
+    assert_close(geometry_find_set_by_name(&g, "right")->hull.volume, 1, 1e-12);
+    assert_close(geometry_find_set_by_name(&g, "both")->hull.volume, 2, 1e-12);
+    const struct geometry_set *e[] = {geometry_find_set_by_name(&g, "left"), geometry_find_set_by_name(&g, "rod")};
     for (int k = 0; k < 2; k++) assert_close(hull_signed_distance(&e[k]->hull, (real[]){0.3, 0.5}, NULL), 0.3, 1e-12);
     geometry_free(&g);
     write_words("nodes.dat", "** a comment\n1, 0., 0.\n2, 1., 0.\n3, 2., 0\n4, 0., 1.\n5, 1., 1.\n6, 2., 1.D0\n");
@@ -343,12 +343,12 @@ static void abaqus_decks(void **state)
     /* B is rotated by a right angle about a line through (5, 0): its corner 3 at (1, 0) moves to (5, 1). */
     assert_close(g.whole.node[0].high[0], 5, 1e-12);
     assert_close(g.whole.node[0].high[1], 1, 1e-12);
-    assert_close(geometry_find_named_part(&g, "low")->hull.volume, 1. / 6, 1e-12);
-    assert_near(hull_signed_distance(&geometry_find_named_part(&g, "low")->hull, (real[]){5, 1, 0}, NULL), 0, 1e-12);
-    assert_close(hull_signed_distance(&geometry_find_named_part(&g, "low")->hull, (real[]){5, 1.5, 0}, NULL), 0.5,
+    assert_close(geometry_find_set_by_name(&g, "low")->hull.volume, 1. / 6, 1e-12);
+    assert_near(hull_signed_distance(&geometry_find_set_by_name(&g, "low")->hull, (real[]){5, 1, 0}, NULL), 0, 1e-12);
+    assert_close(hull_signed_distance(&geometry_find_set_by_name(&g, "low")->hull, (real[]){5, 1.5, 0}, NULL), 0.5,
                  1e-12);
-    assert_close(hull_signed_distance(&geometry_find_named_part(&g, "foot")->hull, (real[]){5, 0, 1}, NULL), 2, 1e-12);
-    assert_close(hull_signed_distance(&geometry_find_named_part(&g, "tip")->hull, (real[]){0, 0, 0}, NULL), 1, 1e-12);
+    assert_close(hull_signed_distance(&geometry_find_set_by_name(&g, "foot")->hull, (real[]){5, 0, 1}, NULL), 2, 1e-12);
+    assert_close(hull_signed_distance(&geometry_find_set_by_name(&g, "tip")->hull, (real[]){0, 0, 0}, NULL), 1, 1e-12);
     geometry_free(&g);
 }
 
@@ -370,15 +370,15 @@ static void abaqus_generates(void **state)
           file);
     assert_int_equal(fclose(file), 0);
     assert_ok(geometry_read(&g, "c.inp", 2, 1, NAN));
-    assert_close(geometry_find_named_part(&g, "third")->hull.volume, 2, 1e-12); /* 10 and 40 */
-    assert_close(geometry_find_named_part(&g, "all")->hull.volume, 7, 1e-12);
-    assert_close(hull_signed_distance(&geometry_find_named_part(&g, "third")->hull, (real[]){2.2, 0.5}, NULL), 0.8,
+    assert_close(geometry_find_set_by_name(&g, "third")->hull.volume, 2, 1e-12); /* 10 and 40 */
+    assert_close(geometry_find_set_by_name(&g, "all")->hull.volume, 7, 1e-12);
+    assert_close(hull_signed_distance(&geometry_find_set_by_name(&g, "third")->hull, (real[]){2.2, 0.5}, NULL), 0.8,
                  1e-12);
     /* Nodes 5, 7, 9, 11 at y = 0, x = 2 to 5; none of these is closer to (3, 1) than 1. */
-    assert_close(hull_signed_distance(&geometry_find_named_part(&g, "lower")->hull, (real[]){3, 1}, NULL), 1, 1e-12);
-    assert_close(hull_signed_distance(&geometry_find_named_part(&g, "lower")->hull, (real[]){6.5, 0}, NULL), 1.5,
+    assert_close(hull_signed_distance(&geometry_find_set_by_name(&g, "lower")->hull, (real[]){3, 1}, NULL), 1, 1e-12);
+    assert_close(hull_signed_distance(&geometry_find_set_by_name(&g, "lower")->hull, (real[]){6.5, 0}, NULL), 1.5,
                  1e-12);
-    assert_close(hull_signed_distance(&geometry_find_named_part(&g, "plain")->hull, (real[]){1, 0.9}, NULL), 0.1,
+    assert_close(hull_signed_distance(&geometry_find_set_by_name(&g, "plain")->hull, (real[]){1, 0.9}, NULL), 0.1,
                  1e-12);
     geometry_free(&g);
 }

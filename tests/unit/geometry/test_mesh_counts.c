@@ -77,8 +77,8 @@ static void right_ones(void **state)
         assert_close(g.whole.volume, 1, 1e-12);
         assert_int_equal(g.whole.open_edges, 0);
         if (good[k].text == msh2) {
-            assert_close(geometry_find_named_part(&g, "low")->hull.volume, 0.5, 1e-12);
-            assert_close(geometry_find_named_part(&g, "high")->hull.volume, good[k].from[0] ? 1 : 0.5, 1e-12);
+            assert_close(geometry_find_set_by_name(&g, "low")->hull.volume, 0.5, 1e-12);
+            assert_close(geometry_find_set_by_name(&g, "high")->hull.volume, good[k].from[0] ? 1 : 0.5, 1e-12);
         }
         geometry_free(&g);
     }
@@ -91,8 +91,9 @@ static void nodes_of_elements(void **state)
     struct geometry g;
     assert_ok(read_changed(&g, "a.inp", inp, "2, 1, 3, 4\n",
                            "2, 1, 3, 4\n*Elset, elset=low\n1\n*Nset, nset=right, elset=low\n"));
-    assert_near(hull_signed_distance(&geometry_find_named_part(&g, "right")->hull, (real[]){1.5, 0}, NULL), 0.5, 1e-12);
-    assert_near(hull_signed_distance(&geometry_find_named_part(&g, "right")->hull, (real[]){-3, 1}, NULL), sqrt(10),
+    assert_near(hull_signed_distance(&geometry_find_set_by_name(&g, "right")->hull, (real[]){1.5, 0}, NULL), 0.5,
+                1e-12);
+    assert_near(hull_signed_distance(&geometry_find_set_by_name(&g, "right")->hull, (real[]){-3, 1}, NULL), sqrt(10),
                 1e-12);
     geometry_free(&g);
 }
@@ -106,24 +107,24 @@ static void twin_groups(void **state)
     memset(name, 'x', 80);
     snprintf(named, sizeof named, "2 2 \"%s\"", name);
     assert_ok(read_changed(&g, "a.msh", msh2, "2 2 \"high\"", named));
-    assert_null(geometry_find_named_part(&g, name)->fault);
+    assert_null(geometry_find_set_by_name(&g, name)->fault);
     geometry_free(&g);
     assert_ok(read_changed(&g, "a.msh", msh2, "2 2 \"high\"\n", "1 2 \"low\"\n"));
-    assert_null(geometry_find_named_part(&g, "low")->fault);
+    assert_null(geometry_find_set_by_name(&g, "low")->fault);
     geometry_free(&g);
     const char *twice = "$Elements\n3\n3 1 2 3 1 1 2\n";
     char text[sizeof msh2 + 64];
     const char *at = strstr(msh2, "$Elements\n2\n");
     snprintf(text, sizeof text, "%.*s%s%s", (int)(at - msh2), msh2, twice, at + strlen("$Elements\n2\n"));
     assert_ok(read_changed(&g, "a.msh", text, "2 2 \"high\"", "1 3 \"low\""));
-    assert_non_null(strstr(geometry_find_named_part(&g, "low")->fault, "two physical groups of different dimension"));
+    assert_non_null(strstr(geometry_find_set_by_name(&g, "low")->fault, "two physical groups of different dimension"));
     geometry_free(&g);
 }
 
 /* Returns the distance of the point (x, 0) from the set `name` of g. */
 static real from_set(const struct geometry *g, const char *name, real x)
 {
-    const struct geometry_set *set = geometry_find_named_part(g, name);
+    const struct geometry_set *set = geometry_find_set_by_name(g, name);
     assert_non_null(set);
     return hull_signed_distance(&set->hull, (real[]){x, 0}, NULL);
 }
@@ -147,7 +148,7 @@ static void sets_of_instances(void **state)
              "*Instance, name=Right-1, part=Right\n7, 0\n*End Instance\n%s*End Assembly\n",
              nodes, nodes, sets);
     assert_ok(read_changed(&g, "a.inp", deck, "", ""));
-    assert_null(geometry_find_named_part(&g, "pin"));
+    assert_null(geometry_find_set_by_name(&g, "pin"));
     assert_close(from_set(&g, "left-1.pin", -1), 1, 1e-12);
     assert_close(from_set(&g, "Right-1.pin", 6), 1, 1e-12);
     assert_close(from_set(&g, "Right-1.all", 6), 1, 1e-12);

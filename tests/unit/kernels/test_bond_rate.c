@@ -39,7 +39,7 @@ static void test_onsets(void **state)
     m.critical_stretch = 2.5 * m.tensile_strength / m.young;
     m.rate = (struct strength_rate){.points = 3, .rate = {1, 10, 100}, .factor = {1, 1.3, 2}};
     m.onset_stretch = softening_onset_stretch_from_strength(&m, SPACE_PLANE_STRESS);
-    const real least = strength_rate_set_onsets_return_stretch_ratio(&m, SPACE_PLANE_STRESS, &bonds);
+    const real least = strength_rate_compute_softening_onset_factors(&m, SPACE_PLANE_STRESS, &bonds);
     const struct softening_curve curve = softening_curve_of_law(SOFTENING_LINEAR);
     for (int k = 0; k < 3; k++) {
         const real onset = m.onset_stretch * m.rate.onset[k], kappa = square(m.critical_stretch / onset);
@@ -49,7 +49,7 @@ static void test_onsets(void **state)
         assert_true(kappa >= least);
     }
     m.rate.factor[2] = 3;
-    assert_true(strength_rate_set_onsets_return_stretch_ratio(&m, SPACE_PLANE_STRESS, &bonds) < 1);
+    assert_true(strength_rate_compute_softening_onset_factors(&m, SPACE_PLANE_STRESS, &bonds) < 1);
 }
 
 static void body_make(struct soft_body *s, enum space space, const struct strength_rate *rate, real critical)

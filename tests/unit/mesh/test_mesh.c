@@ -139,8 +139,8 @@ static void given(const struct block *b, const struct partial_stress *partial, i
     for (int d = 0; d < p->dim && n > 0; d++) P[d * (p->dim + 1)] += pressure / n - own;
 }
 
-/* Compares forces of partial cells with a random partial stress that derives from an energy with sums of V P grad N
- * over points: round-off of a few hundred terms. Later changes are followed cell by cell. */
+/* Compares forces of own-stiffness cells with a random partial stress that derives from an energy with sums of V P grad
+ * N over points: round-off of a few hundred terms. Later changes are followed cell by cell. */
 static void test_partial(void **state)
 {
     (void)state;
@@ -259,7 +259,7 @@ static void test_start(void **state)
         struct particles *p = &b.c.p;
         for (int64_t i = 0; i < p->n; i++)
             for (int d = 0; d < p->dim; d++) p->v[d][i] = 3 + 1000 * p->X[0][i] - (p->dim > 1 ? 400 * p->X[1][i] : 0);
-        mesh_fit_nodal_values(&b.mesh, p, p->v, b.mesh.grid.velocity);
+        mesh_fit_nodal_values_to_point_values(&b.mesh, p, p->v, b.mesh.grid.velocity);
         for (int64_t I = 0; I < b.mesh.grid.n; I++) {
             if (b.mesh.grid.mass[I] == 0) continue;
             const real exact =
@@ -298,7 +298,7 @@ static void test_release(void **state)
         assert_close(kinetic, mesh_kinetic(&b.mesh), 1e-13);
         assert_int_equal(b.mesh.points, fresh.mesh.points);
         assert_int_equal(b.mesh.runs, fresh.mesh.runs);
-        assert_int_equal(b.mesh.partial_cells, fresh.mesh.partial_cells);
+        assert_int_equal(b.mesh.own_stiffness_cells, fresh.mesh.own_stiffness_cells);
         block_free(&b);
         block_free(&fresh);
     }

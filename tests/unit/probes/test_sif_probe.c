@@ -59,7 +59,7 @@ static void plate_field(struct plate *k, const real K[MODES], const real *place,
         real u[2] = {0}, w[2] = {0};
         for (int mode = 0; mode < MODES; mode++) {
             struct crack_field f;
-            crack_tip_field_resting_or_moving(&m, mode, v, x, &f);
+            crack_tip_unit_sif_field_at_any_speed(&m, mode, v, x, &f);
             for (int d = 0; d < 2; d++) u[d] += K[mode] * f.displacement[d], w[d] += K[mode] * f.state.velocity[d];
         }
         for (int d = 0; d < 2; d++) {

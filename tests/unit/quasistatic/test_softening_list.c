@@ -19,7 +19,7 @@ static void body_make(struct soft_body *s, enum space space)
     particle_cloud_make(
         &s->c, &(struct cloud_plan){.space = space, .count = {7, 6, 5}, .horizon = 2.015, .shake = 0.2, .seed = 4});
     soft_bonds(s, space == SPACE_SOLID ? SOFTENING_BILINEAR : SOFTENING_LINEAR, ONSET, CRITICAL);
-    bonds_store_softening_stretches_of_equilibrium(&s->c.bonds, &s->c.p, &s->c.source.limit);
+    bonds_store_max_stretches_at_last_equilibrium(&s->c.bonds, &s->c.p, &s->c.source.limit);
 }
 
 /* Stretches the body c by `strain` along x and moves its particles at random (seed). */
@@ -66,7 +66,7 @@ static void test_gradient(void **state)
         struct particles *p = &s.c.p;
         body_move(&s.c, 11, 2e-3);
         follow(&s, &l);
-        bonds_store_softening_stretches_of_equilibrium(&s.c.bonds, p, &s.c.source.limit);
+        bonds_store_max_stretches_at_last_equilibrium(&s.c.bonds, p, &s.c.source.limit);
         body_move(&s.c, 12, 2e-3);
         follow(&s, &l);
         forces(&s);
@@ -130,7 +130,7 @@ static void test_undo(void **state)
     struct soft_body s;
     struct softening_bond_list l = {0};
     body_soften(&s, &l);
-    bonds_store_softening_stretches_of_equilibrium(&s.c.bonds, &s.c.p, &s.c.source.limit);
+    bonds_store_max_stretches_at_last_equilibrium(&s.c.bonds, &s.c.p, &s.c.source.limit);
     const real spent = bonds_fracture_energy(&s.c.bonds);
     forces(&s);
     const real force = s.c.p.f[0][0];
@@ -139,7 +139,7 @@ static void test_undo(void **state)
     assert_exact(bonds_fracture_energy(&s.c.bonds), spent);
     follow(&s, &l);
     assert_true(bonds_fracture_energy(&s.c.bonds) > 1.1 * spent);
-    bonds_restore_softening_stretches_of_equilibrium(&s.c.bonds);
+    bonds_restore_max_stretches_at_last_equilibrium(&s.c.bonds);
     assert_exact(bonds_fracture_energy(&s.c.bonds), spent);
     body_move(&s.c, 11, 2e-3);
     forces(&s);
@@ -157,7 +157,7 @@ static void test_end(void **state)
     memset(&s, 0, sizeof s);
     particle_cloud_make(&s.c, &(struct cloud_plan){.space = SPACE_LINE, .count = {2}, .horizon = 1});
     soft_bonds(&s, SOFTENING_LINEAR, ONSET, CRITICAL);
-    bonds_store_softening_stretches_of_equilibrium(&s.c.bonds, &s.c.p, &s.c.source.limit);
+    bonds_store_max_stretches_at_last_equilibrium(&s.c.bonds, &s.c.p, &s.c.source.limit);
     s.c.p.x[0][1] += 5 * ONSET * CLOUD_SPACING;
     follow(&s, &l);
     forces(&s);

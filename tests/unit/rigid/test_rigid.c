@@ -106,7 +106,7 @@ static void test_surface(void **state)
                 {&brick, 2, 2.6 * 1.7, 1e-6},        {&brick, 3, 2.6 * 1.7 * 1.7, 1e-6},
                 {&turned, 3, 2.6 * 1.7 * 1.7, 2e-3}, {&ground, 3, 32, 1e-6}};
     const struct solid_motion motion = {.kind = MOTION_ROTATE, .angle = 0.4, .axis = {1, 2, 3}};
-    assert_true(solid_transform_copies_unless_too_many(&turned, &motion, 3));
+    assert_true(solid_apply_motion_unless_too_many_copies(&turned, &motion, 3));
     for (size_t k = 0; k < COUNT_OF(body); k++) {
         const struct region region = {.n = 1, .solid = body[k].solid};
         struct rigid_surface s;

@@ -17,7 +17,7 @@
 static void check_values(const char *text, int n, const char *const *value)
 {
     struct varied_key k;
-    assert_int_equal(varied_key_parse_values(&k, text), OK);
+    assert_int_equal(varied_key_parse_name_and_values(&k, text), OK);
     assert_int_equal(k.values, n);
     for (int v = 0; v < n; v++) assert_string_equal(k.value[v], value[v]);
     varied_key_free(&k);
@@ -60,7 +60,8 @@ static void wrong_values_are_refused(void **state)
         {"a=0:1:1e-9", "in fewer than 10000 steps"},
     };
     struct varied_key k;
-    for (size_t b = 0; b < COUNT_OF(bad); b++) assert_refused(varied_key_parse_values(&k, bad[b].text), bad[b].message);
+    for (size_t b = 0; b < COUNT_OF(bad); b++)
+        assert_refused(varied_key_parse_name_and_values(&k, bad[b].text), bad[b].message);
 }
 
 /* ---- names ------------------------------------------------------------------------------------------------------- */
@@ -71,11 +72,12 @@ static void runs_have_names_of_their_own(void **state)
     (void)state;
     struct study s;
     struct varied_key k[3];
-    assert_int_equal(study_make(&s, "inputs/plate_crack.yaml", NULL, "sweep"), OK);
+    assert_int_equal(study_initialise(&s, "inputs/plate_crack.yaml", NULL, "sweep"), OK);
     assert_string_equal(s.folder, "results/plate_crack_sweep"); /* from the name of the scene */
-    assert_int_equal(varied_key_parse_values(&k[0], "particles.spacing=1 mm,0.5 mm"), OK);
-    assert_int_equal(varied_key_parse_values(&k[1], "method=pd"), OK);
-    assert_int_equal(varied_key_parse_values(&k[2], "boundary.0.velocity=[10 m/s, free],[20 m/s, free],a/b"), OK);
+    assert_int_equal(varied_key_parse_name_and_values(&k[0], "particles.spacing=1 mm,0.5 mm"), OK);
+    assert_int_equal(varied_key_parse_name_and_values(&k[1], "method=pd"), OK);
+    assert_int_equal(varied_key_parse_name_and_values(&k[2], "boundary.0.velocity=[10 m/s, free],[20 m/s, free],a/b"),
+                     OK);
     assert_int_equal(study_add_cases_of_all_value_combinations(&s, k, 3), OK);
     assert_int_equal(s.n, 6);
     assert_string_equal(s.at[0].name, "spacing=1mm,velocity=10m_s,free");
@@ -90,7 +92,7 @@ static void runs_have_names_of_their_own(void **state)
     }
     for (int v = 0; v < 3; v++) varied_key_free(&k[v]);
     study_free(&s);
-    assert_refused(study_make(&s, "a.yaml", "", "sweep"), "give the name of a folder");
+    assert_refused(study_initialise(&s, "a.yaml", "", "sweep"), "give the name of a folder");
 }
 
 /* Compares names of the same runs, with the keys in both orders; long ones are hashes. */
@@ -104,10 +106,10 @@ static void names_do_not_depend_on_the_order_of_keys(void **state)
         for (int j = 0; j < 2; j++)
             snprintf(longer[j], sizeof longer[j], "%s=1,2%0*d", j ? "particles.seed" : "time.safety",
                      long_ones ? 120 : 1, 3);
-        for (int j = 0; j < 2; j++) assert_int_equal(varied_key_parse_values(&k[j], longer[j]), OK);
+        for (int j = 0; j < 2; j++) assert_int_equal(varied_key_parse_name_and_values(&k[j], longer[j]), OK);
         swapped[0] = k[1], swapped[1] = k[0];
-        assert_int_equal(study_make(&a, "a.yaml", "a", "sweep"), OK);
-        assert_int_equal(study_make(&b, "a.yaml", "a", "sweep"), OK);
+        assert_int_equal(study_initialise(&a, "a.yaml", "a", "sweep"), OK);
+        assert_int_equal(study_initialise(&b, "a.yaml", "a", "sweep"), OK);
         assert_int_equal(study_add_cases_of_all_value_combinations(&a, k, 2), OK);
         assert_int_equal(study_add_cases_of_all_value_combinations(&b, swapped, 2), OK);
         for (int x = 0; x < 2; x++)
@@ -134,7 +136,7 @@ static void values_are_short_in_pictures(void **state)
     for (size_t w = 0; w < COUNT_OF(wanted); w++) {
         struct varied_key k;
         char text[LABEL_ROOM];
-        assert_int_equal(varied_key_parse_values(&k, wanted[w].text), OK);
+        assert_int_equal(varied_key_parse_name_and_values(&k, wanted[w].text), OK);
         varied_key_compose_label_of_value(text, &k, 1);
         assert_string_equal(text, wanted[w].shown);
         varied_key_free(&k);
@@ -174,7 +176,7 @@ static void figures_have_units(void **state)
     };
     for (size_t w = 0; w < COUNT_OF(wanted); w++) {
         char unit[UNIT_ROOM];
-        study_write_unit_of_result(unit, sizeof unit, header, wanted[w][0]);
+        study_determine_unit_of_result(unit, sizeof unit, header, wanted[w][0]);
         assert_string_equal(unit, wanted[w][1]);
     }
 }
@@ -252,9 +254,9 @@ static void many_names_are_found_in_time(void **state)
     struct varied_key k[2];
     struct study s;
     const clock_t begin = clock();
-    assert_int_equal(varied_key_parse_values(&k[0], "a=1:1000:1"), OK);
-    assert_int_equal(varied_key_parse_values(&k[1], "b=1:100:1"), OK);
-    assert_int_equal(study_make(&s, "a.yaml", "a", "sweep"), OK);
+    assert_int_equal(varied_key_parse_name_and_values(&k[0], "a=1:1000:1"), OK);
+    assert_int_equal(varied_key_parse_name_and_values(&k[1], "b=1:100:1"), OK);
+    assert_int_equal(study_initialise(&s, "a.yaml", "a", "sweep"), OK);
     assert_int_equal(study_add_cases_of_all_value_combinations(&s, k, 2), OK);
     assert_int_equal(s.n, 100000);
     assert_string_equal(s.at[99999].name, "a=1000,b=100");
@@ -273,7 +275,7 @@ static void stopped_runs_have_no_figures(void **state)
     struct study_table t;
     char folder[] = "/tmp/study-XXXXXX";
     assert_non_null(mkdtemp(folder));
-    assert_int_equal(study_make(&s, "scene.yaml", folder, "sweep"), OK);
+    assert_int_equal(study_initialise(&s, "scene.yaml", folder, "sweep"), OK);
     for (int k = 0; k < 3; k++) {
         const char *const name[] = {"a", "b", "c"}, *const text = "{\"energy\": {\"kinetic\": 1.5}}";
         const struct scene_override own = {"duration", name[k]};

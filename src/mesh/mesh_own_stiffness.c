@@ -1,5 +1,5 @@
-/* Computes the stiffness matrices of partial cells of the mesh, in terms of deformation modes
- * (kernels/mesh/mesh_partial.h), from the points that they contain.
+/* Computes the stiffness matrices of own-stiffness cells of the mesh, in terms of deformation modes
+ * (kernels/mesh/mesh_own_stiffness.h), from the points that they contain.
  *
  * The strain at a point is the uniform strain plus, for each bending mode, an amplitude times a product of coordinates
  * +-1/4. An entry of the stiffness matrix thus is a sum over the points of D, the matrix of stress by strain, times
@@ -57,7 +57,7 @@ static void bends_terms(struct mode_terms *t, int dim)
 
 /* Lists in t[MODES_MAX] the strains that each deformation mode of a cell causes in `dim` dimensions: first the modes of
  * uniform strain, one for each symmetric component, then the bending modes, set by set of axes
- * (kernels/mesh/mesh_partial.h). */
+ * (kernels/mesh/mesh_own_stiffness.h). */
 static void modes_terms(struct mode_terms *t, int dim)
 {
     const int symmetric = symmetric_tensor_component_count(dim);
@@ -68,8 +68,8 @@ static void modes_terms(struct mode_terms *t, int dim)
 
 /* ---- stiffness of one cell --------------------------------------------------------------------------------------- */
 
-/* Arguments that the functions for stiffness matrices of partial cells have in common (cells with missing or unequal
- * points): mesh, particles, material data, and numbers of modes and strain components. Made by maker_of. */
+/* Arguments that the functions for stiffness matrices of own-stiffness cells have in common (cells with missing or
+ * unequal points): mesh, particles, material data, and numbers of modes and strain components. Made by maker_of. */
 struct cell_maker {
     const struct mesh *mesh;
     const struct particles *p;
@@ -137,8 +137,8 @@ static void cell_sums(const struct cell_maker *c, int64_t I, real sum[CORNERS_MA
 /* Returns one entry of the stiffness matrix of a cell in terms of its deformation modes [Pa]: the force on the mode
  * `to` for a unit amplitude of the mode `by`. c: dimensions; sum[S]: means of the stiffness matrices of its points
  * times signs of their coordinates, from cell_sums. */
-static real mesh_partial_entry_of(const struct cell_maker *c, real sum[CORNERS_MAX][SYM_MAX * SYM_MAX],
-                                  const struct mode_terms *to, const struct mode_terms *by)
+static real own_stiffness_entry(const struct cell_maker *c, real sum[CORNERS_MAX][SYM_MAX * SYM_MAX],
+                                const struct mode_terms *to, const struct mode_terms *by)
 {
     real value = 0;
     for (int s = 0; s < to->n; s++)
@@ -192,9 +192,9 @@ static void averaged_point_add(const struct cell_maker *c, real B[SYM_MAX][MODES
     }
 }
 
-/* Computes the stiffness matrix K[MODES_MAX][MODES_MAX] [Pa] of partial cell I (a cell with missing or unequal points,
- * which has a stiffness matrix of its own), in terms of its deformation modes. c: mesh and particles; B: strains of its
- * points for unit amplitudes of the modes, with the mean dilatation (averaged_strains). */
+/* Computes the stiffness matrix K[MODES_MAX][MODES_MAX] [Pa] of own-stiffness cell I (a cell with missing or unequal
+ * points, which has a stiffness matrix of its own), in terms of its deformation modes. c: mesh and particles; B:
+ * strains of its points for unit amplitudes of the modes, with the mean dilatation (averaged_strains). */
 static void averaged_cell_make(const struct cell_maker *c, int64_t I, point_strains B, real K[MODES_MAX][MODES_MAX])
 {
     memset(K, 0, sizeof(real) * MODES_MAX * MODES_MAX);
@@ -207,11 +207,11 @@ static void averaged_cell_make(const struct cell_maker *c, int64_t I, point_stra
     }
 }
 
-/* Computes the stiffness matrix of partial cell I (a cell with missing or unequal points, which has a stiffness matrix
- * of its own), in terms of its deformation modes [Pa], and stores its upper half row by row. c: mesh and particles. K:
- * address of the first entry; the next entries follow at distances of LANES, since the matrices of LANES cells are
- * interleaved. The lower half is not stored, since the matrix is symmetric up to round-off. */
-static void mesh_partial_cell_make(const struct cell_maker *c, int64_t I, real *K)
+/* Computes the stiffness matrix of own-stiffness cell I (a cell with missing or unequal points, which has a stiffness
+ * matrix of its own), in terms of its deformation modes [Pa], and stores its upper half row by row. c: mesh and
+ * particles. K: address of the first entry; the next entries follow at distances of LANES, since the matrices of LANES
+ * cells are interleaved. The lower half is not stored, since the matrix is symmetric up to round-off. */
+static void mesh_own_stiffness_cell_compute_stiffness(const struct cell_maker *c, int64_t I, real *K)
 {
     const int n = c->modes;
     real sum[CORNERS_MAX][SYM_MAX * SYM_MAX], averaged[MODES_MAX][MODES_MAX];
@@ -224,13 +224,13 @@ static void mesh_partial_cell_make(const struct cell_maker *c, int64_t I, real *
     }
     cell_sums(c, I, sum);
     for (int a = 0; a < n; a++)
-        for (int b = a; b < n; b++, K += LANES) *K = mesh_partial_entry_of(c, sum, &c->in[a], &c->in[b]);
+        for (int b = a; b < n; b++, K += LANES) *K = own_stiffness_entry(c, sum, &c->in[a], &c->in[b]);
 }
 
 /* ---- points of PD-MPM bonds -------------------------------------------------------------------------------------- */
 
-/* Frees the lists of points with PD-MPM bonds (between peridynamic particles and material points) in the partial cells
- * of the mesh (cells with a stiffness matrix of their own). */
+/* Frees the lists of points with PD-MPM bonds (between peridynamic particles and material points) in the own-stiffness
+ * cells of the mesh (cells with a stiffness matrix of their own). */
 static void ends_free(struct mesh *mesh)
 {
     memory_free(mesh->ends);
@@ -265,16 +265,16 @@ static int64_t end_entry(const struct cell_maker *c, int32_t i)
     return i >= 0 && point_has_own_state_based_bonds(c->source->partial, i, c->dim) ? c->source->partial->index[i] : -1;
 }
 
-/* Appends the points with state-based PD-MPM bonds in partial cell number k (a cell with a stiffness matrix of its own)
- * to mesh->end, from index *n on. Stores for each point how much the deformation modes of the cell change the mean
- * strain of its family. Advances *n by the number of these points. c: mesh and bonds. */
+/* Appends the points with state-based PD-MPM bonds in own-stiffness cell number k (a cell with a stiffness matrix of
+ * its own) to mesh->end, from index *n on. Stores for each point how much the deformation modes of the cell change the
+ * mean strain of its family. Advances *n by the number of these points. c: mesh and bonds. */
 static void ends_of_cell(struct mesh *mesh, const struct cell_maker *c, int64_t k, int32_t *n)
 {
     const struct partial_stress *partial = c->source->partial;
     point_strains B;
-    const bool averaged = averaged_strains(c, mesh->partial_cell[k], B);
+    const bool averaged = averaged_strains(c, mesh->own_stiffness_cell[k], B);
     for (int q = 0; q < 1 << c->dim; q++) {
-        const int32_t i = mesh->point[((int64_t)mesh->partial_cell[k] << c->dim) + q];
+        const int32_t i = mesh->point[((int64_t)mesh->own_stiffness_cell[k] << c->dim) + q];
         const int64_t entry = end_entry(c, i);
         if (entry < 0) continue;
         mesh->end[*n] = (struct mesh_end){i, (int32_t)(k % LANES)};
@@ -283,63 +283,66 @@ static void ends_of_cell(struct mesh *mesh, const struct cell_maker *c, int64_t 
     }
 }
 
-/* Lists the points with state-based PD-MPM bonds in all partial cells of the mesh (cells with a stiffness matrix of
- * their own), group by group of LANES such cells. c: has the partial stresses of the points. */
-static void mesh_partial_ends_make(struct mesh *mesh, const struct cell_maker *c)
+/* Lists the points with state-based PD-MPM bonds in all own-stiffness cells of the mesh (cells with a stiffness matrix
+ * of their own), group by group of LANES such cells. c: has the partial stresses of the points. */
+static void mesh_own_stiffness_cells_compute_ends(struct mesh *mesh, const struct cell_maker *c)
 {
     const struct partial_stress *partial = c->source->partial;
     int32_t n = 0;
     if (!partial || !partial->index || !partial->local) return;
-    mesh->ends = NEW("mesh.ends", mesh_count_groups_of_eight_partial_cells(mesh) + 1, int32_t);
-    for (int64_t k = 0; k < mesh->partial_cells; k++)
+    mesh->ends = NEW("mesh.ends", mesh_count_groups_of_eight_own_stiffness_cells(mesh) + 1, int32_t);
+    for (int64_t k = 0; k < mesh->own_stiffness_cells; k++)
         for (int q = 0; q < 1 << c->dim; q++)
-            n += end_entry(c, mesh->point[((int64_t)mesh->partial_cell[k] << c->dim) + q]) >= 0;
+            n += end_entry(c, mesh->point[((int64_t)mesh->own_stiffness_cell[k] << c->dim) + q]) >= 0;
     mesh->end = NEW("mesh.end", n, struct mesh_end);
     mesh->end_share = NEW("mesh.end_share", (int64_t)n * c->modes, real);
     n = 0;
-    for (int64_t k = 0; k < mesh->partial_cells; k++) {
+    for (int64_t k = 0; k < mesh->own_stiffness_cells; k++) {
         ends_of_cell(mesh, c, k, &n);
         mesh->ends[k / LANES + 1] = n;
     }
 }
 
-/* ---- all partial cells ------------------------------------------------------------------------------------------- */
+/* ---- all own-stiffness cells
+ * ------------------------------------------------------------------------------------------- */
 
-/* Appends cell I to the list of partial cells of the mesh: cells with missing points, partial stresses (left to bonds),
- * several materials or doubled nodes. Their stiffness is computed later (mesh_partial_cells_compute_stiffness). */
-void mesh_partial_cells_add(struct mesh *mesh, int64_t I)
+/* Appends cell I to the list of own-stiffness cells of the mesh: cells with missing points, partial stresses (left to
+ * bonds), several materials or doubled nodes. Their stiffness is computed later
+ * (mesh_own_stiffness_cells_compute_stiffness).
+ */
+void mesh_own_stiffness_cells_add(struct mesh *mesh, int64_t I)
 {
-    GROW("mesh.partial_cell", mesh->partial_cell, mesh->partial_cells + 1);
-    mesh->partial_cell[mesh->partial_cells++] = (int32_t)I;
+    GROW("mesh.own_stiffness_cell", mesh->own_stiffness_cell, mesh->own_stiffness_cells + 1);
+    mesh->own_stiffness_cell[mesh->own_stiffness_cells++] = (int32_t)I;
 }
 
-struct mesh_partial_cells mesh_partial_cells_remove_and_return(struct mesh *mesh)
+struct mesh_own_stiffness_cells mesh_own_stiffness_cells_remove_and_return(struct mesh *mesh)
 {
-    const struct mesh_partial_cells old = {mesh->partial_cells, mesh->partial_cell, mesh->stiffness};
-    mesh->partial_cell = NULL, mesh->stiffness = NULL;
-    mesh->partial_cells = 0;
-    mesh_partial_cells_free(mesh);
+    const struct mesh_own_stiffness_cells old = {mesh->own_stiffness_cells, mesh->own_stiffness_cell, mesh->stiffness};
+    mesh->own_stiffness_cell = NULL, mesh->stiffness = NULL;
+    mesh->own_stiffness_cells = 0;
+    mesh_own_stiffness_cells_free(mesh);
     return old;
 }
 
-void mesh_partial_cells_free(struct mesh *mesh)
+void mesh_own_stiffness_cells_free(struct mesh *mesh)
 {
-    memory_free(mesh->partial_cell);
+    memory_free(mesh->own_stiffness_cell);
     memory_free(mesh->stiffness);
     ends_free(mesh);
     memory_free(mesh->alike);
-    memory_free(mesh->partial_force);
-    memory_free(mesh->partial_stressed);
-    memory_free(mesh->partial_material);
-    mesh->partial_cell = NULL, mesh->partial_force = NULL, mesh->partial_stressed = NULL, mesh->partial_material = NULL,
-    mesh->alike = NULL;
+    memory_free(mesh->own_stiffness_force);
+    memory_free(mesh->own_stiffness_stressed);
+    memory_free(mesh->own_stiffness_material);
+    mesh->own_stiffness_cell = NULL, mesh->own_stiffness_force = NULL, mesh->own_stiffness_stressed = NULL,
+    mesh->own_stiffness_material = NULL, mesh->alike = NULL;
     mesh->stiffness = NULL;
 }
 
 /* Returns the number of the material with the lowest conversion stress among the materials of the points (of p) of cell
  * I of the mesh. s: elastic constants, with these stresses. */
-static uint8_t partial_material(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
-                                int64_t I)
+static uint8_t own_stiffness_material(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
+                                      int64_t I)
 {
     int least = -1;
     for (int q = 0; q < 1 << p->dim; q++) {
@@ -350,9 +353,9 @@ static uint8_t partial_material(const struct mesh *mesh, const struct particles 
     return (uint8_t)least;
 }
 
-/* Returns the parameters for computing the stiffness matrices of the partial cells of the mesh (cells with missing
- * points, partial stresses, several materials or doubled nodes) from particles p and material data s. Release the
- * member `whole` with memory_free. */
+/* Returns the parameters for computing the stiffness matrices of the own-stiffness cells of the mesh (cells with
+ * missing points, partial stresses, several materials or doubled nodes) from particles p and material data s. Release
+ * the member `whole` with memory_free. */
 static struct cell_maker maker_of(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s)
 {
     const int dim = p->dim, n = symmetric_tensor_component_count(dim);
@@ -368,17 +371,17 @@ static struct cell_maker maker_of(const struct mesh *mesh, const struct particle
     return c;
 }
 
-/* Returns the address of the first number of partial cell `cell` (with missing or unequal points) in the array `from`.
- * The array has `each` numbers for every partial cell, such as stiffnesses; those of LANES cells are interleaved.
- * Returns NULL if `from` is NULL. */
+/* Returns the address of the first number of own-stiffness cell `cell` (with missing or unequal points) in the array
+ * `from`. The array has `each` numbers for every own-stiffness cell, such as stiffnesses; those of LANES cells are
+ * interleaved. Returns NULL if `from` is NULL. */
 static real *lane_of(real *from, int64_t cell, int each)
 {
     return from ? from + (cell / LANES * each) * LANES + cell % LANES : NULL;
 }
 
-/* Copies the numbers of partial cells (such as stiffnesses) from the array `old` to group number `group` of LANES cells
- * of the array `to`: those of cell from[l] to lane l. A lane with from[l] < 0 keeps its values. each: numbers per cell;
- * those of LANES cells are interleaved in both arrays, which are read and written in order. */
+/* Copies the numbers of own-stiffness cells (such as stiffnesses) from the array `old` to group number `group` of LANES
+ * cells of the array `to`: those of cell from[l] to lane l. A lane with from[l] < 0 keeps its values. each: numbers per
+ * cell; those of LANES cells are interleaved in both arrays, which are read and written in order. */
 static void group_copy(real *to, real *old, const int64_t *from, int64_t group, int each)
 {
     real *own = to + group * each * LANES;
@@ -388,59 +391,62 @@ static void group_copy(real *to, real *old, const int64_t *from, int64_t group, 
         for (int l = 0; l < LANES; l++) own[k + l] = source[l][k];
 }
 
-/* Fills up the last group of LANES partial cells of the mesh (cells with a stiffness matrix of their own) by copies of
- * its first cell. The copies have no stiffness and are not counted. */
+/* Fills up the last group of LANES own-stiffness cells of the mesh (cells with a stiffness matrix of their own) by
+ * copies of its first cell. The copies have no stiffness and are not counted. */
 static void groups_fill(struct mesh *mesh)
 {
-    const int64_t whole = mesh_count_groups_of_eight_partial_cells(mesh) * LANES, partial_cells = mesh->partial_cells;
-    while (mesh->partial_cells < whole) mesh_partial_cells_add(mesh, mesh->partial_cell[whole - LANES]);
-    mesh->partial_cells = partial_cells;
+    const int64_t whole = mesh_count_groups_of_eight_own_stiffness_cells(mesh) * LANES,
+                  own_stiffness_cells = mesh->own_stiffness_cells;
+    while (mesh->own_stiffness_cells < whole)
+        mesh_own_stiffness_cells_add(mesh, mesh->own_stiffness_cell[whole - LANES]);
+    mesh->own_stiffness_cells = own_stiffness_cells;
 }
 
-/* Returns a list with an entry for each partial cell of the mesh (a cell with a stiffness matrix of its own): the index
- * of the same cell in `old`, the list before a change of cells, from which its stiffness is copied. The entry is -1 if
- * the stiffness must be computed, because the cell is new or marked in `dirty` (NULL: all cells are), and for the lanes
- * that fill the last group of LANES cells. Release the list with memory_free. */
-static int64_t *origins(const struct mesh *mesh, const struct mesh_partial_cells *old, const uint8_t *dirty)
+/* Returns a list with an entry for each own-stiffness cell of the mesh (a cell with a stiffness matrix of its own): the
+ * index of the same cell in `old`, the list before a change of cells, from which its stiffness is copied. The entry is
+ * -1 if the stiffness must be computed, because the cell is new or marked in `dirty` (NULL: all cells are), and for the
+ * lanes that fill the last group of LANES cells. Release the list with memory_free. */
+static int64_t *origins(const struct mesh *mesh, const struct mesh_own_stiffness_cells *old, const uint8_t *dirty)
 {
-    int64_t *from = BARE("mesh.from", mesh_count_groups_of_eight_partial_cells(mesh) * LANES, int64_t);
-    for (int64_t k = mesh->partial_cells; k < mesh_count_groups_of_eight_partial_cells(mesh) * LANES; k++) from[k] = -1;
-    for (int64_t k = 0, q = 0; k < mesh->partial_cells; k++) {
-        while (q < old->partial_cells && old->partial_cell[q] < mesh->partial_cell[k]) q++;
-        from[k] = dirty && q < old->partial_cells && old->partial_cell[q] == mesh->partial_cell[k] &&
-                          !dirty[mesh->partial_cell[k]]
+    int64_t *from = BARE("mesh.from", mesh_count_groups_of_eight_own_stiffness_cells(mesh) * LANES, int64_t);
+    for (int64_t k = mesh->own_stiffness_cells; k < mesh_count_groups_of_eight_own_stiffness_cells(mesh) * LANES; k++)
+        from[k] = -1;
+    for (int64_t k = 0, q = 0; k < mesh->own_stiffness_cells; k++) {
+        while (q < old->own_stiffness_cells && old->own_stiffness_cell[q] < mesh->own_stiffness_cell[k]) q++;
+        from[k] = dirty && q < old->own_stiffness_cells && old->own_stiffness_cell[q] == mesh->own_stiffness_cell[k] &&
+                          !dirty[mesh->own_stiffness_cell[k]]
                       ? q
                       : -1;
     }
     return from;
 }
 
-/* Returns an array of `each` numbers for every partial cell of `mesh` (a cell with a stiffness matrix of its own),
- * interleaved in groups of LANES cells. The numbers of the last group are 0, others are uninitialised. label: name of
- * the array. Release it with memory_free. */
+/* Returns an array of `each` numbers for every own-stiffness cell of `mesh` (a cell with a stiffness matrix of its
+ * own), interleaved in groups of LANES cells. The numbers of the last group are 0, others are uninitialised. label:
+ * name of the array. Release it with memory_free. */
 static real *numbers_make(const char *label, const struct mesh *mesh, int64_t each)
 {
-    const int64_t groups = mesh_count_groups_of_eight_partial_cells(mesh), size = each * LANES;
+    const int64_t groups = mesh_count_groups_of_eight_own_stiffness_cells(mesh), size = each * LANES;
     real *numbers = memory_new_uninitialised(label, groups * size, sizeof *numbers);
     if (groups > 0) array_fill_bytes(numbers + (groups - 1) * size, 0, size, sizeof *numbers);
     return numbers;
 }
 
-/* Returns true if two groups g and h of LANES partial cells (cells with a stiffness matrix of their own) have bitwise
- * equal numbers in the array `of`, such as stiffnesses. each: numbers per cell. */
+/* Returns true if two groups g and h of LANES own-stiffness cells (cells with a stiffness matrix of their own) have
+ * bitwise equal numbers in the array `of`, such as stiffnesses. each: numbers per cell. */
 static bool numbers_alike(const real *of, int64_t g, int64_t h, int each)
 {
     const int64_t size = (int64_t)each * LANES;
     return arrays_equal(of + g * size, of + h * size, size, sizeof *of);
 }
 
-/* Finds groups of LANES partial cells (cells with a stiffness matrix of their own) that can share one stiffness.
+/* Finds groups of LANES own-stiffness cells (cells with a stiffness matrix of their own) that can share one stiffness.
  * mesh->alike[g] receives the first of the groups directly before group g with bitwise equal stiffness, or g itself if
  * there is none. Such groups are frequent, as cells that an edge of the body cuts in the same way are consecutive.
  * modes: number of deformation modes of a cell. */
 static void alike_find(struct mesh *mesh, int modes)
 {
-    const int64_t groups = mesh_count_groups_of_eight_partial_cells(mesh);
+    const int64_t groups = mesh_count_groups_of_eight_own_stiffness_cells(mesh);
     const int half = modes * (modes + 1) / 2;
     mesh->alike = NEW("mesh.alike", groups, int32_t);
     for (int64_t g = 0; g < groups; g++) {
@@ -449,58 +455,63 @@ static void alike_find(struct mesh *mesh, int modes)
     }
 }
 
-void mesh_partial_cells_compute_stiffness(struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
-                                          const uint8_t *cell_needs_update, struct mesh_partial_cells *previous_cells)
+void mesh_own_stiffness_cells_compute_stiffness(struct mesh *mesh, const struct particles *p,
+                                                const struct mesh_source *s, const uint8_t *cell_needs_update,
+                                                struct mesh_own_stiffness_cells *previous_cells)
 {
     struct cell_maker c = maker_of(mesh, p, s);
     const int half = c.modes * (c.modes + 1) / 2, unknowns = (1 << c.dim) * c.dim;
-    const int64_t groups = mesh_count_groups_of_eight_partial_cells(mesh);
+    const int64_t groups = mesh_count_groups_of_eight_own_stiffness_cells(mesh);
     groups_fill(mesh);
     mesh->stiffness = numbers_make("mesh.stiffness", mesh, half);
-    mesh->partial_force = BARE("mesh.partial_force", groups * unknowns * LANES, real);
-    mesh->partial_stressed = NEW("mesh.partial_stressed", groups * LANES, bool);
-    mesh->partial_material = NEW("mesh.partial_material", groups * LANES, uint8_t);
+    mesh->own_stiffness_force = BARE("mesh.own_stiffness_force", groups * unknowns * LANES, real);
+    mesh->own_stiffness_stressed = NEW("mesh.own_stiffness_stressed", groups * LANES, bool);
+    mesh->own_stiffness_material = NEW("mesh.own_stiffness_material", groups * LANES, uint8_t);
     for (int64_t k = 0; k < groups * LANES; k++)
-        mesh->partial_material[k] = partial_material(mesh, p, s, mesh->partial_cell[k]);
+        mesh->own_stiffness_material[k] = own_stiffness_material(mesh, p, s, mesh->own_stiffness_cell[k]);
     int64_t *from = origins(mesh, previous_cells, cell_needs_update);
 #pragma omp parallel for schedule(dynamic, 2)
     for (int64_t g = 0; g < groups; g++) {
         group_copy(mesh->stiffness, previous_cells->stiffness, from + g * LANES, g, half);
-        for (int64_t k = g * LANES; k < (g + 1) * LANES && k < mesh->partial_cells; k++)
-            if (from[k] < 0) mesh_partial_cell_make(&c, mesh->partial_cell[k], lane_of(mesh->stiffness, k, half));
+        for (int64_t k = g * LANES; k < (g + 1) * LANES && k < mesh->own_stiffness_cells; k++)
+            if (from[k] < 0)
+                mesh_own_stiffness_cell_compute_stiffness(&c, mesh->own_stiffness_cell[k],
+                                                          lane_of(mesh->stiffness, k, half));
     }
     alike_find(mesh, c.modes);
-    mesh_slits_store_corner_nodes_of_cells(mesh);
-    mesh_partial_ends_make(mesh, &c);
+    mesh_slits_store_corner_nodes_of_adjacent_cells(mesh);
+    mesh_own_stiffness_cells_compute_ends(mesh, &c);
     memory_free(from);
     memory_free(c.whole);
-    memory_free(previous_cells->partial_cell);
+    memory_free(previous_cells->own_stiffness_cell);
     memory_free(previous_cells->stiffness);
 }
 
-/* Ends the sharing of stiffness by groups of LANES partial cells (missing or unequal points) of which one has changed.
- * Sets mesh->alike[g] = g for each group g with changed[g], and for each group that uses the stiffness of such a group.
- * changed: [groups]. */
+/* Ends the sharing of stiffness by groups of LANES own-stiffness cells (missing or unequal points) of which one has
+ * changed. Sets mesh->alike[g] = g for each group g with changed[g], and for each group that uses the stiffness of such
+ * a group. changed: [groups]. */
 static void alike_part(struct mesh *mesh, const uint8_t *changed)
 {
-    for (int64_t g = mesh_count_groups_of_eight_partial_cells(mesh) - 1; g >= 0; g--)
+    for (int64_t g = mesh_count_groups_of_eight_own_stiffness_cells(mesh) - 1; g >= 0; g--)
         if (changed[g] || changed[mesh->alike[g]]) mesh->alike[g] = (int32_t)g;
 }
 
-void mesh_partial_cells_recompute_marked_stiffness(struct mesh *mesh, const struct particles *p,
-                                                   const struct mesh_source *s, const uint8_t *cell_is_marked)
+void mesh_own_stiffness_cells_recompute_marked(struct mesh *mesh, const struct particles *p,
+                                               const struct mesh_source *s, const uint8_t *cell_is_marked)
 {
     struct cell_maker c = maker_of(mesh, p, s);
     const int half = c.modes * (c.modes + 1) / 2;
-    uint8_t *changed = NEW("mesh.changed", mesh_count_groups_of_eight_partial_cells(mesh), uint8_t);
-    for (int64_t k = 0; k < mesh->partial_cells; k++) changed[k / LANES] |= cell_is_marked[mesh->partial_cell[k]];
+    uint8_t *changed = NEW("mesh.changed", mesh_count_groups_of_eight_own_stiffness_cells(mesh), uint8_t);
+    for (int64_t k = 0; k < mesh->own_stiffness_cells; k++)
+        changed[k / LANES] |= cell_is_marked[mesh->own_stiffness_cell[k]];
     alike_part(mesh, changed);
     memory_free(changed);
 #pragma omp parallel for schedule(dynamic, 16)
-    for (int64_t k = 0; k < mesh->partial_cells; k++)
-        if (cell_is_marked[mesh->partial_cell[k]])
-            mesh_partial_cell_make(&c, mesh->partial_cell[k], lane_of(mesh->stiffness, k, half));
+    for (int64_t k = 0; k < mesh->own_stiffness_cells; k++)
+        if (cell_is_marked[mesh->own_stiffness_cell[k]])
+            mesh_own_stiffness_cell_compute_stiffness(&c, mesh->own_stiffness_cell[k],
+                                                      lane_of(mesh->stiffness, k, half));
     ends_free(mesh);
-    mesh_partial_ends_make(mesh, &c);
+    mesh_own_stiffness_cells_compute_ends(mesh, &c);
     memory_free(c.whole);
 }
