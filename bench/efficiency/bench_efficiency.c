@@ -240,7 +240,8 @@ static void print_marks(const struct efficiency *all)
         }
     printf(
         "  t_r below 0: the adaptive run took longer than full peridynamics; stepping: the same without the samples;\n"
-        "  bound: if rows, partial stress and own-stiffness cells of a conversion came for nothing, what kernels alone "
+        "  bound: if rows, partial stress and cells with own stiffness of a conversion came for nothing, what kernels "
+        "alone "
         "allow;\n  rest_share: part of the loop that is neither bonds nor material points, but conversion, contact "
         "searches and samples;\n  in the way, of rows below their aim: the largest part of the loop, over t_PD\n");
 }

@@ -124,7 +124,7 @@ real bonds_dissipated_softening_energy(const struct bonds *b);
 /* Returns the fracture energy [J] of row `row` of b (all bonds of one particle): the energy released by its broken
  * bonds since the start, plus half of the energy that its intact bonds have dissipated by softening. The sum over all
  * rows is bonds_fracture_energy. */
-real bonds_row_fracture_energy(const struct bonds *b, int64_t row);
+real bonds_row_dissipated_energy(const struct bonds *b, int64_t row);
 
 /* Returns true if an intact bond of row `row` of b (all bonds of one particle) has begun to soften, because of its
  * stretch or of the strength surface of the material; false if there is none, or if row is -1. */

@@ -40,8 +40,8 @@ struct interface_zone {
  * their body is at most the cutoff of bonds plus one spacing. Neighbours of a point are particles within 1.5 spacings.
  * Pairs cut by a pre-crack and particles with prescribed motion are left out. Replaces the previous zone in *r. source:
  * inputs of the bonds (horizon, materials, cracks, mirrors). Release with interface_zone_free. */
-void interface_zone_find_points_and_neighbours(struct interface_zone *zone, const struct particles *p,
-                                               const struct bond_source *source);
+void interface_zone_list_damped_material_points(struct interface_zone *zone, const struct particles *p,
+                                                const struct bond_source *source);
 
 /* Releases all arrays of the interface zone `zone` (material points beside peridynamic particles, whose motion is
  * damped). */

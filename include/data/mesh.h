@@ -44,8 +44,8 @@ struct mesh_exposed {
 };
 
 /* A material point of the mesh with state-based bonds to peridynamic particles. point: index of the particle; lane:
- * position (0 to 7) of its cell in a group of eight own-stiffness cells (cells with missing or bonded points) that are
- * processed together. */
+ * position (0 to 7) of its cell in a group of eight cells with own stiffness (cells with missing or bonded points) that
+ * are processed together. */
 struct mesh_end {
     int32_t point, lane;
 };
@@ -72,11 +72,11 @@ struct mesh_slits {
     int32_t *next;   /* [grid.n] list of the cells into which one cell was divided: index of the next, -1: the last */
     int32_t *cut;    /* [grid.n] index in `home` of each divided cell of the grid, -1: not divided */
     int32_t *home;   /* [divided cells][2^dim] index of the cell that now has the point at each quarter position */
-    int32_t
-        *group; /* [groups of LANES own-stiffness cells] index in `lane`, -1: all cells have the corners of the grid */
-    int32_t *lane; /* [groups with extra nodes][2^dim][LANES] nodes at the corners of the cells of a group */
-    int64_t links; /* number of pairs of blocks of eight nodes: one block of extra nodes or cells, and one of the nodes
-                      at the positions of the extra nodes */
+    int32_t *group; /* [groups of LANES cells with own stiffness] index in `lane`, -1: all cells have the corners of the
+                       grid */
+    int32_t *lane;  /* [groups with extra nodes][2^dim][LANES] nodes at the corners of the cells of a group */
+    int64_t links;  /* number of pairs of blocks of eight nodes: one block of extra nodes or cells, and one of the nodes
+                       at the positions of the extra nodes */
     struct mesh_link {
         int32_t extra, base;
     } * link;        /* [links] index of both blocks of a pair */
@@ -84,8 +84,8 @@ struct mesh_slits {
 };
 
 /* A mesh of square or cubic cells of two spacings in the reference frame, with 2^dim material points at the quarter
- * positions of each cell. A cell has the index of its lowest node. Own-stiffness cells (some points missing or bonded,
- * or beside a slit) are treated in groups of LANES. All arrays are owned unless const. */
+ * positions of each cell. A cell has the index of its lowest node. Cells with own stiffness (some points missing or
+ * bonded, or beside a slit) are treated in groups of LANES. All arrays are owned unless const. */
 struct mesh {
     struct grid grid;            /* nodes: mass, force, velocity; momentum is unused */
     int64_t points;              /* number of particles in the mesh; 0: there is no mesh */
@@ -109,21 +109,22 @@ struct mesh {
     int32_t *span;        /* [rows][2] index of the first node of a row that has mass, and one past the last */
     int64_t bands, *band; /* bands (layers of cells): runs of band b are run[band[b]] .. run[band[b+1]-1] */
     int64_t runs;
-    struct mesh_cell_run *run;   /* [runs] consecutive cells along x */
-    int64_t own_stiffness_cells; /* number of own-stiffness cells */
-    int32_t
-        *own_stiffness_cell; /* [own_stiffness_cells, padded to whole groups of LANES] own-stiffness cells, ascending */
+    struct mesh_cell_run *run;       /* [runs] consecutive cells along x */
+    int64_t own_stiffness_cells;     /* number of cells with own stiffness */
+    int32_t *own_stiffness_cell;     /* [own_stiffness_cells, padded to whole groups of LANES] cells with own stiffness,
+                                        ascending */
     uint8_t *own_stiffness_material; /* [as own_stiffness_cell] material of the cell, of several the one that converts
                                         first */
     bool *own_stiffness_stressed;    /* [as own_stiffness_cell] a point may have exceeded the conversion stress */
     real *stiffness; /* [groups][modes (modes + 1)/2][LANES] half of the symmetric stiffness by deformation modes
-                        of each own-stiffness cell, divided by its volume (mesh_own_stiffness.h) [Pa] */
+                        of each cell with own stiffness, divided by its volume (mesh_own_stiffness.h) [Pa] */
     /* [groups + 1] bonded points in the cells of a group: end[ends[group]] .. end[ends[group + 1] - 1]; NULL: none */
     int32_t *ends;
     struct mesh_end *end; /* bonded points, group by group */
     real *end_share;      /* [bonded points][modes] derivative of particles.end_strain by the modes of the cell [1] */
     int32_t *alike;       /* [groups] index of the first group with bitwise equal stiffness */
-    real *own_stiffness_force; /* [groups][2^dim dim][LANES] forces of the own-stiffness cells on their corners [N] */
+    real *own_stiffness_force; /* [groups][2^dim dim][LANES] forces of the cells with own stiffness on their corners [N]
+                                */
     int64_t exposed;
     struct mesh_exposed *exposed_list; /* [exposed] points to which bonds reach, ascending by cell */
     struct active_set active;          /* blocks of nodes that a wave has reached */
@@ -158,12 +159,12 @@ static inline int64_t mesh_cell_corner_node(const struct mesh *mesh, int64_t cel
     return own ? own[corner] : cell + mesh->corner[corner];
 }
 
-/* Returns the nodes at the corners of the eight cells of group number `group` of own-stiffness cells (cells with
+/* Returns the nodes at the corners of the eight cells of group number `group` of cells with own stiffness (cells with
  * missing points, or points with bonds to peridynamic particles), as an array [2^dim][LANES]. The array belongs to the
  * mesh. Returns NULL if none of these nodes is an extra node (second node where a pre-crack divides the mesh): all
  * corners are then nodes of the grid. */
-static inline const int32_t *mesh_own_stiffness_cells_corner_nodes_if_at_slit(const struct mesh *mesh, int64_t group,
-                                                                              const int dim)
+static inline const int32_t *mesh_cells_with_own_stiffness_corner_nodes_if_at_slit(const struct mesh *mesh,
+                                                                                   int64_t group, const int dim)
 {
     const struct mesh_slits *s = &mesh->slits;
     return s->group && s->group[group] >= 0 ? s->lane + ((int64_t)s->group[group] << dim) * LANES : NULL;
@@ -207,10 +208,10 @@ static inline int cell_deformation_mode_count(int dim)
     return symmetric_tensor_component_count(dim) + cell_bending_mode_count(dim);
 }
 
-/* Returns the number of groups of eight (LANES) own-stiffness cells of the mesh that are processed side by side; the
- * last group may be incomplete. Own-stiffness cells are cells with missing points, points with bonds to peridynamic
- * particles, or several materials. */
-static inline int64_t mesh_count_groups_of_eight_own_stiffness_cells(const struct mesh *mesh)
+/* Returns the number of groups of eight (LANES) cells with own stiffness of the mesh that are processed side by side;
+ * the last group may be incomplete. Cells with own stiffness are cells with missing points, points with bonds to
+ * peridynamic particles, or several materials. */
+static inline int64_t mesh_count_groups_of_eight_cells_with_own_stiffness(const struct mesh *mesh)
 {
     return (mesh->own_stiffness_cells + LANES - 1) / LANES;
 }
@@ -221,7 +222,7 @@ static inline bool mesh_stress_may_exceed_conversion_limit(const struct mesh *me
 {
     bool any = false;
     for (int64_t r = 0; r < mesh->runs; r++) any |= mesh->run[r].stressed;
-    for (int64_t k = 0; k < mesh_count_groups_of_eight_own_stiffness_cells(mesh) * LANES; k++)
+    for (int64_t k = 0; k < mesh_count_groups_of_eight_cells_with_own_stiffness(mesh) * LANES; k++)
         any |= mesh->own_stiffness_stressed[k];
     return any;
 }

@@ -60,8 +60,8 @@ real mesh_remove_points_and_return_lost_energy(struct mesh *mesh, struct particl
 
 /* Recomputes the stiffness of the cells of the points of p in changed_points[changed_count] (indices) after only their
  * partial stresses (shares of the stress that bonds carry) have changed; all points remain in the mesh. All cells must
- * be own-stiffness cells before and afterwards: cells with a stiffness matrix of their own, because points are missing
- * or leave a share of their stress to bonds. Else returns false without any change; call
+ * be cells with own stiffness before and afterwards: cells with a stiffness matrix of their own, because points are
+ * missing or leave a share of their stress to bonds. Else returns false without any change; call
  * mesh_remove_points_and_return_lost_energy then. source: material constants. */
 bool mesh_try_update_stiffness_for_partial_stress(struct mesh *mesh, const struct particles *p,
                                                   const struct mesh_source *source, const int32_t *changed_points,

@@ -255,7 +255,7 @@ status cells_without_particles_predict_from_scene(struct cells_without_particles
  * to which each cell of level 0 belongs, NULL if there are no coarse cells. Returns false if particles are missing or
  * if the levels come from a checkpoint. The run must then be set up again, with the cells without particles that
  * reference->hollow now has. */
-bool initial_finest_cells_have_all_particles(struct lagrangian_mesh *reference, const uint8_t *cell_level);
+bool mesh_check_all_initially_finest_cells_are_filled(struct lagrangian_mesh *reference, const uint8_t *cell_level);
 
 /* Returns true if a cell of `mesh` that shall have level 0 (the finest) has no particles, so that the run must be set
  * up again with more particles. new_cell_level: for each cell of level 0 the level of the cell to which it shall

@@ -79,8 +79,8 @@ real mesh_kick(const struct mesh *mesh, real dt)
 }
 
 /* Arguments of mesh_strain, packed for the functions that compute the elastic energy of one row of cells or one group
- * of eight own-stiffness cells: the mesh, its material points, the elastic constants of each material, and whether the
- * strain is finite. */
+ * of eight cells with own stiffness: the mesh, its material points, the elastic constants of each material, and whether
+ * the strain is finite. */
 struct strain_sum {
     const struct mesh *mesh;
     const struct particles *p;
@@ -96,8 +96,8 @@ static ALWAYS_INLINE real lanes_sum(lanes a)
     return all;
 }
 
-/* Returns the elastic energy of a group of eight own-stiffness cells [J]: cells that the regular loop does not treat,
- * because of missing points, partial stresses, several materials or doubled nodes. s: mesh, particles, elastic
+/* Returns the elastic energy of a group of eight cells with own stiffness [J]: cells that the regular loop does not
+ * treat, because of missing points, partial stresses, several materials or doubled nodes. s: mesh, particles, elastic
  * constants; group: number of the group, from 0; finite: true for finite strain. Vector lanes beyond the last cell have
  * no stiffness and contribute 0. */
 static ALWAYS_INLINE real partial_energy(const struct strain_sum *s, int64_t group, const int dim, const bool finite)
@@ -105,14 +105,14 @@ static ALWAYS_INLINE real partial_energy(const struct strain_sum *s, int64_t gro
     const struct mesh *mesh = s->mesh;
     struct mesh_cell cell;
     lanes u[CORNERS_MAX][3];
-    mesh_own_stiffness_cells_load_displacements(mesh, group, u, dim);
+    mesh_cells_with_own_stiffness_gather_displacements(mesh, group, u, dim);
     cell_compute_rotation_strain_and_modes(&cell, mesh->grid.h, u, dim, finite && dim > 1);
     if (mesh_points_can_yield(s->p)) {
         int32_t eight[LANES];
-        mesh_own_stiffness_cells_get_indices(mesh, group, eight);
+        mesh_cells_with_own_stiffness_get_indices(mesh, group, eight);
         return cells_elastic_energy(mesh, s->p, s->elastic, eight, &cell, dim);
     }
-    mesh_own_stiffness_cells_compute_stress(mesh, s->p, group, &cell, dim);
+    mesh_cells_with_own_stiffness_compute_stress(mesh, s->p, group, &cell, dim);
     return lanes_sum(cell_elastic_energy(&cell, mesh->volume * (1 << dim), dim));
 }
 
@@ -168,6 +168,6 @@ real mesh_strain(const struct mesh *mesh, const struct particles *p, const struc
     struct strain_sum s = {mesh, p, m, finite};
     const int dim = mesh->grid.dim;
     if (mesh->points == 0) return 0;
-    return reproducible_sum(mesh_count_groups_of_eight_own_stiffness_cells(mesh), partial[dim][finite], &s) +
+    return reproducible_sum(mesh_count_groups_of_eight_cells_with_own_stiffness(mesh), partial[dim][finite], &s) +
            reproducible_sum(mesh->runs, run[dim][finite], &s);
 }

@@ -208,10 +208,11 @@ static ALWAYS_INLINE void mesh_cell_run_get_indices_of_eight_cells(const struct 
     for (int l = 0; l < LANES; l++) cell[l] = k + l < run->cells ? (int32_t)(run->cell + k + l) : -1;
 }
 
-/* Writes to cell[8] the indices of the eight cells of group number `group` of own-stiffness cells of the mesh (cells
- * with missing points, partial stresses, several materials or doubled nodes); -1 for entries beyond the last partial
- * cell. */
-static ALWAYS_INLINE void mesh_own_stiffness_cells_get_indices(const struct mesh *mesh, int64_t group, int32_t *cell)
+/* Writes to cell[8] the indices of the eight cells of group number `group` of cells with own stiffness of the mesh
+ * (cells with missing points, partial stresses, several materials or doubled nodes); -1 for entries beyond the last
+ * partial cell. */
+static ALWAYS_INLINE void mesh_cells_with_own_stiffness_get_indices(const struct mesh *mesh, int64_t group,
+                                                                    int32_t *cell)
 {
     for (int64_t l = 0; l < LANES; l++)
         cell[l] = group * LANES + l < mesh->own_stiffness_cells ? mesh->own_stiffness_cell[group * LANES + l] : -1;

@@ -1,5 +1,5 @@
 /* Internal forces of the mesh on its nodes. Whole cells (all points, one material) are computed in rows of consecutive
- * cells (struct mesh_cell_run), eight at a time; own-stiffness cells have stiffnesses of their own.
+ * cells (struct mesh_cell_run), eight at a time; cells with own stiffness have stiffnesses of their own.
  *
  * Rows of cells that add to common nodes must not be computed at the same time: layers of cells are grouped in bands,
  * and bands of equal parity share no node. First even, then odd bands are computed in parallel, which gives equal bits
@@ -97,12 +97,12 @@ static ALWAYS_INLINE void run_flow_cells(const struct run_flow *a, const struct 
         }                                                                                                              \
     }
 
-/* ---- own-stiffness cells
+/* ---- cells with own stiffness
  * ----------------------------------------------------------------------------------------------- */
 
-/* Returns true if all cells of a group of eight own-stiffness cells are at rest, so that they need no forces. A
- * own-stiffness cell has missing points, partial stresses, several materials or doubled nodes. group: number of the
- * group in the mesh, from 0. */
+/* Returns true if all cells of a group of eight cells with own stiffness are at rest, so that they need no forces. A
+ * cell with own stiffness has missing points, partial stresses, several materials or doubled nodes. group: number of
+ * the group in the mesh, from 0. */
 static ALWAYS_INLINE bool partial_inactive(const struct mesh *mesh, int64_t group)
 {
     uint8_t level = 0;
@@ -111,10 +111,10 @@ static ALWAYS_INLINE bool partial_inactive(const struct mesh *mesh, int64_t grou
     return level == 0;
 }
 
-/* Marks in mesh->own_stiffness_stressed those of a group of eight own-stiffness cells in which the principal stress at
- * a point may exceed the conversion stress of the material, at which points become peridynamic particles. A
- * own-stiffness cell has missing points, partial stresses, several materials or doubled nodes. m: elastic constants of
- * all materials; group: number of the group, from 0; cell: strain of the eight cells. */
+/* Marks in mesh->own_stiffness_stressed those of a group of eight cells with own stiffness in which the principal
+ * stress at a point may exceed the conversion stress of the material, at which points become peridynamic particles. A
+ * cell with own stiffness has missing points, partial stresses, several materials or doubled nodes. m: elastic
+ * constants of all materials; group: number of the group, from 0; cell: strain of the eight cells. */
 static ALWAYS_INLINE void partial_mark(struct mesh *mesh, const struct elastic *m, int64_t group,
                                        const struct mesh_cell *cell, const int dim)
 {
@@ -129,27 +129,27 @@ static ALWAYS_INLINE void partial_mark(struct mesh *mesh, const struct elastic *
     }
 }
 
-/* Computes the forces on the corners of a group of eight own-stiffness cells [N] into mesh->own_stiffness_force, and
- * marks in mesh->own_stiffness_stressed the cells in which a stress may exceed the conversion stress, at which points
- * become peridynamic particles. A own-stiffness cell has missing points, partial stresses, several materials or doubled
- * nodes. The plastic state of points in p that yield is updated. m: elastic constants of all materials; group: number
- * of the group, from 0; finite: true for finite strain. */
+/* Computes the forces on the corners of a group of eight cells with own stiffness [N] into mesh->own_stiffness_force,
+ * and marks in mesh->own_stiffness_stressed the cells in which a stress may exceed the conversion stress, at which
+ * points become peridynamic particles. A cell with own stiffness has missing points, partial stresses, several
+ * materials or doubled nodes. The plastic state of points in p that yield is updated. m: elastic constants of all
+ * materials; group: number of the group, from 0; finite: true for finite strain. */
 static ALWAYS_INLINE void own_stiffness_force(struct mesh *mesh, const struct particles *p, const struct elastic *m,
                                               int64_t group, const int dim, const bool finite)
 {
     const bool rotates = finite && dim > 1;
     struct mesh_cell s;
     lanes u[CORNERS_MAX][3], f[CORNERS_MAX][3], moment[3] = {{0}};
-    mesh_own_stiffness_cells_load_displacements(mesh, group, u, dim);
+    mesh_cells_with_own_stiffness_gather_displacements(mesh, group, u, dim);
     cell_compute_rotation_strain_and_modes(&s, mesh->grid.h, u, dim, rotates);
     partial_mark(mesh, m, group, &s, dim);
     if (mesh_points_can_yield(p)) {
         int32_t cell[LANES];
-        mesh_own_stiffness_cells_get_indices(mesh, group, cell);
+        mesh_cells_with_own_stiffness_get_indices(mesh, group, cell);
         cells_flow_of(mesh, p, m, cell, &s, dim);
     } else
-        mesh_own_stiffness_cells_compute_stress(mesh, p, group, &s, dim);
-    if (mesh->ends && p->end_rotation[0]) mesh_own_stiffness_cells_add_bond_moments(mesh, p, group, moment, dim);
+        mesh_cells_with_own_stiffness_compute_stress(mesh, p, group, &s, dim);
+    if (mesh->ends && p->end_rotation[0]) mesh_cells_with_own_stiffness_add_bond_moments(mesh, p, group, moment, dim);
     if (rotates)
         cell_add_skew_stress_balancing_moment_finite_strain(&s, moment, dim);
     else if (dim > 1 && mesh->ends && p->end_rotation[0])
@@ -160,17 +160,17 @@ static ALWAYS_INLINE void own_stiffness_force(struct mesh *mesh, const struct pa
         for (int i = 0; i < dim; i++) out[c * dim + i] = f[c][i];
 }
 
-/* Adds the forces in mesh->own_stiffness_force of all own-stiffness cells that are not at rest to the nodes. A
- * own-stiffness cell has missing points, partial stresses, several materials or doubled nodes. Several cells share a
- * node, so the forces are added by one thread and in order. */
+/* Adds the forces in mesh->own_stiffness_force of all cells with own stiffness that are not at rest to the nodes. A
+ * cell with own stiffness has missing points, partial stresses, several materials or doubled nodes. Several cells share
+ * a node, so the forces are added by one thread and in order. */
 static ALWAYS_INLINE void cuts_add(struct mesh *mesh, const int dim)
 {
-    for (int64_t group = 0; group < mesh_count_groups_of_eight_own_stiffness_cells(mesh); group++) {
+    for (int64_t group = 0; group < mesh_count_groups_of_eight_cells_with_own_stiffness(mesh); group++) {
         const int32_t *cell = mesh->own_stiffness_cell + group * LANES;
         const int64_t left = mesh->own_stiffness_cells - group * LANES;
         const lanes *f = (const lanes *)mesh->own_stiffness_force + group * (1 << dim) * dim;
         if (partial_inactive(mesh, group)) continue;
-        const int32_t *own = mesh_own_stiffness_cells_corner_nodes_if_at_slit(mesh, group, dim);
+        const int32_t *own = mesh_cells_with_own_stiffness_corner_nodes_if_at_slit(mesh, group, dim);
         const bool in_line = !own && list_is_consecutive(cell);
         for (int c = 0; c < 1 << dim; c++)
             for (int i = 0; i < dim; i++) {
@@ -194,8 +194,8 @@ enum { FEW = 16 }; /* number of groups that one thread computes in less time tha
     }                                                                                                                  \
     static void cuts_force_##D##_##FINITE(struct mesh *mesh, const struct particles *p, const struct elastic *m)       \
     {                                                                                                                  \
-        TEAM_LOOP(mesh_count_groups_of_eight_own_stiffness_cells(mesh) > FEW,                                          \
-                  for (int64_t k = 0; k < mesh_count_groups_of_eight_own_stiffness_cells(mesh); k++)                   \
+        TEAM_LOOP(mesh_count_groups_of_eight_cells_with_own_stiffness(mesh) > FEW,                                     \
+                  for (int64_t k = 0; k < mesh_count_groups_of_eight_cells_with_own_stiffness(mesh); k++)              \
                       cut_force_##D##_##FINITE(mesh, p, m, k););                                                       \
         cuts_add(mesh, D);                                                                                             \
     }

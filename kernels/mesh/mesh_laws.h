@@ -28,9 +28,9 @@ static ALWAYS_INLINE lanes lanes_gather_or_zero(const real *from, const int32_t 
  * particle numbers, -1 for a lane without a point, which gets zeros; stress: symmetric components of the trial stress
  * [Pa]; dt: duration of an explicit time step [s], 0 in load steps (static equilibria); m: constants of the material
  * whose law is evaluated. */
-static ALWAYS_INLINE void law_points_load_trial_state(const struct particles *p, const struct elastic *m,
-                                                      const int32_t *point, const lanes *stress, real dt,
-                                                      struct law_points *points, const int dim)
+static ALWAYS_INLINE void law_points_read_stress_and_plastic_state(const struct particles *p, const struct elastic *m,
+                                                                   const int32_t *point, const lanes *stress, real dt,
+                                                                   struct law_points *points, const int dim)
 {
     const int n = symmetric_tensor_component_count(dim);
     for (int c = 0; c < SYM_MAX; c++) points->s[c] = points->before[c] = points->back[c] = lanes_broadcast(0);
@@ -101,7 +101,7 @@ static NEVER_INLINE void cells_apply_flow_laws(const struct mesh *mesh, const st
         for (int l = 0; l < LANES; l++)
             own |= (unsigned)(yielding_lanes >> l & 1 && p->material[point[l]] == material) << l;
         yielding_lanes &= ~own;
-        law_points_load_trial_state(p, &m[material], point, stress, dt, &e, dim);
+        law_points_read_stress_and_plastic_state(p, &m[material], point, stress, dt, &e, dim);
         e.active = lanes_mask_from_bits((uint8_t)own);
         const unsigned flowed = law_update(m[material].law, &e, m[material].space, m[material].mode);
         for (int l = 0; l < LANES; l++)

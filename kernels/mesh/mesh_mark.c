@@ -138,8 +138,8 @@ static ALWAYS_INLINE void run_mark_cells(const struct mesh *mesh, const struct e
     }
 }
 
-/* Sets FLAG_STRESSED in p for points in eight own-stiffness cells (with missing points or several materials) above the
- * stress of conversion to peridynamics. Skips cells where the upper bound places_tension, valid for one material
+/* Sets FLAG_STRESSED in p for points in eight cells with own stiffness (with missing points or several materials) above
+ * the stress of conversion to peridynamics. Skips cells where the upper bound places_tension, valid for one material
  * without mean dilatation, is below. group: number of the eight cells, from 0; m: constants of all materials. */
 static ALWAYS_INLINE void group_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m,
                                      int64_t group, const int dim, const bool finite)
@@ -151,7 +151,7 @@ static ALWAYS_INLINE void group_mark(const struct mesh *mesh, struct particles *
     for (int q = 0; q < 1 << dim; q++)
         for (int l = 0; l < LANES; l++)
             there[q][l] = -(int64_t)(mesh->point[((int64_t)mesh->own_stiffness_cell[first + l] << dim) + q] >= 0);
-    mesh_own_stiffness_cells_load_displacements(mesh, group, u, dim);
+    mesh_cells_with_own_stiffness_gather_displacements(mesh, group, u, dim);
     cell_compute_rotation_strain_and_modes(&s, mesh->grid.h, u, dim, finite && dim > 1);
     for (int64_t k = first; k < first + LANES && k < mesh->own_stiffness_cells; k++) {
         const uint8_t material = mesh->own_stiffness_material[k];
@@ -164,7 +164,7 @@ static ALWAYS_INLINE void group_mark(const struct mesh *mesh, struct particles *
     }
 }
 
-/* Returns true if mesh_force has marked one of eight own-stiffness cells (with missing points, partial stresses or
+/* Returns true if mesh_force has marked one of eight cells with own stiffness (with missing points, partial stresses or
  * several materials) as one in which a stress may exceed the conversion stress. group: number of the eight cells, from
  * 0. */
 static inline bool group_stressed(const struct mesh *mesh, int64_t group)
@@ -177,7 +177,7 @@ static inline bool group_stressed(const struct mesh *mesh, int64_t group)
 #define MARK(D, FINITE)                                                                                                \
     static void cells_mark_##D##_##FINITE(const struct mesh *mesh, struct particles *p, const struct elastic *m)       \
     {                                                                                                                  \
-        for (int64_t k = 0; k < mesh_count_groups_of_eight_own_stiffness_cells(mesh); k++)                             \
+        for (int64_t k = 0; k < mesh_count_groups_of_eight_cells_with_own_stiffness(mesh); k++)                        \
             if (group_stressed(mesh, k)) group_mark(mesh, p, m, k, D, FINITE);                                         \
         for (int64_t r = 0; r < mesh->runs; r++)                                                                       \
             if (mesh->run[r].stressed) run_mark(mesh, p, m, &mesh->run[r], D, FINITE);                                 \

@@ -135,9 +135,9 @@ static ALWAYS_INLINE void cells_rotate(const struct mesh_cell *cell, lanes *rota
     for (int k = 0; k < 3; k++) rotation[k] = w[k] * rotation[3];
 }
 
-/* Computes two quantities for material points with state-based bonds, of the eight own-stiffness cells (with missing or
- * unequal points) in group number `group`. p->end_rotation: rotation of the cell of the point; p->end_strain: part of
- * the cell in the mean strain of the bonds of the point [1]. finite: true for finite strain. */
+/* Computes two quantities for material points with state-based bonds, of the eight cells with own stiffness (with
+ * missing or unequal points) in group number `group`. p->end_rotation: rotation of the cell of the point;
+ * p->end_strain: part of the cell in the mean strain of the bonds of the point [1]. finite: true for finite strain. */
 static ALWAYS_INLINE void group_ends_update(const struct mesh *mesh, struct particles *p, int64_t group, const int dim,
                                             const bool finite)
 {
@@ -145,7 +145,7 @@ static ALWAYS_INLINE void group_ends_update(const struct mesh *mesh, struct part
     lanes u[CORNERS_MAX][3], v[MODES_MAX], rotation[ROTATION];
     const int n = cell_deformation_mode_count(dim);
     if (mesh->ends[group] == mesh->ends[group + 1]) return;
-    mesh_own_stiffness_cells_load_displacements(mesh, group, u, dim);
+    mesh_cells_with_own_stiffness_gather_displacements(mesh, group, u, dim);
     cell_compute_rotation_strain_and_modes(&s, mesh->grid.h, u, dim, finite);
     cells_pack_strains_and_mode_amplitudes_in_vector(&s, v, dim);
     if (p->end_rotation[0]) cells_rotate(&s, rotation, dim, finite);
@@ -167,8 +167,8 @@ static ALWAYS_INLINE void group_ends_update(const struct mesh *mesh, struct part
     }                                                                                                                  \
     static void ends_update_##D##_##FINITE(const struct mesh *mesh, struct particles *p)                               \
     {                                                                                                                  \
-        TEAM_LOOP(mesh_count_groups_of_eight_own_stiffness_cells(mesh) > FEW / LANES,                                  \
-                  for (int64_t k = 0; k < mesh_count_groups_of_eight_own_stiffness_cells(mesh); k++)                   \
+        TEAM_LOOP(mesh_count_groups_of_eight_cells_with_own_stiffness(mesh) > FEW / LANES,                             \
+                  for (int64_t k = 0; k < mesh_count_groups_of_eight_cells_with_own_stiffness(mesh); k++)              \
                       group_ends_##D##_##FINITE(mesh, p, k););                                                         \
     }
 ENDS(2, false)

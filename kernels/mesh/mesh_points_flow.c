@@ -64,13 +64,13 @@ static ALWAYS_INLINE void cells_step(const struct flow_step *f, const int32_t *c
     {                                                                                                                  \
         int32_t cell[LANES];                                                                                           \
         lanes u[CORNERS_MAX][3];                                                                                       \
-        mesh_own_stiffness_cells_get_indices(f->mesh, group, cell);                                                    \
-        mesh_own_stiffness_cells_load_displacements(f->mesh, group, u, D);                                             \
+        mesh_cells_with_own_stiffness_get_indices(f->mesh, group, cell);                                               \
+        mesh_cells_with_own_stiffness_gather_displacements(f->mesh, group, u, D);                                      \
         cells_step_##D##_##FINITE(f, cell, u);                                                                         \
     }                                                                                                                  \
     static void all_step_##D##_##FINITE(const struct flow_step *f)                                                     \
     {                                                                                                                  \
-        const int64_t groups = mesh_count_groups_of_eight_own_stiffness_cells(f->mesh);                                \
+        const int64_t groups = mesh_count_groups_of_eight_cells_with_own_stiffness(f->mesh);                           \
         _Pragma("omp parallel for schedule(static)") for (int64_t k = 0; k < groups + f->mesh->runs; k++)              \
         {                                                                                                              \
             if (k < groups)                                                                                            \

@@ -56,8 +56,8 @@ static ALWAYS_INLINE void points_update_stress(struct particles *p, const struct
 {
     const int n = dim * (dim + 1) / 2;
     row_of_points stress[SYM_MAX];
-    for (int c = 0; c < n; c++) stress[c] = points_load(p->stress[c], point, dim);
-    const row_of_points volume = points_load(p->volume, point, dim),
+    for (int c = 0; c < n; c++) stress[c] = points_gather_values(p->stress[c], point, dim);
+    const row_of_points volume = points_gather_values(p->volume, point, dim),
                         trace = stress_update_and_return_strain_trace(stress, L, m, t->dt, dim),
                         after = volume + volume * trace;
     points_store(p->volume, point, after, dim);
@@ -66,7 +66,7 @@ static ALWAYS_INLINE void points_update_stress(struct particles *p, const struct
     for (int c = 0; c < n && !flows; c++) points_store(p->stress[c], point, stress[c], dim);
     if (shape == SHAPE_CPGIMP)
         for (int d = 0; d < dim; d++) {
-            const row_of_points stretch = points_load(p->stretch[d], point, dim);
+            const row_of_points stretch = points_gather_values(p->stretch[d], point, dim);
             points_store(p->stretch[d], point, stretch + stretch * (t->dt * L[d * dim + d]), dim);
         }
     int near = points_sign_bits(m->trigger - stress_largest_principal_upper_bounds(stress, dim));
@@ -91,15 +91,15 @@ static ALWAYS_INLINE void points_update_rotation(struct particles *p, const int3
     if (dim == 2) {
         const row_of_points half = 0.25 * dt * (L[2] - L[1]), scale = 2.0 / (1.0 + half * half);
         const row_of_points less = -half * half * scale, sine = half * scale; /* cos - 1, sin */
-        const row_of_points a = points_load(p->end_rotation[0], point, dim),
-                            b = points_load(p->end_rotation[1], point, dim);
+        const row_of_points a = points_gather_values(p->end_rotation[0], point, dim),
+                            b = points_gather_values(p->end_rotation[1], point, dim);
         points_store(p->end_rotation[0], point, a + less + a * less - b * sine, dim);
         points_store(p->end_rotation[1], point, b + b * less + (1.0 + a) * sine, dim);
         return;
     }
     const row_of_points w[3] = {0.25 * dt * (L[7] - L[5]), 0.25 * dt * (L[2] - L[6]), 0.25 * dt * (L[3] - L[1])};
     row_of_points q[ROTATION], next[ROTATION];
-    for (int c = 0; c < ROTATION; c++) q[c] = points_load(p->end_rotation[c], point, dim);
+    for (int c = 0; c < ROTATION; c++) q[c] = points_gather_values(p->end_rotation[c], point, dim);
     for (int k = 0; k < 3; k++)
         next[k] = q[k] + q[3] * w[k] + w[(k + 1) % 3] * q[(k + 2) % 3] - w[(k + 2) % 3] * q[(k + 1) % 3];
     next[3] = q[3] - w[0] * q[0] - w[1] * q[1] - w[2] * q[2];
@@ -270,8 +270,8 @@ static ALWAYS_INLINE void points_average_dilatation_rates(const struct particles
     if (!t->elastic[p->material[list[0]]].mean_dilatation) return;
     for (int k = 0; k < n; k += AT_ONCE(dim)) {
         const struct points_motion *m = &motion[k / AT_ONCE(dim)];
-        const row_of_points own =
-            points_keep_first_lanes(points_load(p->volume, m->point, dim), points_count_of_next_batch(n - k, dim));
+        const row_of_points own = points_keep_first_lanes(points_gather_values(p->volume, m->point, dim),
+                                                          points_count_of_next_batch(n - k, dim));
         volume += own, sum += own * points_dilatation_rate(m, dim);
     }
     const real mean = points_sum(sum) / points_sum(volume);

@@ -92,9 +92,9 @@ static ALWAYS_INLINE void points_load_stress_for_transfer_to_grid(struct points_
 {
     const int components = dim * (dim + 1) / 2;
     points_copy_list_indices_to_lanes(s->point, list, n, dim);
-    s->volume = points_load(p->volume, s->point, dim);
+    s->volume = points_gather_values(p->volume, s->point, dim);
     for (int c = 0; c < components; c++)
-        s->stress[c] = t->momentum_only ? points_broadcast(0) : points_load(p->stress[c], s->point, dim);
+        s->stress[c] = t->momentum_only ? points_broadcast(0) : points_gather_values(p->stress[c], s->point, dim);
     if (t->momentum_only || !t->partial || !t->partial->index) return;
     for (int k = 0; k < AT_ONCE(dim); k++) {
         real own[SYM_MAX];
@@ -112,14 +112,14 @@ static ALWAYS_INLINE void points_load_quantities_to_transfer(struct points_trans
                                                              const enum transfer transfer,
                                                              const bool extrapolate_velocity)
 {
-    q->mass = points_load(p->mass, s->point, dim);
+    q->mass = points_gather_values(p->mass, s->point, dim);
     for (int d = 0; d < dim; d++)
-        q->v[d] = points_load(p->v[d], s->point, dim), q->f[d] = points_load(p->f[d], s->point, dim);
+        q->v[d] = points_gather_values(p->v[d], s->point, dim), q->f[d] = points_gather_values(p->f[d], s->point, dim);
     for (int c = 0; c < dim * (dim + 1) / 2; c++) q->pull[c] = s->stress[c] * s->volume;
     if (extrapolate_velocity && transfer == TRANSFER_FLIP)
         rotating_group_velocity_gradients_of_points(t, s->point, 0.5 * t->dt, q->slope, dim);
     for (int k = 0; k < dim * dim && transfer == TRANSFER_APIC; k++)
-        q->slope[k] = points_load(p->gradient[k], s->point, dim);
+        q->slope[k] = points_gather_values(p->gradient[k], s->point, dim);
 }
 
 /* Adds mass, momentum and force of point number `point_in_stencil` of stencil s (node weights of a few points of p) to

@@ -36,9 +36,9 @@ static ALWAYS_INLINE void remap_gather_momentum(row_of_points *momentum, const s
                 gain[d] += weight * sum;
             }
         }
-    const row_of_points mass = points_load(p->mass, s->point, dim);
+    const row_of_points mass = points_gather_values(p->mass, s->point, dim);
     for (int d = 0; d < dim; d++) {
-        const row_of_points v = points_load(p->v[d], s->point, dim) + gain[d];
+        const row_of_points v = points_gather_values(p->v[d], s->point, dim) + gain[d];
         points_store(p->v[d], s->point, v, dim);
         momentum[d] = mass * v;
     }

@@ -90,8 +90,9 @@ static ALWAYS_INLINE void rotating_remap_update_velocity_of_points(const struct 
         rotating_remap_gather_gain_and_moments_linear(g, c, &s, gain, arm, dim);
     else
         rotating_remap_gather_velocity_gain_and_moments(g, c, &s, gain, arm, dim, shape);
-    const row_of_points mass = points_load(p->mass, s.point, dim);
-    for (int d = 0; d < dim; d++) points_store(p->v[d], s.point, points_load(p->v[d], s.point, dim) + gain[d], dim);
+    const row_of_points mass = points_gather_values(p->mass, s.point, dim);
+    for (int d = 0; d < dim; d++)
+        points_store(p->v[d], s.point, points_gather_values(p->v[d], s.point, dim) + gain[d], dim);
     for (int e = SPIN_FROM(dim); e < 3; e++)
         points_store(t->turn[e], s.point, mass * (arm[FIRST(e)][SECOND(e)] - arm[SECOND(e)][FIRST(e)]), dim);
 }

@@ -169,7 +169,7 @@ static ALWAYS_INLINE void points_copy_list_indices_to_lanes(int32_t *point, cons
 
 /* Returns true if all lanes of a vector of points hold the same point, as in cells with one point (2D and 3D). The
  * branch saves time there, and costs none where cells have four points. point: numbers of the points. */
-static ALWAYS_INLINE bool points_lanes_hold_same_point(const int32_t *point, const int dim)
+static ALWAYS_INLINE bool point_vector_has_only_one_point(const int32_t *point, const int dim)
 {
     return dim > 1 && point[0] == point[POINTS - 1];
 }
@@ -194,10 +194,10 @@ static ALWAYS_INLINE row_of_points points_load_consecutive_pairs(const real *fro
 /* Returns a vector whose lane k, 0 <= k < POINTS, is from[point[k]], the value of a point in the particle array `from`.
  * point: as set by points_copy_list_indices_to_lanes, the indices of the points (in 1D of at most two, which further
  * lanes repeat), then in point[PAIRED] not 0 if they are pairs of consecutive indices, which are loaded together. */
-static ALWAYS_INLINE row_of_points points_load(const real *from, const int32_t *point, const int dim)
+static ALWAYS_INLINE row_of_points points_gather_values(const real *from, const int32_t *point, const int dim)
 {
     if (dim > 1 && point[PAIRED]) return points_load_consecutive_pairs(from, point);
-    if (points_lanes_hold_same_point(point, dim)) return points_broadcast(from[point[0]]);
+    if (point_vector_has_only_one_point(point, dim)) return points_broadcast(from[point[0]]);
 #if POINTS_LANES == 8
     return (row_of_points){from[point[0]], from[point[1]], from[point[2]], from[point[3]],
                            from[point[4]], from[point[5]], from[point[6]], from[point[7]]};
@@ -218,7 +218,7 @@ static ALWAYS_INLINE void points_store(real *to, const int32_t *point, row_of_po
         return;
     }
     to[point[0]] = a[0];
-    if (points_lanes_hold_same_point(point, dim)) return;
+    if (point_vector_has_only_one_point(point, dim)) return;
     for (int k = 1; k < AT_ONCE(dim); k++) to[point[k]] = a[k];
 }
 

@@ -274,7 +274,7 @@ static ALWAYS_INLINE void stencil_compute_corner_weights(struct cell_stencil *s,
  * outer row. Stores the first row with a weight of each point in s->low[d], the first and the end of the rows with
  * weights of any point in s->lowest[d] and s->end[d]. l: half widths in node distances. The code has no branches,
  * because on a lattice t = l up to round-off and the result is unpredictable. */
-static ALWAYS_INLINE void stencil_find_range_of_node_rows_with_weights(struct cell_stencil *s, row_of_points l, int d)
+static ALWAYS_INLINE void stencil_find_node_range_with_nonzero_weights(struct cell_stencil *s, row_of_points l, int d)
 {
     const int all = (1 << POINTS) - 1, upper = ~points_sign_bits(s->t[d] - l) & all;
     for (int k = 0; k < POINTS; k++) s->low[d][k] = upper >> k & 1;
@@ -292,7 +292,7 @@ static ALWAYS_INLINE void stencil_compute_axis_weights(struct cell_stencil *s, c
                   inverse_width = points_broadcast(0.5 / (half_width * inverse_node_distance));
     row_of_points N[ROW], dN[ROW];
     if (shape == SHAPE_CPGIMP) {
-        l = points_min(l * points_load(p->stretch[d], s->point, dim), points_broadcast(HALF_WIDTH_MOST));
+        l = points_min(l * points_gather_values(p->stretch[d], s->point, dim), points_broadcast(HALF_WIDTH_MOST));
         inverse_width = 0.5 / l;
     }
     shape_functions_evaluate_at_row_nodes(shape, s->t[d], l, inverse_width, N, dN);
@@ -302,7 +302,7 @@ static ALWAYS_INLINE void stencil_compute_axis_weights(struct cell_stencil *s, c
         else
             s->A[d][k] = N[k], s->B[d][k] = dN[k] * inverse_node_distance;
     }
-    if (SKIPS(dim, shape) && d > 0) stencil_find_range_of_node_rows_with_weights(s, l, d);
+    if (SKIPS(dim, shape) && d > 0) stencil_find_node_range_with_nonzero_weights(s, l, d);
 }
 
 /* Returns true if the weights of points on grid g are computed at positions ahead of the actual ones, shifted by the
@@ -324,7 +324,7 @@ static ALWAYS_INLINE void cell_stencil_compute_weights(struct cell_stencil *s, c
     const real inverse = 1 / g->h;
     points_copy_list_indices_to_lanes(s->point, list, n, dim);
     for (int d = 0; d < dim; d++) {
-        s->x[d] = points_load(p->x[d], s->point, dim);
+        s->x[d] = points_gather_values(p->x[d], s->point, dim);
         s->t[d] = (s->x[d] - g->anchor[d]) * inverse - c->place[d] + g->ahead[d]; /* grid_coordinate_in_cell_lengths */
     }
     if (HAS_CORNERS(dim, shape))

@@ -30,7 +30,7 @@ static ALWAYS_INLINE void rotating_group_velocity_gradients_of_points(const stru
                                                                       row_of_points *slope, const int dim)
 {
     row_of_points w[3];
-    for (int c = dim == 2 ? 2 : 0; c < 3; c++) w[c] = points_load(t->turn[c], point, dim);
+    for (int c = dim == 2 ? 2 : 0; c < 3; c++) w[c] = points_gather_values(t->turn[c], point, dim);
 #pragma GCC unroll 9
     for (int k = 0; k < dim * dim; k++)
         slope[k] = rotating_group_velocity_gradient_component(w, time_part, k / dim, k % dim, dim);

@@ -232,7 +232,7 @@ static int64_t row_block_pass(const struct rows_pass *pass, struct bond_row_bloc
         if (!pass->count) bond_row_compute_lengths_and_weights(&room->row[l], inputs, particle[l]);
         made += room->row[l].n;
     }
-    const int columns = bond_row_block_count_columns(room, particle, rows, &by_offset);
+    const int columns = block_of_eight_bond_rows_count_columns(room, particle, rows, &by_offset);
     if (pass->count)
         b->column_count[g] = columns, note_reach(pass, room, g, false);
     else

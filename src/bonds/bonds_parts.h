@@ -175,7 +175,7 @@ real bond_stretch_threshold_of_exact_break_test(const struct bond_source *source
  * all neighbours have one index distance, as on a lattice, since these need little padding; false for rows packed
  * without gaps. distinct_offsets: number of distinct index distances; longest_row: largest number of bonds of one of
  * the eight particles. */
-static inline bool bond_columns_by_offset_need_little_padding(int distinct_offsets, int longest_row)
+static inline bool eight_bond_rows_are_compact_as_lattice_columns(int distinct_offsets, int longest_row)
 {
     return distinct_offsets <= longest_row + longest_row / 3;
 }
@@ -293,14 +293,14 @@ void bond_row_block_buffer_free(struct bond_row_block_buffer *buffer);
  * buffer->row[row_count - 1] need. particle[row_count]: indices of the particles of these rows. *one_offset_per_column
  * receives true if all neighbours in a column are to have one index distance from their particles, false if rows are
  * packed without gaps. */
-int bond_row_block_count_columns(struct bond_row_block_buffer *buffer, const int32_t *particle, int row_count,
-                                 bool *one_offset_per_column);
+int block_of_eight_bond_rows_count_columns(struct bond_row_block_buffer *buffer, const int32_t *particle, int row_count,
+                                           bool *one_offset_per_column);
 
 /* Fills block `row_block` of eight rows of b, which stores the bonds of eight particles, from the first `row_count`
  * rows in `buffer` (the bonds of one particle each): arranges the bonds in columns, one bond of each particle, and sets
  * breaking limits, neighbourhood volumes and the flag `aligned` of the block (1: its eight particles have consecutive
  * indices). p: particles; one_offset_per_column: true if the bonds of each column are to have the same offset on the
- * lattice, as bond_row_block_count_columns returns. */
+ * lattice, as block_of_eight_bond_rows_count_columns returns. */
 void bond_row_block_fill_columns_from_rows(struct bonds *b, struct bond_row_block_buffer *buffer, int64_t row_block,
                                            int row_count, bool one_offset_per_column, const struct particles *p);
 
@@ -324,8 +324,8 @@ void bonds_compute_lattice_shell_lengths(struct bonds *b, real spacing);
  * for which the bonds have the length spacing sqrt(k). b: table of these lengths. Stores in round_off_units[LANES] by
  * how many units in the last place each inverse length differs from that of the shell, due to the round-off of
  * positions. Returns k, or 0 if the bonds have no common shell. */
-int bonds_find_common_lattice_shell_of_eight_bonds(const struct bonds *b, const real *inverse_length,
-                                                   int16_t *round_off_units);
+int eight_bonds_find_common_squared_lattice_distance(const struct bonds *b, const real *inverse_length,
+                                                     int16_t *round_off_units);
 
 /* Returns a table of stencils (lists of columns shared by many blocks of eight rows): `existing`, its reference count
  * increased, or a new table if `existing` is NULL (bonds_stencils.c). Release with stencil_table_drop_reference. */

@@ -39,14 +39,14 @@ static int row_block_offsets(struct bond_row_block_buffer *g, const int32_t *par
  * index distance (neighbour minus particle), false if each row has its bonds in the first columns, without gaps. The
  * latter is used off a lattice, where columns by distance would be mostly padding. particle[row_count]: particles of
  * the rows, 1 to 8. */
-int bond_row_block_count_columns(struct bond_row_block_buffer *buffer, const int32_t *particle, int row_count,
-                                 bool *one_offset_per_column)
+int block_of_eight_bond_rows_count_columns(struct bond_row_block_buffer *buffer, const int32_t *particle, int row_count,
+                                           bool *one_offset_per_column)
 {
     int longest = 0;
     for (int l = 0; l < row_count; l++)
         if (buffer->row[l].n > longest) longest = buffer->row[l].n;
     int offsets = row_block_offsets(buffer, particle, row_count);
-    *one_offset_per_column = bond_columns_by_offset_need_little_padding(offsets, longest);
+    *one_offset_per_column = eight_bond_rows_are_compact_as_lattice_columns(offsets, longest);
     return *one_offset_per_column ? offsets : longest;
 }
 
@@ -184,7 +184,7 @@ bool lattice_bonds_compute_unless_near_crack(const struct lattice_site_map *map,
     const uint8_t own = peridynamic(p, first_particle);
     if (own == UINT8_MAX && found_bonds->full) {
         array_fill_bytes(found_bonds->bonds, UINT8_MAX, found_bonds->n, 1);
-        return bond_columns_by_offset_need_little_padding(found_bonds->n, found_bonds->n);
+        return eight_bond_rows_are_compact_as_lattice_columns(found_bonds->n, found_bonds->n);
     }
     for (int k = 0; k < found_bonds->n; k++) {
         const unsigned family = (2u << found_bonds->to[k]) - (1u << found_bonds->from[k]);
@@ -195,7 +195,7 @@ bool lattice_bonds_compute_unless_near_crack(const struct lattice_site_map *map,
         columns += found_bonds->bonds[k] != 0;
     }
     for (int l = 0; l < LANES; l++) longest = bonds[l] > longest ? bonds[l] : longest;
-    return bond_columns_by_offset_need_little_padding(columns, longest);
+    return eight_bond_rows_are_compact_as_lattice_columns(columns, longest);
 }
 
 int lattice_bonds_count_storage_columns(const struct lattice_bonds *bonds)

@@ -21,8 +21,8 @@ void bonds_compute_lattice_shell_lengths(struct bonds *b, real spacing)
         b->shell_length[k] = (struct bond_length){1 / (spacing * sqrt(k)), spacing * sqrt(k), square(spacing) * k};
 }
 
-int bonds_find_common_lattice_shell_of_eight_bonds(const struct bonds *b, const real *inverse_length,
-                                                   int16_t *round_off_units)
+int eight_bonds_find_common_squared_lattice_distance(const struct bonds *b, const real *inverse_length,
+                                                     int16_t *round_off_units)
 {
     int one = 0;
     while (one < LANES - 1 && inverse_length[one] == 0) one++;
@@ -45,8 +45,8 @@ void bond_column_update_common_bond_properties(const struct bonds *b, int64_t co
     struct bond_column *c = &b->common[column_number];
     *c = (struct bond_column){.first = b->first[column_number], .begun = b->soft.curve ? c->begun : 0};
     if (c->first >= 0)
-        c->shell = (uint8_t)bonds_find_common_lattice_shell_of_eight_bonds(b, b->inverse_length + column_number * LANES,
-                                                                           c->excess);
+        c->shell = (uint8_t)eight_bonds_find_common_squared_lattice_distance(
+            b, b->inverse_length + column_number * LANES, c->excess);
     c->alike = c->shell != 0;
     bool same = w[0] != 0;
     for (int l = 1; l < LANES; l++) same &= w[l] == w[0];

@@ -234,13 +234,13 @@ bool lattice_bonds_list_neighbours_by_offset(const struct lattice_site_map *map,
         number += 2 * map->row[k].half + (map->row[k].site != 0);
     }
     found_bonds->full = is_full(found_bonds);
-    if (found_bonds->full) return bond_columns_by_offset_need_little_padding(found_bonds->n, found_bonds->n);
+    if (found_bonds->full) return eight_bond_rows_are_compact_as_lattice_columns(found_bonds->n, found_bonds->n);
     int bonds[LANES] = {0}, longest = 0;
     for (int k = 0; k < found_bonds->n; k++)
         for (int lane = 0; lane < LANES; lane++)
             bonds[lane] += lane >= found_bonds->from[k] && lane <= found_bonds->to[k];
     for (int lane = 0; lane < LANES; lane++) longest = bonds[lane] > longest ? bonds[lane] : longest;
-    return bond_columns_by_offset_need_little_padding(found_bonds->n, longest);
+    return eight_bond_rows_are_compact_as_lattice_columns(found_bonds->n, longest);
 }
 
 bool lattice_bonds_list_neighbours_ignoring_cracks(const struct lattice_site_map *map, const struct bond_source *source,

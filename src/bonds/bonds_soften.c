@@ -200,7 +200,7 @@ real bonds_dissipated_softening_energy(const struct bonds *b)
     return b->soft.curve ? reproducible_sum(b->row_blocks, row_block_spent, b) : 0;
 }
 
-real bonds_row_fracture_energy(const struct bonds *b, int64_t row)
+real bonds_row_dissipated_energy(const struct bonds *b, int64_t row)
 {
     const int64_t g = row / LANES, first = b->column[g] * LANES + row % LANES;
     real sum = b->fracture_energy[row];

@@ -70,7 +70,7 @@ bool stencil_add_column(struct stencil *stencil, const struct bonds *b, const st
     int alone = added_column->first < 0, alike = 1, bonds = 0;
     *column =
         (struct stencil_column){.offset = (int32_t)(added_column->first - first_particle),
-                                .shell = (uint8_t)bonds_find_common_lattice_shell_of_eight_bonds(b, inverse, excess)};
+                                .shell = (uint8_t)eight_bonds_find_common_squared_lattice_distance(b, inverse, excess)};
     for (int l = 0; l < LANES; l++) {
         stencil->w[stencil->columns][l] = w[l];
         alone |= (w[l] == 0) != (inverse[l] == 0); /* cut or broken */

@@ -303,6 +303,6 @@ status contact_save_or_load(struct contact *c, const struct particles *p, struct
     if (a->saving) return OK;
     TRY(contact_check(c, p));
     contact_list_set_spacings_and_surface_heights(c, p);
-    if (c->touch) contact_activate_all_listed_particles(c);
+    if (c->touch) contact_enable_forces_on_all_listed_particles(c);
     return OK;
 }

@@ -135,7 +135,7 @@ void contact_face_linearise_as_spring(const struct contact *c, const struct part
 
 /* Enables contact forces on all particles of the contact list of c (particles that may come into contact), also on
  * particles at rest, which time steps leave out but equilibrium solutions require. */
-void contact_activate_all_listed_particles(struct contact *c);
+void contact_enable_forces_on_all_listed_particles(struct contact *c);
 
 /* Saves the selection of contacts of c that act in equilibria (contact_select_linear_springs_and_count_changes) to the
  * archive a if a->saving, else restores it. Returns FAILED if the archive cannot be read or written or a stored size

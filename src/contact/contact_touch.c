@@ -22,7 +22,7 @@ static void marks_room(struct contact *c)
     }
 }
 
-void contact_activate_all_listed_particles(struct contact *c)
+void contact_enable_forces_on_all_listed_particles(struct contact *c)
 {
     memory_free(c->followed);
     c->followed = BARE("contact.followed", c->rows, uint8_t);
@@ -95,7 +95,7 @@ int64_t contact_search_and_select_linear_springs(struct contact *c, const struct
     c->due = true;
     contact_update_pair_list_if_outdated(c, p, b, l, family, c->searched, c->broken, c->changed);
     marks_room(c);
-    contact_activate_all_listed_particles(c);
+    contact_enable_forces_on_all_listed_particles(c);
     balances_rest(c);
     return contact_select_linear_springs_and_count_changes(c, p, max_gap);
 }

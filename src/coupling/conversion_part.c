@@ -117,7 +117,7 @@ void interface_zone_rebuild_after_bond_change(struct coupling_state *c, const st
     bonded_make(c, p, b);
     if (p->n_free == 0) interface_zone_free(&c->zone);
     if (!c->partial.gives_all && c->flip && p->n_free > 0)
-        interface_zone_find_points_and_neighbours(&c->zone, p, source);
+        interface_zone_list_damped_material_points(&c->zone, p, source);
 }
 
 void coupling_set_up_pd_mpm_method_and_interface(struct run *run)

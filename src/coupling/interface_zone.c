@@ -135,8 +135,8 @@ static void interface_zone_pairs_make(struct interface_zone *zone, const struct 
     zone->scale = 4 / ((real)most * (1 + 1.0 / p->dim));
 }
 
-void interface_zone_find_points_and_neighbours(struct interface_zone *zone, const struct particles *p,
-                                               const struct bond_source *source)
+void interface_zone_list_damped_material_points(struct interface_zone *zone, const struct particles *p,
+                                                const struct bond_source *source)
 {
     interface_zone_free(zone);
     uint8_t *mark = NEW("interface_zone.mark", p->n, uint8_t);

@@ -227,7 +227,7 @@ static uint8_t *absent_with(const struct lagrangian_mesh *reference, const uint8
     return absent;
 }
 
-bool initial_finest_cells_have_all_particles(struct lagrangian_mesh *reference, const uint8_t *cell_level)
+bool mesh_check_all_initially_finest_cells_are_filled(struct lagrangian_mesh *reference, const uint8_t *cell_level)
 {
     if (!reference->hollow.absent) return true;
     if (reference->hollow.restored) return false; /* the checkpoint contains the levels */

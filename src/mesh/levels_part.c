@@ -277,7 +277,7 @@ status mesh_levels_make_coarse_cells(struct run *run, bool levels_from_checkpoin
         fastest = real_max(fastest, s->material[m].wave_speed);
     }
     if (reference->levels.n == 0) {
-        initial_finest_cells_have_all_particles(reference, NULL);
+        mesh_check_all_initially_finest_cells_are_filled(reference, NULL);
         return OK;
     }
     mesh_levels_match_wave_dispersion_of_bonds(&reference->levels, dispersion_edge(s), fastest, run->clock.dt);
@@ -298,7 +298,7 @@ status mesh_levels_make_coarse_cells(struct run *run, bool levels_from_checkpoin
     array_fill_bytes(limit, reference->levels.n, reference->mesh.grid.n, 1);
     limit_by_room(reference, limit);
     next_levels(reference, &run->part, run->mass, demand, limit, level);
-    if (initial_finest_cells_have_all_particles(reference, level)) change(run, level);
+    if (mesh_check_all_initially_finest_cells_are_filled(reference, level)) change(run, level);
     memory_free(limit);
     run->damped = 0; /* the run starts with the energy of the coarse cells */
     memory_free(demand);

@@ -1,5 +1,5 @@
 /* Makes the mesh of the undeformed body: positions of material points in cells, nodal masses, runs of whole cells and
- * own-stiffness cells. Updates it when points are converted to peridynamic particles. */
+ * cells with own stiffness. Updates it when points are converted to peridynamic particles. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -114,8 +114,8 @@ static status bodies_apart(const struct mesh *mesh, const struct particles *p)
 /* ---- cells ------------------------------------------------------------------------------------------------------- */
 
 /* Returns the kind of cell I of the mesh. A whole cell has all its points, of one material and without partial stresses
- * (the share of stress left to bonds), and all its corners are nodes of the grid. A own-stiffness cell has points, but
- * lacks one of these properties; an empty cell has no points. p: particles; s: partial stresses. */
+ * (the share of stress left to bonds), and all its corners are nodes of the grid. A cell with own stiffness has points,
+ * but lacks one of these properties; an empty cell has no points. p: particles; s: partial stresses. */
 static enum cell_kind cell_kind(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
                                 int64_t I)
 {
@@ -172,9 +172,9 @@ static uint8_t material_of(const struct mesh *mesh, const struct particles *p, i
     return p ? p->material[mesh->point[I << mesh->grid.dim]] : mesh->material[I];
 }
 
-/* Lists the runs and the own-stiffness cells of the mesh. A run is a row of consecutive whole cells of one material.
- * Partial cells lack points, or have several materials, partial stresses or doubled nodes. Runs are listed band by band
- * (layers of cells that one thread processes). p: particles; NULL for a mesh without points. */
+/* Lists the runs and the cells with own stiffness of the mesh. A run is a row of consecutive whole cells of one
+ * material. Partial cells lack points, or have several materials, partial stresses or doubled nodes. Runs are listed
+ * band by band (layers of cells that one thread processes). p: particles; NULL for a mesh without points. */
 static void cells_list(struct mesh *mesh, const struct particles *p)
 {
     const struct grid *g = &mesh->grid;
@@ -187,7 +187,7 @@ static void cells_list(struct mesh *mesh, const struct particles *p)
         mesh->band[mesh->bands] = mesh->runs;
         for (int64_t I = from; I < to; I++) {
             if (mesh->kind[I] == CELL_WHOLE) run_add(mesh, I, material_of(mesh, p, I));
-            if (mesh->kind[I] == CELL_PARTIAL) mesh_own_stiffness_cells_add(mesh, I);
+            if (mesh->kind[I] == CELL_PARTIAL) mesh_cells_with_own_stiffness_add(mesh, I);
         }
         mesh->bands++;
     }
@@ -195,13 +195,13 @@ static void cells_list(struct mesh *mesh, const struct particles *p)
 }
 
 /* Determines the kind of each cell of the mesh from its points. Then rebuilds the list of runs (rows of whole cells,
- * which have all points, of one material) and the list of own-stiffness cells (other cells with points) with their
+ * which have all points, of one material) and the list of cells with own stiffness (other cells with points) with their
  * stiffness. p: particles; s: elastic constants and partial stresses; dirty[grid.n]: not 0 for the cells whose kind may
  * have changed; NULL: all cells. */
 static void cells_sort_out(struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
                            const uint8_t *dirty)
 {
-    struct mesh_own_stiffness_cells old = mesh_own_stiffness_cells_remove_and_return(mesh);
+    struct mesh_cells_with_own_stiffness old = mesh_cells_with_own_stiffness_detach(mesh);
     if (!dirty) {
 #pragma omp parallel for schedule(static)
         for (int64_t I = 0; I < mesh->grid.n; I++) mesh->kind[I] = (uint8_t)cell_kind(mesh, p, s, I);
@@ -211,7 +211,7 @@ static void cells_sort_out(struct mesh *mesh, const struct particles *p, const s
             mesh->kind[I] = (uint8_t)cell_kind(mesh, p, s, I);
     mesh_find_span_of_nodes_with_mass_per_row(mesh);
     cells_list(mesh, p);
-    mesh_own_stiffness_cells_compute_stiffness(mesh, p, s, dirty, &old);
+    mesh_cells_with_own_stiffness_compute(mesh, p, s, dirty, &old);
 }
 
 void mesh_activate_only_node_blocks_next_to_cells(struct mesh *mesh)
@@ -376,7 +376,7 @@ void mesh_free(struct mesh *mesh)
     memory_free(mesh->absent), memory_free(mesh->filled_cell), memory_free(mesh->filled_node);
     memory_free(mesh->band);
     memory_free(mesh->run);
-    mesh_own_stiffness_cells_free(mesh);
+    mesh_cells_with_own_stiffness_free(mesh);
     memory_free(mesh->exposed_list);
     memory_free(mesh->span);
     mesh_slits_free(&mesh->slits);
@@ -462,7 +462,7 @@ bool mesh_try_update_stiffness_for_partial_stress(struct mesh *mesh, const struc
         dirty[cell] = 1;
         same = mesh->kind[cell] == CELL_PARTIAL && cell_kind(mesh, p, source, cell) == CELL_PARTIAL;
     }
-    if (same) mesh_own_stiffness_cells_recompute_marked(mesh, p, source, dirty);
+    if (same) mesh_cells_with_own_stiffness_recompute_marked(mesh, p, source, dirty);
     memory_free(dirty);
     return same;
 }

@@ -1,5 +1,5 @@
-/* Declarations shared by the files of src/mesh: own-stiffness cells and their stiffness, slits, fits of nodal values,
- * masses and blocks of nodes. */
+/* Declarations shared by the files of src/mesh: cells with own stiffness and their stiffness, slits, fits of nodal
+ * values, masses and blocks of nodes. */
 #ifndef CLEAVE_MESH_PARTS
 #define CLEAVE_MESH_PARTS
 
@@ -11,46 +11,46 @@
  * coarse cell. */
 enum cell_kind { CELL_EMPTY, CELL_WHOLE, CELL_PARTIAL, CELL_COARSE };
 
-/* Own-stiffness cells (with missing points, partial stresses, several materials or doubled nodes), moved out of a mesh
- * by mesh_own_stiffness_cells_remove_and_return before its cells are classified again. own_stiffness_cell:
+/* Cells with own stiffness (with missing points, partial stresses, several materials or doubled nodes), moved out of a
+ * mesh by mesh_cells_with_own_stiffness_detach before its cells are classified again. own_stiffness_cell:
  * [own_stiffness_cells] indices of the cells; stiffness: their stiffness matrices.
- * mesh_own_stiffness_cells_compute_stiffness copies the stiffness of unchanged cells from here and frees the arrays. */
-struct mesh_own_stiffness_cells {
+ * mesh_cells_with_own_stiffness_compute copies the stiffness of unchanged cells from here and frees the arrays. */
+struct mesh_cells_with_own_stiffness {
     int64_t own_stiffness_cells;
     int32_t *own_stiffness_cell;
     real *stiffness;
 };
 
-/* Removes all own-stiffness cells (cells with missing points, points whose stress is partly carried by bonds, several
- * materials or doubled nodes) from the mesh, and returns their list with their stiffness, for
- * mesh_own_stiffness_cells_compute_stiffness. */
-struct mesh_own_stiffness_cells mesh_own_stiffness_cells_remove_and_return(struct mesh *mesh);
+/* Removes all cells with own stiffness (cells with missing points, points whose stress is partly carried by bonds,
+ * several materials or doubled nodes) from the mesh, and returns their list with their stiffness, for
+ * mesh_cells_with_own_stiffness_compute. */
+struct mesh_cells_with_own_stiffness mesh_cells_with_own_stiffness_detach(struct mesh *mesh);
 
-/* Appends cell number `cell` to the list of own-stiffness cells of the mesh: cells in which points are missing or have
- * different materials, or whose nodes were doubled by a slit (a pre-crack). Their stiffness is computed later by
- * mesh_own_stiffness_cells_compute_stiffness. */
-void mesh_own_stiffness_cells_add(struct mesh *mesh, int64_t cell);
+/* Appends cell number `cell` to the list of cells with own stiffness of the mesh: cells in which points are missing or
+ * have different materials, or whose nodes were doubled by a slit (a pre-crack). Their stiffness is computed later by
+ * mesh_cells_with_own_stiffness_compute. */
+void mesh_cells_with_own_stiffness_add(struct mesh *mesh, int64_t cell);
 
-/* Computes the stiffness of all own-stiffness cells of the mesh with particles p (cells with missing points, points
- * whose stress is partly carried by bonds, several materials or doubled nodes). source: material constants, and the
- * parts of stresses that bonds carry; cell_needs_update: a byte for each cell, not 0 where the stiffness must be
- * computed anew, NULL for all cells; previous_cells: result of mesh_own_stiffness_cells_remove_and_return, from which
+/* Computes the stiffness of all cells with own stiffness of the mesh with particles p (cells with missing points,
+ * points whose stress is partly carried by bonds, several materials or doubled nodes). source: material constants, and
+ * the parts of stresses that bonds carry; cell_needs_update: a byte for each cell, not 0 where the stiffness must be
+ * computed anew, NULL for all cells; previous_cells: result of mesh_cells_with_own_stiffness_detach, from which
  * the stiffness of all other cells is copied, and which is freed. */
-void mesh_own_stiffness_cells_compute_stiffness(struct mesh *mesh, const struct particles *p,
-                                                const struct mesh_source *source, const uint8_t *cell_needs_update,
-                                                struct mesh_own_stiffness_cells *previous_cells);
+void mesh_cells_with_own_stiffness_compute(struct mesh *mesh, const struct particles *p,
+                                           const struct mesh_source *source, const uint8_t *cell_needs_update,
+                                           struct mesh_cells_with_own_stiffness *previous_cells);
 
-/* Recomputes the stiffness of the own-stiffness cells of `mesh` with particles p (cells with missing points, points
- * whose stress is partly carried by bonds, several materials or doubled nodes) marked in `cell_is_marked`, a byte for
- * each cell. The list of own-stiffness cells is unchanged. source: material constants, and the parts of stresses that
- * bonds carry.
+/* Recomputes the stiffness of the cells with own stiffness of `mesh` with particles p (cells with missing points,
+ * points whose stress is partly carried by bonds, several materials or doubled nodes) marked in `cell_is_marked`, a
+ * byte for each cell. The list of cells with own stiffness is unchanged. source: material constants, and the parts of
+ * stresses that bonds carry.
  */
-void mesh_own_stiffness_cells_recompute_marked(struct mesh *mesh, const struct particles *p,
-                                               const struct mesh_source *source, const uint8_t *cell_is_marked);
+void mesh_cells_with_own_stiffness_recompute_marked(struct mesh *mesh, const struct particles *p,
+                                                    const struct mesh_source *source, const uint8_t *cell_is_marked);
 
-/* Frees the list of own-stiffness cells of the mesh (cells with missing points, several materials or doubled nodes) and
- * their stiffness. */
-void mesh_own_stiffness_cells_free(struct mesh *mesh);
+/* Frees the list of cells with own stiffness of the mesh (cells with missing points, several materials or doubled
+ * nodes) and their stiffness. */
+void mesh_cells_with_own_stiffness_free(struct mesh *mesh);
 
 /* Finds the nodes of `mesh` with particles p at which slits (pre-cracks) or voids (narrow gaps of a body) of `source`
  * separate the points around them, and adds second nodes there. The box of nodes, which covers the range between the
@@ -64,8 +64,8 @@ status mesh_slits_duplicate_nodes(struct mesh *mesh, const struct particles *p, 
  * moves. To be called after the blocks are made. */
 void mesh_slits_link_node_blocks_to_duplicates(struct mesh *mesh);
 
-/* Stores in mesh->slits the node indices of the corners of own-stiffness cells (cells with missing points, several
- * materials or doubled nodes) that touch a slit, a pre-crack as free surface. Own-stiffness cells are computed in
+/* Stores in mesh->slits the node indices of the corners of cells with own stiffness (cells with missing points, several
+ * materials or doubled nodes) that touch a slit, a pre-crack as free surface. Cells with own stiffness are computed in
  * groups of eight; the indices are stored for all cells of a group if one of them touches a slit. Needed because slits
  * double nodes, so that the corners of such cells are not at fixed index distances from the cell. To be called after
  * the groups are made. */
@@ -103,7 +103,7 @@ void mesh_node_update_mass(struct mesh *mesh, const struct particles *p, int64_t
  * some cells; cells of a level above 0 are parts of larger cells, which belong to a coarser mesh. Determines the kind
  * of each changed cell: whole (all points, of one material, none with partial stress, i.e. a share of its stress that
  * bonds carry), partial (points, but not all of these properties), empty, or part of a larger cell. Then lists whole
- * cells in runs (rows of consecutive cells of one material) and own-stiffness cells with their stiffness, and
+ * cells in runs (rows of consecutive cells of one material) and cells with own stiffness with their stiffness, and
  * recomputes nodal masses. p: particles; source: elastic constants and partial stresses; level_has_changed[mesh->grid.n
  * + LANES]: not 0 for cells whose level has changed. */
 void mesh_rebuild_cells_after_level_change(struct mesh *mesh, const struct particles *p,

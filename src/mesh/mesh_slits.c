@@ -461,7 +461,7 @@ void mesh_slits_store_corner_nodes_of_adjacent_cells(struct mesh *mesh)
 {
     struct mesh_slits *s = &mesh->slits;
     const int corners = 1 << mesh->grid.dim;
-    const int64_t groups = mesh_count_groups_of_eight_own_stiffness_cells(mesh);
+    const int64_t groups = mesh_count_groups_of_eight_cells_with_own_stiffness(mesh);
     int32_t n = 0;
     if (!s->cell) return;
     memory_free(s->group);

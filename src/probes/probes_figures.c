@@ -179,7 +179,7 @@ static real fracture_term(const void *context, int64_t k)
 {
     const struct region_sum *s = context;
     int64_t row = row_at(s, k);
-    return row >= 0 ? bonds_row_fracture_energy(s->o->bonds, row) : 0;
+    return row >= 0 ? bonds_row_dissipated_energy(s->o->bonds, row) : 0;
 }
 
 /* Returns the number of broken bonds of particle number k (from 0) of a probe (a requested measurement); 0 if its

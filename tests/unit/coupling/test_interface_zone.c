@@ -19,7 +19,7 @@ static void half_make(struct particle_cloud *c, struct interface_zone *zone, enu
     for (int64_t i = 0; i < c->p.n; i++)
         c->p.kind[i] = c->p.X[0][i] < 0.5 * size[dim][0] * CLOUD_SPACING ? KIND_PD : KIND_MPM;
     cloud_source(c);
-    interface_zone_find_points_and_neighbours(zone, &c->p, &c->source);
+    interface_zone_list_damped_material_points(zone, &c->p, &c->source);
     assert_true(zone->points > 0 && zone->n > zone->points);
 }
 
@@ -140,7 +140,7 @@ static void test_parted(void **state)
             if (parted == 2) c.p.body[i] = above;
             c.p.v[0][i] = above ? 0.4 : -0.3, c.p.v[1][i] = above ? 0.7 : -1.3;
         }
-        interface_zone_find_points_and_neighbours(&r, &c.p, &c.source);
+        interface_zone_list_damped_material_points(&r, &c.p, &c.source);
         interface_zone_damp_and_return_first_half_loss(&r, &c.p, 1.0 / 16);
         for (int64_t i = 0; i < c.p.n; i++)
             change = real_max(change, fabs(c.p.v[1][i] - (c.p.X[1][i] > 6 * CLOUD_SPACING ? 0.7 : -1.3)));

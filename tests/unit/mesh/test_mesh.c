@@ -139,8 +139,8 @@ static void given(const struct block *b, const struct partial_stress *partial, i
     for (int d = 0; d < p->dim && n > 0; d++) P[d * (p->dim + 1)] += pressure / n - own;
 }
 
-/* Compares forces of own-stiffness cells with a random partial stress that derives from an energy with sums of V P grad
- * N over points: round-off of a few hundred terms. Later changes are followed cell by cell. */
+/* Compares forces of cells with own stiffness with a random partial stress that derives from an energy with sums of V P
+ * grad N over points: round-off of a few hundred terms. Later changes are followed cell by cell. */
 static void test_partial(void **state)
 {
     (void)state;

@@ -70,7 +70,7 @@ static void fields_are_read_by_name(void **state)
 }
 
 /* Reads what VTK's reader of temporal grids reads of step `step` of `steps` in h, and compares it with p: the part
- * PartOffsets[step]; points from PointOffsets on, one cell offset more than cells for each preceding part, rows of a
+ * PartOffsets[step]; points from PointOffsets on, one cell offset more tha cells for each preceding part, rows of a
  * field from its own offset on. */
 static void check_step(struct hdf *hdf, int step, int steps, const struct particles *p)
 {
