@@ -1,5 +1,6 @@
-/* Second-order elements of Gmsh and Abaqus files are curved: every kind in the node order of both manuals, mapped by a
- * quadratic function with determinant 1, so that volume and positions of its sides are known. */
+/* Tests curved second-order elements from Gmsh and Abaqus files. Elements of every type are written in the node order
+ * of both manuals, with nodes mapped by a quadratic function of determinant 1. The volume and the position of their
+ * sides are therefore known exactly. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,14 +12,14 @@
 
 enum { NODES_MOST = 27 };
 
-/* Maps the reference position at[3] to X[3] by a shear by squares, which preserves the volume of the reference
- * element. */
+/* Maps the reference position at[3] to X[3] by a quadratic shear with determinant 1, which preserves the volume of the
+ * reference element. */
 static void curve_map(const real *at, real *X)
 {
     X[0] = at[0] + 0.3 * at[1] * at[1], X[1] = at[1] + 0.2 * at[2] * at[2], X[2] = at[2];
 }
 
-/* Corners of the reference elements. */
+/* Corner positions of the reference elements, indexed by TET, PYRAMID, PRISM, HEX. */
 static const real corner_of[][8][3] = {
     {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
     {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}},
@@ -26,8 +27,8 @@ static const real corner_of[][8][3] = {
     {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
 enum { TET, PYRAMID, PRISM, HEX };
 
-/* Mid-side nodes, given by the corners between which they are (from 1), as in the manuals of Gmsh ("Node ordering") and
- * of Abaqus ("Element node ordering"). */
+/* Element types. `between` names the corners (counted from 1) whose mean position each mid-side node has, in the order
+ * of the manuals of Gmsh ("Node ordering") and of Abaqus ("Element node ordering"). */
 static const struct kind {
     int shape, corners, gmsh; /* element type of Gmsh; 0: Abaqus */
     const char *abaqus, *between;
@@ -46,7 +47,7 @@ static const struct kind {
     {HEX, 8, 0, "C3D27", "12 23 34 14 56 67 78 58 15 26 37 48 12345678 1234 5678 1256 2367 3478 1458", 1},
 };
 
-/* Computes at[], the positions of all nodes of an element of kind k on the reference element. Returns their number. */
+/* Computes at[], the reference positions of all nodes of an element of type k. Returns the number of nodes. */
 static int reference_nodes(const struct kind *k, real (*at)[3])
 {
     int n = k->corners;
@@ -82,8 +83,8 @@ static void write_kind(const char *name, const struct kind *k)
     fclose(file);
 }
 
-/* Computes at[3], the position with the coordinates u, v on side `side` of the reference element of `shape`, where one
- * coordinate is 0. Returns false if the position is outside the element. */
+/* Computes at[3], the position with the coordinates u, v on side `side` of the reference element of `shape`; the side
+ * is a coordinate plane or its opposite. Returns false if the position is outside the element. */
 static bool on_side(int shape, int side, real u, real v, real *at)
 {
     const real in[3] = {u, v, 0};
@@ -103,8 +104,8 @@ static bool on_side(int shape, int side, real u, real v, real *at)
     }
 }
 
-/* Checks the surface of curved elements of every kind against the exact map. Tolerance 1 mm: a hundredth of the
- * required distance, the accuracy of chords of curves. */
+/* Checks volume and surface of curved elements of every type against the exact map. The file is read with an accuracy
+ * of 1 mm for chords of curved sides, which is the tolerance of distances; the elements have edges of about 1 m. */
 static void every_kind_is_curved(void **state)
 {
     (void)state;
@@ -129,9 +130,9 @@ static void every_kind_is_curved(void **state)
     }
 }
 
-/* Writes to the file `name` a quarter ring of four elements of `type` (CPS8), from 1 m to 2 m, with nodes on circles;
- * the areas between parabolas and circles of 45 degrees are 3.2e-4 r^2 each. A node set of its outer corners is the
- * outer arc, an element set the inner half with its arc. */
+/* Writes to the file `name` a quarter ring from r = 1 m to 2 m of four elements CPS8R or eight CPS6 (`type`) with all
+ * nodes on circles. The area between a parabola and a circular arc of 45 degrees is 3.2e-4 r^2. Node set `outer`: three
+ * nodes on the outer arc; element set `inner`: the inner half of the ring. */
 static void write_ring(const char *name, const char *type)
 {
     const bool triangles = strcmp(type, "CPS6") == 0;
@@ -185,8 +186,8 @@ static void a_ring_is_round(void **state)
     remove("r.inp");
 }
 
-/* Checks that the faces of a curved cube of 20 nodes and of a straight one beside it coincide without a gap, and so do
- * the edges of the plane faces between them. */
+/* Checks that the faces of a curved 20-node cube and of a straight cube beside it coincide without a gap, and so do the
+ * edges of the plane faces between both. */
 static void curved_beside_straight(void **state)
 {
     (void)state;
@@ -217,7 +218,8 @@ static void curved_beside_straight(void **state)
     remove("b.inp");
 }
 
-/* Checks that straight third-order elements are read by their corners, and that curved ones are refused. */
+/* Checks that straight third-order elements are read by their corners, and that curved third-order elements are
+ * refused. */
 static void third_order(void **state)
 {
     (void)state;
@@ -243,7 +245,8 @@ static void third_order(void **state)
     remove("c.msh");
 }
 
-/* Checks that elements too coarse for the spacing, and those with more nodes than their type has, are refused. */
+/* Checks that curved elements that are too coarse for the spacing are refused, and so are elements with more nodes than
+ * their type has. */
 static void refused_curves(void **state)
 {
     (void)state;
@@ -271,7 +274,7 @@ static void refused_curves(void **state)
     remove("r.inp");
 }
 
-/* Checks that damaged files are read or refused, and that none causes a crash. */
+/* Checks that damaged files are read or refused without a crash. */
 static void damaged_curves(void **state)
 {
     (void)state;

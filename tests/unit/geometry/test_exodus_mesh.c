@@ -1,5 +1,6 @@
-/* Meshes in Exodus II files of all three formats of netCDF, written here: elements of every type, blocks, sides and
- * nodes as sets; what is wrong with a file in one line; and some thousand damaged files. */
+/* Tests meshes in Exodus II files, which are written here in all three formats of netCDF: elements of every type,
+ * blocks, side sets and node sets. Also checks the one-line messages for invalid files and about a thousand damaged
+ * ones. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,8 +14,8 @@
 
 enum { EDGES = 12, SIDES = 6 };
 
-/* Element types by the manual of Exodus II: corners in a box of 2 x 3 x 5, nodes amid edges in their order, sides by
- * their corners; all count from 1. */
+/* Element types of the manual of Exodus II: corners in a box of 2 x 3 x 5; edge: the corners of each edge, in the order
+ * of the mid-edge nodes; side: the corners of each side. All indices count from 1. */
 static const struct {
     const char *type;
     int corners, edges, sides;
@@ -55,11 +56,11 @@ static const struct {
      {{1, 2, 5}, {2, 3, 5}, {3, 4, 5}, {1, 5, 4}, {1, 4, 3, 2}}},
 };
 
-/* Nodes 21 to 27 of the largest hexahedron: its middle, then sides by the numbers above. */
+/* Nodes 21 to 27 of the 27-node hexahedron: 0: its centre, else the centre of the side with this number. */
 static const int hex27[] = {0, 5, 6, 4, 2, 1, 3};
 
-/* Writes a file with one element of kind k and all of its sides as side sets. order: 1: corner nodes only, 2: also
- * nodes amid edges, 3: also amid sides. */
+/* Writes a file with one element of type k and each of its sides as a side set. order: 1: corner nodes only, 2: also
+ * mid-edge nodes, 3: also nodes at the centres of sides and of the element. */
 static void write_element(int k, int order)
 {
     real X[27][DIM_MAX] = {{0}};
@@ -82,9 +83,9 @@ static void write_element(int k, int order)
     NC(nc_close(file));
 }
 
-/* Checks that each element type has its volume, straight also where it has more nodes, and that each of its sides is
- * where its corners are and away from the other corners. Second-order elements with wrongly ordered nodes would be
- * curved, with another volume. */
+/* Checks the volume of each element type, straight also where it has more nodes than corners. Checks that each side set
+ * contains the corners of its side and is away from the other corners. Second-order elements with wrongly ordered nodes
+ * would be curved, with another volume. */
 static void each_type(void **state)
 {
     (void)state;
@@ -114,9 +115,9 @@ static void each_type(void **state)
     unlink("a.exo");
 }
 
-/* Checks the surface of a hexahedron and a wedge beside three tetrahedra, which share two sides with them that are not
- * plane and that they divide by the diagonals farther from the origin. Only the outer surface remains, a box of 20 x 10
- * x 8, and the middle of a shared side is as deep below it as half of the height. */
+/* Checks the surface of a hexahedron and a wedge that each share a non-planar side with three tetrahedra; tetrahedra
+ * divide such a side by its diagonal farther from the origin. Only the outer surface remains, a box of 20 x 10 x 8. The
+ * middle of the shared side of the hexahedron is at a depth of half the height, 4. */
 static void twisted_sides(void **state)
 {
     (void)state;
@@ -137,7 +138,7 @@ static void twisted_sides(void **state)
     unlink("a.exo");
 }
 
-/* Checks that a bulge of edges to the outside adds two thirds of its height times its area, as a parabola does. */
+/* Checks that an edge curved outwards adds 2/3 of its height times its length to the area, as a parabola does. */
 static void curved_edges(void **state)
 {
     (void)state;
@@ -155,9 +156,9 @@ static void curved_edges(void **state)
     unlink("a.exo");
 }
 
-/* Writes the file `path` in the format `mode` (flags of nc_create) with `dim` coordinates: two squares of 2 x 3 and 4 x
- * 3 as blocks, the second without a name; side and node sets, one pair of the same name; a bar, which is left out and
- * counts as an element. */
+/* Writes the file `path` in the format `mode` (flags of nc_create) with `dim` coordinates. It has two blocks,
+ * rectangles of 2 x 3 and 4 x 3, the second without a name; side sets and node sets, of which one pair has the same
+ * name; and a bar element, which the reader skips but counts. */
 static void write_plate(const char *path, int mode, int dim)
 {
     static const real flat[6][2] = {{0, 0}, {2, 0}, {6, 0}, {0, 3}, {2, 3}, {6, 3}};
@@ -181,7 +182,7 @@ static void write_plate(const char *path, int mode, int dim)
     NC(nc_close(file));
 }
 
-/* Returns the distance of the point (x, y) of the plane from the set `name` of g, all in units of the file. */
+/* Returns the distance of the point (x, y) from the set `name` of g, in the unit of the file. */
 static real off(const struct geometry *g, const char *name, real x, real y)
 {
     const struct geometry_set *set = geometry_find_set_by_name(g, name);
@@ -215,7 +216,7 @@ static void blocks_and_sets(void **state)
     unlink("a.exo");
 }
 
-/* Writes block number `number` of n spheres at the nodes node[n] to `file`, with `attributes` numbers each, from
+/* Writes to `file` block number `number` of n spheres at the nodes node[n], with `attributes` values each from
  * attribute[n][attributes]. */
 static void put_spheres(int file, int number, int n, const int *node, int attributes, const real *attribute)
 {
@@ -228,8 +229,8 @@ static void put_spheres(int file, int number, int n, const int *node, int attrib
     exodus_put_reals(file, "attrib", number, 2, dim, attribute);
 }
 
-/* Checks that spheres are read as a list of particles: of two attributes without names the second is the volume, and
- * blocks are materials. */
+/* Checks that blocks of spheres are read as a list of particles. The second of two unnamed attributes is the volume,
+ * and each block is one material. */
 static void spheres(void **state)
 {
     (void)state;
@@ -271,17 +272,17 @@ static void spheres(void **state)
     unlink("a.e");
 }
 
-/* ---- what is refused --------------------------------------------------------------------------------------------- */
+/* ---- refusals ---------------------------------------------------------------------------------------------------- */
 
-/* Asserts that bad.e is refused with a message that has the text `message`. */
+/* Asserts that the file bad.e is refused with a message that contains the text `message`. */
 static void refused(const char *message)
 {
     struct geometry g;
     assert_refused(geometry_read(&g, "bad.e", 2, 1, NAN), message);
 }
 
-/* Creates the file bad.e of one square that lacks its block, and returns its id. side_sets, node_sets: numbers of sets
- * to follow. */
+/* Creates the file bad.e with one square whose block is not written yet, and returns its netCDF id. side_sets,
+ * node_sets: numbers of sets that the file declares. */
 static int begin_bad(int side_sets, int node_sets)
 {
     static const real X[4][2] = {{0, 0}, {2, 0}, {2, 3}, {0, 3}};
@@ -346,7 +347,7 @@ static void bad_files(void **state)
     unlink("bad.e");
 }
 
-/* Checks that a file that claims more nodes than it can contain is refused before memory is allocated for them. */
+/* Checks that a file that declares more nodes than it can contain is refused before memory is allocated for them. */
 static void claims(void **state)
 {
     (void)state;
@@ -374,8 +375,8 @@ static uint64_t random_next(uint64_t *seed)
     return *seed >> 33;
 }
 
-/* Checks that damaged files are read as another mesh or refused, in one line. Files in netCDF-4 are read by HDF5, whose
- * crashes over damaged files end the program with a line (crash_message.c). */
+/* Checks that each damaged file is read as some mesh or refused in one line. HDF5 reads files in netCDF-4; a crash of
+ * HDF5 over a damaged file ends the program with a one-line message (crash_message.c). */
 static void damaged(void **state)
 {
     (void)state;

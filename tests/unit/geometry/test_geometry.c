@@ -1,5 +1,5 @@
-/* Files of shapes written here: STL, Gmsh 2.2 and 4.1, Abaqus, as text and binary; errors reported in one line; and
- * some thousand damaged files. */
+/* Tests reading of geometry files written here: STL, Gmsh 2.2 and 4.1, Abaqus, as text and binary. Also checks the
+ * one-line messages for invalid files and some thousand damaged files. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,7 +20,7 @@ static void write_file(const char *name, const void *bytes, size_t n)
 
 static void write_words(const char *name, const char *text) { write_file(name, text, strlen(text)); }
 
-/* Returns the contents of the file `name`, to be freed. *length: receives their length. */
+/* Returns the contents of the file `name`, to be freed with memory_free. *length: receives their length in bytes. */
 static char *file_text(const char *name, size_t *length)
 {
     FILE *file = fopen(name, "rb");
@@ -39,7 +39,7 @@ static void refused(const char *name, int dim, const char *message)
 
 /* ---- STL --------------------------------------------------------------------------------------------------------- */
 
-/* Corner k of a unit cube, and its twelve triangles. */
+/* Twelve triangles of a cube, by corner indices; bits 0, 1 and 2 of an index are the coordinates x, y and z. */
 static const signed char cube_face[12][3] = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                                              {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
 
@@ -155,7 +155,7 @@ static void check_msh2(const char *name)
     geometry_free(&g);
 }
 
-/* Writes the file `name` in Gmsh's format 2.2 with binary numbers; counts are text. */
+/* Writes the file `name` in Gmsh's format 2.2 with binary numbers; counts of nodes and elements are text. */
 static void write_msh2_bytes(const char *name)
 {
     static const real at[12][3] = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0},
@@ -235,7 +235,7 @@ static void gmsh_of_both_versions(void **state)
     check_msh4("d.msh");
 }
 
-/* Writes to the file `name` the mesh `text` with `what` in place of `from`. */
+/* Writes to the file `name` the mesh `text`, with the part `from` replaced by `what`. */
 static void write_changed(const char *name, const char *text, const char *from, const char *what)
 {
     char changed[4096];
@@ -245,7 +245,7 @@ static void write_changed(const char *name, const char *text, const char *from, 
     write_words(name, changed);
 }
 
-/* Checks that a curve and a surface with the same tag belong to their own groups. */
+/* Checks that in Gmsh 4.1 a curve and a surface with one tag belong to the physical groups of their own dimension. */
 static void gmsh_tags_by_dimension(void **state)
 {
     size_t length;
@@ -258,7 +258,7 @@ static void gmsh_tags_by_dimension(void **state)
     remove("e.msh");
 }
 
-/* Checks that the sign of an entity's group is read as its orientation, and names of a tag differ by dimension. */
+/* Checks Gmsh 4.1: a negative physical tag is an orientation, and groups of different dimension may share a tag. */
 static void gmsh_groups_of_entities(void **state)
 {
     size_t length;
@@ -352,7 +352,7 @@ static void abaqus_decks(void **state)
     geometry_free(&g);
 }
 
-/* Checks sets of squares in a row that are given by first, last and step, where the step may not reach the last. */
+/* Checks sets of squares in a row given by first, last and increment (GENERATE), where last need not be hit. */
 static void abaqus_generates(void **state)
 {
     (void)state;
@@ -383,8 +383,8 @@ static void abaqus_generates(void **state)
     geometry_free(&g);
 }
 
-/* Checks volume and distances (from a position outside and one inside) of each kind of solid element, and of one with
- * reversed corners. */
+/* Checks the volume of each type of solid element, and of one with reversed corners, against closed forms. Also checks
+ * the signed distances of one position outside and one inside. */
 static void abaqus_solids(void **state)
 {
     (void)state;
@@ -444,7 +444,7 @@ static void bad_abaqus(void **state)
     refused("bad.obj", 3, "is not a shape file; give one that ends in .stl, .msh, .inp or .exo");
 }
 
-/* ---- damage ------------------------------------------------------------------------------------------------------ */
+/* ---- damaged files ----------------------------------------------------------------------------------------------- */
 
 static uint64_t random_next(uint64_t *seed)
 {
@@ -452,7 +452,7 @@ static uint64_t random_next(uint64_t *seed)
     return *seed >> 33;
 }
 
-/* Checks that every file with bytes changed, removed or doubled is read or refused. */
+/* Checks that files with bytes changed, removed or duplicated are read as a mesh of positive volume or refused. */
 static void damaged(void **state)
 {
     (void)state;

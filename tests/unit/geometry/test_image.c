@@ -1,5 +1,5 @@
-/* Images and stacks: grey values in all kinds of PNG and TIFF; distances of voxels compared with all pairs; damaged
- * files. */
+/* Tests images and stacks of images: grey values from every type of PNG and TIFF file, distances from the boundary of
+ * voxel solids compared with a search over all pairs of voxels, and damaged files. */
 #include <math.h>
 #include <png.h>
 #include <stdlib.h>
@@ -18,8 +18,8 @@ enum { WIDE = 7, HIGH = 5, MOST = 1 << 16 };
  * images. */
 static int value_at(int row, int column, int page) { return (37 * row + 11 * column + 50 * page + 3) % 256; }
 
-/* Writes the PNG file `name`. kind: colour type; bits: 1, 8 or 16 per sample. Colours have three equal values, palettes
- * the value as an entry. */
+/* Writes the PNG file `name`. kind: colour type of libpng; bits: 1, 8 or 16 per sample. Colour images have three equal
+ * samples, palettes have the grey value as an entry. */
 static void write_png(const char *name, int kind, int bits)
 {
     FILE *file = fopen(name, "wb");
@@ -53,8 +53,8 @@ static void write_png(const char *name, int kind, int bits)
     fclose(file);
 }
 
-/* Writes the TIFF file `name` of `pages` pages. bits, samples: bits per sample, samples per pixel; compression: as in
- * libtiff; white: true if grey values count from white. */
+/* Writes the TIFF file `name` of `pages` pages. bits: per sample; samples: per pixel; compression: as in libtiff;
+ * white: true if 0 is white (photometric interpretation MINISWHITE). */
 static void write_tiff(const char *name, int pages, int bits, int samples, int compression, bool white)
 {
     TIFF *tiff = TIFFOpen(name, "w");
@@ -103,7 +103,7 @@ static void check_values(const char *name, int dim, int pages, int bits)
             }
     assert_int_equal(voxels_grey_value(&v, (real[]){9.9, 25, 31}), -1);
     assert_int_equal(voxels_grey_value(&v, (real[]){12, 30, 31}), -1);
-    /* Between two voxels, and less by round-off: the upper voxel. */
+    /* Between two voxels but for round-off: the grey value is that of the upper voxel. */
     assert_int_equal(voxels_grey_value(&v, (real[]){12 - 1e-12, 20, 30}),
                      voxels_grey_value(&v, (real[]){12.5, 20.5, 30.5}));
     voxels_free(&v);
@@ -140,8 +140,8 @@ struct maps_layout {
     bool tiled, white;
 };
 
-/* Returns sample c of the pixel in row j and column i of a file with the layout a. Transparency of 3/8, associated or
- * not, does not affect the value. */
+/* Returns sample c of the pixel in row j and column i of a file with the layout a. An alpha sample, of 3/8, does not
+ * affect the grey value. */
 static int sample_at(const struct maps_layout *a, int j, int i, int c)
 {
     const bool right = a->orientation == ORIENTATION_TOPRIGHT || a->orientation == ORIENTATION_BOTRIGHT;
@@ -153,8 +153,8 @@ static int sample_at(const struct maps_layout *a, int j, int i, int c)
     return a->samples % 2 == 0 && c == a->samples - 1 ? most * 3 / 8 : a->white ? most - value : value;
 }
 
-/* Fills row[] with row j of a tile of 16 x 16, or of the image, `wide` pixels wide, in the layout a. plane: index of
- * the sample; -1: all samples of a pixel together. */
+/* Fills row[] with row j of the image or of a 16 x 16 tile, `wide` pixels wide, in the layout a. plane: index of the
+ * sample if each sample has its own plane; -1: the samples of a pixel are contiguous. */
 static void fill_row(const struct maps_layout *a, uint8_t *row, int j, int wide, int plane)
 {
     const int n = plane < 0 ? a->samples : 1;
@@ -202,7 +202,7 @@ static void write_layout(const char *name, const struct maps_layout *a)
     TIFFClose(tiff);
 }
 
-/* Checks that bits, transparency, colours, planes, tiles and order of rows do not affect a value. */
+/* Checks that grey values do not depend on bits per sample, transparency, colour, planes, tiles and order of rows. */
 static void layouts_of_tiff(void **state)
 {
     (void)state;
@@ -219,7 +219,7 @@ static void layouts_of_tiff(void **state)
     }
 }
 
-/* Checks that signed and floating-point samples, other numbers of bits, and columns in place of rows are refused. */
+/* Checks that signed and floating-point samples, unsupported numbers of bits, and transposed images are refused. */
 static void samples_refused(void **state)
 {
     (void)state;
@@ -247,7 +247,7 @@ static void samples_refused(void **state)
     }
 }
 
-/* Checks slices from several files, PNG and TIFF mixed; in 2D there is only one slice. */
+/* Checks stacks of slices from several files, PNG and TIFF mixed; in 2D only one slice is accepted. */
 static void a_stack_of_files(void **state)
 {
     (void)state;
@@ -297,8 +297,9 @@ static void bad_images(void **state)
     refused(bytes, n, "incomplete or damaged (");
 }
 
-/* Compares the distances of voxel centres from the nearest voxel of the other kind with tests of all pairs, and checks
- * the sign at positions. */
+/* Compares the signed distance at each voxel centre with a search over all voxels: distance to the centre of the
+ * nearest voxel of the other phase (or outside the image), less half a voxel. Also checks the sign at arbitrary
+ * positions. */
 static void distances(void **state)
 {
     (void)state;
@@ -372,7 +373,8 @@ static int leave_folder(void **state)
     return chdir("/") != 0 || rmdir(folder) != 0;
 }
 
-/* Checks the grey values of colours by Rec. 709: green has the largest weight, blue the smallest. */
+/* Checks the grey values of colours by the luminance weights of ITU-R Rec. 709: green has the largest, blue the
+ * smallest. */
 static void colours_have_a_luminance(void **state)
 {
     (void)state;

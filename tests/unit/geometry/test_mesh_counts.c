@@ -1,5 +1,6 @@
-/* Meshes whose counts are wrong, or whose elements are given twice: they are refused, except elements of several groups
- * in Gmsh's format 2.2, which repeats them. Sets of the nodes of elements, of groups of one name, of instances. */
+/* Tests mesh files with wrong counts or duplicate elements, which are refused; Gmsh 2.2 may list an element once for
+ * each of its groups. Also tests node sets of elements, groups with equal names, and sets of instances in Abaqus
+ * files. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,7 +10,7 @@
 
 #include "geometry/geometry.h"
 
-/* A square of two triangles, each in a group of its own. */
+/* Gmsh 2.2 file of a square of two triangles, each in a group of its own. */
 static const char msh2[] = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"low\"\n2 2 \"high\"\n"
                            "$EndPhysicalNames\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n"
                            "$Elements\n2\n1 2 2 1 1 1 2 3\n2 2 2 2 1 1 3 4\n$EndElements\n";
@@ -18,8 +19,8 @@ static const char msh4[] = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0
                            "$Elements\n2 2 1 2\n2 9 2 1\n1 1 2 3\n2 9 2 1\n2 1 3 4\n$EndElements\n";
 static const char inp[] = "*Node\n1, 0, 0\n2, 1, 0\n3, 1, 1\n4, 0, 1\n*Element, type=CPS3\n1, 1, 2, 3\n2, 1, 3, 4\n";
 
-/* Writes `text` with `to` in place of `from` to the file `name`, reads the file in the plane into *g and returns the
- * status. */
+/* Writes `text`, with the part `from` replaced by `to`, to the file `name`, reads this file in 2D into *g and returns
+ * the status. */
 static status read_changed(struct geometry *g, const char *name, const char *text, const char *from, const char *to)
 {
     const char *at = strstr(text, from);
@@ -84,7 +85,7 @@ static void right_ones(void **state)
     }
 }
 
-/* The nodes of a set of elements. */
+/* Checks that a node set defined by an element set of Abaqus (*Nset, elset=) contains the nodes of the elements. */
 static void nodes_of_elements(void **state)
 {
     (void)state;
@@ -98,7 +99,8 @@ static void nodes_of_elements(void **state)
     geometry_free(&g);
 }
 
-/* Two groups of one name, a triangle and its edge; a name of more than 63 characters. */
+/* Checks two physical groups with one name: accepted for a name longer than 63 characters and for an unused group, but
+ * marked as faulty if they contain elements of different dimension, a triangle and its edge. */
 static void twin_groups(void **state)
 {
     (void)state;
@@ -121,7 +123,7 @@ static void twin_groups(void **state)
     geometry_free(&g);
 }
 
-/* Returns the distance of the point (x, 0) from the set `name` of g. */
+/* Returns the signed distance of the point (x, 0) from the set `name` of g. */
 static real from_set(const struct geometry *g, const char *name, real x)
 {
     const struct geometry_set *set = geometry_find_set_by_name(g, name);
@@ -129,8 +131,9 @@ static real from_set(const struct geometry *g, const char *name, real x)
     return hull_signed_distance(&set->hull, (real[]){x, 0}, NULL);
 }
 
-/* Two parts, each with a set `pin`, the node at x = 0 and that at x = 7; sets of the assembly from nodes and sets of
- * instances; a node of the assembly has a number that the parts have, too. */
+/* Checks sets of an Abaqus assembly of two instances, each of whose parts has a node set `pin`, at x = 0 and x = 7.
+ * Sets of the assembly consist of nodes or sets of instances. Node 1 of the assembly does not conflict with node 1 of
+ * the parts. */
 static void sets_of_instances(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Absorbing faces: velocity update of a dashpot in closed form; bars, plates and blocks from which waves leave; effects
- * of mirrors, supports and conversion; long runs. */
+/* Tests absorbing faces: the velocity update of a dashpot against its closed form; bars, plates and blocks from which
+ * waves leave; effects of mirrors, supports and conversion to peridynamics; long runs. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdio.h>
@@ -18,8 +18,8 @@ static const char bonds[] = "method: pd", cells[] = "method: mpm\nmpm: {frame: r
 
 /* ---- velocity update --------------------------------------------------------------------------------------------- */
 
-/* Checks m (v+ - v-)/dt = f - k (v- + v+)/2 at every particle of an absorbing face, with the dashpot coefficient k of
- * its material for bonds, and the force alone at the others. */
+/* Checks m (v+ - v-)/dt = f - k (v- + v+)/2 at every peridynamic particle of an absorbing face, with the dashpot
+ * coefficient k of its material. Other particles are accelerated by the force f alone. */
 static void test_kick(void **state)
 {
     (void)state;
@@ -74,15 +74,15 @@ static void test_kick(void **state)
     particle_cloud_free(&c);
 }
 
-/* ---- waves leave ------------------------------------------------------------------------------------------------- */
+/* ---- waves that leave through a face ----------------------------------------------------------------------------- */
 
-/* Results of a run: energy at its start and end, absorbed energy, errors of both balances, largest energy, and energy
- * that a face gave back. */
+/* Results of a run: energy at its start and end, absorbed energy [J]; largest relative error of the energy balance and
+ * final one of the momentum balance [1]; largest energy, and largest decrease of the absorbed energy in a step [J]. */
 struct left {
     real start, rest, absorbed, balance, momentum, most, back;
 };
 
-/* Runs a scene to its end. */
+/* Runs the scene `text` to its end and returns its results. */
 static struct left run_text(const char *text)
 {
     struct run e;
@@ -107,9 +107,10 @@ static struct left run_text(const char *text)
     return m;
 }
 
-/* Checks that a pulse 32 spacings wide leaves a bar through its absorbing end. The remaining energy is the square of
- * the reflected amplitude (cleave bench absorbing), up to 2.3 %; FLIP points keep some noise. Energy balance: second
- * order for FLIP; APIC dissipates 1 % on the way; bonds and cells have the round-off of positions. */
+/* Checks that a pulse 32 spacings wide leaves a bar through its absorbing end. The remaining energy is at most the
+ * square of a reflected amplitude, 1 % (cells) to 6.5 % (FLIP, which keeps some noise). Limits of the energy balance:
+ * second order in the step for FLIP, the dissipation of APIC on the path, round-off of positions for bonds and
+ * cells. */
 static void test_bar(void **state)
 {
     (void)state;
@@ -137,9 +138,9 @@ static void test_bar(void **state)
     }
 }
 
-/* Tests a block that is hit in its middle, with all faces absorbing, over 1e5 steps: it loses its energy, never has
- * more than the initial energy, and the balance closes: for bonds and cells to second order of their strains, 1e-3, in
- * the step. */
+/* Checks a block with absorbing faces all around that is hit in its middle, over 1e5 steps. It loses its energy and
+ * never has more than at the start. The energy balance of bonds and cells closes to second order in the step, and to
+ * their strains of 1e-3. */
 static void test_long(void **state)
 {
     (void)state;
@@ -168,9 +169,9 @@ static void test_long(void **state)
 
 /* ---- with mirrors, supports, conversion -------------------------------------------------------------------------- */
 
-/* Checks that half a plate at a mirror that intersects absorbing faces absorbs half of what the whole plate does:
- * mirror on a row of nodes of the mesh, and midway between two. APIC points dissipate slightly differently at
- * mirrors. */
+/* Checks that half a plate beside a mirror that intersects absorbing faces absorbs half the energy that the whole plate
+ * does. The mirror is on a row of nodes of the mesh, or midway between two. APIC points dissipate slightly differently
+ * at mirrors. */
 static void test_mirror_faces(void **state)
 {
     (void)state;
@@ -202,7 +203,8 @@ static void test_mirror_faces(void **state)
     }
 }
 
-/* Checks a bar fixed at its absorbing end: fixed components have no dashpots, and the whole pulse is reflected. */
+/* Checks a bar that is fixed at its absorbing end: a fixed velocity component has no dashpot, and the whole pulse is
+ * reflected. */
 static void test_held(void **state)
 {
     (void)state;
@@ -223,8 +225,9 @@ static void test_held(void **state)
     }
 }
 
-/* Tests an adaptive plate whose points convert up to the absorbing faces, which then act on bonds. Conversion in motion
- * dissipates energy (15 % in so small a plate), and the faces change this by at most 1 %. */
+/* Checks an adaptive plate whose material points convert to peridynamic particles up to the absorbing faces, which then
+ * act on bonds. Conversion in motion dissipates 15 % of the energy in so small a plate; the faces change this by at
+ * most 1 %. */
 static void test_conversion_at_face(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Clamped planes (`mirror: ..., tangential: held`): forces derive from an energy, for every model, at corners and on
- * irregular particles; long runs of beams; supports and loads balance. */
+/* Tests clamped planes (`mirror: ..., tangential: held`): forces derive from an energy for every bond model, at corners
+ * and for irregular particles; long runs of beams keep their energy; support forces balance the loads. */
 #include <math.h>
 #include <omp.h>
 #include <setjmp.h>
@@ -20,13 +20,13 @@
 #include "scene/scene_read.h"
 #include "loads/mirrors.h"
 
-/* Step of finite differences of forces: 2e-5 of a spacing has a second-order error below 1e-9 of the largest entry; the
- * last bits of stretches, 2^-49, are 1e-10 of it. */
+/* Step of finite differences of forces [spacings]. Its second-order error is below 1e-9 of the largest entry; the
+ * resolution of stretches, 2^-49, gives 1e-10. */
 #define STEP 2e-5
 #define SYMMETRIC 1e-8 /* relative to the largest entry; without the energy it is 0.1 */
 #define NEGATIVE 1e-8  /* relative to the largest entry: round-off of zero modes, which a clamped body does not have */
-/* Step of finite differences of energies: 2e-4 of a spacing has an error of its square, 4e-8, times third derivatives
- * of order one. */
+/* Step of finite differences of energies [spacings]: the error is the square, 4e-8, times third derivatives of order
+ * one. */
 #define SLIDE 2e-4
 #define GRADIENT 1e-6
 
@@ -46,7 +46,7 @@ struct body {
     struct run e;
 };
 
-/* Creates in a the run of the scene `text` with the overrides with[], texts `key=value`, terminated by NULL. */
+/* Creates in a the run of the scene `text` with the overrides with[], texts `key=value` terminated by NULL. */
 static void body_make(struct body *a, const char *text, const char *const *with)
 {
     enum { MOST = 8 };
@@ -70,7 +70,7 @@ static void body_free(struct body *a)
     scene_free(&a->s);
 }
 
-/* Computes the forces of the run by the calls of a time step, without breaking bonds. */
+/* Computes the forces of the run by the functions that a time step calls, without breaking bonds. */
 static void forces(struct run *run)
 {
     loads_update_mirror_images_of_particles(&run->loads, &run->part);
@@ -83,7 +83,7 @@ static real energy(struct run *run)
     return run->kernels.bond_energy(&run->bonds, &run->part, NULL);
 }
 
-/* ---- the operator ------------------------------------------------------------------------------------------------ */
+/* ---- stiffness --------------------------------------------------------------------------------------------------- */
 
 /* Returns the stiffness matrix -df/dx of the run at the reference positions, n x n for n components, to be freed. */
 static real *stiffness_of(struct run *run)
@@ -124,7 +124,7 @@ static void check_operator(struct run *run, const char *name)
     memory_free(K);
 }
 
-/* Checks far from the reference positions that the energy of the rows of the run changes along random motions by the
+/* Checks, far from the reference positions, that the bond energy of the run changes along random displacements by the
  * work of the forces. name: of the case, for messages. */
 static void check_gradient(struct run *run, const char *name)
 {
@@ -201,10 +201,10 @@ static void test_energy(void **state)
     }
 }
 
-/* Tests bonds that have yielded, each by an amount that depends on the position of its middle: the force is that of the
- * elastic stretch, both from the sweep and from the images at clamped planes (which prevent all motion). A bond across
- * the plane of symmetry y = 0 and its image have equal plastic stretch. The yield stress is too high for further
- * yielding. */
+/* Checks bonds that have yielded, each by an amount that depends on the position of its midpoint. The force must be
+ * that of the elastic stretch, both from the bond sweep and from the images at clamped planes, which prevent all
+ * motion. A bond across the plane of symmetry y = 0 and its image have equal plastic stretch. The yield stress is too
+ * high for further yielding. */
 static void test_yielded(void **state)
 {
     (void)state;
@@ -261,7 +261,7 @@ static void test_threads(void **state)
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Runs e to the end; returns the largest error of the energy balance. */
+/* Runs e to the end. Returns the largest magnitude of the relative error of the energy balance [1]. */
 static real run(struct run *e)
 {
     real most = 0;
@@ -280,9 +280,9 @@ static real run(struct run *e)
     "body: {box: {from: [0, 0], to: [20 mm, 4 mm]}}\nparticles: {spacing: 1 mm, horizon: 3.015}\n" LEFT                \
     "  - body_force: [0, 1e4]\n    time: {step: {until: 0.2 ms}}\n"
 
-/* Checks a beam released from a deflected state over 25,000 steps and more: the energy balance closes to 6e-8 (also for
- * four times the length). Without the energy of clamps the first three would stop after 3e3 to 3e4 steps and the last
- * would gain 5 % in 1e5. */
+/* Checks beams that vibrate after a load is removed, over at least 25,000 steps: the error of the energy balance, 6e-8
+ * measured, stays below 1e-6. Forces at the clamp that do not derive from an energy would stop the first three runs
+ * after 3e3 to 3e4 steps. */
 static void test_long(void **state)
 {
     (void)state;
@@ -301,8 +301,8 @@ static void test_long(void **state)
     }
 }
 
-/* Material points beside bonds at the clamp, in the reference frame, with the plane on nodes and midway between two,
- * where nodes move as images of others. */
+/* Material points beside bonds at the clamp, in the reference frame. The plane is on nodes, or midway between two,
+ * where nodes outside move as mirror images. */
 #define COUPLED                                                                                                        \
     "space: plane stress\nthickness: 1 mm\nduration: 2 ms\nmethod: adaptive\n" STEEL                                   \
     "body: {box: {from: [0, 0], to: [40 mm, 12 mm]}}\nparticles: {spacing: 1 mm, horizon: 3.015}\n"                    \
@@ -326,7 +326,8 @@ static void test_coupled(void **state)
     }
 }
 
-/* Checks a clamp through particles: these do not move, and the energy and momentum balances close. */
+/* Checks a clamped plane through particles: these particles do not move, and the balances of energy and momentum
+ * close. */
 static void test_in_plane(void **state)
 {
     (void)state;
@@ -354,8 +355,8 @@ static void test_in_plane(void **state)
     "  - {mirror: {axis: y, at: 0, tangential: free}}\n  - {mirror: {axis: y, at: 4 mm, tangential: free}}\n"          \
     "  - traction: [1 MPa, 0]\n    face: x+\n    time: {pulse: {from: 0, until: 4 us}}\n"
 
-/* Checks that a plane wave is reflected from a clamp as from a plane of symmetry, because it has no motion along the
- * plane. */
+/* Checks that a plane longitudinal wave is reflected from a clamped plane as from a plane of symmetry, because it has
+ * no motion along the plane. */
 static void test_reflection(void **state)
 {
     (void)state;
@@ -384,9 +385,9 @@ static void test_reflection(void **state)
     "body: {box: {from: [0, 0], to: [20 mm, 8 mm]}}\nparticles: {spacing: 1 mm, horizon: 3.015}\n" LEFT                \
     "initial: [{velocity: [50, 20]}]\n"
 
-/* Tests a body that tears off its clamp: bonds break only at their images, which act until then, with a share of their
- * reaction in that step. Final error of the balance: 6e-5 to 4.3e-4 measured with half the critical step, 1.5e-5 to
- * 7e-5 with an eighth; with half of all last forces 5e-3 and up to 4.5e-4. */
+/* Checks a body that tears off its clamp: only bonds to images at the clamp break. Limits of the final error of the
+ * energy balance: 1e-3 with half the critical step (6e-5 to 4.3e-4 measured), 1e-4 with an eighth (1.5e-5 to 7e-5). If
+ * every breaking bond acted with half its force in its last step, the errors would be up to 5e-3 and 4.5e-4. */
 static void test_torn(void **state)
 {
     (void)state;
@@ -416,7 +417,7 @@ static void test_torn(void **state)
     "  - body_force: [0, 1e4]\n"
 
 /* Compares the tip displacement of a cantilever under its own weight b with b L^4/(8 E h^2/12) + b L^2/(2 G 5/6)
- * (Timoshenko 1921), within 2 % for ten layers of each model; the clamp carries the weight. */
+ * (Timoshenko 1921), within 2 % for ten layers of particles and every bond model. The clamp carries the weight. */
 static void test_cantilever(void **state)
 {
     (void)state;

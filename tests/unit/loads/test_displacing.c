@@ -1,4 +1,5 @@
-/* Displacements prescribed by boundaries: of `displacement` itself, of velocities their integral, of rotations. */
+/* Tests the displacement that a boundary prescribes at a time: its own value for `displacement`, the time integral for
+ * a velocity and for a rotation. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -10,7 +11,7 @@
 #include "tests/support/near.h"
 #include "base/team.h"
 
-/* Makes the expression *e x^2/(1 m) or, if with_time, x t/(1 s) [m, or m/s]. */
+/* Sets *e to the expression x*x or, if with_time, x*t, of reference position and time. */
 static void by_x(struct expression *e, bool with_time)
 {
     const struct expression_step step[] = {
@@ -19,7 +20,7 @@ static void by_x(struct expression *e, bool with_time)
     e->in_space = true, e->in_time = with_time;
 }
 
-/* A body under one boundary. */
+/* A body of particles and the loads of one boundary that acts on all of them. */
 struct displaced {
     struct particle_cloud c;
     struct loads l;
@@ -37,8 +38,8 @@ static void displaced_free(struct displaced *m)
     particle_cloud_free(&m->c);
 }
 
-/* Checks prescribed motion: a free component is 0 whatever its value; numbers and formulas are multiplied by the
- * function of time. */
+/* Checks prescribed displacements and velocities, each by a number and by a formula times a ramp in time, against
+ * closed forms. A component that is not prescribed yields 0 whatever its value. */
 static void test_values(void **state)
 {
     (void)state;
@@ -69,8 +70,8 @@ static void test_values(void **state)
     expression_free(&b.formula[0]);
 }
 
-/* Checks the rotation about an oblique axis in 3D against Rodrigues' formula, for the component of the arm along the
- * axis and across it. */
+/* Checks the rotation about an oblique axis in 3D against Rodrigues' formula, separately for the components of the arm
+ * along the axis and across it. */
 static void test_turn_in_space(void **state)
 {
     (void)state;
@@ -96,13 +97,13 @@ static void test_turn_in_space(void **state)
         assert_near(prescribed_displacement_component_at_position(&by, X, d), to - arm[d], 1e-14);
         way[d] = prescribed_velocity_component_at_position(&step, X, d, false);
     }
-    /* The chord of a step from 1.8 to 2 s, over the step. */
+    /* Mean velocity from 1.8 to 2 s: chord of the circle over the duration. */
     const real across = sqrt(dot(arm, arm, 3) - square(along));
     assert_near(sqrt(dot(way, way, 3)), 2 * across * sin(0.5 * 0.7 * 0.2) / 0.2, 1e-13);
     assert_near(dot(way, axis, 3), 0, 1e-14);
 }
 
-/* Checks a quarter turn about the point (1, 2) spacings at a linearly increasing rate. */
+/* Checks a rotation by a right angle about the point (1, 2) spacings at a linearly increasing rate. */
 static void test_turn(void **state)
 {
     (void)state;
@@ -127,8 +128,8 @@ static void test_turn(void **state)
     displaced_free(&m);
 }
 
-/* Checks formulas of t: a displacement is its current value; a velocity has no integral; in a static problem the value
- * at the end applies. */
+/* Checks formulas of t. A displacement is the formula's value at the time; a velocity by formula has no closed
+ * integral; a static problem uses the value at the end. */
 static void test_formula_of_time(void **state)
 {
     (void)state;
@@ -154,7 +155,7 @@ static void test_formula_of_time(void **state)
     expression_free(&b.formula[0]);
 }
 
-/* Compares the largest slope of a function of time with finite differences; it is infinite at a jump, 0 before the
+/* Compares the largest slope of a function of time with finite differences. It is infinite at a jump, and 0 before the
  * start. */
 static void test_steepest(void **state)
 {
@@ -180,8 +181,8 @@ static void test_steepest(void **state)
                 isinf(time_function_largest_slope_until(&step, 1.1)));
 }
 
-/* Checks a static problem: displacements at the end, per particle; the work is half the support forces times the
- * displacements. */
+/* Checks a static problem: each particle has the prescribed displacement of the end of the run, and the work is half
+ * the sum of support forces times displacements. */
 static void test_static(void **state)
 {
     (void)state;

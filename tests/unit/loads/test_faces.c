@@ -1,5 +1,5 @@
-/* Tractions: on every body the resultant is the traction times the projected area of the body along the face's normal,
- * for any shape; which particles carry it; its effect in a run. */
+/* Tests tractions. On a body of any shape the resultant is the traction times the projected area of the body along the
+ * normal of the face. Also checks which particles are loaded, and the momentum that a traction causes in a run. */
 #include <string.h>
 #include <unistd.h>
 
@@ -65,7 +65,7 @@ static void sample_free(struct sample *a)
     scene_free(&a->s);
 }
 
-/* Returns the sum of the shares of the load of a along axis d [m^2]. */
+/* Returns the loaded area along axis d: the sum of the area shares of all particles under the load of a [m^2]. */
 static real area(const struct sample *a, int d)
 {
     real sum = 0;
@@ -73,7 +73,7 @@ static real area(const struct sample *a, int d)
     return sum;
 }
 
-/* Returns the share along axis d of the particle of a nearest to the position (x, y) [m^2]. */
+/* Returns the area share along axis d of the particle of a that is nearest to the position (x, y) [m^2]. */
 static real share_at(const struct sample *a, int d, real x, real y)
 {
     for (int64_t k = 0; k < a->l.load[0].n; k++) {
@@ -83,8 +83,8 @@ static real share_at(const struct sample *a, int d, real x, real y)
     return 0;
 }
 
-/* Returns the number of columns of a lattice along the axis `face`: particles of p without another one in front of
- * them. */
+/* Returns the number of columns of a lattice along the axis `face`, i.e. the number of particles of p without another
+ * particle in front of them. */
 static int64_t lattice_columns(const struct particles *p, int face)
 {
     int64_t n = 0;
@@ -112,8 +112,8 @@ static const char corner[] = "body: [" BOX(0, 0, 30, 10) ", " BOX(0, 10, 8, 25) 
 static const char overhang[] = "body: [" BOX(0, 0, 30, 30) ", " CUT(10, 10, 31, 20) "]\n";
 static const char holed[] = "body: [" BOX(0, 0, 30, 30) ", {subtract: " DISC(15, 15, 6) "}]\n";
 
-/* Solids with their projected area along x and y (and z) [m, m^2], and the change of this area for a layer of one
- * spacing all around. */
+/* Solids with their projected areas along x and y (and z), and the change of each area if the solid grows by one
+ * spacing on all sides. Lengths in m, areas in m^2. */
 static const struct solid_shown {
     const char *name, *space, *body;
     real shows[DIM_MAX], spacing[DIM_MAX];
@@ -145,8 +145,8 @@ static const struct solid_shown {
      {1e-9}},
 };
 
-/* Checks the loaded area of the solid q on its side `side` (-1 or 1) along the axis `face`. Irregularity of less than
- * half a spacing does not change the columns of a lattice. */
+/* Compares the loaded area of the solid q on its side `side` (-1 or 1) along the axis `face` with the projected area.
+ * Random shifts of less than half a spacing do not change the columns of a lattice. */
 static void check_shape(const struct solid_shown *q, int face, int side)
 {
     static const char *const shaken[] = {"", ", irregularity: 0.5", ", irregularity: 0.8, seed: 3"};
@@ -180,8 +180,9 @@ static void test_shapes(void **state)
 
 /* ---- loaded particles -------------------------------------------------------------------------------------------- */
 
-/* Checks that steps are loaded, and that surfaces hidden by an overhang and the bottom of a hole are not. A region
- * without the hiding particles loads the hidden ones, only over their own width. */
+/* Checks that the steps of a stepped face are loaded, whereas surfaces hidden by an overhang and the bottom of a hole
+ * are not. If the region of the load excludes the hiding particles, the hidden ones are loaded over their own width
+ * only. */
 static void test_hidden(void **state)
 {
     (void)state;
@@ -197,7 +198,7 @@ static void test_hidden(void **state)
     assert_exact(share_at(&a, 1, 20.5 * H, 9.5 * H), 0);
     sample_free(&a);
     sample_make(&a, "plane stress", overhang, "", "traction: [0, 1], face: y+, region: " BOX(0, 0, 30, 12));
-    assert_int_equal(a.l.load[0].n, 20); /* the lower arm; the web beside it continues upwards */
+    assert_int_equal(a.l.load[0].n, 20); /* the lower arm; in the columns of the web the outermost particle is higher */
     assert_close(share_at(&a, 1, 20.5 * H, 9.5 * H), H * T, 1e-12);
     sample_free(&a);
 
@@ -230,8 +231,8 @@ static void test_refused(void **state)
     sample_free(&a);
 }
 
-/* Checks that bodies hide each other if the traction acts on all of them, also for different lattices; a named body is
- * considered alone. */
+/* Checks that a body hides another one if the traction acts on all bodies, also with different lattices. If the load
+ * names its body, other bodies do not hide it. */
 static void test_bodies(void **state)
 {
     (void)state;
@@ -255,8 +256,9 @@ static void test_bodies(void **state)
         }
 }
 
-/* Checks that the tangential component on a stepped face acts half a spacing outside the first particle of every
- * column: its moment is that of the steps. In a column with a single particle it acts on this particle. */
+/* Checks that the tangential component of a traction on a stepped face acts half a spacing outside the first particle
+ * of every column, by comparing its moment with that of the steps. In a column of one particle it acts on this
+ * particle. */
 static void test_along(void **state)
 {
     (void)state;
@@ -274,11 +276,11 @@ static void test_along(void **state)
 
 /* ---- lists ------------------------------------------------------------------------------------------------------- */
 
-/* File with the particles of the present list. */
+/* Name of the file of the list of particles under test. */
 static char list_name[64];
 
-/* Rings of a disc of radius 20, hexagons, squares of two sizes, nodes on the border with halves and quarters, a lattice
- * of spacing 1.3: all fill their solid [mm]. */
+/* Arrangements of particles whose volumes fill their solid: rings of a disc of radius 20 mm, a hexagonal lattice,
+ * squares of two sizes, nodes on the border with halves and quarters of the volume, a lattice of spacing 1.3 mm. */
 enum list { RINGS, HEXAGONS, TWO_SIZES, NODES, WIDE, LISTS };
 
 static void put_list(FILE *out, enum list list)
@@ -340,7 +342,8 @@ static void test_lists(void **state)
     remove(list_name);
 }
 
-/* Checks loaded areas in 3D: balls of radius 8 from an irregular close packing, with volumes that differ by a half. */
+/* Checks loaded areas in 3D: balls of radius 8 spacings cut from an irregular close packing whose volumes vary by a
+ * half. */
 static void test_packed(void **state)
 {
     (void)state;
@@ -373,9 +376,9 @@ static void test_packed(void **state)
 
 /* ---- in a run ---------------------------------------------------------------------------------------------------- */
 
-/* Checks that a free body q has the momentum t A T after a time T with the method `method` and the further keys `more`,
- * for the traction t on the area A of `columns` columns; the sum of momenta is checked, not the impulse reported by the
- * loads. */
+/* Checks that a free body q has the momentum t A T after the time T, with the solver `method` and the further keys
+ * `more`. t: traction on the area A of `columns` columns. The momentum is summed over particles, independently of the
+ * impulse that the loads report. */
 static void check_impulse(const struct solid_shown *q, int64_t columns, const char *method, const char *more)
 {
     enum { STEPS = 12 };

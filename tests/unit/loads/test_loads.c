@@ -1,4 +1,5 @@
-/* Applied forces: force of a varying body force on every particle. */
+/* Tests applied loads: body forces with a spatial profile, combination of loads, integration in time, tractions, mean
+ * displacements, and inertia relief. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -10,8 +11,8 @@
 #include "tests/support/near.h"
 #include "base/team.h"
 
-/* Checks a sine profile along (3, 4)/5 with its origin inside, acting in x and y. The profile refers to reference
- * positions: displacements have no effect. */
+/* Checks a body force with a sine profile along (3, 4)/5, whose origin is inside the body, with components x and y. The
+ * profile refers to reference positions, so that displacements have no effect. */
 static void test_sine(void **state)
 {
     (void)state;
@@ -55,10 +56,9 @@ static void test_sine(void **state)
     particle_cloud_free(&c);
 }
 
-/* Checks that loads of the same particles are combined, with terms of equal shares as one, and that results equal the
- * sum of separate loads on any number of threads. Two loads with one profile, one with another, one on a part of the
- * body, one whose region contains every particle in another notation, and a traction. together: false for separate
- * loads; impulse, *work, f: receive the results. */
+/* Computes the impulse[], the work *work and the forces f[] of six loads on a body on `threads` threads, for
+ * comparison. together: true to combine loads on the same particles, false for separate loads. The loads are two with
+ * one profile, one with another, one on part of the body, one whose region contains every particle, and a traction. */
 static void check_together(int threads, bool together, real *impulse, real *work, real *f)
 {
     const real length = 5 * CLOUD_SPACING, dt = 1e-6;
@@ -125,9 +125,9 @@ static void test_together(void **state)
     threads_set_count_and_bind_to_cores(2);
 }
 
-/* Checks leap-frog integration of loads: half a velocity update, then full ones, each centred at the time of its
- * forces. The impulse of a force is its integral in time: exact if it is linear or switches at a whole step, else of
- * second order. */
+/* Checks the leap-frog integration of loads: half a velocity update, then full updates, each centred at the time of its
+ * forces. The impulse of a force is its time integral: exact for a linear function or one that switches at a whole
+ * step, else of second order in the step. */
 static void test_kicks(void **state)
 {
     (void)state;
@@ -164,9 +164,9 @@ static void even_volumes(struct particles *p)
     for (int64_t i = 0; i < p->n; i++) p->volume0[i] = square(CLOUD_SPACING) * 2e-3;
 }
 
-/* Checks that the force of a traction is t A and its moment that of a force on the face, half a spacing outside the
- * particles, for any direction and irregularity (shifts of 0.3 spacings: a layer 0.6 thick); the moment of the
- * tangential component is exact on the lattice, where the depths of layers are known. */
+/* Checks that the resultant of a traction t on an area A is t A, in any direction and also for particles shifted by up
+ * to 0.3 spacings. On the unshifted lattice the moment of the tangential component must be that of a force on the face,
+ * half a spacing outside the outermost particles. */
 static void test_traction(void **state)
 {
     (void)state;
@@ -202,8 +202,8 @@ static void test_traction(void **state)
         }
 }
 
-/* Checks that the displacement of a load is the mean weighted by the shares of its particles, as in its work, and the
- * plain mean if the shares add up to zero. */
+/* Checks that the displacement of a load is the mean over its particles weighted by their area shares, as in the work
+ * of the load, and the plain mean if the shares add up to zero. */
 static void test_mean_displacement(void **state)
 {
     (void)state;
@@ -233,7 +233,8 @@ static void test_mean_displacement(void **state)
     particle_cloud_free(&c);
 }
 
-/* Checks the force of a load at a time: its value, function and formula of time, times the volume of the particle. */
+/* Checks the force of a load on a particle at a time: value, function of time and formula of time, times the volume of
+ * the particle. */
 static void test_force_at(void **state)
 {
     (void)state;
@@ -261,8 +262,8 @@ static void test_force_at(void **state)
     expression_free(&push.formula[0]);
 }
 
-/* Checks that the resultant of loads on a free body is balanced by its inertia: no moment remains, and no force is
- * added. */
+/* Checks inertia relief: opposite tangential tractions on a free body are balanced by its inertia, so that neither a
+ * resultant force nor a moment remains. */
 static void test_relief(void **state)
 {
     (void)state;

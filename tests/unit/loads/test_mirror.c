@@ -1,5 +1,5 @@
-/* A quarter of a body between two mirrors compared with the whole body: forces, also of breaking bonds, energy, surface
- * correction, partial stresses, conversion. */
+/* Compares a quarter of a body between two mirrors (planes of symmetry) with the whole body: forces, also of breaking
+ * bonds, energy, surface correction, partial stresses, and conversion to peridynamic particles. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <math.h>
@@ -14,14 +14,14 @@
 #include "tests/support/near.h"
 #include "base/team.h"
 
-/* Tolerance: sums of the same bonds in another order. */
+/* Tolerance: round-off of equal sums over bonds in another order. */
 #define CLOSE 1e-12
 
-/* A quarter with planes of symmetry x = 0 and y = 0, and the whole body. */
+/* A quarter of a body with planes of symmetry x = 0 and y = 0, and the whole body. */
 struct quarter {
     struct particle_cloud whole, part;
     struct loads loads;
-    int32_t *twin; /* particle of the whole at the position of a particle of the quarter */
+    int32_t *twin; /* [particles of the quarter] particle of the whole body at that position */
 };
 
 static const struct boundary mirror[] = {
@@ -29,8 +29,8 @@ static const struct boundary mirror[] = {
     {.name = "below", .kind = BOUNDARY_MIRROR, .body = -1, .axis = 1, .at = 0},
 };
 
-/* Sets a deformation and kinds of the particles p that are symmetric about the mirrors. pd_radius: radius around the
- * middle within which particles are peridynamic [spacings]. */
+/* Sets displacements of the particles p that are symmetric about the mirrors, and their kinds. Particles within
+ * pd_radius of the centre are peridynamic [spacings]. */
 static void deform(struct particles *p, real pd_radius)
 {
     for (int64_t i = 0; i < p->n; i++) {
@@ -95,7 +95,7 @@ static void quarter_free(struct quarter *q)
     particle_cloud_free(&q->part);
 }
 
-/* Returns the largest difference between a field of the quarter, part[], and of the whole body, whole[], at
+/* Returns the largest difference between the field part[] of the quarter and the field whole[] of the whole body at
  * corresponding particles of q. */
 static real deviation(const struct quarter *q, const real *part, const real *whole)
 {
@@ -177,8 +177,8 @@ static void test_mirror(void **state)
 
 enum { LOOKS_MOST = 4096 }; /* more than the number of particles in a quarter */
 
-/* Callback that counts in `context` how often each particle list[n] is listed; fails if a list holds a particle
- * twice. */
+/* Callback that adds 1 to ((int *)context)[list[k]] for each of the n listed particles. Fails if one list contains a
+ * particle twice. */
 static void count_looks(void *context, const int32_t *list, int64_t n)
 {
     int *looks = context, before[LOOKS_MOST];
@@ -189,9 +189,8 @@ static void count_looks(void *context, const int32_t *list, int64_t n)
     }
 }
 
-/* Tests a point beside a mirror that is converted with its horizon: its images and their neighbours behave as in the
- * whole body, where all four symmetric points are marked. The bonds are updated for each converted particle and its
- * neighbourhood, once each. */
+/* Checks the conversion of a point beside a mirror and its neighbourhood. Its images and their neighbours behave as in
+ * the whole body, in which all four symmetric points are flagged. The callback receives each converted particle. */
 static void test_mirror_convert(void **state)
 {
     (void)state;
@@ -226,8 +225,8 @@ static void test_mirror_convert(void **state)
 
 /* ---- bonds that break -------------------------------------------------------------------------------------------- */
 
-/* Creates the neighbourhoods of q with Poisson's ratio 0.2 in `space`, for a `model` that allows it. modulus: receives
- * the constants of state-based models. */
+/* Creates the neighbourhoods of q in `space` for a `model` with Poisson's ratio 0.2. modulus: receives the constants of
+ * state-based models. */
 static void quarter_families(struct quarter *q, enum space space, enum pd_model model, struct state_modulus *modulus)
 {
     static const int axis[] = {0, 1};
@@ -242,8 +241,9 @@ static void quarter_families(struct quarter *q, enum space space, enum pd_model 
         }
 }
 
-/* Tests in `space` a sweep in which all bonds beyond a stretch of 1.2 %, many of which were below it one step ago,
- * break with the model `model`: the quarter agrees with the whole body in number and last forces. */
+/* Checks in `space` a sweep of the model `model` in which all bonds beyond a stretch of 1.2 % break, many of which were
+ * below it one step earlier. The quarter has a fourth of the broken bonds of the whole body, and equal forces in the
+ * last step of these bonds. */
 static void breaks_case(enum space space, enum pd_model model)
 {
     const int dim = space_dim(space);
@@ -285,7 +285,7 @@ static void test_mirror_breaks(void **state)
 
 /* ---- material points --------------------------------------------------------------------------------------------- */
 
-/* A quarter or all of a body of material points on a grid. */
+/* A quarter of a body of material points on a grid, or the whole body. */
 struct points {
     struct particles *p;
     struct grid g;
@@ -298,7 +298,7 @@ struct points {
 
 static const struct elastic steel = {.c11 = 2e11, .c12 = 7e10, .shear = 6.5e10, .trigger = INFINITY};
 
-/* Sets a motion and stresses of the points p that are symmetric about the mirrors, in a body deformed such that points
+/* Sets velocities and stresses of the points p that are symmetric about the mirrors, in a deformed body, so that points
  * are at arbitrary positions in cells. */
 static void points_state(struct particles *p)
 {
@@ -320,7 +320,7 @@ static void points_state(struct particles *p)
     particles_rebuild_lists_by_kind(p);
 }
 
-/* Creates s, the points p on a grid with the boundaries b[n]. offset: distance of the planes from a node [node
+/* Creates s, the points p on a grid with the boundaries b[n]. offset: distance of the mirror planes from a node [node
  * distances]. */
 static void points_make(struct points *s, struct particles *p, const struct boundary *b, int n, real offset)
 {
@@ -385,8 +385,9 @@ static void points_compare(const struct quarter *q)
         assert_true(deviation(q, part->stress[c], whole->stress[c]) <= CLOSE);
 }
 
-/* Checks in `space`, with `transfer`, that the quarter moves as the whole body does for shape functions that extend
- * beyond the planes; the impulse of the planes is the change of its momentum. offset: as in points_make. */
+/* Checks in `space`, with the shape functions `shape` and the scheme `transfer`, that the quarter moves as the whole
+ * body does. The shape functions extend beyond the planes. The impulse of the planes is the change of momentum. offset:
+ * as in points_make. */
 static void points_case(enum space space, enum shape shape, enum transfer transfer, real offset)
 {
     const int n[2] = {6, 5};
@@ -435,9 +436,8 @@ static void test_mirror_points(void **state)
             }
 }
 
-/* Checks a strip between two mirrors, far from the origin of one and near that of the other, displaced by less than a
- * bond can resolve: the distance from particle i to the image of j is bitwise equal to that from j to the image of i,
- * so that no force along the mirrors remains. */
+/* Checks a strip between two mirrors with displacements of 1e-13 spacings. The distance from particle i to the image of
+ * j must be bitwise equal to that from j to the image of i, so that no force along the mirrors remains. */
 static void test_mirror_places(void **state)
 {
     (void)state;
