@@ -1,5 +1,5 @@
-/* Repulsion within bonds compressed below 0.7 of their length: forces as the gradient of the energy, the third law, the
- * closed form of a chain, and no effect above 0.7. */
+/* Tests the repulsion of bonds that are compressed below 0.7 of their length: forces against the gradient of the
+ * energy, their sum, the closed form of a chain, and no effect above 0.7. */
 #include <math.h>
 #include <string.h>
 
@@ -40,7 +40,7 @@ static real energy_now(struct run *run)
     return run->kernels.bond_energy(&run->bonds, &run->part, NULL);
 }
 
-/* Compresses the body of the run along x to `share` times its length, and displaces each particle by up to 0.05
+/* Sets the positions of the run to the reference positions times `share` along x, plus displacements of up to 0.05
  * spacings. */
 static void squeeze(struct run *run, real share)
 {
@@ -50,9 +50,8 @@ static void squeeze(struct run *run, real share)
             p->x[d][i] = (d == 0 ? share : 1) * p->X[d][i] + 0.05 * sin(12.9 * (double)i + 78.2 * d);
 }
 
-/* Checks the forces of the model `model` with repulsive cores (stiffening of strongly compressed bonds) against the
- * energy gradient by a central difference over 1e-5 of a spacing. Tolerance: the second derivative, 3 K, jumps where
- * the repulsion begins, 1e-5 K. */
+/* Compares the forces of the model `model` with repulsion with central differences of the energy over 1e-5 of a
+ * spacing. Tolerance 1e-5 K: where the repulsion begins the second derivative jumps by 3 K. */
 static void check_gradient(const char *model)
 {
     struct scene s;
@@ -85,8 +84,8 @@ static void forces_are_the_gradient(void **state)
     check_gradient("mospd");
 }
 
-/* Checks a chain of nearest neighbours at l times its length against the closed form: energy 1/2 E A/D (1 - l)^2 per
- * bond, plus 3/2 E A/D (0.7 - l)^2 below 0.7, to round-off. */
+/* Compares the energy of a chain of nearest neighbours compressed to l times its length with its closed form: 1/2 E A/D
+ * (1 - l)^2 per bond, plus 3/2 E A/D (0.7 - l)^2 below 0.7, to round-off. A: cross-section, D: spacing. */
 static void chain_has_the_closed_form(void **state)
 {
     (void)state;

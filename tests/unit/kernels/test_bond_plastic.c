@@ -1,5 +1,5 @@
-/* Bonds that yield: path of one bond compared with its closed form, all lanes compared with a scalar implementation,
- * plastic work, equality of both ends, and initialisation from material points. */
+/* Tests yielding bonds: one bond against the closed form of its law along a path, all lanes against a scalar
+ * implementation, plastic work, equal states of both entries of a bond, and initialisation from material points. */
 #include "kernels/kernels.h"
 
 #include "tests/support/cloud.h"
@@ -11,7 +11,8 @@
 
 /* ---- one bond ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the force of the single bond of two particles c at the stretch s, divided by stiffness and weight. */
+/* Computes the forces of the two particles c at the stretch s. Returns the force of their only bond divided by
+ * stiffness and weight [1]. */
 static real pulled(struct particle_cloud *c, real s)
 {
     c->p.x[0][1] = c->p.x[0][0] + (c->p.X[0][1] - c->p.X[0][0]) * (1 + s);
@@ -29,10 +30,9 @@ static void pair_make(struct particle_cloud *c)
     assert_int_equal(c->bonds.columns, 1);
 }
 
-/* Checks the force of a yielding bond along a path against the bilinear law with isotropic hardening: loading to 3 s_y,
- * unloading through 0 to reverse yield, further to -4 s_y, reloading to yield; corners and intermediate positions, with
- * the slope E_t/E = H/(1 + H) during yielding. Tolerance 1e-12 of the yield force: stretches of 1e-4 are differences of
- * lengths with round-off 1e-16. */
+/* Compares the force of a yielding bond along a path with the bilinear law with isotropic hardening. The path: loading
+ * to 3 s_y, reverse yield, on to -4 s_y, reloading to yield. Tolerance 1e-11 of the yield force: stretches of 1e-4 are
+ * differences of lengths with round-off 1e-16. */
 static void test_path(void **state)
 {
     (void)state;
@@ -67,9 +67,9 @@ static void test_path(void **state)
     particle_cloud_free(&c);
 }
 
-/* Checks that the work done on a bond along this path equals elastic energy plus plastic work. Trapezoidal rule with
- * 40,000 steps: exact for a piecewise linear force; at three corners an error of half the squared step times the change
- * of slope: 1e-9. */
+/* Checks that the work done on a bond along the path of test_path equals elastic energy plus plastic work. The
+ * trapezoidal rule with 40,000 steps is exact for a piecewise linear force, except for half the squared step times the
+ * change of slope at three corners: 1e-9. */
 static void test_work(void **state)
 {
     (void)state;
@@ -91,8 +91,8 @@ static void test_work(void **state)
     particle_cloud_free(&c);
 }
 
-/* Checks that a bond that breaks keeps its plastic work in the balance, once: path (s_y + H path/2) times its stiffness
- * and length. */
+/* Checks that a bond that breaks stays in the energy balance once with its plastic work, a (s_y + H a/2) times
+ * stiffness and length of the bond, where a is its accumulated plastic stretch. */
 static void test_broken(void **state)
 {
     (void)state;
@@ -111,12 +111,13 @@ static void test_broken(void **state)
 
 /* ---- many bonds -------------------------------------------------------------------------------------------------- */
 
-/* Plastic stretch and its path of a bond that is computed in scalars. */
+/* Plastic stretch of a bond and accumulated plastic stretch, for the scalar implementation. */
 struct twin {
     real plastic, path;
 };
 
-/* Applies the law in scalars. */
+/* Updates *t for the stretch `stretch`, the yield stretch `yield` and the hardening ratio `hardening`. Returns the
+ * force divided by the stiffness [1]. */
 static real twin_force(struct twin *t, real stretch, real yield, real hardening)
 {
     real trial = stretch - t->plastic, over = fabs(trial) - (yield + hardening * t->path);
@@ -144,8 +145,7 @@ static void shake(struct particle_cloud *c, uint64_t *seed)
             c->p.x[d][i] = c->p.X[d][i] + cloud_between(seed, -3e-3, 3e-3) * CLOUD_SPACING;
 }
 
-/* Computes force[dim], the force on the particle of row r of c by bonds computed one by one with the states of `twin`
- * [N]. */
+/* Computes force[dim], the force on the particle of row r of c, bond by bond with the states twin[] [N]. */
 static void twin_row(const struct particle_cloud *c, struct twin *twin, int64_t r, real *force)
 {
     const struct bonds *b = &c->bonds;
@@ -166,8 +166,8 @@ static void twin_row(const struct particle_cloud *c, struct twin *twin, int64_t 
     }
 }
 
-/* Compares the forces of yielding bonds on irregular bodies with bonds computed one by one, over twelve steps.
- * Tolerance 1e-11: lengths have round-off 1e-16, stretches of 1e-3 a relative one of 1e-13; ten bonds and twelve
+/* Compares the forces of yielding bonds of irregular bodies with the scalar implementation over twelve steps. Tolerance
+ * 1e-11: stretches of 1e-3 from lengths with round-off 1e-16 are accurate to 1e-13, times ten bonds and twelve
  * steps. */
 static void test_lanes(void **state)
 {
@@ -194,7 +194,7 @@ static void test_lanes(void **state)
     }
 }
 
-/* Checks that both entries of a bond have bitwise equal states, which momentum conservation requires. */
+/* Checks that both entries of a bond have bitwise equal states, which conservation of momentum requires. */
 static void test_ends(void **state)
 {
     (void)state;
@@ -225,8 +225,8 @@ static void test_ends(void **state)
 
 /* ---- initialisation from material points ------------------------------------------------------------------------- */
 
-/* Checks points of a bar that have yielded under uniform stretch and become peridynamic: every bond then carries their
- * stress. */
+/* Checks a bar of material points that have yielded under uniform strain and become peridynamic particles: every bond
+ * must carry the stress of the points. */
 static void test_taken_over(void **state)
 {
     (void)state;
@@ -257,9 +257,9 @@ static void test_taken_over(void **state)
     particle_cloud_free(&c);
 }
 
-/* Checks in 2D the plastic state of bonds between converted points with different stresses and plastic strains: the
- * plastic stretch of a bond is its stretch minus the mean of both elastic strains along it, by Hooke's law of plane
- * stress; its path is the mean of both plastic strains. */
+/* Checks in 2D the plastic state of bonds between converted points with different stresses and plastic strains. The
+ * plastic stretch of a bond is its stretch minus the mean elastic strain of both points along it, by Hooke's law of
+ * plane stress. Its accumulated plastic stretch is the mean plastic strain of both points. */
 static void test_taken_over_in_the_plane(void **state)
 {
     (void)state;

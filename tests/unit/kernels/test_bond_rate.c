@@ -1,5 +1,5 @@
-/* Strengths that grow with the strain rate: the table compared with closed forms, bonds of uniformly strained bodies
- * that begin at the onset of their rate, the mean of a rate over time, and rows that are made again. */
+/* Tests strengths that depend on the strain rate: interpolation in the table and onset stretches against closed forms,
+ * the step in which bonds of uniformly strained bodies begin to soften, the measured mean rate, and rebuilt rows. */
 #include "data/softening_states.h"
 #include "kernels/kernels.h"
 
@@ -15,7 +15,7 @@ static const struct strength_rate table = {
     .points = 2, .rate = {1, 1000}, .factor = {1, 1.4}, .onset = {1, 1.5}}; /* onsets as if computed */
 
 /* Checks the interpolation in a table of strain rates: linear in the logarithm of the rate between points, constant
- * beyond. */
+ * outside. */
 static void test_table(void **state)
 {
     (void)state;
@@ -27,9 +27,9 @@ static void test_table(void **state)
     assert_exact(strength_rate_table_interpolate_in_log_rate(&table, table.factor, 1e9), 1.4);
 }
 
-/* Checks that at the onsets of the rate table the peak of uniform tension is the strength times the factor: E s_0
- * phi(kappa), with phi by the quadrature that test_softening.c compares with its reference. kappa falls below 1 where
- * the strength is too large. */
+/* Checks that with the onset stretch computed for each rate, the peak stress of uniform tension is the tensile strength
+ * times the factor of the rate: E s_0 phi(kappa), phi: normalised peak stress. Also checks that kappa = (s_c/s_0)^2 is
+ * reported below 1 where the strength is too large for the fracture energy. */
 static void test_onsets(void **state)
 {
     (void)state;
@@ -65,8 +65,8 @@ static void body_make(struct soft_body *s, enum space space, const struct streng
 
 #define GROWTH (0.004 * ONSET) /* of the strain in a step */
 
-/* Makes a step in which the body s is strained along x to `strain`, and across to -0.2 times that, at the rate `rate`
- * [1/s]. */
+/* Performs a step in which the body s is strained to `strain` along x and to -0.2 times this value across. rate: strain
+ * rate that is passed to the bonds [1/s]. */
 static void pull(struct soft_body *s, real strain, real rate)
 {
     struct particles *p = &s->c.p;
@@ -75,9 +75,8 @@ static void pull(struct soft_body *s, real strain, real rate)
     bond_forces(bond_force_table[p->dim][PD_BOND_SOFT], &s->c.bonds, p, &s->c.source.limit, NULL);
 }
 
-/* Checks that bonds along x begin to soften in the first step in which their stretch is beyond the onset at the rate,
- * by the table: one step after the first beyond the slow onset at the earliest. Tolerances: two steps, and the rate
- * within a step of 125. A bond whose energy does not allow the onset begins at kappa = 1.2. */
+/* Checks the strain at which bonds along x begin to soften, which must be the onset of the table at their rate within
+ * two strain increments of 0.4 %. A bond whose fracture energy does not allow this onset begins at kappa = 1.2. */
 static void test_begin(void **state)
 {
     (void)state;
@@ -97,9 +96,9 @@ static void test_begin(void **state)
     }
 }
 
-/* Checks the measured rate: the mean between half the slow onset and the onset, here 160 1/s for 100 and 400 1/s on
- * half of the way each. A later rate does not change it, rows that are rebuilt keep it, and it is forgotten below half
- * the onset. */
+/* Checks the measured rate: the mean over the increase of strain from half the onset at low rates to this onset, here
+ * 160 1/s for 100 and 400 1/s on half of it each, within 2 %. Later rates do not change it, rebuilt rows keep it, and
+ * it is reset below half the onset. */
 static void test_rate(void **state)
 {
     (void)state;

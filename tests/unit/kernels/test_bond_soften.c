@@ -1,5 +1,6 @@
-/* Bonds that soften: cycles of one bond compared with closed forms, all lanes compared with a plain implementation,
- * energy, both ends of a bond, a uniformly strained neighbourhood, a line torn apart, and compression. */
+/* Tests bonds that soften: cycles of one bond against closed forms, all lanes against a plain implementation,
+ * dissipated energy, equal states of both entries of a bond, a uniformly strained neighbourhood, the force across a
+ * separating line, and compression. */
 #include <omp.h>
 
 #include "kernels/kernels.h"
@@ -13,7 +14,8 @@
 #define ONSET 1e-3
 #define CRITICAL 2e-3 /* kappa = 4 */
 
-/* Makes one step of s: starts the softening of bonds and computes forces. Returns the number of bonds broken. */
+/* Performs a step of s without motion: starts the softening of bonds and computes forces. Returns the number of bonds
+ * that break. */
 static int64_t soft_forces(struct soft_body *s)
 {
     struct particle_cloud *c = &s->c;
@@ -22,7 +24,7 @@ static int64_t soft_forces(struct soft_body *s)
 
 /* ---- one bond ---------------------------------------------------------------------------------------------------- */
 
-/* Creates s, two particles with a bond that softens by `law`. */
+/* Creates s, two particles with a bond that softens by the law `law`. */
 static void pair_make(struct soft_body *s, enum softening law)
 {
     memset(s, 0, sizeof *s);
@@ -31,8 +33,8 @@ static void pair_make(struct soft_body *s, enum softening law)
     soft_bonds(s, law, ONSET, CRITICAL);
 }
 
-/* Returns the force of the single bond of s at the stretch `stretch`, divided by stiffness and weight, after two steps
- * there: a bond begins to soften one step after it has passed its onset. */
+/* Returns the force of the only bond of s at the stretch `stretch`, divided by stiffness and weight [1], after two
+ * steps at this stretch: a bond begins to soften one step after its stretch has exceeded the onset. */
 static real pulled(struct soft_body *s, real stretch)
 {
     struct particles *p = &s->c.p;
@@ -42,9 +44,9 @@ static real pulled(struct soft_body *s, real stretch)
     return p->f[0][0] / s->c.bonds.stiffness;
 }
 
-/* Returns the force of a bond with the softening law `law` at its largest stretch k by independent formulas: s_f =
- * s_c^2/s_0; concrete with its kink at (s_0 + 2X/9, s_0/3), X = 9/5 (s_c^2 - s_0^2)/s_0; exponential with 0.8 % for the
- * chords. */
+/* Returns the force of a bond with the softening law `law` at its largest stretch k, divided by stiffness and weight
+ * [1]. Linear law: end s_f = s_c^2/s_0. Law for concrete: a kink at (s_0 + 2X/9, s_0/3), X = 9/5 (s_c^2 - s_0^2)/s_0.
+ * Exponential law: with 0.8 % for its approximation by chords. */
 static real envelope(enum softening law, real k)
 {
     const real decay = 5, reach = (square(CRITICAL) - square(ONSET)) / (2 * ONSET);
@@ -54,9 +56,9 @@ static real envelope(enum softening law, real k)
     return x < 1 ? ONSET * (exp(-decay * x) - exp(-decay)) / (1 - exp(-decay)) : 0;
 }
 
-/* Checks the force of a bond under cycles of loading: elastic up to s_0; then along the envelope, and between along the
- * secant to the origin, slope (1 - d) c; whole stiffness in compression. Tolerance: largest stretches are stored as
- * floats (6e-8); chords deviate from the exponential curve by 0.7 % of its height, and their area by less. */
+/* Checks the force of a bond under loading cycles: elastic up to s_0, then the softening curve, unloading along the
+ * secant to the origin with slope (1 - d) c, and full stiffness in compression. Tolerances: largest stretches are
+ * stored as floats (6e-8); chords deviate from the exponential curve by 0.7 % of its height. */
 static void test_cycles(void **state)
 {
     (void)state;
@@ -79,10 +81,9 @@ static void test_cycles(void **state)
     }
 }
 
-/* Checks that the work done along a path with two unloadings equals elastic energy plus dissipated energy, which only
- * grows, and that over the whole path to the end it is s_c^2/2, divided by stiffness and length, as of a brittle bond.
- * Trapezoids of 2e-4 of the path: at kinks of the softening curve their excess counts as dissipated, too. What is left
- * are the corners of the path and floats. */
+/* Checks that the work on a bond along a path with two unloadings equals elastic energy plus dissipated energy, which
+ * never decreases. Over the whole path it must be s_c^2/2 divided by stiffness and length, the energy of a brittle
+ * bond. Tolerance: trapezoidal rule with 2e-4 of the path, and states stored as floats. */
 static void test_work(void **state)
 {
     (void)state;
@@ -116,8 +117,9 @@ static void test_work(void **state)
     }
 }
 
-/* Checks that three large steps along the softening curve, past its kinks, dissipate what the mean forces of the steps
- * do as work, less the elastic energy, as in a leap-frog step. Tolerance: floats. */
+/* Checks three large steps along the softening curve, across its kinks. The dissipated energy must be the work of the
+ * mean force of each step, as in leap-frog integration, less the change of elastic energy. Tolerance: states are
+ * floats. */
 static void test_kinks(void **state)
 {
     (void)state;
@@ -137,9 +139,9 @@ static void test_kinks(void **state)
     }
 }
 
-/* Checks a bond that goes in one step from below its onset beyond its end, to the stretch s_0, and in the next step to
- * s_1: it bears its whole force in the first and breaks in the second without a last force. It loses its energy c
- * s_0^2/2 and the work of the mean force c s_0/2 on s_1 - s_0, together c s_0 s_1/2 per length. */
+/* Checks a bond whose stretch goes in one step from below its onset to s_0 = 6 onsets, beyond its end, and in the next
+ * step to s_1 = 7 onsets. It acts with its full force in the first step and breaks in the second without a last force.
+ * The dissipated energy is c s_0^2/2 plus the work of the mean force c s_0/2 on s_1 - s_0: c s_0 s_1/2 per length. */
 static void test_at_once(void **state)
 {
     (void)state;
@@ -160,7 +162,8 @@ static void test_at_once(void **state)
 
 /* ---- many bonds -------------------------------------------------------------------------------------------------- */
 
-/* Creates in `space` s, an irregular body of two materials whose bonds soften by `law`. seed: of its positions. */
+/* Creates in `space` an irregular body s of two materials whose bonds soften by the law `law`. seed: of its
+ * positions. */
 static void body_make(struct soft_body *s, enum space space, enum softening law, uint64_t seed)
 {
     memset(s, 0, sizeof *s);
@@ -174,8 +177,8 @@ static void body_make(struct soft_body *s, enum space space, enum softening law,
     bonds_make(&s->c.bonds, NULL, &s->c.p, &s->c.source);
 }
 
-/* Moves the particles of c at random by up to `size`, which gives stretches up to 3 s_0 and, in the end, beyond s_f.
- * seed: state of the random numbers. */
+/* Displaces the particles of c at random by up to `size` spacings, up to stretches of 3 s_0 and, in the last steps,
+ * beyond s_f. seed: state of the random numbers. */
 static void shake(struct particle_cloud *c, uint64_t *seed, real size)
 {
     for (int64_t i = 0; i < c->p.n; i++)
@@ -183,8 +186,8 @@ static void shake(struct particle_cloud *c, uint64_t *seed, real size)
             c->p.x[d][i] = c->p.X[d][i] + cloud_between(seed, -size, size) * CLOUD_SPACING;
 }
 
-/* Compares forces, energy and dissipation of irregular bodies of two materials under random motion with the plain
- * implementation (support/soften_reference.h). Tolerance of forces 1e-6 of the onset: states are floats. */
+/* Compares forces, energy and dissipation of irregular bodies of two materials in random motion with the plain
+ * implementation (support/soften_reference.h). Tolerance of forces 1e-6 of that at the onset: states are floats. */
 static void test_lanes(void **state)
 {
     (void)state;
@@ -228,8 +231,8 @@ static void test_lanes(void **state)
     }
 }
 
-/* Checks that both entries of a bond have bitwise equal states, which momentum conservation requires, and that rows
- * that are rebuilt keep them. */
+/* Checks that both entries of a bond have bitwise equal states, which conservation of momentum requires, and that
+ * rebuilt rows keep the states. */
 static void test_ends(void **state)
 {
     (void)state;
@@ -268,9 +271,9 @@ static void test_ends(void **state)
 
 #define SMALL 1e-5 /* onset, so that the sum is linear in it */
 
-/* Returns the stress of a full neighbourhood f on a lattice under the strains `axial` (along x) and `lateral`, and in
- * *across the lateral stress, from a sum over its vectors: sigma = 1/2 c sum V f(s) r n n, with f by linear softening.
- * c: micro-modulus. */
+/* Returns the stress along x of a full neighbourhood f on a lattice under the strains `axial` (along x) and `lateral`,
+ * and stores the lateral stress in *across: sigma = 1/2 c sum V f(s) r n n over its bonds with linear softening f. c:
+ * micro-modulus. */
 static real lattice_stress(const struct family *f, real c, real axial, real lateral, real *across)
 {
     const int dim = space_dim(f->space), reach = (int)ceil(f->cutoff / f->spacing);
@@ -290,10 +293,10 @@ static real lattice_stress(const struct family *f, real c, real axial, real late
     return sum;
 }
 
-/* Compares the stress of the middle particle of a block in uniaxial tension, in small steps and with the lateral strain
- * at which the lattice sum has no lateral stress, with this sum, within 1e-3; and its peak with E s_0 phi within the
- * anisotropy of a lattice, 5 %: phi(4) = 1.096 in the plane, 1.281 in space (independent quadrature over
- * directions). */
+/* Compares the stress of the central particle of a block in uniaxial tension with the sum of lattice_stress, within
+ * 1e-3, in small steps with the lateral strain at which this sum has no lateral stress. Compares its peak with E s_0
+ * phi within the anisotropy of a lattice, 5 %. phi(kappa = 4) = 1.096 in 2D and 1.281 in 3D by an independent
+ * quadrature over directions. */
 static void test_family(void **state)
 {
     (void)state;
@@ -333,9 +336,9 @@ static void test_family(void **state)
 
 /* ---- a line torn apart ------------------------------------------------------------------------------------------- */
 
-/* Checks the force across a line whose halves move apart by w against the closed form E s_0 (1 - w/w_c)^2, w_c = s_f
- * delta, for large kappa. With n bonds of length n spacings the sum differs from the integral by 1/m for a horizon of m
- * spacings: m = 60. */
+/* Compares the force across a line whose halves move apart by w with the closed form for large kappa, E s_0 (1 -
+ * w/w_c)^2, w_c = s_f delta with the horizon delta. Bonds of n spacings cross a point n times; their sum differs from
+ * the integral by 1/m for a horizon of m = 60 spacings. */
 static void test_line(void **state)
 {
     (void)state;
@@ -360,9 +363,8 @@ static void test_line(void **state)
 
 /* ---- compression ------------------------------------------------------------------------------------------------- */
 
-/* Checks that no bond softens or breaks under uniaxial compression to twenty times the strength, which stretches
- * lateral bonds beyond their end of softening, but without tension across them; equal stretches without the pressure
- * do. */
+/* Checks that no bond softens or breaks under uniaxial compression to twenty times the strength, although lateral bonds
+ * are stretched beyond their end of softening. The same stretches without the pressure do break bonds. */
 static void test_compression(void **state)
 {
     (void)state;

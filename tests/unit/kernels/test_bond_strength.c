@@ -1,5 +1,6 @@
-/* Strength surfaces that start the softening of bonds: shares of uniform strains, at faces, beside a pre-crack and
- * turned, means compared with plain sums, the start itself. */
+/* Tests strength surfaces that start the softening of bonds: the ratio of stress to strength under uniform strain, at
+ * faces, beside a pre-crack and rotated; averages over neighbourhoods against plain sums; the start of softening;
+ * scattered strength. */
 #include <omp.h>
 
 #include "bonds/strength_surfaces.h"
@@ -19,9 +20,8 @@ struct surface_body {
     struct crack crack;
 };
 
-/* Creates in `space` the body s with random positions within `shake` spacings of the lattice, and its bonds. means:
- * number of times that strains are averaged over neighbourhoods; cracked: true to cut it beyond its first third by a
- * crack. */
+/* Creates in `space` the body s with bonds and random positions within `shake` spacings of a lattice. means: number of
+ * times that strains are averaged over neighbourhoods; cracked: true to cut it beyond its first third by a crack. */
 static void body_make(struct surface_body *s, enum space space, real shake, int means, bool cracked)
 {
     memset(s, 0, sizeof *s);
@@ -49,7 +49,7 @@ static void body_make(struct surface_body *s, enum space space, real shake, int 
     bonds_make(&s->c.bonds, NULL, &s->c.p, source);
 }
 
-/* Forces of the softening bonds. */
+/* Computes the forces of the softening bonds of s. */
 static void soft_forces(struct surface_body *s)
 {
     struct particle_cloud *c = &s->c;
@@ -67,9 +67,9 @@ static void strain_and_turn(struct surface_body *s, const real strain[DIM_MAX][D
     }
 }
 
-/* Checks the ratio of stress to strength of a uniform strain against that of its stress by Hooke's law, at every
- * particle: inside, at faces, edges and corners, beside a pre-crack, with irregular positions and volumes, turned by a
- * large angle, with and without means. Tolerance: round-off of stretches of 1e-4: 1e-10. */
+/* Compares the ratio of stress to strength under uniform strain with that of the stress by Hooke's law, at every
+ * particle: inside, at faces, edges and corners, beside a pre-crack, with irregular positions and volumes, after a
+ * large rotation, with and without averaging. Tolerance 1e-10: round-off of stretches of 1e-4. */
 static void test_uniform(void **state)
 {
     (void)state;
@@ -99,8 +99,9 @@ static void test_uniform(void **state)
         }
 }
 
-/* Computes strain[3], the strain of particle i of s in the plane without rotations: sym[sum w u xi (sum w xi xi)^-1]
- * over all particles within the horizon, w = V/r, components xx, yy, xy. */
+/* Computes strain[3] (xx, yy, xy) of particle i of s in 2D, the least-squares strain over all particles within the
+ * horizon for small rotations: the symmetric part of sum w u xi (sum w xi xi)^-1 with w = V/r, bond vector xi and
+ * relative displacement u. */
 static void plain_strain(const struct surface_body *s, int64_t i, real *strain)
 {
     const struct particles *p = &s->c.p;
@@ -119,7 +120,7 @@ static void plain_strain(const struct surface_body *s, int64_t i, real *strain)
     strain[2] = 0.5 * (M[0][1] * K[0] - M[0][0] * K[2] + M[1][0] * K[1] - M[1][1] * K[2]) / determinant;
 }
 
-/* Replaces the strains strain[][3] of all particles of s by their means over families. */
+/* Replaces the strains strain[][3] of all particles of s by their means over neighbourhoods. */
 static void plain_mean(const struct surface_body *s, real (*strain)[3])
 {
     const struct particles *p = &s->c.p;
@@ -137,8 +138,8 @@ static void plain_mean(const struct surface_body *s, real (*strain)[3])
     memory_free(mean);
 }
 
-/* Compares the stress-to-strength ratios of a strain that differs from particle to particle, after 0, 1 and 2 means,
- * with plain sums. These have no rotation: tolerance 1e-3, ten times the strains. */
+/* Compares the ratios of stress to strength under a non-uniform strain, after 0, 1 and 2 averages over neighbourhoods,
+ * with plain_strain and plain_mean. Their strains neglect rotations: tolerance 1e-3, ten times the strains. */
 static void test_means(void **state)
 {
     (void)state;
@@ -180,10 +181,9 @@ static real started(const struct bonds *b)
     return (real)begun / (real)all;
 }
 
-/* Checks a body that is strained in proportion: below the strength surface no bond begins to soften, beyond it all do.
- * Forces do not change at the start (states are floats: 1e-6), and nothing is dissipated; beyond, the force of every
- * bond falls, and what is dissipated grows to the energy of G_c. Strains of tension, equal tension and shear, in the
- * plane and in a solid. */
+/* Checks proportional loading in uniaxial tension, equibiaxial tension and shear, in 2D and 3D. Below the strength
+ * surface no bond begins to soften; at 1.001 of it all bonds do. The start changes forces by at most 1e-6 (states are
+ * floats) and dissipates nothing. At twice the strain the dissipated energy exceeds a tenth of the elastic energy. */
 static void test_start(void **state)
 {
     (void)state;
@@ -229,9 +229,9 @@ static void test_start(void **state)
     }
 }
 
-/* Checks that both entries of a bond have bitwise equal states after local starts, also when rows have been made again
- * between. The end follows from the onset by s_f = s_c^2/s_0, and no started bond has an onset above s_c/sqrt(2) or
- * below 0.3 sigma_t/E. */
+/* Checks that both entries of a bond have bitwise equal states after local starts of softening, also with rows rebuilt
+ * in between. The end follows from the onset by s_f = s_c^2/s_0. Onsets of started bonds are between 0.3 sigma_t/E and
+ * s_c/sqrt(2). */
 static void test_ends(void **state)
 {
     (void)state;
@@ -270,8 +270,8 @@ static void test_ends(void **state)
     particle_cloud_free(&s.c);
 }
 
-/* Checks that if strength scatters, the bonds of a particle whose random strength factor is f begin to soften at the
- * fraction f of the stress on the strength surface, those of a particle of factor 1 at the fraction 1. */
+/* Checks scattered strength: the bonds of a particle with the random strength factor f begin to soften at the fraction
+ * f of the stress on the strength surface. */
 static void test_scatter(void **state)
 {
     (void)state;
@@ -305,8 +305,8 @@ static void test_scatter(void **state)
     particle_cloud_free(&s.c);
 }
 
-/* Checks that a strength surface that does not depend on pressure is reached under uniaxial compressive strain, which
- * stretches no bond. */
+/* Checks that a strength surface that does not depend on pressure is reached under uniaxial compressive strain, in
+ * which no bond is stretched. */
 static void test_unstretched(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
-/* The mean dilatation of cells in the current frame (kernels/mpm/dilatation.h): forces and strain are adjoint, uniform
- * strain is not changed, and points of several bodies and materials share no pressure. Its plain twin:
- * reference_points.h, compared in test_transfers.c. */
+/* Tests the mean dilatation of cells in the current frame (kernels/mpm/dilatation.h). Forces and strains must be
+ * adjoint, uniform strain must not be changed, and points of several bodies or materials must not share a pressure. The
+ * plain implementation is in reference_points.h, compared in test_transfers.c. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -12,13 +12,14 @@
 #include "data/grid.h"
 #include "kernels/kernels.h"
 
-/* Step [s] in which points rotate by 1e-7 rad: terms of second order cancel in the difference of both directions. */
+/* Time step in which points rotate by 1e-7 rad [s]; terms of second order cancel in the difference of both
+ * directions. */
 #define STEP 1e-10
-/* Stiffness by which strains of a step give stresses of the size of those before [Pa]. */
+/* Stiffness with which the strains of a step cause stresses of the size of the initial stresses [Pa]. */
 #define STIFF 1e15
 
-/* A cloud of material points on a grid whose cells are `edge` spacings long. The materials have stress = STIFF strain,
- * component by component. */
+/* A cloud of material points on a grid whose cells are `edge` spacings long. The materials have stress = STIFF strain
+ * in each component. */
 struct setting {
     struct particle_cloud c;
     struct grid g;
@@ -28,7 +29,7 @@ struct setting {
     struct transfer_data t;
 };
 
-/* Places all points of s in one cell, whose list is then longer than a mean dilatation extends over. */
+/* Moves all points of s into one cell, which then has more points than a mean dilatation is computed for. */
 static void setting_crowd(struct setting *s)
 {
     struct particles *p = &s->c.p;
@@ -83,9 +84,9 @@ static void setting_free(struct setting *s)
     particle_cloud_free(&s->c);
 }
 
-/* Moves the points of s by the nodal velocities in g->velocity times 1 and -1, and stores half the difference as
- * rate[c] of each point: the strain rate [1/s], in the components of stress. shape, transfer: shape functions and
- * scheme. */
+/* Moves the points of s by the nodal velocities in g->velocity times 1 and -1. Stores half the difference of the
+ * strains over the time step as rate[c] of each point: the strain rate [1/s], in the components of stress. shape,
+ * transfer: shape functions and scheme. */
 static void strain_rates(struct setting *s, enum shape shape, enum transfer transfer, real *rate[SYM_MAX])
 {
     for (int sign = -1; sign < 2; sign += 2) {
@@ -104,10 +105,10 @@ static void strain_rates(struct setting *s, enum shape shape, enum transfer tran
     }
 }
 
-/* Checks that forces and strains are adjoint, so that the stress does the work that the strain energy gains: for a
- * random motion of the nodes, with `shape` and `transfer`, the power of the nodal forces equals the sum of V sigma :
- * strain rate over the points, to 1e-12 of the sum of magnitudes. crowded: true to place all points in one cell.
- * Returns this power, divided by the sum of magnitudes. */
+/* Checks that forces and strains are adjoint, so that the stress does the work that the strain energy gains. For a
+ * random motion of the nodes the power of the nodal forces must equal the sum of V sigma : strain rate over the points,
+ * to 1e-12 of the sum of magnitudes. crowded: true to move all points into one cell. Returns the power divided by the
+ * sum of magnitudes. */
 static real adjoint(int dim, enum shape shape, enum transfer transfer, bool crowded)
 {
     struct setting s;
@@ -146,8 +147,8 @@ static void test_adjoint(void **state)
                     assert_true(fabs(adjoint(dim, (enum shape)shape, (enum transfer)transfer, crowded)) > 1e-4);
 }
 
-/* Checks that points of bodies without stress that move with a linear velocity have the strain rate of this velocity,
- * as without means of cells. */
+/* Checks that points in a linear velocity field have the strain rate of this field, as they have without mean
+ * dilatations. */
 static void test_uniform(void **state)
 {
     (void)state;
@@ -177,10 +178,10 @@ static void test_uniform(void **state)
     }
 }
 
-/* Computes the force along x on every node if every second point has a pressure of 1 Pa and the others have none.
- * mixed: the points under pressure are 0: of the same body and material, 1: of another body, 2: of another material;
- * averaged: true for the mean dilatation of cells. Returns the number of nodes; *force receives the forces, to be freed
- * by the caller. */
+/* Computes the force along x on every node if every second point has a pressure of 1 Pa and the others none. mixed: the
+ * points under pressure are 0: of the same body and material as the others, 1: of another body, 2: of another material.
+ * averaged: true for mean dilatations of cells. Returns the number of nodes; *force receives the forces, to be freed by
+ * the caller. */
 static int64_t press(int mixed, bool averaged, real **force)
 {
     struct setting s;
@@ -201,7 +202,7 @@ static int64_t press(int mixed, bool averaged, real **force)
     return n;
 }
 
-/* Checks that points of one body and material share their pressure, and that those of several do not. */
+/* Checks that points of one body and material share their pressure in a cell, and that points of several do not. */
 static void test_several(void **state)
 {
     (void)state;
@@ -215,8 +216,8 @@ static void test_several(void **state)
     }
 }
 
-/* Computes mean[i], for each point i of s, the mean of the rates of dilatation of the points of its cell, weighted by
- * volume [1/s]. */
+/* Computes mean[i], for each point i of s, the mean rate of dilatation of the points of its cell, weighted by volume
+ * [1/s]. */
 static void means_of_cells(const struct setting *s, real *mean)
 {
     const struct particles *p = &s->c.p;
@@ -232,8 +233,8 @@ static void means_of_cells(const struct setting *s, real *mean)
     }
 }
 
-/* Checks that points that enter other cells replace half of the dilatation of the old cell by half of that of the new
- * one. */
+/* Checks points that enter other cells: half of the mean dilatation of the old cell is replaced by half of that of the
+ * new cell. */
 static void test_cells_change(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Every bond kernel in the tables compared with its reference implementation, and partial stresses compared with plain
- * sums. Transfer kernels are tested in test_transfers.c. */
+/* Tests every bond kernel in the tables against its reference implementation, and partial stresses against plain sums.
+ * Transfer kernels are tested in test_transfers.c. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -14,8 +14,8 @@
 #include "tests/support/sets.h"
 #include "base/team.h"
 
-/* Tolerance: sums of up to 200 terms with a few roundings of 1.1e-16 each; stretches of 1e-2 lose two digits by
- * cancellation: 2e-14 is typical; 1e-12 of the largest entry allows for any order of terms. */
+/* Tolerance relative to the largest entry. Sums of up to 200 terms with a few roundings of 1.1e-16, and stretches of
+ * 1e-2, which lose two digits, give typically 2e-14; 1e-12 allows for any order of the terms. */
 #define CLOSE 1e-12
 /* Tolerance of sums of momenta: round-off of the sum of magnitudes. */
 #define CONSERVED 1e-13
@@ -25,8 +25,8 @@ static const int count_of[DIM_MAX + 1][DIM_MAX] = {{0}, {45}, {12, 9}, {6, 5, 5}
 
 enum { REGULAR = 0, SHAKEN = 1, MIXED = 2, WAYS = 4 };
 
-/* Creates c, a strained, irregular body of two materials. way: flags of the case; with MIXED two of three particles are
- * material points. */
+/* Creates c, a strained, irregular body of two materials in `dim` dimensions. way: flags of the case; SHAKEN: random
+ * positions, MIXED: two of three particles are material points. */
 static void body_make(struct particle_cloud *c, int dim, int way)
 {
     struct cloud_plan plan = {.space = space_of[dim],
@@ -53,8 +53,8 @@ static void body_make(struct particle_cloud *c, int dim, int way)
 
 /* ---- force and breaking ------------------------------------------------------------------------------------------ */
 
-/* Compares the forces of c with the plain implementation, with the weights w; those of particles without bonds must be
- * as in `before`. */
+/* Compares the forces of c with the reference implementation for the bond weights w. Forces on particles without bonds
+ * must be unchanged from `before`. */
 static void check_force(const struct particle_cloud *c, const struct particles *before, const real *w)
 {
     const struct particles *p = &c->p;
@@ -72,9 +72,9 @@ static void check_force(const struct particle_cloud *c, const struct particles *
     memory_free(got);
 }
 
-/* Checks every bond of row i of c: it is broken if and only if stretched beyond its limit; also checks the recorded
- * energy of the row. w, after: weights of the bonds before and after the step (reference_table). Returns the number of
- * broken bonds. */
+/* Checks that a bond of row i of c is broken if and only if it is stretched beyond its limit, and checks the recorded
+ * fracture energy of the row. w, after: weights of the bonds before and after the step (reference_table). Returns the
+ * number of broken bonds. */
 static int64_t check_breaking(const struct particle_cloud *c, const real *w, const real *after, int64_t i)
 {
     const struct particles *p = &c->p;
@@ -101,9 +101,9 @@ static int64_t check_breaking(const struct particle_cloud *c, const real *w, con
     return broken;
 }
 
-/* Compares forces, energy, stress and breaking of the kernel `bond_force` with the plain reference, for a body of `dim`
- * dimensions and the flags `way`. First call: a bond that breaks in it acts with half its force, which makes breaking
- * second order in time; second call: without it. */
+/* Compares forces, energy, stress and breaking of the kernel `bond_force` with the reference implementation for a body
+ * of `dim` dimensions with the flags `way`. In the first call a bond that breaks acts with half its force, which makes
+ * breaking second order in time; in the second call it is absent. */
 static void force_case(bond_force_fn *bond_force, int dim, int way)
 {
     struct particle_cloud c;
@@ -140,8 +140,8 @@ static void test_bond_force(void **state)
             for (int way = 0; way < WAYS; way++) force_case(bond_force_table[dim][model], dim, way);
 }
 
-/* Checks that a bond at exactly its limit is kept and one slightly beyond is not. Powers of two make the stretch
- * exact. */
+/* Checks that a bond stretched exactly to its limit stays intact and one slightly beyond breaks. Powers of two make the
+ * stretch exact. */
 static void test_equality_keeps(void **state)
 {
     (void)state;
@@ -156,7 +156,7 @@ static void test_equality_keeps(void **state)
     }
 }
 
-/* Checks that the forces of a body and their moments add up to zero. */
+/* Checks that the forces on a body and their moments add up to zero, to CONSERVED times the sum of magnitudes. */
 static void test_bond_momentum(void **state)
 {
     (void)state;
@@ -180,10 +180,10 @@ static void test_bond_momentum(void **state)
             }
 }
 
-/* ---- common data of columns -------------------------------------------------------------------------------------- */
+/* ---- row blocks with common data --------------------------------------------------------------------------------- */
 
-/* Creates c, a displaced lattice of one material; some bonds are broken by load, one is partially released. state: true
- * for a state-based model. */
+/* Creates c, a displaced lattice of one material in `dim` dimensions. Some bonds are beyond their limit; the weight of
+ * one is halved. state: true for a state-based model. */
 static void lattice_site_map_make_if_particles_fit_lattice(struct particle_cloud *c, int dim, bool state)
 {
     uint64_t seed = 5;
@@ -205,9 +205,9 @@ static void lattice_site_map_make_if_particles_fit_lattice(struct particle_cloud
     bond_fade(&c->bonds, &c->p, row, q, 0.5f * b->w[q]);
 }
 
-/* Returns the forces on c of the kernel `force`, then again after the flags `alike` and then `lattice` are cleared in
- * all columns (one bond of each of eight particles): [3][dim n], to be freed. kinds[3]: receive which kinds of columns
- * exist. */
+/* Computes the forces on c with the kernel `force` three times: as stored, with the flag `alike` cleared in all columns
+ * of row blocks (one bond of each of eight particles), and with the lattice shell cleared as well. Returns the forces
+ * [3][dim n], to be freed. kinds[3]: receive which kinds of columns exist. */
 static real *forces_by_kind(struct particle_cloud *c, bond_force_fn *force, bool kinds[3])
 {
     const int64_t all = c->p.dim * c->p.n;
@@ -227,8 +227,8 @@ static real *forces_by_kind(struct particle_cloud *c, bond_force_fn *force, bool
     return f;
 }
 
-/* Checks that forces are equal for all kinds of columns: bitwise, except if lengths are mere factors in state-based
- * models; those differ by the round-off of positions, 17 spacings of 1.1e-16 over one, summed over a family. */
+/* Checks that the forces of all kinds of columns are bitwise equal. Only state-based models without the lattice lengths
+ * may differ, by the round-off of positions of 17 spacings summed over a neighbourhood, within CLOSE. */
 static void test_column_kinds(void **unused)
 {
     (void)unused;
@@ -254,7 +254,7 @@ static void test_column_kinds(void **unused)
 
 /* ---- energy and stress ------------------------------------------------------------------------------------------- */
 
-/* Compares the energy of bonds with the plain implementation, for all models, dimensions and kinds of bodies. */
+/* Compares the energy of bonds with the reference implementation, for all models, dimensions and kinds of bodies. */
 static void test_bond_energy(void **state)
 {
     (void)state;
@@ -302,8 +302,8 @@ static void test_bond_stress(void **state)
 
 /* ---- motion ------------------------------------------------------------------------------------------------------ */
 
-/* Compares positions and velocities after a step with the plain leap-frog, in all dimensions and kinds of bodies, to
- * two roundings of each. */
+/* Compares positions and velocities after a step with a plain leap-frog step in all dimensions and kinds of bodies,
+ * within two roundings of each. */
 static void test_pd_move(void **state)
 {
     (void)state;
@@ -359,8 +359,8 @@ static void test_bond_threads(void **state)
 
 /* ---- partial stress ---------------------------------------------------------------------------------------------- */
 
-/* Returns the smallest eigenvalue of (1 - M) C, the stiffness that a point of material m keeps [Pa], with the matrix
- * M[n][n] over symmetric components of stress. */
+/* Returns the smallest eigenvalue of (1 - M) C, the stiffness that is left to a point of material m [Pa]. M[n][n]:
+ * matrix of the partial stress over the n symmetric components. */
 static real least_kept(const struct material *m, int dim, const real *M)
 {
     const int n = symmetric_tensor_component_count(dim);
@@ -378,8 +378,8 @@ static real least_kept(const struct material *m, int dim, const real *M)
     return least;
 }
 
-/* Compares the matrix M of point q of c in `partial` with the plain reference, T : C^-1 sigma for unit stresses. w:
- * weights of the bonds (reference_table). Returns false if bonds would carry more than the whole stress. */
+/* Compares the matrix M of point q of c in `partial` with the reference, T : C^-1 sigma for unit stresses. w: weights
+ * of the bonds (reference_table). Returns false if the bonds alone would carry more than the whole stress. */
 static bool check_partial(const struct particle_cloud *c, const struct partial_stress *partial, const real *w,
                           int64_t q)
 {
@@ -415,8 +415,8 @@ static void check_partials(const struct particle_cloud *c, const struct partial_
     memory_free(w);
 }
 
-/* Compares partial stresses (stress that bonds carry) with the plain reference, computed for all points at once and
- * updated after more particles became peridynamic. */
+/* Compares partial stresses (the stress of points that bonds carry) with the reference, computed for all points at once
+ * and updated after more particles have become peridynamic. */
 static void test_partial_stress(void **state)
 {
     (void)state;
@@ -449,8 +449,8 @@ static void test_partial_stress(void **state)
     assert_true(whole[false] > 10 && whole[true] > 100);
 }
 
-/* Compares partial stresses (stress that bonds carry) with the plain reference for a single peridynamic particle in a
- * corner, which has an eighth of a complete family. */
+/* Compares partial stresses with the reference for a single peridynamic particle at a corner, whose neighbourhood is an
+ * eighth of a complete one. */
 static void test_partial_stress_corner(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
-/* Bonds that act until the moment at which they break: two separating particles compared with their closed form; bodies
- * that burst, whose energy must be constant to second order in the step, for every law. */
+/* Tests the last force of breaking bonds, which act until the moment at which they break. Two separating particles are
+ * compared with their closed form. In bursting bodies the energy must be constant to second order in the time step, for
+ * every bond model. */
 #include "kernels/kernels.h"
 
 #include "tests/support/cloud.h"
@@ -11,10 +12,10 @@
 enum { PHASES = 16 }; /* phases of the first step relative to its length */
 #define LIMIT 0.01
 
-/* Returns the relative speed of two particles after their bond broke, divided by the initial one; exact: 1/2, as the
- * energy of the bond at its limit is 3/4 of the kinetic energy. rule: force in the step in which a bond breaks;
- * elongation V/omega sin(omega t); step: in units of 2/omega; phase: position of the break in the step, 0 to 1;
- * *fracture: receives the fracture energy. */
+/* Returns the relative speed of two particles after their bond has broken, divided by the initial speed. Exact: 1/2,
+ * because the energy of the bond at its limit is 3/4 of the kinetic energy of the elongation V/omega sin(omega t).
+ * rule: force in the step in which a bond breaks; step: time step times omega/2; phase: position of the start in a
+ * step, 0 to 1. *fracture: receives the fracture energy over that of the limit. */
 static real parted(enum last_force rule, real step, real phase, real *fracture)
 {
     struct particle_cloud c;
@@ -41,8 +42,8 @@ static real parted(enum last_force rule, real step, real phase, real *fracture)
     return end / speed;
 }
 
-/* Computes the largest and the mean error of the speed over all phases, for the rule `rule` and the step `step`
- * (parted). */
+/* Computes the largest magnitude and the mean of the error of the speed over all phases, for the rule `rule` and the
+ * time step `step` (parted). */
 static void parted_error(enum last_force rule, real step, real *largest, real *mean)
 {
     *largest = *mean = 0;
@@ -54,9 +55,9 @@ static void parted_error(enum last_force rule, real step, real *largest, real *m
     }
 }
 
-/* Checks the order of accuracy of breaking: half the step reduces the error in every run to a quarter, within 20 %.
- * With half the force in the first step beyond the limit, the error of single runs is halved (it depends on the phase),
- * and only the mean over phases is quartered. */
+/* Checks the order of accuracy of breaking: with LAST_FORCE_MOMENT half the time step reduces the largest error over
+ * all phases by more than a factor of 3.2 (second order: 4). With LAST_FORCE_HALF the factor is less than 3, because
+ * the error depends on the phase. */
 static void test_two_particles(void **state)
 {
     (void)state;
@@ -69,7 +70,7 @@ static void test_two_particles(void **state)
 
 /* ---- bodies that burst ------------------------------------------------------------------------------------------- */
 
-/* A body that bursts, with the kernels of its model. */
+/* A bursting body with the kernels of its model. */
 struct burst {
     struct particle_cloud c;
     struct state_modulus modulus[CLOUD_MATERIALS];
@@ -109,7 +110,7 @@ static real burst_kinetic(const struct burst *b, real *const *before)
 }
 
 /* Returns the energy that a bursting body of `dim` dimensions has lost after `duration` with steps of `dt` [s], divided
- * by the fracture energy. model: bond model; local: true if neighbourhoods are normalised by their intact bonds. */
+ * by its fracture energy. model: bond model; local: true if neighbourhoods are normalised by their intact bonds. */
 static real burst_lost(int dim, enum pd_model model, bool local, real dt, real duration)
 {
     struct burst b;
@@ -138,8 +139,8 @@ static real burst_lost(int dim, enum pd_model model, bool local, real dt, real d
     return (kinetic + elastic + fracture - start) / fracture;
 }
 
-/* Returns the root mean square of the energy loss (burst_lost) with `model` (local: of neighbourhoods) over five runs
- * with steps of 0.9 to 1.1 times `step` [1e-7 s]. */
+/* Returns the root mean square of the energy loss (burst_lost) over five runs with steps of 0.9 to 1.1 times `step`
+ * [1e-7 s]. dim, model, local: as in burst_lost. */
 static real burst_error(int dim, enum pd_model model, bool local, real step)
 {
     enum { RUNS = 5 };
@@ -151,9 +152,9 @@ static real burst_error(int dim, enum pd_model model, bool local, real step)
     return sqrt(sum / RUNS);
 }
 
-/* Checks the order of the energy error of bursting bodies: a quarter of the step reduces the error to a sixteenth
- * (second order): factors of 12 to 20 measured (5.5 with ospd local in 2D, whose first error is small by chance); half
- * forces with neighbourhoods have first order, a factor of 4. */
+/* Checks the order of the energy error of bursting bodies: a quarter of the step must reduce the error at least to a
+ * fifth. Second order gives a sixteenth; measured 12 to 20, and 5.5 for ospd local in 2D, whose coarse error is small
+ * by chance. Half forces in the last step are of first order, a factor of 4. */
 static void test_bursts(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Flow laws and their return mapping compared with a plain, slow twin, with closed forms and with published cases; the
- * energy balance of one element. */
+/* Tests flow laws and their return mapping against a plain implementation by bisection, closed forms and published
+ * cases, and the energy balance of single elements. */
 #include "tests/support/near.h"
 
 #include "bench/laws/laws_bench.h"
@@ -8,9 +8,9 @@
 #include "tests/support/law_reference.h"
 #include "tests/support/sets.h"
 
-/* Share of the plastic strain by which explicit steps at a rate may differ from bisection: the square of the error of
- * the strain at which the rate is linearised, 4e-9 measured; in plane stress 2e-5, where the fall of the equivalent
- * stress is taken as linear, in steps to hundreds of yield stresses. */
+/* Relative difference of the plastic strain that is allowed between rate-dependent explicit steps and bisection: the
+ * squared error of the strain at which the rate is linearised, 4e-9 measured. In plane stress 2e-5 is measured, in
+ * steps to hundreds of yield stresses, because the equivalent stress is assumed to decrease linearly. */
 #define RATE_WITHIN 1e-7
 #define RATE_WITHIN_SHEET 1e-4
 
@@ -19,7 +19,7 @@ static const enum space spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_PLANE_
 /* ---- functions --------------------------------------------------------------------------------------------------- */
 
 /* Compares logarithm, exponential and power of the vector unit with the C library. Tolerance: a few roundings of
- * 1.1e-16, of powers times |b log a|. */
+ * 1.1e-16, for powers times |b log a|. */
 static void test_functions(void **state)
 {
     (void)state;
@@ -37,8 +37,8 @@ static void test_functions(void **state)
     assert_exact(lanes_power(lanes_broadcast(0), 0.1)[0], 0);
 }
 
-/* Checks stress, slope (by a central difference), work (by Simpson's rule) and bound of the plastic strain of each flow
- * law at random strains. */
+/* Checks each flow law at random plastic strains: stress, slope (against a central difference), work (against Simpson's
+ * rule) and the upper bound of the plastic strain. */
 static void test_flow_laws(void **state)
 {
     (void)state;
@@ -65,10 +65,10 @@ static void test_flow_laws(void **state)
         }
 }
 
-/* ---- one step against the slow twin ------------------------------------------------------------------------------ */
+/* ---- one step against bisection ---------------------------------------------------------------------------------- */
 
-/* Returns a random trial state of a size near the yield stress of m [Pa]; components that the space does not have are
- * 0. seed: state of the random numbers. */
+/* Returns a random trial state with a stress near the yield stress of m [Pa]. Components that the space does not have
+ * are 0. seed: state of the random numbers. */
 static struct reference_point random_trial(uint64_t *seed, enum space space, const struct law *m)
 {
     struct reference_point p = {.a = cloud_between(seed, 0, 1) < 0.3 ? 0 : exp(cloud_between(seed, -9, -1))};
@@ -86,8 +86,8 @@ static struct reference_point random_trial(uint64_t *seed, enum space space, con
     return p;
 }
 
-/* Compares a load step (duration 0) with bisection, or an explicit step of `duration` [s], for the law m in the space
- * `space`; explicit steps up to an error of `within` of the plastic strain. seed: state of the random numbers. */
+/* Compares a load step (duration 0) or an explicit step of `duration` [s] by the law m in `space` with bisection.
+ * within: relative error of the plastic strain that is allowed in explicit steps. seed: state of the random numbers. */
 static void compare(const struct law *m, enum space space, uint64_t *seed, real duration, real within)
 {
     struct reference_point p = random_trial(seed, space, m);
@@ -135,8 +135,8 @@ static void test_load_steps(void **state)
     }
 }
 
-/* Tests powers with the exponent 0.1, the steepest laws: the first step from a = 0 has its root far from both
- * bounds. */
+/* Checks power laws with the exponent 0.1, the steepest ones: in the first step from zero plastic strain the root is
+ * far from both bounds. */
 static void test_steep_power(void **state)
 {
     (void)state;
@@ -146,7 +146,7 @@ static void test_steep_power(void **state)
     for (int k = 0; k < 2000; k++) compare(&m, SPACE_SOLID, &seed, 0, 0);
 }
 
-/* Checks explicit steps at rates from the reference rate to a million times that, and back from a stress beyond it: the
+/* Checks explicit steps at rates from the reference rate to a million times that, and back from a stress beyond: the
  * yield stress is that of the plastic strain rate of the step. With n = 1 the law is linear in the plastic strain, so
  * that only the tangent of the rate is approximate. */
 static void test_rate(void **state)
@@ -169,8 +169,7 @@ static void test_rate(void **state)
 
 /* ---- single elements of `cleave bench laws` ---------------------------------------------------------------------- */
 
-/* Computes direction[6], the direction of flow of the point in lane `lane` of p, that of its relative stress, as a unit
- * tensor. */
+/* Computes direction[6], the flow direction of the point in lane `lane` of p: its relative stress as a unit tensor. */
 static void flow_direction(const struct law_points *p, int lane, real *direction)
 {
     const real mean = (p->s[0][lane] + p->s[1][lane] + p->s[2][lane]) / 3;
@@ -182,8 +181,8 @@ static void flow_direction(const struct law_points *p, int lane, real *direction
     for (int c = 0; c < SYM_MAX; c++) direction[c] /= sqrt(squares);
 }
 
-/* Takes a load step by the law m in `space` from the state `start` in each lane of *p. whole: start with the trial
- * stress of the whole strain increment, of which lane l has the share `first` + l `each` [1]. */
+/* Performs a load step by the law m in `space` from the state `start` in each lane of *p. whole: `start` with the trial
+ * stress of the whole strain increment, of which lane l has the fraction first + l each [1]. */
 static void path_points(const struct law *m, const struct law_points *start, const struct law_points *whole, real first,
                         real each, enum space space, struct law_points *p)
 {
@@ -195,9 +194,10 @@ static void path_points(const struct law *m, const struct law_points *start, con
     law_update(m, p, space, LAW_LOAD_STEP);
 }
 
-/* Returns the work of a strain increment in load steps in `space` from the state `start` to the state `end` [J/m^3]:
- * the stress at the increment x times its rate, by Simpson's rule; the lanes of a step are consecutive x. *turned:
- * receives the largest 1 - cos of the angle between the directions of flow there and at the end [1]. */
+/* Returns the work of the strain increment `strain` by the law m in `space` from the state `start` to the state `end`
+ * [J/m^3]. The stress along the increment comes from load steps to fractions of it, one per lane, and is integrated by
+ * Simpson's rule. *turned: receives the largest 1 - cos of the angle between a flow direction on the path and that at
+ * the end [1]. */
 static real path_integral(const struct law *m, const struct law_points *start, const struct law_points *end,
                           const real *strain, enum space space, real *turned)
 {
@@ -223,12 +223,10 @@ static real path_integral(const struct law *m, const struct law_points *start, c
     return sum / (3 * PARTS);
 }
 
-/* Takes six load steps at random, from 30 % of the yield strain to 30 times that, with the law m in the space `space`,
- * and compares the work of each along the path of proportional growth with elastic energy and plastic work. Returns the
- * largest error. Tolerance: Simpson's rule at the kink of the first yield, measured up to 2e-7 of the energies. With
- * recall the direction of flow turns within a step, but for bars. The plastic work counts the back stress, at most |X|
- * + C/gamma, along the direction at the end, of which the others have a share of 1 - `turned` at least. seed: start of
- * the random numbers. */
+/* Performs six random load steps of 0.3 to 30 yield strains by the law m in `space`, and compares the work of each
+ * along the proportional path with the change of elastic energy plus plastic work. Tolerance: Simpson's rule at the
+ * first yield (2e-7 of the energies measured). With recall the flow direction turns within a step: plus the back
+ * stress, at most |X| + C/gamma, times `turned`. seed: start of the random numbers. Returns the plastic strain. */
 static real path_energy(const struct law *m, enum space space, uint64_t seed)
 {
     struct law_points p = laws_points_at_rest();
@@ -249,8 +247,8 @@ static real path_energy(const struct law *m, enum space space, uint64_t seed)
     return p.a[0];
 }
 
-/* Compares work, energy and plastic work of load steps (path_energy), for each law and space with random numbers of its
- * own. */
+/* Compares work with energy and plastic work of load steps (path_energy), for each law and space with its own random
+ * numbers. */
 static void test_path_energy(void **state)
 {
     (void)state;
@@ -267,8 +265,8 @@ static void test_path_energy(void **state)
             }
 }
 
-/* Checks that the work of leap-frog steps under random strains, to and fro, is elastic energy and plastic work, to a
- * few roundings of the work that goes in and out. */
+/* Checks that the work of leap-frog steps under alternating random strains equals elastic energy plus plastic work, to
+ * 1e-14. */
 static void test_energy(void **state)
 {
     (void)state;
@@ -281,7 +279,8 @@ static void test_energy(void **state)
             }
 }
 
-/* Checks metal that flows until it melts, in large steps: its temperature ends at T_melt, where it has no strength. */
+/* Checks a metal that flows until it melts, in large steps: its temperature ends at T_melt, where it has no
+ * strength. */
 static void test_melting(void **state)
 {
     (void)state;
@@ -302,8 +301,9 @@ static void test_melting(void **state)
         }
 }
 
-/* A metal that heats by 40 K of the 110 K to T_melt: temperature, stress and plastic work of one load step are those of
- * 1000. Exact for m = 1, else up to the four steps of the integration of the temperature. */
+/* Checks a metal that heats by more than 30 K of the 110 K to T_melt: temperature, stress and plastic work of one load
+ * step must equal those of 1000. This is exact for the exponent m = 1, else limited by the four steps in which the
+ * temperature is integrated. */
 static void test_heat_in_load_steps(void **state)
 {
     static const real m_of[] = {1, 1.09, 0.55}, within[] = {1e-9, 3e-4, 6e-3};
@@ -329,9 +329,9 @@ static void test_heat_in_load_steps(void **state)
     }
 }
 
-/* Closed forms. The reasons of the tolerances: the digits of the expected values; explicit steps of 1e-6 over 1/gamma;
- * the direction of flow in plane strain changes by 1e-5/1e-3 over a step; Johnson-Cook: steps of 1e-4, at which the
- * temperature is that of the start. */
+/* Checks the elements of `cleave bench laws` against closed forms. Tolerances: digits of the expected values; explicit
+ * steps of 1e-6 over 1/gamma; the flow direction in plane strain, which changes by 1e-5/1e-3 over a step; Johnson-Cook:
+ * steps of 1e-4 with the temperature of the start. */
 static void test_elements(void **state)
 {
     int checked = 0;

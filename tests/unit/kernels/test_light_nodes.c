@@ -1,4 +1,5 @@
-/* Nodes with little mass in APIC take accelerations from their neighbours (kernels/mpm/grid_move.c). */
+/* Tests the accelerations of nodes with little mass in APIC, which are distributed to their neighbours
+ * (kernels/mpm/grid_move.c). */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -12,8 +13,8 @@
 
 enum { BORDER = 4 };
 
-/* Returns the mass of node I of g in a body that ends at node BORDER along the first two axes, where nodes have 1e-7 of
- * the usual mass; 0 beyond. seed: state of the random numbers, by which masses vary. */
+/* Returns the mass of node I of g in a body that ends at node BORDER. The next node along the first two axes has 1e-7
+ * of the usual mass; nodes beyond have 0. seed: state of the random numbers, by which masses vary. */
 static real light_body(const struct grid *g, int64_t I, uint64_t *seed)
 {
     real mass = cloud_between(seed, 0.5, 1);
@@ -25,9 +26,9 @@ static real light_body(const struct grid *g, int64_t I, uint64_t *seed)
     return mass;
 }
 
-/* Checks the accelerations by a force on one node: sum m a is that force and has its moment; the response is symmetric
- * (a_i by a force at j equals a_j by one at i); and a light node, with 1e-7 of the mass, has no larger response than
- * its neighbours. */
+/* Checks the accelerations a that a force on one node causes. The sum of m a is this force and has its moment. The
+ * response is symmetric: a_i by a force at node j equals a_j by the same force at node i. The response of a light node
+ * is not larger than that of its neighbours. */
 static void test_light_nodes(void **state)
 {
     (void)state;

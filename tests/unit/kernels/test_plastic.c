@@ -1,5 +1,5 @@
-/* Return mappings compared with the conditions that define them, with each other and with closed forms; plastic part of
- * the energy balance compared with the work done on a point. */
+/* Tests return mappings against the conditions that define them, between spaces, and against closed forms. Also
+ * compares strain energy plus plastic work in the energy balance with the work done on a point. */
 #include "tests/support/near.h"
 
 #include "tests/support/cloud.h"
@@ -11,14 +11,14 @@
 /* Tolerance: a few dozen roundings of 1.1e-16, some at stresses larger than the result. */
 #define CLOSE 1e-12
 
-/* Yield strain of the tests below; with E = 1 Pa strains equal stresses. */
+/* Yield strain of these tests; with E = 1 Pa strains equal stresses. */
 #define YIELD 1e-3
 
 struct point {
     real s[SYM_MAX], a, zz, work;
 };
 
-/* A material with linear hardening: yield stress and hardening modulus, and what kernels know of it. */
+/* A material with linear hardening: yield stress, hardening modulus, and the data of the kernels. */
 struct metal {
     real yield, hardening;
     struct elastic elastic;
@@ -55,8 +55,8 @@ static struct metal steel(enum space space, real hardening)
     return constants(&m, space);
 }
 
-/* Performs a step of the strain increment L[dim][dim] (with rotation) on the point p, as in g2p.h, with the material
- * `metal`. Returns the increment of plastic strain. */
+/* Performs a step with the strain increment and rotation L[dim][dim] on the point p of the material `metal`, as in
+ * g2p.h. Returns the increment of plastic strain. */
 static real step(struct point *p, const struct metal *metal, const real *L)
 {
     const struct elastic *m = &metal->elastic;
@@ -110,9 +110,9 @@ static void strain_of(const real *s, real poisson, real *strain)
 
 /* ---- the conditions ---------------------------------------------------------------------------------------------- */
 
-/* Checks the conditions of a return mapping of metal m from the state `trial` to p: the result is on the yield surface,
- * reached along its normal there, with the non-negative plastic strain increment `more`; only trial stresses beyond the
- * surface change. The strain removed from the trial stress is da dq/dsigma. In plane strain eps_zz is unchanged. */
+/* Checks a return mapping of metal m from the state `trial` to p with the plastic strain increment `more` >= 0: the
+ * result is on the yield surface, and the strain removed from the trial state is normal to it (da dq/dsigma). Trial
+ * stresses inside the surface do not change. In plane strain eps_zz does not change. */
 static void check_return(const struct metal *m, const struct point *trial, const struct point *p, real more)
 {
     real before[SYM_MAX], after[SYM_MAX], strain[SYM_MAX];
@@ -141,8 +141,8 @@ static void check_return(const struct metal *m, const struct point *trial, const
     if (m->elastic.space == SPACE_PLANE_STRAIN) assert_near(strain[2], more * 1.5 * (after[2] - mean) / q, slack);
 }
 
-/* Checks the return mapping (check_return) for trial stresses from inside the surface to a million times its size, with
- * weak and strong hardening. */
+/* Checks the return mapping (check_return) for trial stresses from inside the yield surface to a million times its
+ * size, with weak and strong hardening. */
 static void test_conditions(void **state)
 {
     (void)state;
@@ -164,7 +164,7 @@ static void test_conditions(void **state)
         }
 }
 
-/* Checks that after yielding, an unloading step is bitwise elastic for any spin. */
+/* Checks that an unloading step after yielding is bitwise elastic for any spin. */
 static void test_unloading(void **state)
 {
     (void)state;
@@ -188,7 +188,7 @@ static void test_unloading(void **state)
     }
 }
 
-/* Checks that a stress on the yield surface that rotates without strain stays there, and that its plastic flow is
+/* Checks that a stress on the yield surface that rotates without strain stays on it, with plastic flow of the size of
  * round-off. */
 static void test_rotation(void **state)
 {
@@ -217,8 +217,8 @@ static void test_rotation(void **state)
     }
 }
 
-/* Compares rotations of a stress by power series with R s R^T by sine and cosine, about any axis, up to and beyond
- * SPIN_SERIES. */
+/* Compares the rotation of a stress by a power series with R s R^T by sine and cosine, about any axis, up to and beyond
+ * the limit SPIN_SERIES of the series. */
 static void test_rotation_by_series(void **state)
 {
     (void)state;
@@ -266,8 +266,8 @@ static void test_plane_strain_is_solid(void **state)
     assert_true(p.a > 10 * YIELD);
 }
 
-/* Performs a step of the strain increment L of the point q of metal m in 3D with eps_zz such that sigma_zz = 0, by
- * bisection. */
+/* Performs a step of the strain increment L of the point q of metal m in 3D; eps_zz is found by bisection such that
+ * sigma_zz = 0. */
 static void step_free(struct point *q, const struct metal *m, const real *L)
 {
     real low = -1, high = 1;
@@ -302,8 +302,7 @@ static void test_plane_stress_is_solid(void **state)
 
 /* ---- closed forms ------------------------------------------------------------------------------------------------ */
 
-/* Checks a bar under cyclic load: slope E_t during yielding, slope E elsewhere, reverse yield at the largest previous
- * |sigma|. */
+/* Checks a bar under cyclic load: slope E_t while yielding, else E; reverse yield at the largest previous |sigma|. */
 static void test_bilinear_law(void **state)
 {
     (void)state;
@@ -407,8 +406,8 @@ static void test_uniaxial_stress(void **state)
 
 /* ---- the energy balance ------------------------------------------------------------------------------------------ */
 
-/* Returns the energy that the balance has for one particle of unit volume in `space` with the state of p: strain energy
- * plus plastic work. m: material; partial: partial stress of the particle. */
+/* Returns the energy of one particle of unit volume with the state of p in the balance of `space`: strain energy plus
+ * plastic work [J]. m: material; partial: partial stress of the particle. */
 static real balance_energy(const struct point *p, const struct material *m, enum space space,
                            const struct partial_stress *partial)
 {
@@ -423,9 +422,9 @@ static real balance_energy(const struct point *p, const struct material *m, enum
     return energy;
 }
 
-/* Checks that the work of the stress along a path equals strain energy plus plastic work in the balance. Loading and
- * half-way unloading in other proportions; the mean of the stress before and after a step leaves an error of second
- * order: below 1e-5 with 2e3 steps. */
+/* Checks that the work of the stress along a path equals strain energy plus plastic work in the balance. The path has
+ * loading and partial unloading in other proportions. The mean of the stress before and after a step leaves an error of
+ * second order, below 1e-5 with 2000 steps. */
 static void test_work_is_booked(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Properties of every shape function, through the kernels that scatter with it: partition of unity and exact gradients
- * of linear fields, at any position and width, in one, two and three dimensions. */
+/* Tests every shape function through the kernels that scatter with it: partition of unity and exact gradients of linear
+ * fields, at any position and width, in one, two and three dimensions. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -11,8 +11,7 @@
 #include "tests/support/near.h"
 #include "base/team.h"
 
-/* A few points on a small grid, with spacing 1/2 and node distance 1, so that errors are those of weights and slopes
- * [m]. */
+/* Some points on a small grid with node distance 1, so that errors are those of weights and slopes [m]. */
 struct points {
     struct particles p;
     struct grid g;
@@ -65,7 +64,7 @@ static real moment(const struct grid *g, const real *field, int axis)
     return sum;
 }
 
-/* Checks sum N = 1 and sum N x_I = x for the shape functions `shape` at the points of s, by scattering a single value.
+/* Checks sum N = 1 and sum N x_I = x for the shape functions `shape` at the points of s by scattering a single value.
  * Tolerance 1e-14: sums of up to 64 terms of at most 10. */
 static void check_weights(struct points *s, enum shape shape)
 {
@@ -80,9 +79,9 @@ static void check_weights(struct points *s, enum shape shape)
     memory_free(field);
 }
 
-/* Checks sum dN/dx_b x_Ia = 1 for a = b, else 0, and sum dN = 0, for `shape` and `transfer` by the nodal forces of a
- * point of s of unit volume under unit stress of each component. Tolerance: slopes are means over at least a twentieth
- * of a cell: round-off 20 times larger. */
+/* Checks sum dN = 0 and sum dN/dx_b x_Ia = delta_ab for `shape` and `transfer` by the nodal forces of a point of s of
+ * unit volume under a unit stress of each component. Tolerance: slopes are means over at least a twentieth of a cell,
+ * which increases round-off by a factor of 20. */
 static void check_slopes(struct points *s, enum shape shape, enum transfer transfer)
 {
     static const int component[DIM_MAX + 1][DIM_MAX][DIM_MAX] = {

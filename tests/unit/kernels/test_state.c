@@ -1,5 +1,6 @@
-/* State-based peridynamics: patch tests compared with classical energies, finite rotation, force as the exact gradient
- * of energy for irregular cracked bodies, momentum and angular momentum, and the critical step. */
+/* Tests state-based peridynamics: energies of uniform strains against classical ones, finite rotation, forces against
+ * the gradient of the energy for irregular cracked bodies, momentum and angular momentum, weighted volumes, and the
+ * critical time step. */
 #include "run/critical_step.h"
 #include "kernels/kernels.h"
 
@@ -58,7 +59,7 @@ static void strain_of(enum patch_load load, int dim, real strain[DIM_MAX][DIM_MA
     if (load == SHEAR) strain[0][1] = STRAIN; /* simple shear: half of it is rotation */
 }
 
-/* Returns the classical energy per volume of material m under the unit strain of `load` in `dim` dimensions. */
+/* Returns the classical energy density of material m under the unit strain of `load` in `dim` dimensions [Pa]. */
 static real classical(const struct material *m, enum patch_load load, int dim)
 {
     switch (load) {
@@ -82,8 +83,9 @@ static bool inside(const struct particles *p, int64_t i, const int *count, real 
     return true;
 }
 
-/* Returns the energy of an inner particle of b, count[dim] particles in `space`, under the strain of `load`, divided by
- * the classical one, from its row; checks that the largest force on inner particles is round-off. */
+/* Returns the energy of an inner particle of b under the strain of `load`, from its row, divided by the classical
+ * energy. count[dim]: particles of the block; space: of the body. Checks that the largest force on inner particles is
+ * round-off. */
 static real patch_ratio(struct body *b, const int *count, enum patch_load load, enum space space)
 {
     struct particles *p = &b->c.p;
@@ -109,8 +111,8 @@ static real patch_ratio(struct body *b, const int *count, enum patch_load load, 
     return ratio;
 }
 
-/* Rotates the stretched body b by a quarter turn about z and checks that sigma_xx becomes sigma_yy, and that sigma_xx
- * is round-off of STRAIN. */
+/* Rotates the stretched body b by a right angle about z, and checks that sigma_xx becomes sigma_yy and that sigma_xx is
+ * round-off. */
 static void check_quarter_turn(struct body *b)
 {
     struct particles *p = &b->c.p;
@@ -139,7 +141,7 @@ static void check_quarter_turn(struct body *b)
 }
 
 /* Compares energies of the ordinary model (Silling et al. 2007) on a lattice in plane stress, nu = 0.3, with expected
- * values of three decimals: dilatation exact, shear by the fourth moments of the lattice. */
+ * values of three decimals. The dilatation is exact; shear has the error of the fourth moments of the lattice. */
 static void test_ospd_plane_stress(void **state)
 {
     (void)state;
@@ -166,8 +168,8 @@ static void test_ospd_plane_stress(void **state)
         }
 }
 
-/* Checks that the model with rotations, in which only second moments contribute (effective displacements), is exact on
- * every lattice, for every influence function, Poisson's ratio and space. Tolerance 1e-5: squares of the strain and
+/* Checks that the model with rotations is exact on every lattice, for every influence function, Poisson's ratio and
+ * space, because its effective displacements involve second moments only. Tolerance 1e-5: squares of the strain and
  * single precision of weights. */
 static void test_mospd_exact(void **state)
 {
@@ -209,9 +211,9 @@ static void test_turned_stress(void **state)
         }
 }
 
-/* Returns the energy of the ordinary model under `load` in `dim` dimensions, divided by the classical one, from the
- * sums of its definition over a full neighbourhood of the lattice with unit weights: W = D^2 (lambda' - G) S^2/2 + D (D
- * + 2) G sum e^2/(2 q), S = sum r e/q, q = sum r^2 (Silling et al. 2007). m: material. */
+/* Returns the energy of the ordinary model under `load` in `dim` dimensions over the classical energy of material m.
+ * Sums over a full neighbourhood of the lattice: W = D^2 (lambda' - G) S^2/2 + D (D + 2) G sum e^2/(2 q), S = sum r
+ * e/q, q = sum r^2 (Silling et al. 2007). D: dimensions, r, e: length and elongation of a bond. */
 static real lattice_ratio(const struct material *m, enum patch_load load, int dim)
 {
     const int reach = 3, top = dim == 3 ? reach : 0;
@@ -232,9 +234,9 @@ static real lattice_ratio(const struct material *m, enum patch_load load, int di
            classical(m, load, dim);
 }
 
-/* Compares energies of the ordinary model in every space, for every Poisson's ratio and load, with these sums (1e-5 as
- * above), and the sums with published values: dilatation exact; plane stress at nu = 0.3: uniaxial strain 1.012, shear
- * 0.965; 3D: 0.93-0.95 and 1.09-1.11. */
+/* Compares energies of the ordinary model in every space, for every Poisson's ratio and load, with lattice_ratio
+ * (1e-5), and these ratios with published values: dilatation exact; plane stress at nu = 0.3: uniaxial strain 1.012,
+ * shear 0.965; 3D: 0.93 to 0.95 and 1.09 to 1.11. */
 static void test_ospd_spaces(void **state)
 {
     (void)state;
@@ -266,8 +268,8 @@ static void test_ospd_spaces(void **state)
 
 static const enum pd_model models[] = {PD_OSPD, PD_MOSPD};
 
-/* Creates in `space` the body b, irregular and cut along x = 4.5 spacings, whose bonds follow `model`. local: true if
- * neighbourhoods are normalised by their intact bonds. */
+/* Creates in `space` the body b, irregular and cut along x = 4.5 spacings, with bonds of the model `model`. local: true
+ * if neighbourhoods are normalised by their intact bonds. */
 static void cracked_make(struct body *b, enum space space, enum pd_model model, bool local)
 {
     struct cloud_plan plan = {
@@ -292,10 +294,9 @@ static void cracked_make(struct body *b, enum space space, enum pd_model model, 
             b->c.p.x[d][i] = b->c.p.X[d][i] + cloud_between(&seed, -0.02, 0.02) * CLOUD_SPACING;
 }
 
-/* Checks f = -dE/dx by central differences with step 1e-6 of a spacing, for the model `model` in the space `space`;
- * local: true if neighbourhoods are normalised by their intact bonds. Tolerance 1e-6 of the largest force: truncation
- * error (1e-6)^2 over strains of 0.02, and round-off 1e-16 E/(1e-6). Also checks that momentum and angular momentum of
- * the forces are round-off. */
+/* Checks f = -dE/dx by central differences over 1e-6 of a spacing, for the model `model` in `space`, and that the
+ * forces and their moments add up to zero. local: true if neighbourhoods are normalised by their intact bonds.
+ * Tolerance 1e-6 of the largest force: truncation error (1e-6)^2 over strains of 0.02, and round-off 1e-16 E/(1e-6). */
 static void gradient_case(enum space space, enum pd_model model, bool local)
 {
     struct body b;
@@ -346,7 +347,7 @@ static void test_gradient(void **state)
         }
 }
 
-/* Checks that a rigid rotation of any size causes no force: 1e-12 of the force of a strain of 1. */
+/* Checks that a rigid rotation of any size causes no force, to 1e-12 of the force of a strain of 1. */
 static void test_rotation(void **state)
 {
     (void)state;
@@ -372,9 +373,9 @@ static void test_rotation(void **state)
             }
 }
 
-/* Checks the weighted volume Q inside a lattice with a particle whose volume differs from that of its cell: Q of a full
- * neighbourhood is the sum over its bonds, up to the single precision of weights. Without the local normalisation a
- * particle at a corner has the same Q. */
+/* Checks the weighted volume Q of particles whose own volume is 1.37 times that of their cell. In a complete
+ * neighbourhood Q is the sum over its bonds to 1e-6, the single precision of weights. Without local normalisation a
+ * particle at a corner has the same Q, with it less than half. */
 static void test_volumes(void **state)
 {
     (void)state;
@@ -403,8 +404,8 @@ static void test_volumes(void **state)
     }
 }
 
-/* Checks that the weighted volume Q agrees with these sums at corners, too, where weights are those of classes of
- * particles near faces. */
+/* Checks the weighted volume Q at corners with surface correction by classes of particles: a corner particle of 1.37
+ * times the volume has 1.37 times the Q of the opposite corner, to round-off. */
 static void test_volumes_at_faces(void **state)
 {
     (void)state;
@@ -427,10 +428,9 @@ static void test_volumes_at_faces(void **state)
 
 /* ---- critical step ----------------------------------------------------------------------------------------------- */
 
-/* Compares critical time steps with published values in plane stress, m = 3.015, nu = 0.3: 1.79 D/c for OSPD and 1.94
- * D/c for MOSPD in large plates; free surfaces of a block change them by some percent, and two percent are subtracted.
- * Bond-based: 2.00 D/c, nu = 1/3. Also checks that the step scales with the root of the density over all magnitudes:
- * powers of the high frequencies of a light or fine body must not overflow. */
+/* Compares critical time steps with published values for large plates in plane stress, horizon 3.015 D, nu = 0.3,
+ * within 6 %: 1.79 D/c for OSPD and 1.94 D/c for MOSPD; D: spacing, c: wave speed. Also checks that the step scales
+ * with the root of the density down to a factor of 2^-80: powers of high frequencies must not overflow. */
 static void test_critical_step(void **state)
 {
     (void)state;

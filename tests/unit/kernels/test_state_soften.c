@@ -1,6 +1,6 @@
-/* Bonds of state-based models that soften: forces compared with differences of the potential, both ends of a bond, rows
- * that are made again, the peak of uniform tension, two halves of a lattice that are separated, neighbourhoods under
- * pressure. */
+/* Tests softening bonds of state-based models: forces against differences of the potential, equal states of both
+ * entries of a bond, rebuilt rows, the peak stress of uniform tension, the fracture energy of two separating halves of
+ * a lattice, and neighbourhoods under pressure. */
 #include <omp.h>
 
 #include "base/polar.h"
@@ -46,8 +46,8 @@ static int64_t forces(struct state_body *a)
     return bond_forces(state_force_table[c->p.dim][a->model], &c->bonds, &c->p, &c->source.limit, NULL);
 }
 
-/* Moves the particles of c at random by up to `size` spacings, on top of the uniform expansion by `dilatation` along
- * each axis. seed: state of the random numbers. */
+/* Displaces the particles of c at random by up to `size` spacings, in addition to a uniform expansion by `dilatation`
+ * along each axis. seed: state of the random numbers. */
 static void shake(struct particle_cloud *c, uint64_t *seed, real size, real dilatation)
 {
     for (int64_t i = 0; i < c->p.n; i++)
@@ -57,8 +57,8 @@ static void shake(struct particle_cloud *c, uint64_t *seed, real size, real dila
 
 /* ---- potential --------------------------------------------------------------------------------------------------- */
 
-/* Returns the weights of all bonds of b without damage as an array of n x n, with the bond from particle i to j at [i n
- * + j]; 0: no bond. To be freed. */
+/* Returns the weights of all undamaged bonds of b as an array of n x n, to be freed. Element [i n + j] is the bond from
+ * particle i to j; 0: no bond. */
 static real *weights_of(const struct bonds *b, int64_t n)
 {
     real *w = NEW("test.w", n * n, real);
@@ -68,8 +68,8 @@ static real *weights_of(const struct bonds *b, int64_t n)
     return w;
 }
 
-/* Returns 1 - d, the fraction of stiffness that `bond` of row `row` keeps by linear softening, from its largest
- * stretch; 0 if it has ended. */
+/* Returns 1 - d, the fraction of stiffness of `bond` of row `row` that linear softening leaves at its largest stretch;
+ * 0 beyond its end. */
 static real kept_of(const struct bonds *b, int64_t row, const struct bond *bond)
 {
     const int64_t q = bond->entry;
@@ -79,8 +79,8 @@ static real kept_of(const struct bonds *b, int64_t row, const struct bond *bond)
     return onset * (end - k) / ((end - onset) * k);
 }
 
-/* Returns the potential of the neighbourhood of row `row` of a (bonds of one particle) at the present positions [J],
- * written from the formulas of state_soften.c. w: weights without damage (weights_of). */
+/* Returns the potential of the neighbourhood of row `row` of a (the bonds of one particle) at the current positions
+ * [J], by the formulas of state_soften.c. w: weights without damage (weights_of). */
 static real row_potential(const struct state_body *a, const real *w, int64_t row)
 {
     const struct bonds *b = &a->s.c.bonds;
@@ -119,9 +119,9 @@ static real potential(const struct state_body *a, const real *w)
     return sum;
 }
 
-/* Checks that forces on irregular bodies with damage and ended bonds are minus the gradient of the potential at this
- * damage. Central differences over 1e-6 spacings, whose error is round-off, 1e-10 of the largest force; weights are
- * floats, 1e-7. */
+/* Checks that the forces on irregular bodies with damaged and ended bonds are minus the gradient of the potential at
+ * constant damage. Central differences over 1e-6 spacings have a round-off error of 1e-10 of the largest force; weights
+ * are floats (1e-7): tolerance 1e-6. */
 static void test_gradient(void **state)
 {
     (void)state;
@@ -161,8 +161,8 @@ static void test_gradient(void **state)
     }
 }
 
-/* Checks that both entries of a bond have bitwise equal states and weights, which momentum conservation requires, and
- * that rows that are rebuilt keep them, and so does the potential. */
+/* Checks that both entries of a bond have bitwise equal states and weights, which conservation of momentum requires.
+ * Rebuilt rows must keep states, weights and potential. */
 static void test_ends(void **state)
 {
     (void)state;
@@ -207,10 +207,9 @@ static void test_ends(void **state)
 #define SMALL 1e-5 /* onset, so that sums are linear in it */
 enum { SIDE = 13 };
 
-/* Compares the peak stress of a block in uniaxial tension, in small steps and with the lateral strain at which the
- * middle particle has no lateral stress (secant iteration on its stress), with E s_0 phi, within the anisotropy of a
- * lattice, 5 %. SIDE: particles along an edge; neighbourhoods of all particles in the neighbourhood of the middle one
- * are complete. */
+/* Compares the peak stress of a block of SIDE particles per edge in uniaxial tension with E s_0 phi, within the
+ * anisotropy of a lattice, 5 %. The strain increases in small steps; the lateral strain is iterated until the central
+ * particle has no lateral stress. All neighbourhoods that affect the central particle are complete. */
 static void test_strength(void **state)
 {
     (void)state;
@@ -242,9 +241,9 @@ static void test_strength(void **state)
     }
 }
 
-/* Compares the work of the forces on the upper half of the middle column, per area, while two halves of a lattice move
- * apart, with family_fracture_energy_of_softening_bonds, within 2e-3 (steps of the opening), and with the energy that
- * the rows of this column have dissipated, within 1 % (both ends share what a bond dissipates). */
+/* Compares the work per area of the forces on the upper half of the middle column, while two halves of a lattice move
+ * apart, with family_fracture_energy_of_softening_bonds, within 2e-3 (finite steps). The energy that the rows of this
+ * column have dissipated must agree within 1 %, because both ends share the dissipation of a bond. */
 static void test_separation(void **state)
 {
     (void)state;
@@ -277,8 +276,8 @@ static void test_separation(void **state)
     }
 }
 
-/* Checks neighbourhoods under pressure of which bonds are stretched: damage sets no energy free there, and does not
- * grow; the fracture energy never falls, up to the second order of a step. */
+/* Checks neighbourhoods under pressure some of whose bonds are stretched: the dissipated energy never decreases from
+ * step to step. */
 static void test_pressure(void **state)
 {
     (void)state;

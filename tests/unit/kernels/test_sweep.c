@@ -1,5 +1,6 @@
-/* Motion fused with the force sweep, compared with all forces followed by all motion: bitwise equal for every law and
- * number of threads, with particles that wait for loads, are inactive, or are moved by the grid. */
+/* Tests the motion that is fused with the force sweep against all forces followed by all motion. Results must be
+ * bitwise equal for every bond model and number of threads, with particles that have applied loads, are inactive, or
+ * are moved by the grid. */
 #include <omp.h>
 #include <stdlib.h>
 
@@ -9,13 +10,14 @@
 #include "tests/support/sets.h"
 #include "base/team.h"
 
-/* Variants of a body, as bits. */
+/* Variants of a body, as bits: random positions, also material points, some particles with loads, some row blocks
+ * inactive. */
 enum { SHAKEN = 1, MIXED = 2, LOADED = 4, ASLEEP = 8, WAYS = 16 };
 enum { THREADS_MOST = 7 };
 
 static const enum space space_of[DIM_MAX + 1] = {SPACE_LINE, SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
 
-/* Long enough for every thread to have blocks of eight rows that only its own part reads. */
+/* Particles along each axis: enough for every thread to have blocks of eight rows that no other thread reads. */
 static const int count_of[DIM_MAX + 1][DIM_MAX] = {{0}, {701}, {9, 111}, {5, 4, 61}};
 
 struct body {
@@ -24,8 +26,8 @@ struct body {
     uint8_t *loaded;
 };
 
-/* Deactivates every third block of eight rows of b (bonds of eight particles of p) except the first: its particles have
- * no new forces, do not move, and keep the states of their neighbourhoods in the model `model`. */
+/* Deactivates every third block of eight rows of b (bonds of eight particles of p), but not the first. Its particles
+ * receive no new forces, do not move, and keep the states of their neighbourhoods in the model `model`. */
 static void put_to_sleep(struct bonds *b, struct particles *p, enum pd_model model)
 {
     if (model >= PD_OSPD) state_precompute_table[p->dim][model](b, p);
@@ -68,15 +70,16 @@ static void body_free(struct body *b)
     particle_cloud_free(&b->c);
 }
 
-/* Returns the parameters of the motion of b after the sweep: dt v is some hundredths of a spacing. way: flags of the
- * case, LOADED: some particles have loads; fastest: speed above which a particle counts as diverged [m/s]. */
+/* Returns the parameters of the motion of b after the sweep, with dt v of some hundredths of a spacing. way: flags of
+ * the variant; fastest: speed above which a particle counts as diverged [m/s]. */
 static struct pd_motion motion_of(const struct body *b, int way, real fastest)
 {
     return (struct pd_motion){2e-6, 1e-6, fastest, way & LOADED ? b->loaded : NULL, false};
 }
 
-/* Computes all forces of b by the kernel `force`, then moves all particles that the sweep would move, and stores the
- * result in *motion. way: flags of the case. Returns the number of broken bonds. */
+/* Computes all forces of b by the kernel `force`, then moves all particles that the fused sweep would move. *motion:
+ * parameters; receives whether a particle has diverged. way: flags of the variant. Returns the number of broken
+ * bonds. */
 static int64_t forces_then_motion(struct body *b, bond_force_fn *force, int way, struct pd_motion *motion)
 {
     struct particles *p = &b->c.p;
@@ -93,7 +96,7 @@ static int64_t forces_then_motion(struct body *b, bond_force_fn *force, int way,
     return broken;
 }
 
-/* A body after all forces and all motion. */
+/* A body after a step with separate forces and motion: broken bonds, and whether a particle has diverged. */
 struct plain {
     struct body body;
     int64_t broken;
@@ -112,9 +115,8 @@ static void plain_make(struct plain *plain, bond_force_fn *force, int dim, enum 
     assert_int_equal(plain->diverged, fastest_of(way) < 1);
 }
 
-/* Compares `plain` (forces, then motion) with a sweep by the kernel `force` on `threads` threads, bit by bit. One
- * thread creates the body, which is faster than a team. dim, model, way: dimensions, bond model and flags of the
- * case. */
+/* Compares `plain` bit by bit with a fused sweep by the kernel `force` on `threads` threads. dim, model, way:
+ * dimensions, bond model and flags of the variant. The body is created on one thread, which is faster. */
 static void check_sweep(const struct plain *plain, bond_force_fn *force, int dim, enum pd_model model, int way,
                         int threads)
 {
@@ -151,8 +153,8 @@ static void test_sweep(void **state)
             if (dim > 1 || model < PD_OSPD) check_sweeps(dim, model);
 }
 
-/* Checks that the reach stored for a row is not less than the distance to the farthest row that it reads, and not the
- * whole body. */
+/* Checks that the stored reach, in blocks of eight rows, is at least the distance to the farthest block that any row
+ * reads, and at most an eighth of the body. */
 static void test_reach(void **state)
 {
     (void)state;

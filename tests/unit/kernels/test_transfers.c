@@ -1,5 +1,5 @@
-/* Every transfer kernel in the tables compared with its reference implementation: maps, nodal updates, stresses. Points
- * that yield: test_transfers_yield.c. */
+/* Tests every transfer kernel in the tables against its reference implementation: maps between points and nodes, nodal
+ * updates, stresses. Also checks conservation. Points that yield: test_transfers_yield.c. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -13,7 +13,7 @@
 #include "kernels/mpm/shape.h"
 #include "base/team.h"
 
-/* Tolerance of sums over all points compared with sums over all nodes: round-off of the sum of magnitudes. */
+/* Tolerance of sums over all points against sums over all nodes: round-off of the sum of magnitudes. */
 #define CONSERVED 1e-13
 
 /* ---- kernels and reference implementations ----------------------------------------------------------------------- */
@@ -23,7 +23,8 @@ static void check_fields(real *const *got, real *const *expected, int dim, int64
     for (int d = 0; d < dim; d++) assert_true(cloud_difference(got[d], expected[d], n) <= CLOSE);
 }
 
-/* Compares m v of the nodes of s, since velocities got[dim] have the relative error of a node's tiny mass. */
+/* Compares m v of the nodes of s, got[dim] with expected[dim]: velocities alone have the relative error of a node's
+ * tiny mass. */
 static void check_motion(const struct point_cloud *s, real *const *got, real *const *expected)
 {
     real *a = NEW("test.a", s->g.n, real), *b = NEW("test.b", s->g.n, real);
@@ -51,8 +52,8 @@ static void check_particles(const struct point_cloud *s, const struct particles 
     }
 }
 
-/* Checks the marks of points of s whose principal stress exceeds the trigger; returns how many points entered another
- * cell since `before`. */
+/* Sets in expected->flag the flag of points whose largest principal stress exceeds the trigger of their material.
+ * Returns the number of points that have entered another cell since `before`. */
 static int64_t marks(const struct point_cloud *s, struct particles *expected, const struct particles *before)
 {
     int64_t entered = 0;
@@ -72,7 +73,9 @@ static int64_t marks(const struct point_cloud *s, struct particles *expected, co
     return entered;
 }
 
-/* Compares a step with the plain one; bit m of averaged: points of material m have the mean dilatation of a cell. */
+/* Compares a step of the kernels k with the reference. spin: rotation rate [1/s]; smallest_mass: mass below which nodes
+ * are at rest; partial: true for partial stresses; bit m of averaged: points of material m use the mean dilatation of a
+ * cell. */
 static void step_case(const struct transfer_kernels *k, real spin, real smallest_mass, bool partial, int averaged)
 {
     struct point_cloud s;
@@ -166,9 +169,9 @@ static struct total total_of(const struct particles *p)
     return t;
 }
 
-/* Checks case k: mass and momentum of nodes are those of points; after the step the points have gained dt f and the
- * impulse of walls. The work of walls is their impulse times the mean velocity before and after, the change of kinetic
- * energy. */
+/* Checks for the kernels k that nodes have mass and momentum of the points, and that in a step the points gain dt f
+ * plus the impulse of walls. The work of walls must be their impulse times the mean velocity before and after, the
+ * change of kinetic energy. */
 static void conserved(const struct transfer_kernels *k)
 {
     for (int walls = 0; walls < 2; walls++) {
@@ -220,8 +223,8 @@ static void conserved(const struct transfer_kernels *k)
 
 static void test_conserved(void **state) { (void)state, for_all_transfer_kernels(conserved); }
 
-/* Checks that a body in uniform motion and deformation keeps its velocity: with APIC the nodes have the exact linear
- * field, and points recover it. */
+/* Checks for the kernels k that a body in uniform motion and deformation keeps its velocity: with APIC the nodes have
+ * the exact linear field, and points recover it. */
 static void linear_field(const struct transfer_kernels *k)
 {
     static const real gradient[DIM_MAX][DIM_MAX] = {{3, -7, 2}, {5, 1, -4}, {-6, 8, 9}};
@@ -253,8 +256,8 @@ static void linear_field(const struct transfer_kernels *k)
 
 static void test_linear_field(void **state) { (void)state, for_all_transfer_kernels(linear_field); }
 
-/* Checks that the stress of a purely rotating body rotates with it, to second order in the angle w below 1e-3 rad,
- * exactly above, and causes no strain: displacements of the step W + W W/2, W its spin. */
+/* Checks that the stress of a purely rotating body rotates with it and causes no strain: to second order in the angle w
+ * below 1e-3 rad, exactly above. The displacement gradient of the step is W + W W/2 with the spin W. */
 static void test_rotation(void **state)
 {
     (void)state;

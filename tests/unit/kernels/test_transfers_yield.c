@@ -1,5 +1,5 @@
-/* Material points that yield in a step of the transfer kernels, compared with the return of the stress of an elastic
- * step (test_transfers.c has the elastic steps). */
+/* Tests material points that yield in a step of the transfer kernels. Expected values: the return mapping of the stress
+ * of an elastic step, which test_transfers.c checks. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -11,8 +11,8 @@
 #include "tests/support/sets.h"
 #include "base/team.h"
 
-/* Compares point i of s after a step with the return of the stress of an elastic step. strain: its plastic strain
- * before. Returns true if it has yielded. */
+/* Compares point i of s after a step with the return mapping of the stress of the elastic step in `elastic`. strain:
+ * plastic strain before the step. Returns true if the point has yielded. */
 static bool check_yielded(const struct point_cloud *s, const struct particles *elastic, int64_t i, real strain)
 {
     const struct particles *p = &s->c.p;
@@ -29,7 +29,8 @@ static bool check_yielded(const struct point_cloud *s, const struct particles *e
     return more > 0;
 }
 
-/* Checks that points of one of two materials yield by its law, and are marked by the stress that remains. */
+/* Checks for the kernels k that points of one of two materials yield by its law, and are flagged for conversion by the
+ * stress after the return. */
 static void yields_case(const struct transfer_kernels *k)
 {
     static const enum space space[] = {SPACE_LINE, SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};

@@ -1,5 +1,5 @@
-/* Points that rotate in groups (data/turning.h): conserved quantities of the two halves of the second map, for any
- * motion and all shapes, in 2D and 3D. */
+/* Tests groups of rotating points (data/turning.h): conserved quantities of both transfers of the change of velocities,
+ * points to nodes and nodes to points, for any motion and all shape functions, in 2D and 3D. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -10,7 +10,7 @@
 #include "data/turning.h"
 #include "kernels/kernels.h"
 
-/* Tolerance relative to the largest term: sums of some hundred terms, with weights that have errors of 1e-15. */
+/* Tolerance relative to the largest term: sums of some hundred terms with weights whose errors are 1e-15. */
 #define CLOSE 1e-12
 
 struct scene {
@@ -23,8 +23,8 @@ struct scene {
     int dim, shape;
 };
 
-/* Creates s, irregular points of two bodies in `dim` dimensions, every fifth of them peridynamic; the second body has
- * few points. shape: shape functions. */
+/* Creates s, irregular points of two bodies in `dim` dimensions. About a fifth of the first body and more than half of
+ * the smaller second one are peridynamic. shape: shape functions. */
 static void scene_make(struct scene *s, int dim, int shape)
 {
     static const int count[DIM_MAX + 1][DIM_MAX] = {{0}, {0}, {15, 11}, {9, 8, 7}};
@@ -80,7 +80,7 @@ static void node_place(const struct grid *g, int64_t I, real *x)
 }
 
 /* Adds the vector m a and its moment m x x a to sum[6], and their magnitudes to size[2]. m: mass; x, a: position and
- * vector of the point. */
+ * vector of a point. */
 static void moments_add(real m, const real *x, const real *a, real *sum, real *size)
 {
     for (int c = 0; c < 3; c++) {
@@ -100,7 +100,7 @@ static void points_moments(const struct particles *p, real *const *v, real *sum,
     }
 }
 
-/* Applies the given change of nodal velocities of s to the points. */
+/* Applies random changes of nodal velocities of s to the points. */
 static void gather(struct scene *s)
 {
     for (int64_t I = 0; I < s->g.n; I++)
@@ -110,8 +110,8 @@ static void gather(struct scene *s)
     corotating_groups_restore_angular_momentum(&s->turning, &s->c.p);
 }
 
-/* Computes the nodal velocities of the second map of s for unchanged points; in flight (weights ahead of the positions)
- * with new nodal masses. */
+/* Computes the nodal velocities of s from unchanged points. If the weights are taken ahead of the positions (grid
+ * ahead), nodal masses are recomputed as well. */
 static void scatter(struct scene *s)
 {
     corotating_groups_compute_spins(&s->turning, &s->c.p, CLOUD_SPACING);
@@ -122,7 +122,7 @@ static void scatter(struct scene *s)
         for (int64_t I = 0; I < s->g.n; I++) s->g.momentum[d][I] /= s->g.mass[I] > 0 ? s->g.mass[I] : 1;
 }
 
-/* Checks that the points of s gain the momentum and angular momentum of the change of the nodes. */
+/* Checks that the points of s gain the momentum and angular momentum of the change of nodal velocities. */
 static void keeps_moments(struct scene *s)
 {
     real given[6] = {0}, before[6] = {0}, after[6] = {0}, size[2] = {0}, none[2];
@@ -138,8 +138,8 @@ static void keeps_moments(struct scene *s)
     for (int c = 0; c < 6; c++) assert_true(fabs(after[c] - before[c] - given[c]) <= CLOSE * size[c / 3]);
 }
 
-/* Checks that nodes of a rotating and translating body s have the velocity of the body at their position, in flight
- * that of the position behind it. */
+/* Checks that the nodes have the velocity of a rotating and translating body s at their position, or at the position
+ * behind it if weights are taken ahead of the positions. */
 static void turns_rigidly(struct scene *s)
 {
     struct particles *p = &s->c.p;
@@ -163,8 +163,8 @@ static void turns_rigidly(struct scene *s)
     }
 }
 
-/* Checks a rigidly moving body s in flight, with weights of points ahead of their positions, and that the nodes then
- * have all mass of the points. */
+/* Checks a rigidly moving body s with weights taken ahead of the positions of points, and that the nodes have the whole
+ * mass of the points. */
 static void flies_rigidly(struct scene *s)
 {
     real points = 0, nodes = 0;
@@ -175,8 +175,8 @@ static void flies_rigidly(struct scene *s)
     assert_true(fabs(nodes - points) <= CLOSE * points);
 }
 
-/* Checks that both maps of s are adjoint in the mass metric: the energy gained by points along their velocity equals
- * that gained by nodes along theirs. */
+/* Checks that both transfers of s are adjoint in the mass metric: the sum of m v dv over points equals that over
+ * nodes. */
 static void keeps_energy(struct scene *s)
 {
     struct particles *p = &s->c.p;
@@ -217,8 +217,8 @@ static void test_rigid(void **state) { (void)state, for_all(turns_rigidly); }
 static void test_flight(void **state) { (void)state, for_all(flies_rigidly); }
 static void test_energy(void **state) { (void)state, for_all(keeps_energy); }
 
-/* Checks that points of a constrained body are unchanged, that small groups are merged, and that a single point gains
- * nothing. */
+/* Checks that small groups are merged with groups of the same body, and that a group of a single point gains no
+ * velocity. */
 static void test_groups(void **state)
 {
     struct scene s;
@@ -240,7 +240,8 @@ static void test_groups(void **state)
     scene_free(&s);
 }
 
-/* Checks that groups on both sides of the middle are neighbours, and that a constrained body is unchanged. */
+/* Checks that groups on both sides of the middle are neighbours, and that points of a constrained body neither receive
+ * spins nor change their velocities. */
 static void test_held(void **state)
 {
     struct scene s;

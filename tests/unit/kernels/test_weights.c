@@ -1,5 +1,5 @@
-/* Weights and slopes of every shape in one dimension compared with their definitions, in every piece and at its
- * edges. */
+/* Tests weights and slopes of every shape function in one dimension against their definitions, in every piece and at
+ * its edges. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -9,8 +9,8 @@
 #include "tests/support/reference_points.h"
 #include "kernels/mpm/shape.h"
 
-/* Checks all weights of the shape functions `shape` at the position r (in node distances) from the kernels, for points
- * of half width l: partition of unity and linear completeness: sum N = 1, sum N x_I = x, sum dN = 0, sum dN x_I = 1. */
+/* Checks all weights of the shape functions `shape` from the kernels at the position r (in node distances), for points
+ * of half width l: sum N = 1, sum N x_I = x, sum dN = 0, sum dN x_I = 1. */
 static void check_shape(enum shape shape, real r, real l)
 {
     row_of_points some_N[ROW], some_dN[ROW];

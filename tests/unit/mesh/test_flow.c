@@ -1,6 +1,6 @@
-/* Plastic flow of points of a mesh (mesh_flow.h): forces are the gradient of one incremental energy from any plastic
- * state, this energy is that of strain and plastic work in the balance, and without yielding results are elastic. The
- * same with flow laws, in load steps; explicit steps close the balance of energy to round-off. */
+/* Tests plastic flow of points of a mesh (mesh_flow.h). Forces must be the gradient of one incremental energy from any
+ * plastic state, the sum of strain energy and plastic work in the energy balance. Without yielding, results must be
+ * elastic. Load steps are also checked with flow laws; explicit steps must close the energy balance to round-off. */
 #include "tests/support/mesh_block.h"
 
 #include "data/material.h"
@@ -9,11 +9,11 @@ enum { FLOWED = WITH_PLASTIC | WITH_OUT_OF_PLANE | WITH_PLASTIC_CORRECTION };
 enum { STATES = 3 + 2 * SYM_MAX };
 static const enum space flow_spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_PLANE_STRAIN, SPACE_SOLID};
 
-/* Returns true if all points of a cell have one dilatation in the space `space`. */
+/* Returns true if the points of a cell share one mean dilatation in the space `space`. */
 static bool averages(enum space space) { return space == SPACE_PLANE_STRAIN || space == SPACE_SOLID; }
 
-/* Creates in `space` the block b, whose points yield at `yield` times the shear modulus, material 1 with hardening; 0:
- * no yielding. optional: optional arrays of particles (WITH_*). */
+/* Creates in `space` the block b. Its points yield at `yield` times the shear modulus; material 1 hardens linearly.
+ * optional: optional arrays of particles (WITH_*). */
 static void flow_block_make(struct block *b, enum space space, real yield, int optional)
 {
     block_make_with(b, space, true, false, FLOWED | optional);
@@ -29,8 +29,8 @@ static void flow_block_make(struct block *b, enum space space, real yield, int o
     }
 }
 
-/* Creates in `space` the block b, whose material 1 has linear hardening and material 0 Voce's law and a back stress in
- * place of it, with recall if `recall` > 0. mode: of the law; explicit steps have laws alone. */
+/* Creates in `space` the block b. Material 1 has linear hardening; material 0 has Voce's law or, in place of it, a back
+ * stress, with recall if `recall` > 0. mode: time integration of the law; in explicit steps all points have laws. */
 static void law_block_make(struct block *b, enum space space, real recall, enum law_mode mode)
 {
     flow_block_make(b, space, 0.05, WITH_BACK_STRESS | (mode == LAW_EXPLICIT ? WITH_MESH_STRESS : 0));
@@ -64,8 +64,8 @@ static void states_copy(const struct block *b, real *kept, bool back)
         memcpy(back ? array[k] : kept + k * n, back ? kept + k * n : array[k], (size_t)n * sizeof(real));
 }
 
-/* Returns the incremental energy of the block b from the state `kept` [J], without constants, and updates the state.
- * finite: true for finite strain. */
+/* Returns the incremental energy of the block b from the plastic state `kept`: strain energy plus plastic work [J].
+ * Leaves the plastic state of the end in b. finite: true for finite strain. */
 static real incremental_energy(struct block *b, real *kept, bool finite)
 {
     real sum = 0;
@@ -84,9 +84,9 @@ static int64_t flowed(const struct block *b)
     return n;
 }
 
-/* Checks in `space` f = -dW/du by central differences at some nodes, from a plastic state left by another path. finite:
- * true for finite strain; law: true for the laws of law_block_make. Where a point starts to yield within the step its
- * second derivative jumps, which adds 1e-6 of the largest force. */
+/* Checks in `space` the nodal force f = -dW/du by central differences at some nodes, from a plastic state that another
+ * path has left. finite: true for finite strain; law: true for the laws of law_block_make. Tolerance 1e-5 of the
+ * largest force: where a point starts to yield within the step, the jump of its second derivative adds 1e-6. */
 static void flow_gradient_of(enum space space, bool finite, bool law)
 {
     struct block b;
@@ -130,8 +130,8 @@ static void test_flow_gradient(void **state)
             for (int law = 0; law < 2; law++) flow_gradient_of(flow_spaces[s], finite, law);
 }
 
-/* Checks that points that never reach their yield stress have the forces and energies of the closed forms used for
- * elastic cells. */
+/* Checks that points that never reach their yield stress have the forces and energies of elastic cells, which are
+ * computed by other closed forms. */
 static void test_flow_elastic(void **state)
 {
     (void)state;
@@ -154,8 +154,8 @@ static void test_flow_elastic(void **state)
         }
 }
 
-/* Tests a loading path and its repetition: the second time all points are on the yield surface without further flow;
- * unloading is elastic, and leaves stresses and unchanged plastic work. */
+/* Checks a loading path and its repetition, in which all points are on the yield surface and energy and force stay the
+ * same. A rotation does not change the energy; unloading is elastic, without further plastic strain. */
 static void test_flow_state(void **state)
 {
     (void)state;
@@ -178,9 +178,8 @@ static void test_flow_state(void **state)
     block_free(&b);
 }
 
-/* Checks explicit steps of random motion, to and fro: the mean forces of a step times its displacements are strain
- * energy and plastic work. Finite strains have them along straight paths of the nodes, where the rotation is not
- * linear. */
+/* Checks explicit steps of random motion at small strain. The work of the mean forces of each step on its displacements
+ * must equal strain energy plus plastic work, to round-off, 1e-14 of the sum of magnitudes. */
 static void test_flow_energy(void **state)
 {
     (void)state;

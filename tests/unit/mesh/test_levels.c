@@ -1,6 +1,6 @@
-/* Coarse cells of the reference frame: forces are the gradient of one energy, patches carry uniform strain across
- * levels, changes of levels conserve momentum and affine motion, multirate time stepping conserves energy and momentum
- * below the resonance and not above, and pulses travel as in cells of level 0. */
+/* Tests coarse cells of the reference frame. Forces must be the gradient of one energy. Uniform strain must cause no
+ * force across levels. Changes of levels must conserve momentum and affine motion. Multirate time stepping must
+ * conserve energy and momentum below the resonance only, and pulses must travel as in cells of level 0. */
 #include <omp.h>
 
 #include "src/mesh/levels_parts.h"
@@ -11,8 +11,8 @@
 
 static const enum space spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
 
-/* A block of points with coarse cells except near one corner and along an angled band of cells near its middle: coarse
- * cells adjoin finer ones at convex and concave corners. */
+/* A block of points with coarse cells except near one corner and, on request, in an L-shaped band of cells, so that
+ * coarse cells adjoin finer ones at convex and concave corners. */
 struct plate {
     struct particle_cloud c;
     struct mesh mesh;
@@ -23,7 +23,8 @@ struct plate {
     int64_t step;
 };
 
-/* Marks in demand[] the cells of b that must be of level 0 (the finest): a band (`bend`), or only one end. */
+/* Sets demand[] to 1 in the cells of b that must be of level 0 (the finest): those at one corner and, if `bend`, those
+ * of an L-shaped band. */
 static void demand_mark(const struct plate *b, uint8_t *demand, bool bend)
 {
     const struct grid *g = &b->mesh.grid;
@@ -50,8 +51,8 @@ static void mesh_levels_set(struct plate *b, bool bend)
     memory_free(demand);
 }
 
-/* Creates in `space` the plate b. levels: coarse levels; length: cells along x; parted: true for a second material
- * beyond the middle. */
+/* Creates in `space` the plate b. levels: number of coarse levels; length: number of cells along x; parted: true for a
+ * second material beyond the middle. */
 static void plate_make_of(struct plate *b, enum space space, int levels, int length, bool parted)
 {
     const int dim = space_dim(space), across = dim == 3 ? 40 : 48;
@@ -93,7 +94,7 @@ static void plate_free(struct plate *b)
     particle_cloud_free(&b->c);
 }
 
-/* Returns true if node I of level `level` of l is independent: it has mass. */
+/* Returns true if node I of level `level` of l has mass, so that its motion is independent of other levels. */
 static bool node_free(const struct mesh_levels *l, int level, int64_t I)
 {
     return mesh_levels_mesh_of_level_read_only(l, level)->grid.mass[I] > 0;
@@ -104,7 +105,8 @@ static real place_of(const struct mesh *mesh, int64_t I, int d)
     return grid_node_position(&mesh->grid, d, I / mesh->grid.stride[d] % mesh->grid.count[d]);
 }
 
-/* Sets u, or v if `velocity`, of all nodes of b to A X + c plus a random motion of at most `by`. */
+/* Sets the displacements, or velocities if `velocity`, of all nodes of b to A X + c plus random values of at most
+ * `by`. */
 static void motion_set(struct plate *b, const real A[9], const real *c, real by, bool velocity)
 {
     uint64_t seed = 3;
@@ -143,8 +145,8 @@ static real strain_of(struct plate *b, bool finite)
            mesh_levels_strain_energy_of_coarse_cells(&b->levels, &b->c.p, b->elastic, finite);
 }
 
-/* Returns the force on component d of node I of `level` of b by all cells: of its own level, plus half the doubled one
- * of the next. */
+/* Returns the force on component d of node I of `level` of b by all cells: those of its own level, plus half the
+ * doubled force stored for the next level. finite: true for finite strain. */
 static real force_of(struct plate *b, bool finite, int level, int64_t I, int d)
 {
     const struct grid *g = &mesh_levels_mesh_of_level(&b->levels, level)->grid;
@@ -155,9 +157,9 @@ static real force_of(struct plate *b, bool finite, int level, int64_t I, int d)
     return own + 0.5 * (g->force[d][I] - own);
 }
 
-/* Checks in `space` f = -dW/du by central differences of the energy of all cells, at some nodes of each level.
- * Tolerance 1e-6 of the largest force: third derivatives times the squared step, and round-off of the total energy over
- * the step. */
+/* Checks in `space` the nodal force f = -dW/du by central differences of the energy of all cells, at some nodes of each
+ * level. Tolerance 1e-6 of the largest force: third derivatives times the squared step, and round-off of the total
+ * energy over the step. */
 static void gradient_across(enum space space, bool finite)
 {
     struct plate b;
@@ -212,8 +214,8 @@ static bool on_face(const struct plate *b, int level, int64_t I)
     return face;
 }
 
-/* Checks that inner nodes of a level of b have no force from its own cells and those of the next, to 1e-12 of the
- * forces of single cells. */
+/* Checks that the cells of a level of b and of the next level exert no force on inner nodes, to 1e-12 of the forces of
+ * single cells. finite: true for finite strain. */
 static void patch_level(struct plate *b, bool finite, int level)
 {
     const struct mesh *mesh = mesh_levels_mesh_of_level(&b->levels, level);
@@ -234,7 +236,7 @@ static void patch_level(struct plate *b, bool finite, int level)
     }
 }
 
-/* Checks that uniform strain and rotation cause no force at inner nodes: round-off of forces of cells, 1e-12. */
+/* Checks that uniform strain and rotation cause no force at inner nodes: 1e-12, round-off of the forces of cells. */
 static void test_patch(void **state)
 {
     (void)state;
@@ -266,8 +268,8 @@ static real kinetic_of(const struct plate *b)
     return mesh_kinetic(&b->mesh) + mesh_levels_kinetic_energy_of_coarse_levels(&b->levels);
 }
 
-/* Checks that every change of levels conserves mass and momentum of random motion to round-off, keeps affine motion
- * exactly, and that a split never increases the energy of random motion. */
+/* Checks changes of levels. Mass and momentum of random motion are conserved to round-off, and affine motion exactly. A
+ * change to finer cells never increases the energy of random motion. */
 static void test_changes(void **state)
 {
     (void)state;
@@ -307,9 +309,9 @@ static void test_changes(void **state)
     }
 }
 
-/* ---- steps ------------------------------------------------------------------------------------------------------- */
+/* ---- time steps -------------------------------------------------------------------------------------------------- */
 
-/* Makes n steps of b; finite: with finite strains. */
+/* Performs n time steps of b. finite: true for finite strain. */
 static void steps_make(struct plate *b, int64_t n, bool finite)
 {
     for (int64_t k = 0; k < n; k++, b->step++) {
@@ -320,7 +322,8 @@ static void steps_make(struct plate *b, int64_t n, bool finite)
     }
 }
 
-/* Returns the energy of b between two steps, 1/2 p- . v+ + W, at a time common to all levels. */
+/* Returns the energy of b between two steps, 1/2 p- . v+ + W [J], with momenta p- before and velocities v+ after the
+ * time, which is common to all levels. finite: true for finite strain. */
 static real energy_of(struct plate *b, bool finite)
 {
     const real strain = strain_of(b, finite), before = kinetic_of(b);
@@ -332,9 +335,10 @@ static real energy_of(struct plate *b, bool finite)
     return before + 0.5 * b->dt * (own + power) + strain;
 }
 
-/* Returns how the energy of a bar, or plate, with random velocities grows: that in the last tenth of `rounds` of 96
- * steps over that in the first; INFINITY if a million-fold. share: dt in spacings over wave speed. parted: two
- * materials. *momentum_error: receives the relative change of momentum; NULL: not needed. */
+/* Returns the growth of the energy of a bar or plate with random velocities: the sum over the last tenth of `rounds` of
+ * 96 steps over that of the first tenth, or INFINITY if a million-fold. levels: number of coarse levels; share: time
+ * step in spacings over wave speed; parted: true for two materials. *momentum_error (may be NULL): receives the
+ * relative change of momentum. */
 static real energy_growth(enum space space, int levels, real share, int rounds, bool parted, real *momentum_error)
 {
     struct plate b;
@@ -359,9 +363,9 @@ static real energy_growth(enum space space, int levels, real share, int rounds, 
     return last / first;
 }
 
-/* Tests random velocities over 1e5 steps at 1.4 spacings over wave speed, 0.7 of the critical step: the energy is
- * constant to 0.5 %, the momentum to round-off. Beyond the resonance at pi/2 of the finest cells' period, 1.57, the
- * energy grows without bound. */
+/* Checks bars with random velocities over 1e5 steps of 1.4 spacings over wave speed, 0.7 of the critical step. The
+ * energy is constant to 0.5 % and the momentum to round-off; a plate is checked for 1920 steps to 1 %. Beyond the
+ * resonance, pi/2 spacings over wave speed, the energy of the bar grows: it at least doubles with 1.8. */
 static void test_steps(void **state)
 {
     (void)state;
@@ -375,8 +379,8 @@ static void test_steps(void **state)
     assert_true(energy_growth(SPACE_LINE, 2, 1.8, 1000, false, NULL) > 2);
 }
 
-/* Checks an interface of two materials, where the inertia of cells is not matched, because masses of nodes differ:
- * momentum is conserved to round-off, and the energy is bounded. */
+/* Checks an interface of two materials. The inertia of its cells is not matched, because the masses of their nodes
+ * differ. Momentum is conserved to round-off, and the energy stays bounded. */
 static void test_materials(void **state)
 {
     (void)state;
@@ -391,8 +395,8 @@ static void test_materials(void **state)
 
 /* ---- waves ------------------------------------------------------------------------------------------------------- */
 
-/* Sets in the bar b a pulse of the width `width` (4 Gaussian radii) [spacings], centred at `at` [m], that travels to
- * the right. */
+/* Sets in the bar b a Gaussian pulse with maximum at `at` [m] that travels to the right. width: four standard
+ * deviations [spacings]. */
 static void pulse_set(struct plate *b, real at, real width)
 {
     struct mesh_levels *l = &b->levels;
@@ -411,16 +415,16 @@ static void pulse_set(struct plate *b, real at, real width)
     mesh_levels_copy_motion_to_ghost_nodes(l);
 }
 
-/* Computes u[], the displacement of b at the nodes of level 0. */
+/* Computes u[], the displacement of b at all positions of nodes of level 0. */
 static void profile_of(struct plate *b, real *u)
 {
     mesh_levels_prolong_motion_to_all_finest_nodes(&b->levels);
     memcpy(u, b->mesh.displacement[0], (size_t)b->mesh.grid.n * sizeof *u);
 }
 
-/* Returns the mean-square difference between a pulse of the width `width` that has travelled 190 spacings through cells
- * of `levels` and one in cells of level 0, at their common nodes, over its mean square. matched: false for lumped
- * mass. */
+/* Returns the root mean square difference between two pulses of the width `width` [spacings] after 192 steps, in a bar
+ * with `levels` coarse levels and in one of cells of level 0, at their common nodes. It is divided by the root mean
+ * square of the latter. matched: true for matched inertia, false for lumped mass. */
 static real pulse_difference(int levels, real width, bool matched)
 {
     enum { LENGTH = 640 };
@@ -449,10 +453,9 @@ static real pulse_difference(int levels, real width, bool matched)
     return sqrt(difference / all);
 }
 
-/* Checks the dispersion of coarse cells by pulses: cells of four spacings with matched inertia carry a pulse of 64
- * spacings as those of two within 0.2 %, one of 128 within 0.02 %: the dispersion decreases with the fourth power of
- * the width (measured 0.08 and 0.008 %). With lumped mass the error is 2.4 %, decreasing with the square. With cells of
- * eight spacings after those of four: 2 and 0.1 %. */
+/* Checks the dispersion of coarse cells. Cells of four spacings with matched inertia carry a pulse of 64 spacings as
+ * cells of two do within 0.2 %, one of 128 within 0.02 % (measured 0.08 and 0.008 %): the error decreases with the
+ * fourth power of the width. With lumped mass it is 2.4 %. With cells of eight spacings the limits are 2 and 0.1 %. */
 static void test_dispersion(void **state)
 {
     (void)state;
@@ -463,8 +466,8 @@ static void test_dispersion(void **state)
     assert_true(pulse_difference(2, 128, true) < 0.001);
 }
 
-/* Returns the amplitude of a pulse of the width `width` reflected at an interface to cells of four spacings, over the
- * peak of the pulse. levels: of coarse cells. */
+/* Returns the amplitude of the reflection of a pulse of the width `width` [spacings] at an interface to coarse cells,
+ * divided by the amplitude of the pulse. levels: number of coarse levels. */
 static real reflection(int levels, real width)
 {
     enum { LENGTH = 1600 };
@@ -492,8 +495,8 @@ static real reflection(int levels, real width)
     return back / peak;
 }
 
-/* Checks reflections at an interface to coarse cells: the impedance of lumped cells gives 2.0, 0.6, 0.15 % at 32, 64,
- * 128 spacings for the transition from 2 to 4; the limits are larger by a fifth to a quarter. */
+/* Checks reflections at an interface from cells of two to cells of four spacings. The impedance of lumped cells
+ * predicts 2.0, 0.6 and 0.15 % for pulses of 32, 64 and 128 spacings; the limits are larger by a fifth to a third. */
 static void test_reflection(void **state)
 {
     (void)state;

@@ -1,14 +1,14 @@
-/* Mesh of the reference frame compared with plain sums over its points: forces are the exact gradient of the energy,
- * patches carry uniform strain, rotation causes no force, momentum and angular momentum are conserved, converted points
- * take their share, the critical step is that of the mesh, and velocity updates have the inertia of matched cells. */
+/* Tests the mesh of the reference frame against plain sums over its points. Forces must be the gradient of the energy;
+ * uniform strain and rotation must cause no force; momenta must be conserved. Also checks conversion of points, the
+ * critical time step, and velocity updates with the matched inertia of cells. */
 #include "tests/support/mesh_block.h"
 
 #include "coupling/conversion.h"
 
-/* f = -dW/du by central differences of the plain energy of the cells around a node. Tolerance 1e-7 of the largest
- * force: third derivatives times the squared step, and round-off of the energy over the step. */
-/* Checks in `space` the nodal forces of a block against the energy gradient. cubic: true for a cubic material;
- * averaged: 1: with one dilatation in a cell, 2: and with several materials in it. */
+/* Checks in `space` the nodal forces of a block, f = -dW/du, by central differences of the plain energy of the cells
+ * around each node. finite: true for finite strain; cubic: true for a cubic material; averaged: 1: the points of a cell
+ * share one mean dilatation, 2: also with several materials in a cell. Tolerance 1e-7 of the largest force: third
+ * derivatives times the squared step, and round-off of the energy over the step. */
 static void gradient_stencil_apply(enum space space, bool finite, bool cubic, int averaged)
 {
     struct block b;
@@ -57,8 +57,8 @@ static void test_gradient(void **state)
         }
 }
 
-/* Checks that the closed form of complete cells and the stiffness of cut ones equal the same sums over points, to
- * round-off. */
+/* Checks that the closed form of complete cells and the stiffness of incomplete ones equal the sums over their points,
+ * to round-off. */
 static void test_whole_and_cut(void **state)
 {
     (void)state;
@@ -90,8 +90,8 @@ static void test_whole_and_cut(void **state)
         }
 }
 
-/* Computes P, the stress that point i of b transfers at small strain by its own motion: C : e minus the part carried by
- * bonds (`partial`), without its antisymmetric part; e has the trace of point_trace. */
+/* Computes P, the stress that point i of b contributes at small strain by its own motion: C : e minus the part carried
+ * by bonds (`partial`), without its antisymmetric part. e is the strain with the trace of point_trace. */
 static void given_own(const struct block *b, const struct partial_stress *partial, int64_t i, real *P)
 {
     const struct mesh *mesh = &b->mesh;
@@ -120,8 +120,8 @@ static void given_own(const struct block *b, const struct partial_stress *partia
     }
 }
 
-/* Computes P, the stress that point i of b transfers: that of given_own, whose mean stress is the mean over the points
- * of its cell and material if they have one dilatation. partial: partial stresses. */
+/* Computes P, the stress that point i of b contributes at small strain. As given_own, but the mean stress is the mean
+ * over the points of the cell and material where these share one dilatation. partial: partial stresses. */
 static void given(const struct block *b, const struct partial_stress *partial, int64_t i, real *P)
 {
     const struct particles *p = &b->c.p;
@@ -139,8 +139,9 @@ static void given(const struct block *b, const struct partial_stress *partial, i
     for (int d = 0; d < p->dim && n > 0; d++) P[d * (p->dim + 1)] += pressure / n - own;
 }
 
-/* Compares forces of cells with own stiffness with a random partial stress that derives from an energy with sums of V P
- * grad N over points: round-off of a few hundred terms. Later changes are followed cell by cell. */
+/* Compares nodal forces of cells that store their own stiffness with sums of V P grad N over points, for a random
+ * partial stress that derives from an energy. Tolerance: round-off of a few hundred terms. The stiffness is also
+ * updated for single points whose partial stress changes. */
 static void test_partial(void **state)
 {
     (void)state;
@@ -188,8 +189,8 @@ static void test_partial(void **state)
     }
 }
 
-/* Checks that uniform strain causes no force inside, for complete and cut cells: round-off of sums of stresses times
- * faces. Inner nodes are those whose neighbours all have their full mass. */
+/* Checks that uniform strain causes no force at inner nodes, for complete and incomplete cells, up to round-off of sums
+ * of stresses times faces. Inner nodes are those whose neighbours all have their full mass. */
 static void test_patch(void **state)
 {
     (void)state;
@@ -214,8 +215,8 @@ static void test_patch(void **state)
         }
 }
 
-/* Checks that a rotation causes no force at finite strain, and that no displacement causes a resultant force or moment
- * on the whole body: 1e-13 of the terms. At small strain the resultant force vanishes, but not the moment. */
+/* Checks that a rotation causes no force at finite strain, and that any displacement causes neither a resultant force
+ * nor a moment on the whole body, to 1e-13 of the terms. At small strain only the resultant force vanishes. */
 static void test_momentum(void **state)
 {
     (void)state;
@@ -248,8 +249,8 @@ static void test_momentum(void **state)
         }
 }
 
-/* Checks that least squares reproduce linear fields at nodes, and at the points again: tolerance of the residual times
- * the condition number of the mass matrix. */
+/* Checks that the least-squares projection from points to nodes reproduces a linear velocity field at the nodes.
+ * Tolerance: residual of the solver times the condition number of the mass matrix. */
 static void test_start(void **state)
 {
     (void)state;
@@ -270,7 +271,8 @@ static void test_start(void **state)
     }
 }
 
-/* Checks that converted points take their share of mass and momentum; the remainder is the mesh of the other points. */
+/* Checks points that become peridynamic: mass, momentum and energy of points and nodes add up to those before, and the
+ * nodes that remain equal those of a mesh made of the other points. */
 static void test_release(void **state)
 {
     (void)state;
@@ -304,8 +306,9 @@ static void test_release(void **state)
     }
 }
 
-/* Checks critical steps against closed forms: complete cells of 2 D in plane stress, nu = 1/3, are stable to 2 D/c, a
- * single point in a cell to 1.5 D/c: omega^2 = 16/3 (1 + nu) c^2/h^2. In a bar: h/c. */
+/* Checks critical time steps against closed forms for cells of h = 2 spacings D. The highest mode is that of a cell
+ * with a single point: omega^2 = 16/3 (1 + nu) c^2/h^2 in plane stress, nu = 1/3, i.e. a step of 1.5 D/c (complete
+ * cells: 2 D/c). In a bar omega^2 = 16/3 c^2/h^2, a step of sqrt(3) D/c. */
 static void test_step(void **state)
 {
     (void)state;
@@ -325,7 +328,8 @@ static void test_step(void **state)
     block_free(&b);
 }
 
-/* Checks that points that do not form a lattice of two points per cell are refused, with the position. */
+/* Checks that points that do not form a lattice of two points per cell and axis are refused with a message that has a
+ * position. */
 static void test_refused(void **state)
 {
     (void)state;
@@ -350,9 +354,9 @@ static void test_refused(void **state)
 
 enum { EDGE = 4, NODES = EDGE * EDGE * EDGE };
 
-/* Returns a . (L - C) a of a cell of unit mass with corner values a[2^dim], with lumped mass matrix L and consistent
- * one C: L a divides a by 2^dim, C a by a factor 3 or 6 for each axis along which two corners are equal or
- * different. */
+/* Returns a . (L - C) a for a cell of unit mass with corner values a[2^dim], lumped mass matrix L and consistent mass
+ * matrix C. L divides each value by 2^dim; C also weights a pair of corners by 1/3 (equal) or 1/6 (different) for each
+ * axis. */
 static real plain_form(int dim, const real *a)
 {
     real sum = 0;
@@ -365,8 +369,8 @@ static real plain_form(int dim, const real *a)
     return sum;
 }
 
-/* Checks the kinetic energy of a velocity update with matched inertia, for random forces and masses, with some cells of
- * a second material and some not matched: dt^2/4 (f^2/m + match M a . (L - C) a) with a = f/m, to round-off. */
+/* Checks the kinetic energy of a velocity update with matched inertia for random forces and masses: dt^2/4 (f^2/m +
+ * match M a . (L - C) a) with a = f/m, to round-off. Some cells have a second material, and some are not matched. */
 static void test_matched_kick(void **state)
 {
     (void)state;

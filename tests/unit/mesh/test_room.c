@@ -1,5 +1,5 @@
-/* Largest level of coarse cells from the thickness of the body: plates, strips, tubes, wedges, slits, half bodies with
- * a mirror. */
+/* Tests the coarsest admissible level of cells, which follows from the thickness of the body, for plates, strips,
+ * tubes, wedges, slits and halves of bodies beside a mirror. At least six cells must fit across the thickness. */
 #include "tests/support/near.h"
 
 #include "base/memory.h"
@@ -9,7 +9,7 @@
 #define EDGE 0.4e-3 /* of a cell [m] */
 enum { MARGIN = 2 };
 
-/* A box of cells inside the body. */
+/* A rectangular body of cells, and room[], the coarsest admissible level of each cell. */
 struct body {
     struct mesh mesh;
     uint8_t *room;
@@ -53,8 +53,8 @@ static int64_t cell_at(const struct body *b, int x, int y, int z)
     return I;
 }
 
-/* Returns the highest level for which six cells fit across `thick` cells of level 0, with half a cell of that level as
- * tolerance. */
+/* Returns the highest level for which six cells fit across `thick` cells of level 0, where one cell of level 0 may be
+ * missing. */
 static int level_for(int thick)
 {
     int level = 0;
@@ -62,7 +62,8 @@ static int level_for(int thick)
     return level;
 }
 
-/* Checks the thickness found in plates in 3D and strips in 2D: equal everywhere, for any length. */
+/* Checks plates in 3D and strips in 2D of any thickness: the level is equal in all cells and follows from the smallest
+ * dimension. */
 static void plates_and_strips(void **state)
 {
     (void)state;
@@ -80,7 +81,7 @@ static void plates_and_strips(void **state)
         }
 }
 
-/* Checks a square tube: the thickness of its wall counts, not its width. */
+/* Checks a square tube, whose level must follow from the thickness of its wall and not from its width. */
 static void tubes(void **state)
 {
     (void)state;
@@ -95,7 +96,8 @@ static void tubes(void **state)
     }
 }
 
-/* Checks a wedge, one cell higher every four: level L where a square of its size fits, up to its own length beyond. */
+/* Checks a wedge whose height increases by one cell every four cells. A level is admissible in the columns that a
+ * square of its size which fits into the wedge can cover. */
 static void wedges(void **state)
 {
     (void)state;
@@ -114,8 +116,8 @@ static void wedges(void **state)
     body_free(&b);
 }
 
-/* Checks that half of a strip beside a plane of symmetry has the thickness of the whole, and that a slit in the middle
- * halves it. */
+/* Checks half of a strip beside a plane of symmetry, which must have the level of the whole strip, and a strip with a
+ * slit in its middle, which must have the level of half its height. */
 static void mirrors_and_slits(void **state)
 {
     (void)state;

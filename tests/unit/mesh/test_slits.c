@@ -1,17 +1,17 @@
-/* Slits of the mesh: free surfaces between points. Forces are the gradient of the energy of the points, momentum is
- * conserved, masses are those of the points, a slit along the load has no effect, one across it transmits nothing, and
- * points can leave and return. */
+/* Tests slits of the mesh, i.e. free surfaces between points. Forces must be the gradient of the energy of the points,
+ * momentum must be conserved, and nodal masses must add up to those of the points. A slit along the load must have no
+ * effect, one across it must transmit nothing. Points can be removed and inserted again. */
 #include "tests/support/mesh_block.h"
 
-/* Slits of the block: between cells of two spacings, inside cells, oblique, and an end inside the block. Cells begin
- * half a spacing before the first particle. */
+/* Slits of the block, whose cells are two spacings wide: along a face of cells, through the middle of cells,
+ * oblique. */
 enum slit_kind { BETWEEN_CELLS, INSIDE_CELLS, OBLIQUE, SLITS };
 
 static real slit_corner[4][DIM_MAX];
 static struct crack slit_made;
 
-/* Returns a slit of kind `kind` from x = -1 to `to`, at height y; oblique: higher by this amount at its end. All in
- * spacings from the corner of the block b. In 3D through the whole thickness. */
+/* Returns a slit of kind `kind` from x = -1 to x = `to` [spacings from the corner of the block b]. An oblique slit
+ * rises by 3.1 spacings. In 3D it extends through the whole thickness. The result is valid until the next call. */
 static const struct crack *slit_of(const struct block *b, enum slit_kind kind, real to)
 {
     const struct grid *g = &b->mesh.grid;
@@ -26,7 +26,7 @@ static const struct crack *slit_of(const struct block *b, enum slit_kind kind, r
     return &slit_made;
 }
 
-/* Creates the block with a slit. */
+/* Creates in `space` the block b with a slit of kind `kind` to x = `to` (slit_of). hole: as in block_make. */
 static void slit_block(struct block *b, enum space space, enum slit_kind kind, real to, bool hole)
 {
     block_make(b, space, hole, false);
@@ -61,8 +61,8 @@ static real point_mass(const struct block *b)
     return sum;
 }
 
-/* Checks that two points separated by a slit through the block share no cell and no node; masses are those of the
- * points. */
+/* Checks that two points separated by a slit through the block share no cell and no node, and that the masses of nodes
+ * add up to those of points. */
 static void test_parts(void **state)
 {
     (void)state;
@@ -92,8 +92,8 @@ static void test_parts(void **state)
         }
 }
 
-/* Checks forces on some of the doubled nodes by central differences of the energy of all points. Tolerance 1e-5 of the
- * largest force: third derivatives times the squared step, and round-off of the sum over the step. */
+/* Checks forces on some of the nodes duplicated by slits, by central differences of the energy of all points. Tolerance
+ * 1e-5 of the largest force: third derivatives times the squared step, and round-off of the sum over the step. */
 static void test_gradient(void **state)
 {
     (void)state;
@@ -141,8 +141,8 @@ static real residual(const struct block *b, real stress)
     return most / (stress * mesh->volume / CLOUD_SPACING);
 }
 
-/* Checks uniaxial tension along the slit, u = e x, -nu e y (, z): no force on its free faces; in plane stress and 3D
- * the stress is E e along x only. */
+/* Checks uniaxial tension along the slit, u = e x, -nu e y (and z): no force on its free faces. In plane stress and 3D
+ * the only stress is E e along x. */
 static void test_patch(void **state)
 {
     (void)state;
@@ -160,7 +160,7 @@ static void test_patch(void **state)
         }
 }
 
-/* Checks that a slit through the block separates it: motion of one side causes no force on the other. */
+/* Checks that a slit through the block separates it: a displacement of one side causes no force and no energy. */
 static void test_loose(void **state)
 {
     (void)state;
@@ -181,9 +181,8 @@ static void test_loose(void **state)
         }
 }
 
-/* Checks that a linear field is projected exactly to the nodes of both sides, and a jump across a slit through the
- * block to 1e-12. Points that leave take their mass; when they are inserted again they return it, with their
- * displacement. */
+/* Checks that a linear field with a jump across a slit is projected to the nodes of both sides to 1e-12. Points that
+ * are removed reduce the mass of nodes; points that are inserted again restore mass and displacements. */
 static void test_points(void **state)
 {
     (void)state;

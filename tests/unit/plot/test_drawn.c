@@ -1,4 +1,4 @@
-/* Tests of what a map shows of graded lists, long rigid bodies and narrow cracks. */
+/* Tests drawing of particle lists with two spacings, of long rigid bodies, and of narrow cracks, by counting pixels. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,7 +13,8 @@
 
 enum { PIXELS = 120, FINE = 8 * PIXELS };
 
-/* Paints `plotted` into a square of 2 x `half` around 0 [m]. Returns the number of pixels with a particle. */
+/* Paints `plotted` into a picture of a square of edge 2 x `half` around the origin [m]. Returns the number of pixels
+ * with a particle. */
 static int painted_around(const struct plotted_particles *plotted, double half)
 {
     struct colour *pixel = NEW("test.pixel", PIXELS * PIXELS, struct colour);
@@ -25,8 +26,8 @@ static int painted_around(const struct plotted_particles *plotted, double half)
     return painted;
 }
 
-/* Moves the particles of the block f of 20 x 30 on the left of the middle to a lattice of half the spacing, which is as
- * high as 10 rows, and the others to 10 rows beside it. Leaves f->n of them. */
+/* Rearranges the block f of 20 x 30 particles as a graded list: 20 x 20 at half the spacing left of the middle, 10 x 10
+ * at the full spacing right of it. Sets f->n to their number. */
 static void block_grade(struct output_frame *f)
 {
     int64_t n = 0;
@@ -36,8 +37,8 @@ static void block_grade(struct output_frame *f)
     f->n = n;
 }
 
-/* Checks that a list whose left half has half the spacing is drawn without gaps, and hardly larger than it is. The same
- * particles without a list are of one size. */
+/* Checks that a list whose left half has half the spacing is drawn without gaps and within 3 % of its area. Without a
+ * list in the scene, the same particles are drawn with one size. */
 static void graded_lists_are_closed(void **state)
 {
     (void)state;
@@ -59,8 +60,8 @@ static void graded_lists_are_closed(void **state)
     plotted_particles_free(&c), frame_free(&f);
 }
 
-/* Checks that pictures of one frame and of six show the same part of a rigid plate much longer than the body, and that
- * a section of a solid that the plate misses is no larger for it. */
+/* Checks that pictures of one frame and of six show the same section of a rigid plate much longer than the body. A
+ * section through a solid that misses the plate is not enlarged by it. */
 static void long_rigid_bodies_are_cut_off(void **state)
 {
     (void)state;
@@ -84,8 +85,8 @@ static void long_rigid_bodies_are_cut_off(void **state)
     }
 }
 
-/* Checks that a crack of 0.16 spacings through broken bonds is open as wide as it is, and that a pre-crack in its
- * place, whose faces are lines on the body, is also open at 0.08 spacings. */
+/* Checks that a crack through broken bonds that opens by 0.16 spacings is drawn with that width. A pre-crack at the
+ * same position, whose faces are drawn as lines, is drawn open from 0.08 spacings. */
 static void narrow_cracks_are_open(void **state)
 {
     (void)state;
@@ -115,8 +116,8 @@ static void narrow_cracks_are_open(void **state)
     memory_free(pixel);
 }
 
-/* Checks that a crack that opens by less than a pixel, 0.1 to 0.4 spacings of 2.1 pixels a spacing, is no dotted line:
- * no pixel is blank, whereas at eight times the resolution some are. */
+/* Checks a crack that opens by 0.1 to 0.4 spacings, less than a pixel at 2.1 pixels per spacing. No pixel is blank, so
+ * that it does not look dotted; at eight times the resolution many pixels are. */
 static void gaps_below_a_pixel_are_closed(void **state)
 {
     (void)state;
@@ -138,8 +139,8 @@ static void gaps_below_a_pixel_are_closed(void **state)
     memory_free(pixel), plotted_particles_free(&c), frame_free(&f);
 }
 
-/* Checks that both faces of an oblique pre-crack that opens by 1.5 spacings are straight: the pixels between them are
- * blank, and the body has no other gap. */
+/* Checks that both faces of an oblique pre-crack that opens by 1.5 spacings are drawn straight. The area of blank
+ * pixels between them is right to 5 %, and fewer than five pixels elsewhere are wrong. */
 static void oblique_cracks_are_open(void **state)
 {
     (void)state;

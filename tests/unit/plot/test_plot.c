@@ -1,4 +1,4 @@
-/* Tests of pictures through the numbers that are drawn. */
+/* Tests pictures by the values and pixels that are drawn. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -53,7 +53,7 @@ static void unknown_fields_are_refused(void **state)
     assert_int_equal(plot_field_find_by_name(&field, "stress_yy", 1), REFUSED);
 }
 
-/* Checks that the key of rigid bodies has their colour also where bodies are faded behind cracks. */
+/* Checks that the legend colour of rigid bodies is lighter in pictures of cracks, where bodies are faded. */
 static void rigid_bodies_are_faded_behind_cracks(void **state)
 {
     (void)state;
@@ -61,7 +61,7 @@ static void rigid_bodies_are_faded_behind_cracks(void **state)
     assert_true(faded.red > full.red + 50 && faded.green > full.green + 50 && faded.blue > full.blue + 50);
 }
 
-/* Checks that vectors mean their component along a bar in all its pictures; elsewhere the label says magnitude. */
+/* Checks that a vector field is its component along the axis for a bar, and its magnitude in other spaces. */
 static void labels_say_component_or_magnitude(void **state)
 {
     (void)state;
@@ -82,7 +82,7 @@ static void labels_say_component_or_magnitude(void **state)
     }
 }
 
-/* Checks the index of the component for a name, in the order of frames: normal components first, then xy, yz, zx. */
+/* Checks the component index that belongs to a field's name, in the order of frames: xx, yy, zz, then xy, yz, zx. */
 static void fields_name_components(void **state)
 {
     (void)state;
@@ -113,8 +113,8 @@ static void fields_name_components(void **state)
     }
 }
 
-/* Checks that the default slice is that with the largest damage, not the middle one; in an undamaged body the one
- * nearest to the middle. */
+/* Checks that the default slice through a solid is that with the largest damage, else the one nearest to the middle. A
+ * requested position selects the nearest layer, or is refused outside the body. */
 static void slices_show_damage(void **state)
 {
     (void)state;
@@ -140,8 +140,8 @@ static void slices_show_damage(void **state)
     frame_free(&f);
 }
 
-/* Checks that among layers with damage equal within 2 % the one nearest to the middle is used; one with 0.9 of the
- * largest damage, still nearer, is not. Points of several sizes have the spacing of the smallest. */
+/* Checks that among slices whose damage is within 2 % of the largest the one nearest to the middle is used; a slice
+ * with 0.9 of the largest damage is not. Also checks that the spacing of a frame with several sizes is the smallest. */
 static void slices_are_near_the_middle(void **state)
 {
     (void)state;
@@ -157,7 +157,7 @@ static void slices_are_near_the_middle(void **state)
     frame_free(&f);
 }
 
-/* Checks that axes have the SI prefix for which numbers are between 1 and 1000. */
+/* Checks that axes have the SI prefix with which their numbers are between 1 and 1000. */
 static void axes_have_prefixes(void **state)
 {
     (void)state;
@@ -180,7 +180,7 @@ static void axes_have_prefixes(void **state)
     assert_string_equal(unit_with_si_prefix_if_unit_allows_it("kg/m³", 2440).name, "kg/m³");
 }
 
-/* Checks that units of results in files are shown as those of fields and curves are, with a prefix. */
+/* Checks that units of results from files are shown with SI prefixes, as those of fields and curves are. */
 static void units_of_files_are_shown_alike(void **state)
 {
     (void)state;
@@ -198,7 +198,7 @@ static void units_of_files_are_shown_alike(void **state)
     }
 }
 
-/* Checks that a distant particle changes neither rectangle nor range of colours, and is counted as outside. */
+/* Checks that a distant particle, counted as outside, changes neither the drawn rectangle nor the colour range. */
 static void one_particle_sets_no_scale(void **state)
 {
     (void)state;
@@ -228,7 +228,7 @@ static void one_particle_sets_no_scale(void **state)
 
 enum { PIXELS = 120 };
 
-/* Checks that an axial view of a block is a rectangle; cracks inside it are visible through the body. */
+/* Checks that the axial view of a block is a rectangle, and that cracks inside are visible through the body. */
 static void solids_are_seen_from_outside(void **state)
 {
     (void)state;
@@ -252,7 +252,8 @@ static void solids_are_seen_from_outside(void **state)
     memory_free(pixel), plotted_particles_free(&c), frame_free(&f);
 }
 
-/* Displaces the block f by u = H X, H = F - 1, in two dimensions; the part above the middle also by `open` [m]. */
+/* Displaces the block f in 2D by u = H X with H = F - 1, the part above the middle by `open` along y in addition
+ * [m]. */
 static void block_deform(struct output_frame *f, const double H[2][2], double open)
 {
     for (int64_t i = 0; i < f->n; i++)
@@ -260,7 +261,8 @@ static void block_deform(struct output_frame *f, const double H[2][2], double op
             f->u[d][i] = (float)(H[d][0] * f->X[0][i] + H[d][1] * f->X[1][i] + (d == 1 && f->X[1][i] > 0 ? open : 0));
 }
 
-/* Counts the pixels *painted of `plotted` with a particle and *blank without in a square of 2 x `half` around 0 [m]. */
+/* Counts the pixels of a square of edge 2 x `half` around the origin [m] *painted with a particle and *blank
+ * without. */
 static void pixels_count(const struct plotted_particles *plotted, double half, int *painted, int *blank)
 {
     struct colour *pixel = NEW("test.pixel", PIXELS * PIXELS, struct colour);
@@ -271,7 +273,7 @@ static void pixels_count(const struct plotted_particles *plotted, double half, i
     memory_free(pixel);
 }
 
-/* Checks ends of the colours that are asked for, with units; what is beyond them is counted, also of the usual ends. */
+/* Checks colour ranges set by the user, with units; values outside are counted, also outside the default range. */
 static void ends_of_colours_are_counted(void **state)
 {
     (void)state;
@@ -294,8 +296,8 @@ static void ends_of_colours_are_counted(void **state)
     plotted_particles_free(&c), memory_free(value), frame_free(&f);
 }
 
-/* Returns the upper end of the colours of a field of 1000 particles with the values 1 to 2, except the first `spots`
- * ones, which have the value `spot`, and the last `rest` ones, which have none. */
+/* Returns the upper end of the colour range of `field` with 1000 particles. The first `spots` particles have the value
+ * `spot`, the last `rest` have 0, and the others have values from 1 to 2. */
 static double end_of_colours(const char *field, int spots, double spot, int rest)
 {
     struct output_frame f = block_make(40, 25, 1, 2);
@@ -312,8 +314,8 @@ static double end_of_colours(const char *field, int spots, double spot, int rest
     return v.high;
 }
 
-/* Checks that a hot spot of 0.8 % of the particles does not take the colours of the others; with a single sign of a
- * field of both, too. A small part of the body that yields has all colours, not only the last one. */
+/* Checks that extreme values at 0.8 % of the particles do not determine the colour range, also in a field of both
+ * signs. A small yielded part of a body does determine the range of plastic strain. */
 static void hot_spots_leave_colours(void **state)
 {
     (void)state;
@@ -324,8 +326,8 @@ static void hot_spots_leave_colours(void **state)
     assert_true(end_of_colours("plastic_strain", 40, 3, 900) > 2.9);
 }
 
-/* Checks that a body stretched by 30 %, sheared or turned has no gap inside; its area is that of the body times det F,
- * but for a tenth of a spacing at each edge. Without bonds across the middle a gap as wide as it opens is blank. */
+/* Checks that a body that is stretched by 30 %, sheared or rotated is drawn without gaps, with its area times det F
+ * plus at most 3 % for the edges. If bonds across the middle are broken, the gap is blank over its whole width. */
 static void stretched_bodies_are_closed(void **state)
 {
     (void)state;
@@ -350,7 +352,7 @@ static void stretched_bodies_are_closed(void **state)
     }
 }
 
-/* Checks that a solid that is stretched by 50 % along x is 15 spacings wide from outside, and closed. */
+/* Checks that a solid stretched by 50 % along x is drawn 15 spacings wide from outside, without gaps. */
 static void stretched_solids_are_closed(void **state)
 {
     (void)state;
@@ -380,9 +382,8 @@ static int columns_with_line(const struct colour *pixel, int size)
     return columns;
 }
 
-/* Checks that a slit of a mesh, which causes no damage, is a line that ends at the body's edge and opens where it does.
- * Its faces are lines over 12 of 30 spacings, opened or not, also with less than a pixel a spacing, 2.5 km from the
- * origin. They are where rows of particles part, which a slit beside the middle is not. */
+/* Checks a slit of the mesh, which causes no damage. It is drawn as a line from the edge of the body to its tip, and as
+ * a wedge where it opens, over 12 of 30 spacings at any resolution. The body is 2.5 km from the origin. */
 static void slits_are_lines_of_the_body(void **state)
 {
     (void)state;
@@ -418,8 +419,8 @@ static void slits_are_lines_of_the_body(void **state)
     memory_free(pixel);
 }
 
-/* Checks a rigid brick of 4 x 2 spacings that has moved and turned by 90 degrees beside a block: its area in pixels and
- * where it is, in a flat map and, as a solid, from outside; the picture grows to show it. */
+/* Checks a rigid brick of 4 x 2 spacings, moved and rotated by 90 degrees, beside a block: its area in pixels and its
+ * position, in a flat picture and from outside. The picture is enlarged to show it. */
 static void rigid_bodies_are_shown(void **state)
 {
     (void)state;
@@ -453,7 +454,7 @@ static void rigid_bodies_are_shown(void **state)
     memory_free(pixel);
 }
 
-/* Checks that axes of every view are right-handed unit vectors. */
+/* Checks that the axes of every view are right-handed unit vectors. */
 static void cameras_are_right_handed(void **state)
 {
     (void)state;
@@ -466,8 +467,8 @@ static void cameras_are_right_handed(void **state)
     }
 }
 
-/* Checks that colour scales of quantities have increasing lightness, so that their order is visible in grey print and
- * with any colour vision. */
+/* Checks that the lightness of each colour scale of a quantity increases, so that its order is visible in grey print
+ * and with any colour vision. */
 static void colours_keep_their_order(void **state)
 {
     (void)state;
