@@ -1,4 +1,4 @@
-/* Tests of checkpoints: restored data, and effects of damage, kills and a full disk. */
+/* Tests checkpoints: restored state, and the effects of damaged bytes, of a kill while writing, and of a full disk. */
 #include <errno.h>
 #include <fcntl.h>
 #include <omp.h>
@@ -35,7 +35,7 @@ static void assert_message(const char *part)
     if (!strstr(status_message(), part)) fail_msg("message \"%s\" lacks \"%s\"", status_message(), part);
 }
 
-/* State of a test object: a counter, an array whose length must be known first, an empty array. */
+/* State of a test object: a step counter, an array whose length must be known before it is read, and an empty array. */
 struct toy {
     struct output *out;
     int64_t step, n;
@@ -48,7 +48,7 @@ static status toy_archive(void *context, struct archive *a)
     struct toy *toy = context;
     toy->calls++;
     ARCHIVE_VALUE(a, "toy/step", toy->step);
-    ARCHIVE_VALUE(a, "toy", toy->n); /* a name that begins as the others do: no conflict */
+    ARCHIVE_VALUE(a, "toy", toy->n); /* a prefix of the other names: no conflict */
     if (!a->saving) {
         int64_t size = a->stored_size(a, "toy/value");
         if (size != toy->n * (int64_t)sizeof(real))
@@ -75,7 +75,7 @@ static void toy_check(const struct toy *toy, int64_t step, int64_t n)
     for (int64_t i = 0; i < n; i++) assert_true(toy->value[i] == (real)(i * step));
 }
 
-/* Writes a checkpoint of the test's object of n numbers to the output o at the step `step`. Returns the status of the
+/* Writes a checkpoint of the test object with n numbers to the output o at the step `step`. Returns the status of the
  * write. */
 static status write_step(struct output *o, int64_t step, int64_t n)
 {
@@ -85,7 +85,7 @@ static status write_step(struct output *o, int64_t step, int64_t n)
     return s;
 }
 
-/* Restores the checkpoint of the output o into a new object of n numbers and asserts that it is the state of step
+/* Restores the checkpoint of the output o into a new object with n numbers, and asserts that its state is that of step
  * `step`. */
 static void assert_resumes_at(const struct output *o, int64_t step, int64_t n)
 {
@@ -97,7 +97,7 @@ static void assert_resumes_at(const struct output *o, int64_t step, int64_t n)
     output_close(&other);
 }
 
-/* Asserts that no checkpoint of the output o is accepted and that no byte of one reaches the state. */
+/* Asserts that no checkpoint of the output o is accepted, and that no byte of one reaches the state. */
 static void assert_not_restored(const struct output *o)
 {
     struct output other = {0};
@@ -128,7 +128,8 @@ static void flip(const char *path, int64_t at)
 
 /* ---- restored data ----------------------------------------------------------------------------------------------- */
 
-/* Checks that a checkpoint restores the state of a run and of its output, and that there is none before. */
+/* Checks that a checkpoint restores the state of a run and of its output, and that none is found before the first
+ * one. */
 static void state_comes_back(void **state)
 {
     (void)state;
@@ -156,7 +157,7 @@ static void state_comes_back(void **state)
     output_close(&o);
 }
 
-/* Checks that HDF5 opens a checkpoint although it has a footer. */
+/* Checks that HDF5 opens a checkpoint although a checksum footer follows its data. */
 static void hdf5_ignores_the_footer(void **state)
 {
     (void)state;
@@ -175,7 +176,7 @@ static void hdf5_ignores_the_footer(void **state)
 
 /* ---- damage ------------------------------------------------------------------------------------------------------ */
 
-/* Checks that a checkpoint with one changed byte, at 4000 places and each of the last 100, is refused. */
+/* Checks that a checkpoint with one changed byte is refused, for 4000 offsets and each of the last 100. */
 static void every_flip_is_found(void **state)
 {
     (void)state;
@@ -207,8 +208,8 @@ static void every_truncation_is_found(void **state)
     output_close(&o);
 }
 
-/* Redirects standard error to a file during a restore of step `step` of the output o and returns its contents, to be
- * freed. n: as in assert_resumes_at. */
+/* Restores step `step` of the output o with standard error redirected to a file. Returns the contents of this file, to
+ * be freed. n: as in assert_resumes_at. */
 static char *said_by_resume(const struct output *o, int64_t step, int64_t n)
 {
     char *text;
@@ -236,7 +237,7 @@ static void older_checkpoint_stands_in(void **state)
     assert_non_null(strstr(said, "older/checkpoint.h5 is damaged"));
     assert_non_null(strstr(said, "resuming from checkpoint.previous.h5"));
     memory_free(said);
-    /* The damaged file is renamed: the next checkpoint keeps the whole one. */
+    /* The damaged file is renamed, so that the next checkpoint does not replace the valid older one. */
     assert_int_equal(write_step(&o, 7, 100), OK);
     unlink("older/checkpoint.h5"); /* as after a kill between the two renames */
     said = said_by_resume(&o, 5, 100);
@@ -278,7 +279,7 @@ static void other_scenes_are_refused(void **state)
     output_close(&o);
 }
 
-/* Saves the state of a valid file, with the right footer, of a future format. */
+/* Saves the state in a valid file with a correct footer but a format version of the future. */
 static status future_archive(void *context, struct archive *a)
 {
     int32_t version = 1000;
@@ -325,8 +326,8 @@ static void fault_of_a_module_loses_nothing(void **state)
 
 /* ---- a full disk ------------------------------------------------------------------------------------------------- */
 
-/* Runs in a child process: every write to the output o must fail without a crash; returns the number of the first
- * violated expectation, 0 if none is. frame_first: true to write a frame before the checkpoint. */
+/* Checks in a child process that every write to the output o fails without a crash. frame_first: true to write a frame
+ * before the checkpoint. Returns the number of the first violated expectation, or 0. */
 static int write_to_full_disk(struct output *o, bool frame_first)
 {
     struct particles p;

@@ -1,4 +1,5 @@
-/* Tests of reading results: summary.json, history.csv, `cleave compare`, `cleave plot`. */
+/* Tests reading of results: summary.json, history.csv, the commands `cleave compare` and `cleave plot`, results of
+ * LAMMPS. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -123,8 +124,8 @@ static void unsound_files_are_refused(void **state)
 
 /* ---- history.csv ------------------------------------------------------------------------------------------------- */
 
-/* Checks that columns of a history are found by name, also by earlier names, and that an incomplete line is left
- * out. */
+/* Checks that columns of a history are found by their names, also by previous names, and that an incomplete last line
+ * is ignored. */
 static void history_is_read_by_name(void **state)
 {
     (void)state;
@@ -153,9 +154,9 @@ static void history_is_read_by_name(void **state)
     assert_int_equal(history_read(&h, "history"), FAILED);
 }
 
-/* ---- runs -------------------------------------------------------------------------------------------------------- */
+/* ---- comparison of runs ------------------------------------------------------------------------------------------ */
 
-/* Sets p to a square plate whose right half is displaced by `gap`; `shift` is added to every displacement. */
+/* Sets p to a square plate whose right half is displaced by `gap` [m]; `shift` is added to every displacement [m]. */
 static void fill_plate(struct particles *p, double gap, double shift)
 {
     particles_make(p, 2, SIDE * SIDE, 0);
@@ -193,7 +194,7 @@ static void write_run(const char *folder, double shift, double loop_seconds, dou
               "0,0,0,0,0.1,0\n2e-6,20,2,1e-6,0.2,1e-3\n");
 }
 
-/* Runs command(argc, argv) and stores what it prints in printed[]. Returns its status. */
+/* Runs command(argc, argv) and stores its standard output in printed[]. Returns the status of the command. */
 static status run(status (*command)(int, char **), int argc, char **argv, char *printed)
 {
     fflush(stdout);
@@ -227,7 +228,8 @@ static void runs_are_compared(void **state)
     write_run("b", 1e-6, 8, 0.013);
     char *words[] = {"compare", "a", "b"};
     assert_int_equal(run(command_compare_main, 3, words, printed), OK);
-    /* The last frame of b is shifted by 2e-6; frames are in single precision: 1e-4 of this shift at X of about 1e-2. */
+    /* The last frame of b is shifted by 2e-6 m; frames are in single precision, 1e-4 of this shift at X of about 1e-2
+     * m. */
     double apart = number_after(printed, "displacement [m]");
     assert_true(fabs(apart - 2e-6) < 1e-9);
     double largest = 0, mean = 0; /* equal at all particles */
@@ -247,7 +249,7 @@ static void runs_are_compared(void **state)
     assert_non_null(strstr(printed, "A takes 5 % longer than B; times of equal runs differ as much\n"));
 }
 
-/* Checks that runs in plane strain that differ only in the out-of-plane stress are reported as different. */
+/* Checks that two runs in plane strain that differ only in the out-of-plane stress are reported as different. */
 static void stress_across_is_compared(void **state)
 {
     (void)state;
@@ -281,8 +283,8 @@ static void unequal_runs_are_told_apart(void **state)
     assert_non_null(strstr(printed, "comparable particle by particle: no"));
 }
 
-/* Checks that results of LAMMPS are read: two particles displaced by -1.3 mm and 2.2 mm, with 0.25 and 0.5 of the bonds
- * of LAMMPS broken, when 0.4 and 0 were broken initially: damage 0.55 and 0.5. */
+/* Checks reading of LAMMPS results, two particles displaced by -1.3 mm and 2.2 mm. The damage combines that at the
+ * start, 0.4 and 0, with the fractions of bonds that LAMMPS has broken since, 0.25 and 0.5: 0.55 and 0.5. */
 static void runs_of_lammps_are_read(void **state)
 {
     (void)state;
@@ -340,7 +342,7 @@ static void wrong_words_are_refused(void **state)
 
 /* ---- pictures ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the width of the PNG picture `path` [pixel] after checking its signature and first chunk. */
+/* Returns the width of the PNG picture `path` [pixel]. Also checks its signature and first chunk. */
 static int picture_width(const char *path)
 {
     unsigned char head[24];
@@ -384,7 +386,7 @@ static void missing_gnuplot_is_named(void **state)
     assert_false(is_there("a/pictures/damage.png"));
 }
 
-/* Returns the fraction of the pixels of a rectangle from from_x to to_x [spacings] in which a body of `plotted` is
+/* Returns the fraction of the pixels of a rectangle from from_x to to_x [spacings] in which a particle of `plotted` is
  * drawn. */
 static double covered(const struct plotted_particles *plotted, double from_x, double to_x)
 {

@@ -1,4 +1,4 @@
-/* Tests of reading frames: fields by name, all frames as one file, frames of regions. */
+/* Tests reading of frames: fields by name, all frames as one file, frames of regions. */
 #include <errno.h>
 #include <stdlib.h>
 #include <sys/stat.h>
@@ -33,7 +33,7 @@ static void make_particles(struct particles *p, int dim, int64_t n)
     }
 }
 
-/* Checks that fields of frames are read by name: derived ones, those in the file, and a message for others. */
+/* Checks that fields of frames are read by name, stored and derived ones, and that other names yield a message. */
 static void fields_are_read_by_name(void **state)
 {
     (void)state;
@@ -69,9 +69,9 @@ static void fields_are_read_by_name(void **state)
     }
 }
 
-/* Reads what VTK's reader of temporal grids reads of step `step` of `steps` in h, and compares it with p: the part
- * PartOffsets[step]; points from PointOffsets on, one cell offset more tha cells for each preceding part, rows of a
- * field from its own offset on. */
+/* Reads step `step` of `steps` in `hdf` as VTK's reader of temporal unstructured grids does, and compares it with p.
+ * The step has one part, of index PartOffsets[step]; its points start at PointOffsets, its cell offsets after one more
+ * entry per preceding part, and a field at its own offset. */
 static void check_step(struct hdf *hdf, int step, int steps, const struct particles *p)
 {
     static const char *const start[] = {
@@ -110,7 +110,7 @@ static void check_step(struct hdf *hdf, int step, int steps, const struct partic
     free(all), free(points), free(stress), free(offset), free(corner);
 }
 
-/* Checks that frames.vtkhdf has the layout published by VTK, contains no rows of its own, and can be moved with its
+/* Checks that frames.vtkhdf has the layout published by VTK, stores no rows of its own, and can be moved with its
  * folder. */
 static void frames_in_one_file(void **state)
 {
@@ -151,8 +151,8 @@ static void frames_in_one_file(void **state)
 
 /* ---- regions ----------------------------------------------------------------------------------------------------- */
 
-/* Checks that a series of a region has its particles by id, its own folder and indices, and is removed with a replaced
- * run. */
+/* Checks that the series of frames of a region has its particles in the order of ids, its own folder and index files,
+ * and is removed when the run is overwritten. */
 static void frames_of_a_region(void **state)
 {
     (void)state;

@@ -1,6 +1,5 @@
-/* Text dumps of LAMMPS: written data are read for any order of ids and columns; an incomplete dump is read up to its
- * last complete step; thousands of damaged dumps are read or refused in one line, and never more than the file contains
- * is read. */
+/* Tests text dumps of LAMMPS. The values are read for any order of ids and columns, an incomplete dump up to its last
+ * complete step. Thousands of damaged dumps are read or refused without a crash. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,4 +1,5 @@
-/* Tests of output.h: frames, indices, history, checkpoints, and effects of a full disk and damaged bytes. */
+/* Tests output.h: frames, their index files, history, summary, folders of runs, and the effects of a full disk and of
+ * damaged bytes. */
 #include <errno.h>
 #include <math.h>
 #include <setjmp.h>
@@ -30,7 +31,7 @@ enum { PARTICLES = 1000 };
 
 /* ---- helpers ----------------------------------------------------------------------------------------------------- */
 
-/* Opens in o the output in `folder`, emptied before, for one test. compress: true for compressed frames. */
+/* Opens in o the output in `folder`, whose previous contents are removed. compress: true for compressed frames. */
 static void open_fresh(struct output *o, const char *folder, bool compress)
 {
     remove_tree(folder);
@@ -82,7 +83,7 @@ static void assert_message(const char *part)
 
 /* ---- frames ------------------------------------------------------------------------------------------------------ */
 
-/* Asserts that the frame f has the particles p, in the order of ids, in single precision. */
+/* Asserts that the frame f contains the particles p in the order of ids, in single precision. */
 static void check_frame(const struct output_frame *f, const struct particles *p)
 {
     assert_int_equal(f->n, p->n);
@@ -152,7 +153,7 @@ static void frames_have_vtk_layout(void **state)
     output_close(&o);
 }
 
-/* Checks that plastic strain is in frames and their index if and only if the particles have it. */
+/* Checks that frames and their index have the plastic strain if and only if the particles have it. */
 static void plastic_strain_where_it_is(void **state)
 {
     (void)state;
@@ -181,7 +182,7 @@ static void plastic_strain_where_it_is(void **state)
     }
 }
 
-/* Checks that contact forces and fragments are in frames, by id, if and only if they are passed. */
+/* Checks that frames have contact forces and fragments, in the order of ids, if and only if these are passed. */
 static void frames_hold_what_they_are_given(void **state)
 {
     (void)state;
@@ -277,8 +278,8 @@ static void damaged_frames_are_refused(void **state)
 
 /* ---- folder ------------------------------------------------------------------------------------------------------ */
 
-/* Checks that folders of another scene, or that hold a run, files, and names longer than paths or names may be are
- * refused; an empty folder is not. */
+/* Checks which folders are refused: those of another scene, those that contain a run, files, and names longer than
+ * paths or file names may be. An empty folder is accepted. */
 static void folders_of_others_are_refused(void **state)
 {
     (void)state;
@@ -342,8 +343,8 @@ static void older_run_is_replaced_unless_resumed(void **state)
         assert_true(file_contents_equal_bytes(path_join("again", others[k]).text, "mine", 4));
 }
 
-/* Checks that a table that Cleave did not write is never overwritten in the folder of a run; a truncated one is the
- * run's own. */
+/* Checks that a table that Cleave has not written is never overwritten in the folder of a run, whereas an empty or
+ * truncated header of its own is. */
 static void tables_of_others_stay(void **state)
 {
     (void)state;
@@ -406,7 +407,8 @@ static void history_is_cut_back(void **state)
     output_close(&o);
 }
 
-/* Checks that the history fails on a full disk, which a limit on the file length represents. */
+/* Checks that writing the history fails with a message on a full disk, which is simulated by a limit on the file
+ * size. */
 static void history_on_a_full_disk_fails(void **state)
 {
     (void)state;
@@ -426,7 +428,7 @@ static void history_on_a_full_disk_fails(void **state)
 
 /* ---- the summary ------------------------------------------------------------------------------------------------- */
 
-/* Checks the numbers of summary.json of a run of known state. */
+/* Checks the values in summary.json of a run of known state. */
 static void summary_has_the_figures(void **state)
 {
     (void)state;

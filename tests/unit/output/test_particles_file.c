@@ -1,4 +1,5 @@
-/* Tests of what frames share: the particles file, its links, and how little frames take. */
+/* Tests the particles file, which contains the data that all frames share: its links, refusals, and the size of
+ * frames. */
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -23,7 +24,7 @@ static void open_fresh(struct output *o, const char *folder)
     assert_int_equal(output_open(o, folder, scene_text, OUTPUT_OVERWRITE, false), OK);
 }
 
-/* Creates n particles p in `dim` dimensions that differ in every field, of both kinds. */
+/* Creates n particles p in `dim` dimensions that differ in every field, material points and peridynamic particles. */
 static void make_particles(struct particles *p, int dim, int64_t n)
 {
     particles_make(p, dim, n, 0);
@@ -43,10 +44,10 @@ static int64_t size_of(const char *path)
     return (int64_t)s.st_size;
 }
 
-/* Checks the size of frames. A frame stores 4 bytes for each component that the space has, of positions, displacement,
- * velocity, stress, damage and, if there are any, contact forces and fragments, and 1 for the kind: 21, 45 and 65 bytes
- * a point, with contact and fragments 29, 57 and 81. HDF5 adds about 0.02 bytes a point for each of the datasets and
- * less than 16 kB. */
+/* Checks the size of frames. A frame stores 4 bytes per particle for each component of position, displacement,
+ * velocity, stress, damage and, if present, contact forces and fragments, and 1 for the kind: 21, 45 and 65 bytes in
+ * 1D, 2D and 3D, with contact and fragments 29, 57 and 81. HDF5 adds about 0.02 bytes per particle and dataset and less
+ * than 16 kB. */
 static void frames_take_little(void **state)
 {
     (void)state;
@@ -75,8 +76,8 @@ static void frames_take_little(void **state)
         }
 }
 
-/* Checks that an array with one value in thousands of rows, as of a body at rest, takes no space in a file and is read
- * back bit for bit. A negative zero counts as another value than zero. */
+/* Checks that an array with one value in thousands of rows, as of a body at rest, takes little space in a file and is
+ * restored bit for bit. Negative zero is another value than zero. */
 static void tables_come_back(void **state)
 {
     (void)state;
@@ -108,8 +109,8 @@ static void tables_come_back(void **state)
     }
 }
 
-/* Checks that the particles file is written before the first frame, stays while the particles are the same, and has a
- * successor once they are not. */
+/* Checks that the particles file is written with the first frame and stays unchanged while the particles are the same.
+ * Other particles are written to a new file. */
 static void one_file_while_particles_are_the_same(void **state)
 {
     (void)state;
@@ -140,7 +141,7 @@ static void one_file_while_particles_are_the_same(void **state)
     particles_free(&p), particles_free(&more);
 }
 
-/* Changes byte `at` of a file. */
+/* Changes one bit of the byte at offset `at` of the file `path`. */
 static void flip(const char *path, long at)
 {
     FILE *f = fopen(path, "r+");
@@ -149,8 +150,7 @@ static void flip(const char *path, long at)
     assert_true(byte != EOF && fseek(f, at, SEEK_SET) == 0 && fputc(byte ^ 1, f) != EOF && fclose(f) == 0);
 }
 
-/* Checks that a frame without its particles file, with that of another run or with a damaged one is refused in one
- * line. */
+/* Checks that a frame is refused in one line if its particles file is missing, damaged, or that of another run. */
 static void frames_alone_are_refused(void **state)
 {
     (void)state;
@@ -180,8 +180,8 @@ static void frames_alone_are_refused(void **state)
                   "particles_000000.h5 in the same folder, to which it links, belongs to another run");
 }
 
-/* Checks that a restart beside the particles file of another run leaves out the frames that link to it, names the file,
- * and begins another one; the next frame is read. */
+/* Checks a restart with the particles file of another run in the folder: frames that link to it are omitted from the
+ * index, a message names the file, and the next frame is written with a new particles file and can be read. */
 static void foreign_file_is_left(void **state)
 {
     (void)state;
@@ -219,8 +219,8 @@ static void foreign_file_is_left(void **state)
     output_close(&o);
 }
 
-/* Asserts that frames.xdmf of the folder `back` lists n frames of the output o, and that a restart reports `lost`
- * frames as lost. */
+/* Asserts that a restart reports `lost` frames of the output o as lost, and that frames.xdmf in the folder `back` then
+ * lists n frames. */
 static void assert_listed(struct output *o, int n, int lost)
 {
     char message[1000], *text;
@@ -234,8 +234,8 @@ static void assert_listed(struct output *o, int n, int lost)
     memory_free(text);
 }
 
-/* Checks that frames whose particles file was away at one restart and is back at the next are listed again, also if the
- * index was written without them by a process whose state is lost. */
+/* Checks that frames whose particles file is missing at one restart and present at the next are listed again, also if
+ * the index file has been emptied in between. */
 static void file_comes_back(void **state)
 {
     (void)state;
@@ -259,7 +259,7 @@ static void file_comes_back(void **state)
     output_close(&o);
 }
 
-/* Checks that a frame that is complete by itself, as those of earlier versions, is read. */
+/* Checks that a frame that contains all data itself, without links to a particles file, is read. */
 static void complete_frames_are_read(void **state)
 {
     (void)state;
@@ -287,7 +287,8 @@ static void complete_frames_are_read(void **state)
     particles_free(&p);
 }
 
-/* Checks that contact forces are in frames that have any; elsewhere readers find 0, also in the file of all frames. */
+/* Checks that frames contain contact forces only if there are any. Otherwise readers find 0, also in the file of all
+ * frames. */
 static void contact_where_it_is(void **state)
 {
     (void)state;

@@ -1,9 +1,10 @@
-/* Tests of the balance of energy and momentum, the first break, and the stability alarm. */
+/* Tests the balances of energy and momentum, the record of the first break, and the alarm for diverging particles. */
 #include "tests/support/bodies.h"
 #include "kernels/kernels.h"
 #include "probes/diagnostics.h"
 
-/* Checks energies and momenta in closed form for v = (2, -1) plus a shear without momentum. */
+/* Checks energy and momentum against closed forms for v = (2, -1) plus a shear without momentum, and the recorded
+ * errors of both balances: the largest error stays recorded. */
 static void ledger_of_a_known_field(void **state)
 {
     (void)state;
@@ -76,8 +77,8 @@ static status tape_exchange(struct archive *a, const char *name, void *data, siz
     return OK;
 }
 
-/* Checks a body that was fast, is slow now and then loses momentum: its error is relative to the fast state, before and
- * after a restart. */
+/* Checks the error of the momentum balance of a body that was fast, is slow and then loses momentum. The error is
+ * relative to the largest momentum so far, before and after a restart. */
 static void ledger_survives_a_restart(void **state)
 {
     (void)state;
@@ -109,8 +110,8 @@ static void ledger_survives_a_restart(void **state)
     body_free(&b);
 }
 
-/* Checks the energy of strain e: 1/2 e : C e V, with shear counted twice; half of it if half the stress is left to
- * bonds. */
+/* Checks the strain energy of material points, 1/2 e : C e V with shear counted twice, and half of it if bonds carry
+ * half of the stress. */
 static void strain_energy_of_material_points(void **state)
 {
     (void)state;
@@ -221,8 +222,8 @@ static void alarm_names_the_first_runaway(void **state)
     body_free(&b);
 }
 
-/* Checks that the alarm checks exactly the listed particles: contiguous lists, lists with gaps and with ends of every
- * length. */
+/* Checks that the alarm considers exactly the listed particles, for contiguous lists, lists with gaps, and any length
+ * modulo eight. */
 static void alarm_sees_everybody_listed(void **state)
 {
     (void)state;
@@ -252,8 +253,8 @@ static void alarm_sees_everybody_listed(void **state)
     }
 }
 
-/* Checks that the ends of a short list may be as far apart as those of eight consecutive particles: particles between
- * them that are not listed are ignored. */
+/* Checks short lists whose first and last particle are as far apart as in eight consecutive particles: an unlisted
+ * particle between them must be ignored. */
 static void alarm_passes_gaps_at_the_end(void **state)
 {
     (void)state;
@@ -268,8 +269,8 @@ static void alarm_passes_gaps_at_the_end(void **state)
     body_free(&b);
 }
 
-/* Checks yielded points in plane strain, of two materials: elastic energy by Hooke's law in 3D including the
- * out-of-plane stress; plastic work, which is booked by initial volume. */
+/* Checks yielded points in plane strain of two materials: elastic energy by Hooke's law in 3D with the out-of-plane
+ * stress, and plastic work times the initial volume. */
 static void energies_of_yielded_points(void **state)
 {
     (void)state;

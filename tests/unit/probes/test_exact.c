@@ -1,5 +1,5 @@
-/* Closed forms of bars compared with independent results: characteristics, jump conditions, the wave equation; bond
- * flux compared with all pairs; figures of an exact probe for fields set by hand. */
+/* Tests the closed forms for bars against the method of characteristics, jump conditions and the wave equation. Also
+ * tests the force across a section by bonds against all pairs, and the values of an exact probe for fields set here. */
 #include <stdlib.h>
 
 #include "tests/support/cloud.h"
@@ -12,8 +12,9 @@
 
 enum { CELLS = 40, TRANSITS = 5 };
 
-/* Method of characteristics with cells that a wave crosses in one step, exact for steps: w+- = sigma -+ rho c v move
- * right and left by a cell; ends: sigma = F at the loaded one, v = 0 or sigma = 0 at the other. */
+/* State of the method of characteristics, exact for step loads, with cells that a wave crosses in one time step.
+ * Characteristic values sigma - rho c v (right) and sigma + rho c v (left) move by a cell per step. Boundary
+ * conditions: sigma = F at the loaded end, v = 0 or sigma = 0 at the other. */
 struct waves {
     real right[CELLS], left[CELLS], displacement[CELLS];
 };
@@ -61,7 +62,7 @@ static void step_bar_by_characteristics(void **state)
     }
 }
 
-/* Returns the solution `form` for a bar of length 1 fixed at 0, c = 100: the numbers of Zeng et al. 2021, section
+/* Returns the solution `form` for a bar of length 1 fixed at 0 with c = 100, the data of Zeng et al. 2021, section
  * 5.1. */
 static struct exact unit_bar(enum exact_form form)
 {
@@ -115,8 +116,8 @@ static void step_bar_fronts_and_plateaus(void **state)
 
 /* ---- plastic bar: jump conditions -------------------------------------------------------------------------------- */
 
-/* Checks a plastic bar loaded at either end: jump conditions of momentum and continuity at both fronts, stress and
- * strain behind them, and ranges of constant stress as in the published figures, to a tenth of a spacing. */
+/* Checks a plastic bar loaded at either end: the jump conditions of momentum and continuity at both fronts, stress and
+ * strain behind them, and the ranges of constant stress in the published figures, to a tenth of a spacing. */
 static void plastic_bar_jumps(void **state)
 {
     (void)state;
@@ -167,10 +168,10 @@ static void plastic_bar_jumps(void **state)
 
 /* ---- smooth forms: the wave equation ----------------------------------------------------------------------------- */
 
-/* Compares finite differences of the displacement e at (X, t) with velocity, strain and, if `wave`, the wave equation,
- * within `tolerance`. Central differences have an error of h^2/6 times the third derivative; in the wave equation with
- * c k = h these cancel, up to the round-off of distances up to 5 with strains up to 0.02: 4 x 5 x 0.02 x 2^-53/h^2,
- * where u_xx is of order 1. */
+/* Compares finite differences of the displacement of e at (X, t) with velocity, strain and, if `wave`, the wave
+ * equation, within `tolerance` times `scale`. Central differences have an error of h^2/6 times the third derivative. In
+ * the wave equation with c k = h these errors cancel, up to the round-off of distances up to 5 with strains up to 0.02:
+ * 4 x 5 x 0.02 x 2^-53/h^2, where u_xx is of order 1. */
 static void check_smooth(const struct exact *e, real X, real t, real scale, real tolerance, bool wave)
 {
     real c = sqrt(e->young / e->density), h = 1e-3 * scale, k = h / c;
@@ -233,10 +234,11 @@ static void manufactured_is_its_formula(void **state)
     }
 }
 
-/* ---- bond flux --------------------------------------------------------------------------------------------------- */
+/* ---- force across a section by bonds ----------------------------------------------------------------------------- */
 
-/* Checks the force across a section: an irregular row with its images in a wall at 0, a third of it material points;
- * every pair within the horizon has a bond unless both are material points. */
+/* Compares the force across sections with a sum over all pairs, for an irregular row with mirror images at a wall at 0.
+ * About a third of the particles are material points; every pair within the horizon has a bond unless both are material
+ * points. */
 static void flux_is_the_force_across(void **state)
 {
     (void)state;
@@ -408,7 +410,8 @@ static void figures_of_a_made_up_field(void **state)
     particles_free(&b.p);
 }
 
-/* Checks that the reversed bar, fixed at 1 and loaded at 0, has no errors if it moves as the first does. */
+/* Checks that the mirrored bar, fixed at 1 and loaded at 0, has no errors if it moves as the mirror image of the exact
+ * solution. */
 static void bars_drawn_at_the_left(void **state)
 {
     (void)state;

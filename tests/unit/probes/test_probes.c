@@ -165,7 +165,7 @@ static void probe_of_a_support(void **state)
     body_free(&b);
 }
 
-/* Checks boundaries with one name: their forces add up; their displacement is the mean over all particles. */
+/* Checks two boundaries with one name: the probe adds their forces and averages displacements over all particles. */
 static void probe_of_two_supports(void **state)
 {
     (void)state;
@@ -190,8 +190,7 @@ static void probe_of_two_supports(void **state)
     body_free(&b);
 }
 
-/* Checks that the reflected part of a pulse is the motion before the interface that is not present in the run without
- * it. */
+/* Checks that the reflected part of a pulse is the motion before the interface less that without an interface. */
 static void probe_of_a_pulse(void **state)
 {
     (void)state;
@@ -215,8 +214,8 @@ static void probe_of_a_pulse(void **state)
     body_free(&b);
 }
 
-/* Checks that the largest stress of a rotating body in plane strain may be the out-of-plane stress; shear is that in
- * the plane. */
+/* Checks a rotating body in plane strain: its largest stress may be the out-of-plane stress, whereas the shear stress
+ * is that in the plane. */
 static void probe_of_a_turning_body(void **state)
 {
     (void)state;
@@ -277,7 +276,7 @@ static void probe_of_a_tip(void **state)
     notched_free(&b, &t);
 }
 
-/* ---- probes of breaks, on real bonds ----------------------------------------------------------------------------- */
+/* ---- probes of broken bonds -------------------------------------------------------------------------------------- */
 
 struct bar {
     struct body b;
@@ -297,7 +296,8 @@ static void bar_bond(struct bar *bar)
     bonds_make(&bar->bonds, NULL, &bar->b.p, &source);
 }
 
-/* Breaks the bonds of `bar` that cross x = `plane` and are at least `shortest` long, as the bond kernel would. */
+/* Breaks the bonds of `bar` across x = `plane` that are at least `shortest` spacings long, with the changes that the
+ * bond kernel makes. */
 static void bar_cut(struct bar *bar, real plane, real shortest)
 {
     struct bonds *b = &bar->bonds;
@@ -324,7 +324,7 @@ static struct observed_run bar_seen(const struct bar *bar, real t)
     return o;
 }
 
-/* Bonds the particles of `bar` and makes a spall probe `probes` of it. Returns the bar as it is at 1 s. */
+/* Creates the bonds of `bar` and the spall probe `probes`. Returns the state of the bar for probes at t = 1 s. */
 static struct observed_run spall_probe_make(struct probes *probes, struct bar *bar)
 {
     struct probe_request request = {.name = "spall", .kind = PROBE_SPALL};
@@ -342,8 +342,8 @@ static void bar_probes_free(struct probes *probes, struct bar *bar)
     body_free(&bar->b);
 }
 
-/* Tests two adjacent bodies (0..6 and 6..30): they are separate from the start; the second breaks at 25 with its last
- * bond. */
+/* Checks two adjacent bodies (0..6 and 6..30), which are separate from the start. The second one separates at 25 when
+ * its last bond breaks. */
 static void probe_of_a_spall(void **state)
 {
     (void)state;
@@ -377,7 +377,7 @@ static void probe_of_a_spall(void **state)
     bar_probes_free(&s, &bar);
 }
 
-/* Checks that adjacent planes that separate at the same time are one fracture, at their middle. */
+/* Checks that adjacent planes that separate at the same time count as one fracture, at their middle. */
 static void probe_of_a_wide_spall(void **state)
 {
     (void)state;
@@ -394,8 +394,8 @@ static void probe_of_a_wide_spall(void **state)
     bar_probes_free(&s, &bar);
 }
 
-/* Checks that material points on both sides within reach of bonds still connect a plane, until they separate
- * themselves. */
+/* Checks that a plane between material points within the reach of bonds counts as connected by the grid until a point
+ * has lost a bond. */
 static void probe_of_a_spall_knows_the_grid(void **state)
 {
     (void)state;

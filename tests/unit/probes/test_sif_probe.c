@@ -1,4 +1,4 @@
-/* Tests of the probe of stress-intensity factors: binding, refusals, a stationary and a moving tip. */
+/* Tests the probe of stress-intensity factors: choice of the crack tip, refusals, a stationary and a moving tip. */
 #include "tests/support/bodies.h"
 #include "tests/support/glass.h"
 #include "probes/probes.h"
@@ -48,8 +48,8 @@ static void plate_free(struct plate *p)
     body_free(&p->body);
 }
 
-/* Sets displacements, or velocities, of k to the field with factors K of a tip at `place` that moves along x with speed
- * v. */
+/* Sets the displacements of k, or the velocities if `velocities`, to the field with factors K of a tip at `place` that
+ * moves along x with the speed v. */
 static void plate_field(struct plate *k, const real K[MODES], const real *place, real v, bool velocities)
 {
     struct particles *p = &k->body.p;
@@ -100,7 +100,8 @@ static void figure_keep(void *context, const char *probe, const char *quantity, 
         if (strcmp(quantity, names[k]) == 0) f->value[k] = value, f->n++;
 }
 
-/* Tests a static field, measured by probes that find the tip, with a given position, and without a crack. */
+/* Checks the factors of a static field, measured by probes that find the tip and by one with a given position, and a
+ * probe in a body without a crack. */
 static void tip_at_rest(void **state)
 {
     (void)state;
@@ -194,8 +195,9 @@ static void bad_requests_are_refused(void **state)
     plate_free(&p);
 }
 
-/* Tests a tip that has grown by 12 at 1000 m/s: velocities half a step before and after give acceleration and velocity;
- * speed, position and direction are those of the tip. The state in a checkpoint is sufficient to continue. */
+/* Checks a tip that has advanced by 12 at 1000 m/s. Acceleration and velocity follow from velocities half a step before
+ * and after. Speed, position and direction must be those of the tip. The state in a checkpoint must be sufficient to
+ * continue. */
 static void tip_in_motion(void **state)
 {
     (void)state;
@@ -261,7 +263,7 @@ static void tip_in_motion(void **state)
     plate_free(&p);
 }
 
-/* Tests a crack that turned by 45 degrees: the frame is that of its last spacings. */
+/* Checks a crack that has turned by 45 degrees: the local axes are those of its last spacings. */
 static void tip_that_turned(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Plane of SIF-driven cracks: factors of given displacements depending on the thickness of a 3D body, areas of faces
- * and widths of bodies beside planes of symmetry, energy release rates of grown cracks. */
+/* Tests the plane of SIF-driven cracks: factors of given displacements for thin and thick 3D bodies, areas of crack
+ * faces and widths of bodies beside planes of symmetry, energy release rates of grown cracks. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -21,7 +21,7 @@ struct solution {
     struct run e;
 };
 
-/* Creates the run a of the scene `text` and returns its only crack tip. */
+/* Creates the run a of the scene `text`. Returns its only crack tip. */
 static const struct sif_crack_tip *solution_begin(struct solution *a, const char *text)
 {
     memset(a, 0, sizeof *a);
@@ -64,8 +64,8 @@ static void field_set(struct run *run, const struct sif_crack_tip *tip, enum spa
     }
 }
 
-/* Checks that displacements of plane stress in a plate thinner than the diameter of the ring of the fit, and of plane
- * strain in a thicker one, yield the factors that were set. The other plane state would yield factors 7 % off. */
+/* Checks that displacements of plane stress in a plate thinner than the ring of the fit, and of plane strain in a
+ * thicker one, yield the factors that were set. The other plane state would yield factors with an error of 7 %. */
 static void test_plane_state(void **state)
 {
     static char text[1000];
@@ -94,8 +94,8 @@ static void test_plane_state(void **state)
     }
 }
 
-/* Checks that a crack along a plane of symmetry has one of its faces in the body: half of the area of its length times
- * the thickness. */
+/* Checks the area of a crack increment: length times thickness, and half of it along a plane of symmetry, where only
+ * one of both crack faces is in the body. */
 static void test_face_area(void **state)
 {
     static const char half[] =
@@ -120,8 +120,8 @@ static void test_face_area(void **state)
     }
 }
 
-/* Checks that in 3D a crack is as wide as the body along its front: 0.5 + 3 mm if a plane of symmetry across the front
- * halves the first of four layers of particles, 4 mm if the plane is beside them. */
+/* Checks that in 3D a crack increment is as wide as the body along the front: 3.5 mm if a plane of symmetry across the
+ * front passes through the first of four layers of particles, 4 mm if it is beside them. */
 static void test_width(void **state)
 {
     static const char block[] =
@@ -155,8 +155,8 @@ static const char plate[] =
     "cracks: [{from: [-1 mm, 4 mm], to: [7 mm, 4 mm]}]\n"
     "boundary: [{fixed: all, face: y-}, {traction: [0, 1 MPa], face: y+, time: {ramp: {until: 1 s}}}]\n";
 
-/* Tests three growths along a path, each with another energy release rate: the recorded rate is that of the last two;
- * before there are two, that of the first. */
+/* Checks the recorded energy release rate after three increments with different rates: it is that of the last two
+ * increments, and after the first one that of this increment. */
 static void test_release_rate(void **state)
 {
     static const real grown[] = {0, 1.3e-3, 3.4e-3, 5.1e-3}, released[] = {0, 2e-4, 7.1e-4, 9.3e-4};
@@ -182,8 +182,9 @@ static void test_release_rate(void **state)
     solution_free(&a);
 }
 
-/* Tests damage of particles beside the crack, spacing by spacing: a growth is four spacings, so that rates up to the
- * eighth are relative to the start, later ones to the fourth. */
+/* Checks the energy release rate from damaged particles ahead of the crack, which grows by one spacing per step. The
+ * rate refers to complete increments of four spacings: up to the eighth spacing to the start, beyond it to the
+ * fourth. */
 static void test_rate_of_damage(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
-/* Softening bonds of load steps: forces are the gradient of the potential whose stationary points are equilibria,
- * dissipation by the factor of the displacements, and the return to the last equilibrium. */
+/* Tests softening bonds of load steps: forces against the gradient of the potential whose stationary points are
+ * equilibria, the factor of the displacements at which an energy is dissipated, the return to the last equilibrium, and
+ * broken bonds. */
 #include <omp.h>
 
 #include "kernels/kernels.h"
@@ -22,7 +23,7 @@ static void body_make(struct soft_body *s, enum space space)
     bonds_store_max_stretches_at_last_equilibrium(&s->c.bonds, &s->c.p, &s->c.source.limit);
 }
 
-/* Stretches the body c by `strain` along x and moves its particles at random (seed). */
+/* Stretches the body c by `strain` along x and displaces its particles at random. seed: of the random numbers. */
 static void body_move(struct particle_cloud *c, uint64_t seed, real strain)
 {
     for (int64_t i = 0; i < c->p.n; i++)
@@ -31,7 +32,8 @@ static void body_move(struct particle_cloud *c, uint64_t seed, real strain)
                 c->p.X[d][i] * (1 + (d == 0 ? strain : 0)) + cloud_between(&seed, -1e-3, 1e-3) * CLOUD_SPACING;
 }
 
-/* Lists the bonds of s in l at the present positions; k becomes max(k_0, s). */
+/* Lists the softening bonds of s in l at the current positions, and sets the largest stretch k of each to max(k_0,
+ * s). */
 static void follow(struct soft_body *s, struct softening_bond_list *l)
 {
     bonds_open_beyond_onset(&s->c.bonds, &s->c.p, &s->c.source.limit);
@@ -39,7 +41,7 @@ static void follow(struct soft_body *s, struct softening_bond_list *l)
     softening_bond_list_store_largest_stretches(l, &s->c.bonds, 1);
 }
 
-/* Returns the potential, the sum of phi over all bonds of s in l, at the present positions [J]. */
+/* Returns the potential at the current positions, the sum of phi over all bonds of s [J]. Lists the bonds in l. */
 static real potential(struct soft_body *s, struct softening_bond_list *l)
 {
     softening_bond_list_collect(l, &s->c.bonds, &s->c.p, 1);
@@ -52,9 +54,9 @@ static void forces(struct soft_body *s)
     bond_forces(bond_force_table[s->c.p.dim][PD_BOND_SOFT], &s->c.bonds, &s->c.p, &bond_limit_never, NULL);
 }
 
-/* Checks that forces of a body of which some bonds soften further, some unload and some are compressed are minus the
- * gradient of the potential. Central differences over 1e-6 spacings, a thousandth of the onset: their error is of its
- * square, 1e-6, and round-off 1e-16/1e-9 of the force. */
+/* Checks that the forces of a body of which some bonds soften further, some unload and some are compressed are minus
+ * the gradient of the potential. Central differences over 1e-6 spacings, a thousandth of the onset, have the error of
+ * the square, 1e-6, and round-off 1e-16/1e-9 of the force. */
 static void test_gradient(void **state)
 {
     (void)state;
@@ -94,7 +96,7 @@ static void test_gradient(void **state)
     }
 }
 
-/* Creates a body s whose bonds soften, moves it, and lets their largest stretches follow. l: empty; receives the
+/* Creates a body s whose bonds soften, displaces it, and updates the largest stretches. l: empty; receives the
  * bonds. */
 static void body_soften(struct soft_body *s, struct softening_bond_list *l)
 {
@@ -103,8 +105,8 @@ static void body_soften(struct soft_body *s, struct softening_bond_list *l)
     follow(s, l);
 }
 
-/* Checks the factor of the displacements at which an energy is dissipated; with it as new k the balance of the bonds
- * says the same. Largest stretches are floats. */
+/* Checks the factor of the displacements at which 0.3 of the energy is dissipated. If the largest stretches times this
+ * factor are stored, the fracture energy of the bonds must be the same, within 1e-5 because they are floats. */
 static void test_factor(void **state)
 {
     (void)state;
@@ -122,8 +124,8 @@ static void test_factor(void **state)
     particle_cloud_free(&s.c);
 }
 
-/* Checks that a trial that is undone leaves energy and forces as they were, to the bit; forces are those of the stored
- * k, so that nothing is dissipated by evaluating them. */
+/* Checks that a trial that is undone restores energy and forces bitwise. Forces are those of the stored largest
+ * stretches, so that computing them dissipates nothing. */
 static void test_undo(void **state)
 {
     (void)state;
@@ -148,7 +150,8 @@ static void test_undo(void **state)
     particle_cloud_free(&s.c);
 }
 
-/* Checks that bonds whose k has reached their end break, in both rows, and all they dissipate is fracture energy. */
+/* Checks that a bond stretched beyond its end breaks in both rows, and that its whole energy s_c^2/2 becomes fracture
+ * energy. */
 static void test_end(void **state)
 {
     (void)state;

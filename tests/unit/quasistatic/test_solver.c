@@ -1,5 +1,5 @@
-/* Static equilibrium: bars and plates compared with closed forms, solvers with each other, support forces with loads,
- * parts with whole bodies; and scenes without equilibrium. */
+/* Tests static equilibria: bars and plates against closed forms, solvers against each other, support forces against
+ * loads, quarters against whole bodies; and scenes without an equilibrium. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -37,7 +37,7 @@ struct solution {
     status made, ran;
 };
 
-/* Solves the scene `text` with the overrides `key=value`, terminated by NULL, into a. */
+/* Solves the scene `text` with the overrides `key=value`, terminated by NULL. a: receives the solution. */
 static void solve(struct solution *a, const char *text, ...)
 {
     enum { MOST = 8 };
@@ -97,7 +97,7 @@ static real moved(const struct solution *a, int d, real x, real y)
     return a->e.part.x[d][i] - a->e.part.X[d][i];
 }
 
-/* Returns the mean strain of a between the positions `from` and `to` along d. */
+/* Returns the mean strain of a along axis d between the particles at the positions `from` and `to`. */
 static real strain(const struct solution *a, int d, const real *from, const real *to)
 {
     const int64_t i = at(a, from[0], from[1]), j = at(a, to[0], to[1]);
@@ -105,8 +105,8 @@ static real strain(const struct solution *a, int d, const real *from, const real
     return (p->x[d][j] - p->x[d][i]) / (p->X[d][j] - p->X[d][i]) - 1;
 }
 
-/* Returns the largest difference of the solutions a and b over the largest displacement, at the particles of the
- * second. */
+/* Returns the largest difference of displacements between the solutions a and b at the particles of b, divided by the
+ * largest displacement of b. */
 static real difference(const struct solution *a, const struct solution *b)
 {
     const struct particles *p = &b->e.part;
@@ -124,8 +124,8 @@ static real difference(const struct solution *a, const struct solution *b)
 
 /* ---- functions of time ------------------------------------------------------------------------------------------- */
 
-/* Compares integrals of all kinds of functions of time with the midpoint rule with 200,000 pieces, exact but for a
- * piece with a jump. */
+/* Compares integrals of all kinds of functions of time with the midpoint rule with 200,000 pieces. Its error is at most
+ * that of two pieces, for a piece with a jump. */
 static void test_integrals(void **state)
 {
     (void)state;
@@ -153,8 +153,8 @@ static void test_integrals(void **state)
 /* Two positions on the bar [m], between which strains are measured. */
 static const real quarter_place[2] = {0.205, 0}, far_place[2] = {0.805, 0};
 
-/* Checks sigma/E = 1e-6 in the interior. The neighbourhoods at the free end are incomplete over a horizon: with surface
- * correction the displacement of the last particle exceeds F x/(E A) by 0.13 % of the bar's elongation. */
+/* Checks the strain sigma/E = 1e-6 in the interior of a bar. Neighbourhoods at the free end are incomplete over a
+ * horizon: with surface correction the end displacement exceeds F x/(E A) by 0.13 %, within the tolerance of 0.2 %. */
 static void test_bar_traction(void **state)
 {
     (void)state;
@@ -171,7 +171,8 @@ static void test_bar_traction(void **state)
     }
 }
 
-/* Checks that a velocity of 0.5 um/s for 2 s is a displacement of 1 um; the reaction equals the equivalent traction. */
+/* Checks that a prescribed velocity of 0.5 um/s for 2 s acts as a displacement of 1 um, and that the reaction is E A
+ * times the strain. */
 static void test_bar_support(void **state)
 {
     (void)state;
@@ -189,7 +190,7 @@ static void test_bar_support(void **state)
     }
 }
 
-/* Tests own weight: u = rho g (L x - x^2/2)/E; a ramp counts with its final value. */
+/* Checks a bar under its own weight, u = rho g (L x - x^2/2)/E. A ramp in time counts with its final value. */
 static void test_bar_weight(void **state)
 {
     (void)state;
@@ -201,7 +202,7 @@ static void test_bar_weight(void **state)
     solution_free(&a);
 }
 
-/* Stores `value` in *context if `quantity` of a probe is the largest force or the root mean square. */
+/* Callback that stores `value` in figure[0] or figure[1] (*context) if `quantity` is force_max or force_rms. */
 static void reaction_keep(void *context, const char *probe, const char *quantity, real value)
 {
     real *figure = context;
@@ -210,8 +211,8 @@ static void reaction_keep(void *context, const char *probe, const char *quantity
     if (strcmp(quantity, "force_rms") == 0) figure[1] = value;
 }
 
-/* Checks that material points reach equilibrium by time steps; reactions during relaxation are not those of the
- * equilibrium. */
+/* Checks that material points reach equilibrium by relaxation in time steps, and that the reaction probe has only the
+ * reaction of the equilibrium, not those during relaxation. */
 static void test_points_support(void **state)
 {
     (void)state;
@@ -229,8 +230,8 @@ static void test_points_support(void **state)
     solution_free(&a);
 }
 
-/* Tests a bar of material points. Tolerance: a residual of 1e-5 leaves 1e-4 of a strain; so does the loss of light
- * nodes at interfaces (grid.h). */
+/* Checks a bar of material points. Tolerance: a residual of 1e-5 causes 1e-4 of a strain, and so do light nodes at
+ * interfaces, which are left out (grid.h). */
 static void test_bar_points(void **state)
 {
     (void)state;
@@ -249,8 +250,8 @@ static void test_bar_points(void **state)
 
 /* ---- plates ------------------------------------------------------------------------------------------------------ */
 
-/* Tests a plate of bonds. Lattice anisotropy (C11 +1.1 %, C12 -3.4 %) makes bonds with a horizon of 3.015 about 2 %
- * stiffer along the axes. */
+/* Checks strain, Poisson's ratio and energy of a plate of bonds and of material points. The anisotropy of the lattice
+ * (C11 +1.1 %, C12 -3.4 %) makes bonds with a horizon of 3.015 spacings about 2 % stiffer along the axes. */
 static void test_plate(void **state)
 {
     (void)state;
@@ -271,7 +272,8 @@ static void test_plate(void **state)
     }
 }
 
-/* Checks that solvers agree on a plate with a crack within a residual of 1e-7, and that work is symmetric. */
+/* Checks a plate with a crack: both solvers agree within 1e-4 with a residual of 1e-7, and the strain energy equals the
+ * external work. */
 static void test_crack(void **state)
 {
     (void)state;
@@ -289,7 +291,7 @@ static void test_crack(void **state)
     solution_free(&a), solution_free(&b);
 }
 
-/* Tests every law of bonds, each with another Poisson's ratio. */
+/* Checks the state-based models with Poisson's ratio 1/4 in a plate with a crack: both solvers agree within 1e-4. */
 static void test_models(void **state)
 {
     (void)state;
@@ -306,7 +308,8 @@ static void test_models(void **state)
     }
 }
 
-/* Tests a plate peridynamic around the crack, material points elsewhere: the mouth opens as with bonds everywhere. */
+/* Checks a plate with peridynamic particles around the crack and material points elsewhere: the crack mouth opens as
+ * with bonds everywhere, within 3 %. */
 static void test_crack_coupled(void **state)
 {
     (void)state;
@@ -322,7 +325,8 @@ static void test_crack_coupled(void **state)
     solution_free(&a), solution_free(&b);
 }
 
-/* Tests irregular particles, fixed at the bottom: loads at irregular positions would leave a moment. */
+/* Checks that both solvers agree for irregular particles. The plate is fixed at its bottom, because loads at irregular
+ * positions of a free body would have a moment. */
 static void test_irregular(void **state)
 {
     (void)state;
@@ -360,7 +364,8 @@ static void test_quarter(void **state)
     }
 }
 
-/* Tests particles on planes of symmetry, which make K self-adjoint only in a weighted sum. */
+/* Checks that both solvers agree with particles on planes of symmetry, where the stiffness K is self-adjoint only in a
+ * weighted scalar product. */
 static void test_on_plane(void **state)
 {
     (void)state;
@@ -395,7 +400,8 @@ static void test_solid(void **state)
 
 /* ---- no equilibrium ---------------------------------------------------------------------------------------------- */
 
-/* Checks messages of solutions that end without equilibrium: too few steps, round-off, a body that nothing holds. */
+/* Checks the messages of solutions without equilibrium: too few steps, a tolerance below round-off, an unconstrained
+ * body. */
 static void test_limits(void **state)
 {
     (void)state;
@@ -415,8 +421,8 @@ static void test_limits(void **state)
     solution_free(&a);
 }
 
-/* Checks that each pair of materials has its own limit: the limit of an unloaded body of another material is not
- * used. */
+/* Checks that bonds are compared with the limit of their own pair of materials: the low limit of an unloaded body of
+ * another material is not used. */
 static void test_strength_of_pairs(void **state)
 {
     (void)state;
@@ -434,7 +440,8 @@ static void test_strength_of_pairs(void **state)
     solution_free(&a);
 }
 
-/* Checks that bonds far beyond their critical stretch are counted and stay intact. */
+/* Checks that bonds far beyond their critical stretch are counted and stay intact: the solution is that without a
+ * limit. */
 static void test_strength(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
-/* Load steps: equilibria compared with the static solvers for elastic bodies, mirrors with whole bodies, unconstrained
- * fragments, trials without side effects, energy dissipated in a dynamic release. */
+/* Tests load steps: equilibria of elastic bodies against the static solvers, quarters between mirrors against whole
+ * bodies, unconstrained fragments, trial increments without side effects, and the energy dissipated in a dynamic
+ * release. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -46,8 +47,8 @@
 
 /* ---- work of stretching ------------------------------------------------------------------------------------------ */
 
-/* Tests the work up to a stretch of a bond with stiffness 1 that yields and hardens: the sum of small steps under its
- * curve. */
+/* Compares the work up to a stretch of a yielding, hardening bond of stiffness 1 with the midpoint rule over 100,000
+ * steps. */
 static void test_stretch_work(void **state)
 {
     (void)state;
@@ -65,8 +66,8 @@ static void test_stretch_work(void **state)
 
 /* ---- comparison with the static solvers -------------------------------------------------------------------------- */
 
-/* Tests every model of bonds, in 2D and 3D, with loads and driven particles: equal within a residual of 1e-7 and the
- * square of strains. */
+/* Compares load steps with the static solver for every bond model in 2D and 3D, with loads and driven particles, within
+ * 5e-6: a residual of 1e-7 and the square of strains. */
 static void test_models(void **state)
 {
     (void)state;
@@ -86,7 +87,8 @@ static void test_models(void **state)
         }
 }
 
-/* Tests irregular lattices, weights of bonds near faces, plane strain. */
+/* Compares load steps with the static solver for an irregular lattice, surface correction of bond weights, and plane
+ * strain. The reaction must be the applied force. */
 static void test_variants(void **state)
 {
     (void)state;
@@ -104,8 +106,8 @@ static void test_variants(void **state)
     }
 }
 
-/* Tests material points: cells of the reference frame compared with the current frame, far from free faces, where the
- * shape functions of points differ. */
+/* Compares material points in the reference frame (load steps) with the current frame (relaxation), far from free
+ * faces, where the shape functions of points differ. */
 static void test_points(void **state)
 {
     (void)state;
@@ -121,7 +123,8 @@ static void test_points(void **state)
 
 /* ---- mirrors ----------------------------------------------------------------------------------------------------- */
 
-/* Checks that a quarter of a free body agrees with the whole, for particles and for points. */
+/* Checks that a quarter of a free body between mirrors agrees with the whole body, for particles and for material
+ * points. */
 static void test_quarter(void **state)
 {
     (void)state;
@@ -142,8 +145,8 @@ static void test_quarter(void **state)
 
 /* ---- fragments --------------------------------------------------------------------------------------------------- */
 
-/* Tests a crack through the whole plate: the upper part has balanced loads and the strain of a free plate, while
- * supports pull at the lower part. */
+/* Checks a crack through the whole plate: the upper part, an unconstrained fragment under balanced loads, has the
+ * strain of a free plate, while supports act on the lower part only. */
 static void test_parted(void **state)
 {
     (void)state;
@@ -160,8 +163,8 @@ static void test_parted(void **state)
     solution_free(&a);
 }
 
-/* Tests rigid motions that mirrors leave to fragments: mirrors between particles and through them, particles and
- * cells. */
+/* Checks the numbers of unconstrained fragments and of their rigid motions that mirrors and supports leave, for mirrors
+ * between particles and through them, and for particles and cells. */
 static void test_motions(void **state)
 {
     (void)state;
@@ -192,7 +195,7 @@ static void test_motions(void **state)
     }
 }
 
-/* ---- trials ------------------------------------------------------------------------------------------------------ */
+/* ---- trial increments -------------------------------------------------------------------------------------------- */
 
 #define YIELDS                                                                                                         \
     "space: plane stress\nthickness: 1 mm\nduration: 1 s\nmethod: pd\nsolver: static\nsteps: {number: 4}\n"            \
@@ -202,7 +205,7 @@ static void test_motions(void **state)
     "body: {box: {from: [-5 mm, -5 mm], to: [5 mm, 5 mm]}}\n" CRACK                                                    \
     "boundary:\n  - {velocity: [0, 12 um/s], region: {box: {from: [-inf, 4 mm], to: [inf, inf]}}}\n" FOOT
 
-/* Copies of the state that a trial must restore. */
+/* Copy of the state that a trial crack increment must restore. */
 struct trace {
     size_t size;
     char *data;
@@ -236,7 +239,8 @@ static void trace_take(struct trace *t, const struct run *run)
     trace_add(t, run->part.flag, (size_t)run->part.n);
 }
 
-/* Tests a trial of a crack increment, in bodies with and without yielding bonds. */
+/* Checks that the search for a crack increment by trial equilibria restores energies, positions, forces and damage
+ * bitwise, in bodies with and without yielding bonds. */
 static void test_trial(void **state)
 {
     (void)state;
@@ -268,7 +272,8 @@ static void test_trial(void **state)
 
 /* ---- release ----------------------------------------------------------------------------------------------------- */
 
-/* A block on a block that stands on a foot, compressed by a traction on its whole width. */
+/* Two blocks on each other, of which the lower one is fixed at its foot and the upper one is loaded on its whole
+ * width. */
 #define STACK                                                                                                          \
     "space: plane stress\nthickness: 1.7 mm\nduration: 1 s\nmethod: pd\nsolver: static\nsteps: {number: 3}\n"          \
     "material: {young: 3 GPa, poisson: 1/3, density: 1180 kg/m^3}\nparticles: {spacing: 1 mm, horizon: 2.015}\n"       \
@@ -277,8 +282,8 @@ static void test_trial(void **state)
     "boundary:\n  - {name: foot, fixed: [x, y], region: {box: {from: [-inf, 0], to: [inf, 2 mm]}}}\n"                  \
     "  - {name: top, body: high, traction: [0, -2.3 MPa], face: y+, time: {ramp: {until: 1 s}}}\n"
 
-/* Tests an upper block that is pushed into the lower one as a rigid body and released: it returns to its position, and
- * the contact energy of the push, minus the work against the traction on the way back, is recorded as dissipated. */
+/* Checks a dynamic release: an upper block that has been pushed into the lower one returns to its position. The
+ * dissipated energy must be the contact energy of the push less the work against the traction on the return. */
 static void test_let_go(void **state)
 {
     (void)state;
@@ -303,8 +308,8 @@ static void test_let_go(void **state)
     solution_free(&a);
 }
 
-/* Checks that under control by an opening, the distance of two positions increases by the prescribed amount, in as many
- * parts as steps. */
+/* Checks control by opening: the distance of two positions increases by the prescribed amount in the prescribed number
+ * of steps. */
 static void test_opening(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Nested trial equilibria of load steps: each restores the plastic state of bonds from its start, and leaves it as the
- * start of the next solutions. */
+/* Tests nested trial equilibria of load steps. The end of each restores the plastic state of bonds at its beginning,
+ * also as the start of further solutions. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -19,7 +19,7 @@ static const char plate[] =
     "boundary:\n  - {fixed: all, region: {box: {from: [0, 0], to: [2 mm, 6 mm]}}}\n"
     "  - {traction: [1 MPa, 0], face: x+, time: {ramp: {until: 2 s}}}\noutput: {frames: 0}\n";
 
-/* Returns the number of slots of bonds in the columns of the blocks of eight rows. */
+/* Returns the number of bond slots in the row blocks of the run (eight per column, also empty ones). */
 static int64_t bond_slots(const struct run *run) { return run->bonds.columns * LANES; }
 
 /* Adds `more` to the plastic stretch of all bonds of the run [1]. */
@@ -28,7 +28,7 @@ static void flow(struct run *run, real more)
     for (int64_t q = 0; q < bond_slots(run); q++) run->bonds.plastic_stretch[q] += more;
 }
 
-/* Fails unless all bonds of the run have the plastic stretch `stretch` [1]. */
+/* Fails unless every bond of the run has the plastic stretch `stretch` [1]. */
 static void expect(const struct run *run, real stretch)
 {
     for (int64_t q = 0; q < bond_slots(run); q++) assert_true(run->bonds.plastic_stretch[q] == stretch);

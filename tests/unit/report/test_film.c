@@ -1,5 +1,5 @@
-/* Films of pages: groups of particles keep area and centre of the body, what is damaged stays as it is, and every
- * budget is kept. Rigid bodies in magnified frames. */
+/* Tests animations of report pages. Groups of particles keep area and centre of the body, damaged particles are merged
+ * last, and each limit of the size in bytes is kept. Also tests rigid bodies in magnified frames. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -13,8 +13,8 @@
 enum { NX = 50, NY = 37, FRAMES = 61 };
 static const double H = 0.25e-3;
 
-/* Makes a film of FRAMES frames of a plate of NX by NY particles, of which those of row 20 are damaged from x = 10 H
- * on, and part of a crack from 30 H on. */
+/* Creates an animation of FRAMES frames of a plate of NX by NY particles. In row 20, particles are damaged from x = 10
+ * H on, and belong to a crack from 30 H on. */
 static void plate_make(struct run_animation *animation)
 {
     *animation = (struct run_animation){.dim = 2, .spacing = H, .frames = FRAMES, .listed = FRAMES, .sets = 1};
@@ -34,8 +34,8 @@ static void plate_make(struct run_animation *animation)
     }
 }
 
-/* Returns the number of bytes of the frames of the animation that are shown: 4 for displacements, and 4 once for
- * positions, 6 at most for sizes and two fields of the set. */
+/* Returns the size in bytes of the shown frames of the animation: per group 4 bytes for the displacement in each frame,
+ * and 4 once for the position plus at most 6 for size and two fields. */
 static int64_t film_bytes(const struct run_animation *animation)
 {
     return animation->set->groups * (4 * animation->used + 10);
@@ -72,14 +72,14 @@ static void groups_cover_the_body(void **state)
         assert_true(fabs(area / (H * H * NX * NY) - 1) < 1e-12);
         for (int d = 0; d < 2; d++) assert_true(fabs(moment[d] / wanted[d] - 1) < 1e-12);
         if (levels == 0) assert_int_equal(s->groups, NX * NY);
-        /* cells of 2 x 2 that hold no busy particle, in the 18 of 19 pairs of rows that are full: row 36 has no
-         * partner; rows 20 and 21 are whole from x = 0 to 10 H alone */
+        /* 17 of 18 pairs of full rows merge to cells of 2 x 2 without a damaged particle; row 36 has no partner; rows
+         * 20 and 21 are merged only from x = 0 to 10 H. */
         if (levels == 1) assert_int_equal(s->groups, 17 * 25 + 5 + 2 * 40 + NX);
     }
     animation_free(&f);
 }
 
-/* Checks that particles of two materials, fragments or bodies are never one group. */
+/* Checks that particles of different materials, fragment histories or bodies are never merged into one group. */
 static void groups_do_not_mix(void **state)
 {
     struct run_animation f;
@@ -103,7 +103,7 @@ static void groups_do_not_mix(void **state)
     animation_free(&f);
 }
 
-/* Returns true if every particle of the plate `animation` lies in the cell that is drawn of its group. */
+/* Returns true if every particle of the plate `animation` is inside the cell that is drawn for its group. */
 static bool covers_the_body(const struct run_animation *animation)
 {
     const struct animation_particle_set *s = animation->set;
@@ -131,7 +131,7 @@ static void budgets_are_kept(void **state)
         int used = 0;
         for (int k = 0; k < FRAMES; k++) used += f.frame[k].used;
         assert_int_equal(used, f.used);
-        /* With room for everything nothing is left out; damaged particles go last. */
+        /* A limit above the whole size omits nothing; damaged particles are merged last. */
         if (budget == 1 << 20) assert_true(f.used == FRAMES && f.set->groups == NX * NY);
         int64_t cracked = 0;
         for (int64_t g = 0; g < f.set->groups; g++)
@@ -143,8 +143,9 @@ static void budgets_are_kept(void **state)
     }
 }
 
-/* Magnified rigid bodies move with the nearest particle: a brick 4 x 2 that has been turned by a right angle and moved
- * to x from 7 to 9; the second particle is nearest to it where it is, the third to where it was. */
+/* Checks that in magnified frames a rigid body has the displacement of the particle nearest to its current position.
+ * The brick of 4 x 2 has rotated by a right angle and moved; the second particle is nearest to its current, the third
+ * to its initial position. */
 static void rigid_bodies_follow_the_nearest_particle(void **state)
 {
     (void)state;

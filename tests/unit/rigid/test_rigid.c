@@ -1,5 +1,5 @@
-/* Rigid bodies: distances compared with a search over points of the surface, inertia and free motion with closed
- * forms. */
+/* Tests rigid bodies: distances against a search over points of the surface, inertia and free motion against closed
+ * forms, polygons of their surfaces, records in the history, refusals. */
 #include <math.h>
 #include <string.h>
 
@@ -12,7 +12,7 @@
 
 /* ---- distances --------------------------------------------------------------------------------------------------- */
 
-/* A box with a ball on it, and a cylinder; points inside some of them. */
+/* A box with a ball on it, and a cylinder. */
 static struct solid solids[] = {
     {.kind = SOLID_BOX, .from = {0, 0, 0}, .to = {4, 2, 3}},
     {.kind = SOLID_BALL, .centre = {5, 1, 1}, .radius = 1.5},
@@ -20,8 +20,8 @@ static struct solid solids[] = {
 };
 static const struct region shape = {.n = 3, .solid = solids};
 
-/* Checks that the distance from x decreases to 0 along the normal, and that no point of the body is closer: the ball of
- * that radius around the point contains none of its points (outside). */
+/* Checks the distance of the position x outside the bodies: it decreases to 0 along the normal, and no point of a body
+ * is closer, i.e. the ball of this radius around x contains none of its points. */
 static void check_point(const real *x)
 {
     real normal[DIM_MAX], at[DIM_MAX];
@@ -46,8 +46,8 @@ static void test_distance(void **state)
         check_point((const real[]){-5.03 + 2 * (k % 7), -2.01 + k / 7 % 7, -2.02 + 1.1 * (k / 49)});
 }
 
-/* Tests a box with a spherical cavity: inside, the distance is that to the cavity's wall, with the normal from there to
- * the point, as outside the box. */
+/* Checks a box with a spherical cavity. Inside the cavity the distance is that to its wall, and the normal points from
+ * the wall to the position, as outside the box. */
 static void test_cavity(void **state)
 {
     (void)state;
@@ -68,8 +68,8 @@ static void test_cavity(void **state)
 /* ---- surfaces in files ---------------------------------------------------------------------------------------------
  */
 
-/* Returns area in the plane, volume in space within the faces of a surface s, by Gauss's theorem; a quadrilateral as
- * two triangles. */
+/* Returns the area (2D) or volume (3D) enclosed by the faces of the surface s, by Gauss's theorem; a quadrilateral is
+ * divided into two triangles. */
 static real enclosed(const struct rigid_surface *s)
 {
     real sum = 0;
@@ -87,8 +87,9 @@ static real enclosed(const struct rigid_surface *s)
     return fabs(sum);
 }
 
-/* Tests surfaces of a disc, a ball and a brick: closed, of the right size within what their grids resolve (200 and 24
- * cells across; bricks have sharp edges, also a turned one), points on the surface; a half-space is cut to the box. */
+/* Checks the polygonal surfaces of a disc, a ball, a brick and a rotated brick. The enclosed size must be right within
+ * the resolution of the grids (200 cells across in 2D, 24 in 3D), and points must be on the surface. A half-space is
+ * cut off at the given box. */
 static void test_surface(void **state)
 {
     (void)state;
@@ -126,8 +127,8 @@ static void test_surface(void **state)
     solid_free(&turned);
 }
 
-/* Checks that a half-space beyond the box of the particles has a surface, on its face and as wide as the box; a box
- * that it cuts stays as it is but for the margin of 0.08 of the longest edge, 5. */
+/* Checks that a half-space beyond the box of the particles has a surface on its face, as wide as the box. The box is
+ * enlarged by a margin of 0.08 of its longest edge, 5, also where the half-space cuts it. */
 static void test_surface_of_a_plane_afar(void **state)
 {
     (void)state;
@@ -154,8 +155,8 @@ static void test_surface_of_a_plane_afar(void **state)
 /* Velocity of a body at rest. */
 static const real rest[DIM_MAX] = {0, 0, 0};
 
-/* Tests inertia: a brick m/12 (b^2 + c^2), to round-off with the cells of a grid; a disc m R^2/2 within 1e-3 with a
- * grid of points. */
+/* Compares moments of inertia with closed forms: a brick, m/12 (b^2 + c^2), to round-off, because cells of the grid fit
+ * it; a disc, m R^2/2, within 1e-3 with a grid of points. */
 static void test_inertia(void **state)
 {
     (void)state;
@@ -174,9 +175,9 @@ static void test_inertia(void **state)
     assert_near(r.inertia[2][2], 9, 5e-3 * 9);
 }
 
-/* Tests composite bodies, one part of which is small against the box round both; parts do not overlap, or a rod ends in
- * the centre of a ball, whose closed form is in the table. Moments of parts by Steiner's theorem; no error of a part
- * may be above 1/2 %, which is what the sampling is refined to. */
+/* Checks mass centre and inertia of composite bodies with one small part. Parts do not overlap, or a rod ends in the
+ * centre of a ball. Expected moments follow from Steiner's theorem. The tolerance of 0.5 % for each part is the limit
+ * at which the sampling is refined. */
 static void test_inertia_of_composites(void **state)
 {
     (void)state;
@@ -187,7 +188,7 @@ static void test_inertia_of_composites(void **state)
     static struct solid rods[2][2] = {
         {{.kind = SOLID_BALL, .radius = 5}, {.kind = SOLID_CYLINDER, .to = {0, 0, 60}, .radius = 1.5}},
         {{.kind = SOLID_BALL, .radius = 5}, {.kind = SOLID_CYLINDER, .to = {0, 0, 100}, .radius = 0.5}}};
-    /* expected: place of the centre along `axis`, moment of inertia across it, for the mass 2.3 */
+    /* expected: position of the mass centre along `axis`, moment of inertia across it, for the mass 2.3 */
     static const struct {
         struct solid *solid;
         int dim, axis;
@@ -206,7 +207,8 @@ static void test_inertia_of_composites(void **state)
     }
 }
 
-/* Tests free rotation about the middle axis, which is unstable: energy and angular momentum are constant. */
+/* Checks free rotation about the axis of the middle moment of inertia, which is unstable: energy and angular momentum
+ * stay constant. */
 static void test_tumbling(void **state)
 {
     (void)state;
@@ -232,7 +234,8 @@ static void test_tumbling(void **state)
         }
 }
 
-/* Tests constant force and moment: the closed forms of leap-frog integration, whose energy is the work. */
+/* Compares the motion under constant force and moment with the closed forms of leap-frog integration, and the energy
+ * with the work. */
 static void test_driven(void **state)
 {
     (void)state;
@@ -257,8 +260,8 @@ static void test_driven(void **state)
     assert_near(rigid_signed_distance(&driven, (const real[]){5.5 + 5, 2, 0}, normal), 2, 1e-9);
 }
 
-/* Tests a brick in free 3D motion: the velocity of its points is the rate of their positions; the kinetic energy
- * increases by the work of force, weight and moment. */
+/* Checks a brick in free 3D motion. The velocity of its points is the rate of change of their positions, and the
+ * kinetic energy increases by the work of force, weight and moment. */
 static void test_points_move(void **state)
 {
     (void)state;
@@ -290,8 +293,8 @@ static void test_points_move(void **state)
     assert_true(work > 0.5);
 }
 
-/* Tests the kinetic energy added by a velocity update of half a step: half a step times the power of force, weight and
- * moment. A driven body has none. */
+/* Checks the kinetic energy that half a velocity update adds: half a step times the power of force, weight and moment.
+ * A driven body has none. */
 static void test_kick(void **state)
 {
     (void)state;
@@ -324,8 +327,8 @@ static real recorded(const struct column *column, const real *record, int n, con
     return NAN;
 }
 
-/* Tests the record of two bodies: each value is in its column; in 2D the moment is about z. Energies are sums over
- * both. */
+/* Checks the record of two bodies in the history: each value is in its column. In 2D the moment is about z. Energies
+ * are sums over both bodies. */
 static void test_record(void **state)
 {
     (void)state;
@@ -375,7 +378,7 @@ static void test_record(void **state)
     memory_free(rigid.motion);
 }
 
-/* Checks that the displacement of a driven body from its speed and ramp agrees with the sum of its steps. */
+/* Compares the displacement of a driven body, computed from its speed and ramp, with the sum of its steps. */
 static void test_ramp(void **state)
 {
     (void)state;
@@ -392,8 +395,8 @@ static void test_ramp(void **state)
     }
 }
 
-/* Checks that invalid rigid bodies are refused, also a flying one with a part so thin (1 : 1000) that its weight is
- * uncertain; a fixed one may have it. */
+/* Checks that invalid rigid bodies are refused, also a free body with a part so thin (1 : 1000) that its mass is
+ * uncertain; a fixed body may have such a part. */
 static void test_refused(void **state)
 {
     (void)state;

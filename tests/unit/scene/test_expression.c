@@ -1,5 +1,5 @@
-/* Expressions of scenes: values compared with the same formulas in C, derivatives, units, texts that are read back,
- * refusals, and arbitrary bytes. */
+/* Tests expressions of scenes: values against the same formulas in C, derivatives, units, stored texts, refusals, and
+ * arbitrary bytes. */
 #include "tests/support/near.h"
 
 #include <stdio.h>
@@ -25,7 +25,7 @@ static status compile(struct expression *e, const char *text, enum unit unit)
 #define PI 3.14159265358979323846
 #define RAMP(a) ((a) < 0 ? 0 : (a) > 1 ? 1 : (a))
 
-/* A formula in the notation of scenes and in C, of x, y, z [m] and t [s]. */
+/* Formulas of x, y, z [m] and t [s], each in the notation of scenes and in C. */
 #define FORMULAS(F)                                                                                                    \
     F(UNIT_NONE, "2 + 3*4^2/8 - 1", 2 + 3 * 16 / 8. - 1)                                                               \
     F(UNIT_NONE, "-2^2", -4.)                                                                                          \
@@ -89,7 +89,8 @@ static void values_are_those_of_c(void **state)
     }
 }
 
-/* Checks that central differences of a formula agree with its derivative: to the square of the step, and round-off. */
+/* Compares the derivative of each formula with a central difference. Tolerance: squared step, and round-off over the
+ * step. */
 static void derivatives_follow(void **state)
 {
     (void)state;
@@ -114,7 +115,7 @@ static void derivatives_follow(void **state)
     }
 }
 
-/* Checks that the stored text compiles to the same steps and is stored unchanged. */
+/* Checks that the stored text of an expression compiles to the same operations and is stored again unchanged. */
 static void texts_read_back(void **state)
 {
     (void)state;
@@ -148,7 +149,7 @@ static void constants_are_folded(void **state)
 
 /* ---- refusals ---------------------------------------------------------------------------------------------------- */
 
-/* Checks the messages for formulas that are invalid or of the wrong unit, with the position of the fault. */
+/* Checks the messages for formulas that are invalid or of the wrong unit, with the position of the error. */
 static void faults_are_placed(void **state)
 {
     (void)state;
@@ -229,7 +230,7 @@ static void size_is_bounded(void **state)
     }
 }
 
-/* ---- fuzz -------------------------------------------------------------------------------------------------------- */
+/* ---- arbitrary bytes --------------------------------------------------------------------------------------------- */
 
 /* Returns a pseudo-random number of 31 bits and advances *seed. */
 static uint32_t random_next(uint64_t *seed)
@@ -238,7 +239,8 @@ static uint32_t random_next(uint64_t *seed)
     return (uint32_t)(*seed >> 33);
 }
 
-/* Changes, removes, doubles or exchanges some parts of a formula, text of at most `room` bytes, at random (*seed). */
+/* Changes, removes, duplicates or exchanges random parts of a formula. text: of at most `room` bytes; *seed: state of
+ * the random numbers. */
 static void mutate(char *text, size_t room, uint64_t *seed)
 {
     static const char letters[] = "()+-*/^.,0123456789eExyztmsk gPaN%_ \t\xc2\xb5\xff";

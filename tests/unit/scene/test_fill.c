@@ -49,7 +49,7 @@ static void boxes_are_filled_in_every_space(void **state)
     }
 }
 
-/* Tests a plate with an inclusion that contains a region of the plate's own material. */
+/* Checks the materials and masses of a plate with an inclusion that contains a region of the plate's own material. */
 static void parts_are_of_their_material(void **state)
 {
     (void)state;
@@ -94,7 +94,8 @@ static bool has_particle(const struct particles *p, real x, real y)
     return false;
 }
 
-/* Tests a ring about the origin: the mirror images of every particle are particles, bitwise. */
+/* Checks that a ring about the origin is filled symmetrically: the mirror image of each particle is a particle,
+ * bitwise. */
 static void symmetric_bodies_are_filled_symmetrically(void **state)
 {
     (void)state;
@@ -123,8 +124,8 @@ static void symmetric_bodies_are_filled_symmetrically(void **state)
     }
 }
 
-/* Checks that a driven layer added below the plate continues its lattice, and so does a second body without a box of
- * its own. */
+/* Checks that a driven layer below the plate continues the lattice of the plate, and so does a second body, whose
+ * lattice is not aligned with its own box. */
 static void added_solids_continue_the_lattice(void **state)
 {
     (void)state;
@@ -156,7 +157,7 @@ static void added_solids_continue_the_lattice(void **state)
     particles_free(&p);
 }
 
-/* Checks that particles exactly on a surface belong to the body on every side, although 0.1 has no exact binary
+/* Checks that particles exactly on a surface belong to the body on each of its sides, although 0.1 has no exact binary
  * representation. */
 static void particles_on_surfaces_are_kept(void **state)
 {
@@ -229,7 +230,7 @@ static void threads_change_no_bit(void **state)
 
 /* ---- initial state ----------------------------------------------------------------------------------------------- */
 
-/* Checks that of overlapping initial entries the later one sets velocity and gradient. */
+/* Checks that where initial entries overlap, the later one determines velocity and gradient. */
 static void later_initial_entries_overwrite(void **state)
 {
     (void)state;
@@ -258,7 +259,7 @@ static void later_initial_entries_overwrite(void **state)
     particles_free(&p);
 }
 
-/* Tests the initial velocity from formulas of second order, whose central differences are exact, and its gradient. */
+/* Checks initial velocities by quadratic formulas and their gradients, for which central differences are exact. */
 static void velocities_by_formulas(void **state)
 {
     static const char text[] =
@@ -286,7 +287,7 @@ static void velocities_by_formulas(void **state)
     scene_free(&s);
 }
 
-/* Compares stress, position, volume and stretch under a uniform gradient with Hooke's law. */
+/* Compares stress, position, volume and stretch under a uniform displacement gradient with Hooke's law. */
 static void initial_strain_is_hooke(void **state)
 {
     (void)state;
@@ -330,8 +331,8 @@ static void initial_strain_is_hooke(void **state)
 
 /* ---- refusals ---------------------------------------------------------------------------------------------------- */
 
-/* Checks the messages for bodies that cannot be filled: with no particle, with too many, without bounds or spacing,
- * overlapping, or strained inside out. */
+/* Checks the messages for bodies that cannot be filled: without a particle, with too many, without bounds or spacing,
+ * overlapping, or with a displacement gradient that inverts them. */
 static void bad_bodies_are_refused(void **state)
 {
     (void)state;
@@ -365,9 +366,9 @@ static void bad_bodies_are_refused(void **state)
     assert_refused(bodies_fill_with_particles(&p, &s.scene, NULL, 0), "the scene has no body");
 }
 
-/* Tests pulses along and across their direction: velocity from its form, displacement from its integral; the stress on
- * planes across the direction is -rho c v, c of longitudinal or shear waves; longitudinal ones change the volume by
- * -v/c. */
+/* Checks longitudinal and transverse pulses: velocity from the given form, displacement from its integral. The stress
+ * on planes across the direction is -rho c v with the longitudinal or transverse wave speed c. Longitudinal pulses
+ * change the volume by -v/c. */
 static void pulses_are_waves(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Scenes that include others: precedence, names and positions of files, and refusals. */
+/* Tests scenes that include other files: precedence of keys, names and positions in messages, and refusals. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -49,7 +49,7 @@ static const char base[] = "name: base\n"
                            "output: {frames: 3, samples: 20}\n"
                            "probes: [tip, energy]\n";
 
-/* Asserts that the scene at `path` is equal to `flat`, except for its name, when written out. */
+/* Asserts that the scene at `path`, written out, equals the scene text `flat` except for its name. */
 static void assert_like(const char *path, const char *flat)
 {
     struct scene s, want;
@@ -99,8 +99,8 @@ static void names_and_overrides_are_of_the_scene(void **state)
     scene_free(&s);
 }
 
-/* Tests a chain of files in folders, each named relative to the folder of the previous one; a list of particles beside
- * the last. */
+/* Checks a chain of included files in folders: each name, also that of a list of particles, is relative to the folder
+ * of the file that contains it. */
 static void files_are_sought_beside_who_names_them(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Columns of lists written by other programs: units, separators, names, missing and superfluous columns; and invalid
- * bytes. */
+/* Tests columns of particle lists from other programs: units, separators, names, missing and unknown columns, and
+ * invalid bytes. */
 #include "tests/support/near.h"
 
 #include <stdlib.h>
@@ -18,7 +18,7 @@ static void list_written(struct setting *s, char *name, const char *text)
     s->body[0].file = name;
 }
 
-/* Tests units, separators, columns of other programs, and defaults of missing columns. */
+/* Checks units, separators, column names of other programs, and defaults for missing columns. */
 static void lists_of_others_are_read(void **state)
 {
     (void)state;
@@ -53,8 +53,8 @@ static void lists_of_others_are_read(void **state)
     }
 }
 
-/* Checks that a scene says the unit of coordinates and volumes that name none, and the columns of a file without
- * names. */
+/* Checks that the scene can set the unit of coordinates and volumes without units, and the columns of a file without a
+ * header. */
 static void scene_says_unit_and_columns(void **state)
 {
     (void)state;
@@ -102,8 +102,8 @@ static void scene_says_unit_and_columns(void **state)
     remove(h5);
 }
 
-/* Checks that a spacing not in the scene follows from the mean volume, in a plate with its thickness; particles closer
- * than a thousandth of it are refused. */
+/* Checks a spacing that is missing in the scene: it follows from the mean volume, in a plate with its thickness. Two
+ * particles closer than a thousandth of it are refused. */
 static void spacing_of_volumes(void **state)
 {
     (void)state;
@@ -125,7 +125,7 @@ static void spacing_of_volumes(void **state)
     }
 }
 
-/* Checks that files of ParaView, R, pandas, Peridigm and PeriLab are read unchanged. */
+/* Checks that files of ParaView, R, pandas, Peridigm and PeriLab are read as these programs write them. */
 static void lists_of_programs_are_read(void **state)
 {
     (void)state;
@@ -161,7 +161,7 @@ static void lists_of_programs_are_read(void **state)
     }
 }
 
-/* Checks that without volumes each particle has that of the lattice, and a message reports it. */
+/* Checks that without volumes each particle has the volume of a lattice cell, and that a message reports it. */
 static void volumes_have_a_default(void **state)
 {
     (void)state;
@@ -184,7 +184,7 @@ static void volumes_have_a_default(void **state)
     remove(name);
 }
 
-/* Checks that mutated lists are read, or refused in one line. */
+/* Checks that lists with random changes are read, or refused with a message of one line. */
 static void mutated_lists_are_bounded(void **state)
 {
     (void)state;

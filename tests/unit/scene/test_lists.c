@@ -48,8 +48,8 @@ static void csv_lists_are_read(void **state)
     remove(name);
 }
 
-/* Tests two bodies from one file, each with its own rows; without a spacing, that of the mean particle is used for
- * sorting. */
+/* Checks two bodies from one file, each with its own rows. A missing spacing is replaced by that of the mean
+ * particle. */
 static void bodies_share_a_list(void **state)
 {
     (void)state;
@@ -214,7 +214,7 @@ static void unit_write(hid_t file, const char *name, const char *unit, bool vari
     H5Tclose(type);
 }
 
-/* Tests positions in 3D, velocities, masses, and their units. */
+/* Checks positions in 3D, velocities, masses, and their units. */
 static void hdf5_lists_have_units(void **state)
 {
     (void)state;
@@ -251,8 +251,8 @@ static void hdf5_lists_have_units(void **state)
     remove(name);
 }
 
-/* Checks what is refused: positions that are a link out of the file or inside it, numbers in another file or dataset,
- * or far more numbers than the file has bytes. */
+/* Checks what is refused: positions that are a link in the file or to another one, numbers stored in another file or
+ * dataset, or far more numbers than the file has bytes. */
 static void hdf5_lists_are_whole(void **state)
 {
     (void)state;
@@ -293,11 +293,11 @@ static void hdf5_lists_are_whole(void **state)
     remove("other.h5");
 }
 
-/* ---- lists in another unit than the scene ------------------------------------------------------------------------ */
+/* ---- lists whose unit is not that of the scene ------------------------------------------------------------------- */
 
-/* Clusters of `together` particles `near` apart along x, on a square or cubic grid of `side` positions `apart` from
- * each other; the first `single` positions have one particle only. Volumes fill the space up to the nearest neighbour
- * `times` over, 0: once. */
+/* Clusters of `together` particles at distances `near` along x, on a square or cubic grid of `side` positions per axis
+ * at distances `apart`. The first `single` positions have one particle only. The volume of a particle is `times` that
+ * of a cube of the distance to its nearest neighbour; times = 0 means 1. */
 struct grains {
     int side, together, single;
     real near, apart, times;
@@ -324,7 +324,7 @@ static void write_grains(const char *name, int dim, const struct grains *g)
 
 enum { PD = METHOD_PD, MPM = METHOD_MPM, BOTH = METHOD_ADAPTIVE };
 
-/* A list in a scene, and the expected message; NULL: accepted. */
+/* A list in a scene, and a part of the expected message; NULL: the list is accepted. */
 static const struct {
     enum space space;
     int method;
@@ -332,7 +332,7 @@ static const struct {
     struct grains g;
     const char *says;
 } told[] = {
-    /* Lists in millimetres read as metres, and the other way round. */
+    /* Lists in millimetres read as metres, and in metres read as millimetres. */
     {SPACE_PLANE_STRESS,
      PD,
      1e-3,
@@ -347,7 +347,7 @@ static const struct {
      {20, 1, 0, 0, 1, 0},
      "about 100 % of its particles have no neighbour within 3.015 spacings"},
     {SPACE_SOLID, PD, 0.025, {4, 1, 0, 0, 2.5, 0}, "(perhaps the list is in mm or cm)"},
-    /* 1 mm apart with a spacing of 5 mm, or 1 cm apart: volumes in m^3 decide. */
+    /* Particles 1 mm apart with a spacing of 5 mm, or 1 cm apart: volumes in m^3 decide. */
     {SPACE_PLANE_STRESS, PD, 5e-3, {10, 1, 0, 0, 1, 1e-6}, "(is it in mm?)"},
     {SPACE_PLANE_STRESS, PD, 5e-3, {10, 1, 0, 0, 1, 1e-4}, "(is it in cm?)"},
     {SPACE_SOLID, PD, 2e-2, {4, 1, 0, 0, 1, 1e-9}, "(is it in mm?)"},
@@ -412,7 +412,8 @@ static void units_of_lists_are_told(void **state)
     remove(name);
 }
 
-/* Checks that points inside another body interact with it on the grid; bonds stay within their body. */
+/* Checks lists whose particles have neighbours only in another body: accepted for material points, which interact on
+ * the grid, and refused for bonds, which stay within a body. */
 static void other_bodies_are_neighbours_of_points(void **state)
 {
     (void)state;
@@ -431,7 +432,7 @@ static void other_bodies_are_neighbours_of_points(void **state)
     remove(name);
 }
 
-/* Checks that 2e5 particles, each the neighbour of all others, which need 960 GB, are refused. */
+/* Checks that 2e5 particles of which each is a neighbour of all others, which need 960 GB, are refused. */
 static void bonds_beyond_memory_are_refused(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Scenes: every key is read, units are exact, overrides replace values. */
+/* Tests reading of scenes: every key, exact units, overrides, previous names of keys, and critical stretches. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -185,7 +185,8 @@ static void test_block(void **state)
     scene_free(&s);
 }
 
-/* Checks that a rotation at 21/s about an axis of length 7 has w = (9, -18, 6)/s: rows of w x. */
+/* Checks that a rotation of 21/s about the axis (3, -6, 2) of length 7 has w = (9, -18, 6)/s, and the velocity gradient
+ * w x. */
 static void test_turn(void **state)
 {
     (void)state;
@@ -274,7 +275,7 @@ static void test_units(void **state)
 
 /* ---- overrides --------------------------------------------------------------------------------------------------- */
 
-/* Checks overrides that change, empty and remove keys of the scene `plate`; elements of lists have indices or names. */
+/* Checks overrides that change, clear and remove keys of the scene `plate`. */
 static void test_overrides(void **state)
 {
     (void)state;
@@ -331,8 +332,8 @@ static void test_overrides(void **state)
     scene_free(&s);
 }
 
-/* Tests keys under their earlier names, in the file, in the path of an override and in its value; the echo has the new
- * names. */
+/* Checks keys under their previous names: in the file, in the path of an override and in its value. The scene as
+ * written out has the current names. */
 static void test_renamed(void **state)
 {
     (void)state;
@@ -355,7 +356,7 @@ static void test_renamed(void **state)
     scene_free(&s);
 }
 
-/* Checks that bonds across an interface break as those of a material with the harmonic mean of both moduli: the
+/* Checks that bonds across an interface break as bonds of a material with the harmonic mean of both moduli: the
  * critical stretch is proportional to sqrt(G/E). */
 static void interfaces_have_their_strength(void **state)
 {
@@ -390,8 +391,9 @@ static void read_joint(struct scene *s, const char *more)
     if (scene_read_text(s, text, strlen(text), "test.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
 }
 
-/* Checks that a joint releases the energy of its interface, else the smaller one of both materials. The critical
- * stretch is proportional to sqrt(G/E); E is the harmonic mean for model bond, the arithmetic mean for ospd. */
+/* Checks joined bodies: the fracture energy is that of the interface if given, else the smaller one of both materials.
+ * The critical stretch is proportional to sqrt(G/E); E is the harmonic mean for model bond, the arithmetic mean for
+ * ospd. */
 static void joints_have_their_energy(void **state)
 {
     (void)state;
@@ -413,10 +415,10 @@ static void joints_have_their_energy(void **state)
         }
 }
 
-/* Checks that with the influence function omega the critical stretch of a continuum is that of omega = 1 times
- * sqrt(mu/nu), with the means mu and nu of omega that have the weights r^2 and r^3 in 2D: 3 and 2 for (horizon/r)^2,
- * 3/2 and 4/3 for horizon/r. A lattice lacks the particle itself, where omega is largest: a horizon of 10 spacings
- * agrees within 3.5 %. */
+/* Checks critical stretches with an influence function omega. In a continuum they are those of omega = 1 times
+ * sqrt(mu/nu), where mu and nu are means of omega weighted by r^2 and r^3 in 2D: 3 and 2 for (horizon/r)^2, 3/2 and 4/3
+ * for horizon/r. A lattice with a horizon of 10 spacings agrees within 3.5 %: it lacks the particle itself, where omega
+ * is largest. */
 static void stretches_depend_on_influence(void **state)
 {
     (void)state;
@@ -434,8 +436,9 @@ static void stretches_depend_on_influence(void **state)
     }
 }
 
-/* Checks that on a line with a horizon of 3 spacings h, where k parallel bonds of length k h cross each plane, G = E
- * s^2 h/2 (1 + 4 + 9)/(1 + 2 + 3). The continuum integral of (horizon/r)^2 diverges there. */
+/* Checks the critical stretch s of a line with a horizon of 3 spacings h, where k bonds of length k h cross each plane:
+ * G = E s^2 h/2 (1 + 4 + 9)/(1 + 2 + 3). Also checks that (horizon/r)^2 with continuum calibration is refused, because
+ * its integral diverges. */
 static void stretch_on_a_line(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Invalid scenes: each is the valid scene below with one piece replaced, and the message must be exact, including line
- * and column. */
+/* Tests invalid scenes. Each is the valid scene below with one piece replaced; the message must be exact, including
+ * line and column. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -49,7 +49,7 @@ static const char good[] = "name: plate\n"
                            "  - point: {name: a, at: [1 mm, 1 mm]}\n"
                            "  - reaction: {boundary: impact}\n";
 
-/* Piece of the valid scene, its replacement, message after the file's name. */
+/* A piece of the valid scene, its replacement, and the message after the name of the file. */
 static const struct {
     const char *piece, *instead, *message;
 } cases[] = {
@@ -312,8 +312,8 @@ static const struct {
      "all brackets"},
 };
 
-/* Returns the valid scene with the only occurrence of `piece` replaced by instead[instead_length], which may have NUL
- * bytes; *length: of the result. */
+/* Returns the valid scene with the only occurrence of `piece` replaced by instead[instead_length], which may contain
+ * NUL bytes. *length: receives its length. To be freed with test_free. */
 static char *replaced(const char *piece, const char *instead, size_t instead_length, size_t *length)
 {
     const char *at = strstr(good, piece);
@@ -373,7 +373,7 @@ static void test_bytes(void **state)
     test_free(many);
 }
 
-/* Overrides that are refused, and what is said of them. */
+/* Overrides that are refused, with the message. */
 static const struct {
     struct scene_override o;
     const char *message;

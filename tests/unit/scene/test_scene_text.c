@@ -1,4 +1,4 @@
-/* Scenes written and read back bitwise, arbitrary bytes, help and manual. */
+/* Tests scenes that are written out and read back bitwise, arbitrary bytes as scenes, and the help on keys. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -58,7 +58,7 @@ static void test_round_trip(void **state)
     scene_free(&s);
 }
 
-/* ---- any bytes --------------------------------------------------------------------------------------------------- */
+/* ---- arbitrary bytes --------------------------------------------------------------------------------------------- */
 
 /* Returns a pseudo-random number of 31 bits and advances *seed. */
 static unsigned draw(uint64_t *seed)
@@ -67,7 +67,8 @@ static unsigned draw(uint64_t *seed)
     return (unsigned)(*seed >> 33);
 }
 
-/* Changes some bytes of text[length], or doubles or removes a piece, at random (*seed). Returns the new length. */
+/* Changes some bytes of text[length] at random, or duplicates or removes a piece. *seed: state of the random numbers.
+ * Returns the new length. */
 static size_t mutate(char *text, size_t length, uint64_t *seed)
 {
     static const char letters[] = "[]{}:,-&*!|>'\"#%@ \n\t\\0123456789.eE/inf_x\xc3\x00";

@@ -1,5 +1,5 @@
-/* Solids in scenes: each kind is read, moved and repeated as specified, the echo reads back equal, names stand for
- * their solids, and errors are reported at their position. */
+/* Tests solids in scenes: every kind is read, moved and repeated as specified, the scene as written out reads back
+ * equal, names stand for their solids, and errors are reported with their position. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,7 +20,7 @@ static void scene_text(char *text, size_t room, int dim, const char *regions, co
 
 /* ---- round trip -------------------------------------------------------------------------------------------------- */
 
-/* Shapes that together use every key of solids; a position inside, a position outside. */
+/* Shapes that together use every key of solids, each with a position inside and a position outside. */
 static const struct shown_shape {
     int dim;
     const char *regions, *shape;
@@ -136,7 +136,8 @@ static void test_round_trip_of_solids(void **state)
 
 /* ---- filling ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the number of particles of a body with `shape` and named regions, in dim dimensions. */
+/* Returns the number of particles of a body with the shape `shape` and the named regions `regions` in `dim`
+ * dimensions. */
 static int64_t filled(const char *regions, const char *shape, int dim)
 {
     char text[2000];
@@ -170,7 +171,7 @@ static void test_filled_alike(void **state)
     for (size_t k = 0; k < COUNT_OF(same); k++) assert_int_equal(filled("", same[k][0], 2), filled("", same[k][1], 2));
 }
 
-/* Checks that a wheel with slots all around has equal numbers of particles in each quarter. */
+/* Checks that a wheel with slots all around has equal numbers of particles in each quadrant. */
 static void test_filled_symmetrically(void **state)
 {
     (void)state;
@@ -190,7 +191,7 @@ static void test_filled_symmetrically(void **state)
 
 /* ---- names ------------------------------------------------------------------------------------------------------- */
 
-/* Checks that a name stands for its solids in loads and probes. */
+/* Checks that a name can be used in place of its solids in loads and probes. */
 static void test_names(void **state)
 {
     (void)state;
@@ -274,7 +275,7 @@ static void test_refusals(void **state)
     }
 }
 
-/* Checks that names that expand to a hundred million solids are refused at once. */
+/* Checks that names that would expand to a hundred million solids are refused without expanding them. */
 static void test_multiplied_names(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Spacings that fit the lengths of a scene: integer numbers of spacings in edges, gaps and cracks, and a few in each
- * length that must be resolved. */
+/* Tests spacings that fit the lengths of a scene: integer numbers of spacings in edges, gaps and cracks, and some
+ * spacings in each length that must be resolved. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -16,20 +16,21 @@
     "space: plane stress\nthickness: 1 mm\nduration: 1 us\nmaterial: {young: 2e11, poisson: 1/3, density: 8000}\n"     \
     "particles: {spacing: 10 mm}\n"
 
-/* Reads a valid scene. */
+/* Reads the valid scene `text` into s. */
 static void read_sound(struct scene *s, const char *text)
 {
     if (scene_read_text(s, text, strlen(text), "spacings.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
 }
 
-/* Checks that crack ends, gaps and edges are between particles; cells of two spacings end with the body. */
+/* Checks the spacing nearest to a given one for which crack ends and edges are between particles and, with cells of two
+ * spacings, the body ends at a cell. */
 static void spacings_divide_lengths(void **state)
 {
     (void)state;
     struct scene s;
     read_sound(&s, PLANE "body: {box: {from: [0, 0], to: [60, 40]}}\ncracks: [{from: [-1, 20], to: [30, 20]}]\n");
     assert_true(fabs(spacing_that_fits_box_edges(&s, 1, false) - 1) < 1e-12);
-    /* 60, 40, 30 and 20: a multiple of 10. */
+    /* The lengths 60, 40, 30 and 20 need a divisor of 10. */
     assert_true(fabs(spacing_that_fits_box_edges(&s, 0.99, false) - 10.0 / 11) < 1e-12);
     assert_true(fabs(spacing_that_fits_box_edges(&s, 3.4, true) - 10.0 / 3) <
                 1e-12); /* 60 and 40 over 20/3: 9 and 6 pairs */
@@ -37,8 +38,8 @@ static void spacings_divide_lengths(void **state)
     scene_free(&s);
 }
 
-/* Checks that no edge along x counts if the first body is a disc; the spacing stays if none divides the other body's
- * edges. */
+/* Checks that the first body, a disc, has no edges to fit. The spacing is unchanged if no spacing divides the edges of
+ * the other body. */
 static void a_disc_has_no_edges(void **state)
 {
     (void)state;
@@ -49,8 +50,8 @@ static void a_disc_has_no_edges(void **state)
     scene_free(&s);
 }
 
-/* Checks that lengths that must be resolved have a few spacings each, which divide the body; none needs more than
- * 50,000 particles. */
+/* Checks the spacing that resolves thickness, cracks and pulses with some spacings each. It divides the height of the
+ * body, except in the second scene. */
 static void each_length_has_a_few_spacings(void **state)
 {
     (void)state;
@@ -77,7 +78,8 @@ static void each_length_has_a_few_spacings(void **state)
     }
 }
 
-/* Checks that particles from a list and a body without bounds have no length that determines a spacing. */
+/* Checks that the spacing is 0 for particles from a list and for a body without bounds, which have no length that
+ * determines it. */
 static void there_may_be_no_length(void **state)
 {
     (void)state;

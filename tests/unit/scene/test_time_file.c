@@ -1,4 +1,4 @@
-/* Tests of functions of time from CSV files: reading, refusals, evaluation. */
+/* Tests functions of time from CSV files: reading, refusals, interpolation. */
 #include "tests/support/near.h"
 
 #include <math.h>
@@ -21,7 +21,8 @@ static void file_write(const char *name, const char *text, size_t length)
     fclose(file);
 }
 
-/* Reads into s the scene with the function of time `time` and a file blast.csv that has the text csv[length]. */
+/* Reads into s a scene with the function of time `time` and a file blast.csv with the text csv[length]. Returns the
+ * status. */
 static status read_with(struct scene *s, const char *time, const char *csv, size_t length)
 {
     char text[1000];
@@ -105,7 +106,7 @@ static void bad_files_are_refused(void **state)
     assert_refused(read_with(&s, "{file: blast.csv, table: [[0, 1]]}", "", 0), "table: is given together with file");
 }
 
-/* Checks that arbitrary bytes cause a status, never a crash. */
+/* Checks that arbitrary bytes are read or refused without a crash. */
 static void garbage_is_refused(void **state)
 {
     (void)state;
@@ -123,7 +124,7 @@ static void garbage_is_refused(void **state)
     }
 }
 
-/* Checks that bisection yields values bitwise equal to those of a search from the start. */
+/* Checks that values found by bisection in a long table are bitwise equal to those of a linear search. */
 static void long_tables_are_bisected(void **state)
 {
     (void)state;

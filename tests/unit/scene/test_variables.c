@@ -1,4 +1,4 @@
-/* Variables of scenes: in every kind of number, overridden, written out, and refused. */
+/* Tests variables of scenes: use in every kind of number, overrides, scenes as written out, refusals. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -63,7 +63,7 @@ static void every_number_may_contain_them(void **state)
     scene_free(&s);
 }
 
-/* Checks that the scene as run contains only numbers, which are read back bitwise. */
+/* Checks that the scene as written out contains numbers only, which are read back bitwise. */
 static void the_scene_as_run_holds_numbers(void **state)
 {
     (void)state;
@@ -95,7 +95,7 @@ static void overrides_set_them(void **state)
     scene_free(&s);
 }
 
-/* Lines of variables that are refused, and what is said of them. */
+/* Definitions of variables that are refused, with the message. */
 static const struct {
     const char *line, *message;
 } wrong[] = {
@@ -125,7 +125,8 @@ static const struct {
     {"a: 1e40 mm", "2:3: b: 2*a + 4 mm needs a, which is above 1e30 in SI units"},
 };
 
-/* Checks that each line in place of `a: 3 mm` is refused; the expected message follows the file's name. */
+/* Checks that each line of `wrong` in place of `a: 3 mm` is refused with its message, and refused overrides of
+ * variables. */
 static void wrong_ones_are_refused(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* Request of a scene with `method: auto` for its pilot runs, as read from a file. */
+/* Tests what a scene with `method: auto` requires of its pilot runs: accuracy, result, time limit, and the provisional
+ * scene. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -16,7 +17,7 @@
     "method: auto\nspace: plane stress\nthickness: 1 mm\nduration: 1 us\n"                                             \
     "material: {young: 2e11, poisson: 1/3, density: 8000}\nbody: {box: {from: [0, 0], to: [40 mm, 20 mm]}}\n"
 
-/* Reads a scene with this text from a file, with its wish w. */
+/* Reads the scene `text` from a temporary file. w: receives its requirements for pilot runs. Returns the status. */
 static status wish_of(struct pilot_requirements *w, const char *text)
 {
     char path[] = "/tmp/cleave-wish-XXXXXX";
@@ -41,7 +42,7 @@ static void a_share_alone(void **state)
     assert_true(fabs(w.within - 0.02) < 1e-15 && w.budget == 300);
     assert_string_equal(w.figure, "");
     assert_string_equal(w.model, "");
-    /* At most 3000 particles. */
+    /* The plate is resolved with at most 3000 particles. */
     assert_int_equal(w.provisional.method, METHOD_ADAPTIVE);
     assert_true(w.provisional.spacing > 0.4e-3 && w.provisional.spacing < 0.52e-3);
     scene_free(&w.provisional);
@@ -61,7 +62,7 @@ static void all_that_can_be_given(void **state)
     scene_free(&w.provisional);
 }
 
-/* Checks that joined bodies are refused in adaptive runs, so that the provisional method is pd. */
+/* Checks that the provisional method of joined bodies is pd, because adaptive runs refuse interfaces. */
 static void joined_bodies_are_for_bonds(void **state)
 {
     (void)state;
@@ -78,7 +79,8 @@ static void joined_bodies_are_for_bonds(void **state)
     scene_free(&w.provisional);
 }
 
-/* Checks that scenes with other methods are read as by scene_read(); invalid ones leave no wish. */
+/* Checks that scenes with another method need no pilot runs and are read as by scene_read(), and that invalid scenes
+ * are refused without requirements. */
 static void other_scenes_have_no_wish(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Equilibrium of trusses: matrices of springs compared with elimination; bars that rotate, snap through and have large
- * prescribed displacements compared with closed forms; balance of work. */
+/* Tests the equilibrium solver with trusses: small displacements against elimination; bars that rotate, snap through
+ * and have large prescribed displacements against closed forms; balance of work. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,7 +15,7 @@
 
 enum { NODES = 12, BARS = 40 };
 
-/* Bars between nodes, with force k (length - rest) along the bar. */
+/* A truss: bars between nodes with the force k (length - rest) along the bar. */
 struct truss {
     int dim, nodes, bars;
     real X[NODES][DIM_MAX], load[NODES][DIM_MAX];
@@ -61,8 +61,8 @@ static real truss_energy(const struct truss *t)
     return sum;
 }
 
-/* Computes z from the residual r by the sum of the diagonal entries of all bars of the truss *context: every node has
- * stiffness in it. */
+/* Computes the preconditioned residual z from r with the sum of the diagonal entries of all bars of the truss *context,
+ * so that every node has stiffness in it. */
 static void truss_precondition(void *context, const struct field *r, struct field *z)
 {
     const struct truss *t = context;
@@ -112,7 +112,8 @@ static status truss_find(struct truss *t, bool moved)
 
 /* ---- cases ------------------------------------------------------------------------------------------------------- */
 
-/* Solves the equations A x = b of a truss with small displacements by elimination: n unknowns, rows (A, b) of n + 1. */
+/* Solves A x = b by elimination. n: number of unknowns; A: n rows of the matrix, each followed by its right-hand
+ * side. */
 static void eliminate(int n, real (*A)[2 * NODES + 1], real *x)
 {
     for (int k = 0; k < n; k++)
@@ -127,8 +128,8 @@ static void eliminate(int n, real (*A)[2 * NODES + 1], real *x)
     }
 }
 
-/* Tests a plane truss of ten free nodes and two fixed ones; displacements are a thousandth of its size, and so are
- * nonlinear effects. Tolerances of 1e-5 and 1e-9 are reached. */
+/* Compares a plane truss of ten free and two fixed nodes with elimination, for residuals of 1e-5 and 1e-9. Tolerance:
+ * 30 residuals and 1e-3 for nonlinear effects, since displacements are a thousandth of the size. */
 static void test_linear(void **state)
 {
     (void)state;
@@ -167,8 +168,8 @@ static void test_linear(void **state)
     }
 }
 
-/* Tests a bar on a hinge under a transverse force: it rotates by a right angle, into the direction of the force, and
- * has the corresponding length. */
+/* Checks a bar on a hinge under a transverse force: it rotates by a right angle into the direction of the force and has
+ * the length of equilibrium. */
 static void test_turns(void **state)
 {
     (void)state;
@@ -182,9 +183,9 @@ static void test_turns(void **state)
     truss_free(&t);
 }
 
-/* Returns the load of a flat roof of two bars of stiffness k = 1 at height y: height 0.1 over half a span of 1 at
- * first. The snap-through load is 2 k max of (1/1 - 1/l) y, about 2 k 0.1^3/(3 sqrt 3); below it the roof bends, above
- * it hangs. Equilibria from the closed form by bisection. */
+/* Returns the downward load at which a flat roof of two bars (k = 1, half span 1, initial height 0.1) is in equilibrium
+ * at height y. The snap-through load is about 2 k 0.1^3/(3 sqrt 3) = 3.85e-4. Below it the roof stays above its
+ * supports, beyond it it hangs. */
 static real roof_load(real y) { return 2 * (sqrt(1.01) / hypot(1, y) - 1) * y; }
 static void test_snaps(void **state)
 {
@@ -213,9 +214,9 @@ static void test_snaps(void **state)
     }
 }
 
-/* Tests a roof whose middle is moved through by a support: support forces do work, and no energy is lost. Then a bar
- * breaks: its energy and that released by the others are dissipated. Tolerance: Simpson's rule for displacements of a
- * twentieth of a bar and more; the work of supports between equilibria is that of their mean force, to 0.5 %. */
+/* Checks a roof whose middle is pushed through by a prescribed displacement: strain energy plus dissipated energy
+ * equals the work of the support. Then a bar breaks: its energy and that released by the others are dissipated.
+ * Tolerances: the work is that of the mean support force, to 0.5 %, for displacements of a twentieth of a bar. */
 static void test_work(void **state)
 {
     (void)state;

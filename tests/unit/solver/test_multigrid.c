@@ -1,6 +1,6 @@
-/* Multigrid preconditioner: solutions compared with dense elimination, symmetry, positive definiteness, number of
- * iterations independent of size, cracks and unconstrained fragments, bitwise equality on any number of threads,
- * invalid input. */
+/* Tests the multigrid preconditioner: solutions against dense elimination, symmetry, positive definiteness, number of
+ * iterations for any size, with cracks and unconstrained fragments, bitwise equality on any number of threads, invalid
+ * input. */
 #include "tests/support/near.h"
 
 #include <omp.h>
@@ -20,8 +20,8 @@ enum {
     TWO_MATERIALS = 128
 };
 
-/* A lattice of particles with springs of stiffness 1/|xi| within 3.015 spacings, or to the nearest 3^dim - 1 as in a
- * mesh of cells; particles with x < 3 are fixed. */
+/* A lattice of particles with springs of stiffness 1/|xi| (xi: bond vector) within 3.015 spacings, or to the nearest
+ * 3^dim - 1 particles as in a mesh of cells. Particles with x < 3 are fixed. kind: flags of the case. */
 struct body {
     int dim, kind;
     int size[DIM_MAX];
@@ -46,7 +46,7 @@ static bool in_piece(const struct body *b, const int *at)
     return true;
 }
 
-/* Returns true if a bond connects the positions `from` and `to` in b's kind of body. */
+/* Returns true if a bond connects the lattice positions `from` and `to` in a body of b's kind. */
 static bool joined(const struct body *b, const int *from, const int *to)
 {
     const real middle = b->size[1] / 2 - 0.5;
@@ -59,7 +59,7 @@ static bool joined(const struct body *b, const int *from, const int *to)
     return true;
 }
 
-/* Returns the factor on the stiffness of the bond between the positions `from` and `to` of b: of two materials one is a
+/* Returns the factor on the stiffness of the bond between the positions `from` and `to` of b. One of two materials is a
  * thousand times as stiff; bonds between them have the harmonic mean. */
 static real bond_factor(const struct body *b, const int *from, const int *to)
 {
@@ -79,7 +79,8 @@ static void place_of(const struct body *b, int64_t k, int *at)
     at[2] = (int)(k / b->size[0] / b->size[1]);
 }
 
-/* Creates the row of b of the node at lattice position k, from entry `first` on; returns its end. */
+/* Creates the matrix row of the node at lattice position k of b, from entry `first` on. Returns the end of its
+ * entries. */
 static int64_t row_make(struct body *b, int64_t k, int64_t first)
 {
     const int dim = b->dim, reach = b->kind & MESH_CELLS ? 1 : 3, size = dim * dim;
@@ -156,7 +157,7 @@ static void body_free(struct body *b)
 
 /* ---- vectors ----------------------------------------------------------------------------------------------------- */
 
-/* A field with a component along each axis, a value for each node. */
+/* A vector field: one array per axis with a value for each node. */
 struct vectors {
     real *of[DIM_MAX];
 };
@@ -195,7 +196,7 @@ static real product(const struct body *b, const struct vectors *x, const struct 
     return sum;
 }
 
-/* Computes y = K x for b as forces of bonds stretched by differences of displacements. */
+/* Computes y = K x for b from the forces of bonds stretched by differences of the displacements x. */
 static void stiffness(const struct body *b, const struct vectors *x, struct vectors *y)
 {
     const int dim = b->dim;
@@ -208,7 +209,7 @@ static void stiffness(const struct body *b, const struct vectors *x, struct vect
     }
 }
 
-/* Solves K u = load for b by conjugate gradients with the preconditioner m to 1e-8; returns the number of
+/* Solves K u = load for b by conjugate gradients with the preconditioner m to a residual of 1e-8. Returns the number of
  * iterations. */
 static int solve_with(struct multigrid *m, const struct body *b, const struct vectors *load, struct vectors *u)
 {
@@ -241,7 +242,7 @@ static int solve(const struct body *b, const struct vectors *load, struct vector
     return k;
 }
 
-/* Returns a load along the body b and a smaller one across. */
+/* Returns a load along the body b with a smaller one across, to be freed with vectors_free. */
 static struct vectors load_make(const struct body *b)
 {
     struct vectors v = vectors_make(b);
@@ -266,7 +267,7 @@ static int iterations(int dim, int nx, int ny, int nz, int kind)
 
 /* ---- solutions --------------------------------------------------------------------------------------------------- */
 
-/* Computes x = K^-1 load for b by elimination of the dense matrix of free components. */
+/* Computes x = K^-1 load for b by elimination of the dense matrix of the free components. */
 static void dense_reference(const struct body *b, const struct vectors *load, real *x)
 {
     const int dim = b->dim;
@@ -297,8 +298,8 @@ static void dense_reference(const struct body *b, const struct vectors *load, re
     memory_free(k);
 }
 
-/* Compares solutions with elimination. Tolerance: stiffness in single precision, 6e-8 of the diagonal, over the least
- * eigenvalue of these small bodies, 1e-3. */
+/* Compares solutions with dense elimination. Tolerance: the stiffness is in single precision, 6e-8 of the diagonal,
+ * over the smallest eigenvalue of these small bodies, 1e-3. */
 static void solutions_are_those_of_elimination(void **state)
 {
     (void)state;
@@ -320,8 +321,8 @@ static void solutions_are_those_of_elimination(void **state)
     }
 }
 
-/* Checks that numbers of iterations do not grow with the body. Limits are the observed numbers plus three: they are
- * equal on all machines up to round-off; coarse spaces without rotations, or aggregates across cracks, need twice as
+/* Checks that the number of iterations does not grow with the body. Limits are observed numbers plus three, equal on
+ * all machines up to round-off. Coarse spaces without rotations, or aggregates across cracks, would need twice as
  * many. */
 static void iterations_do_not_grow(void **state)
 {
@@ -343,7 +344,8 @@ static void iterations_do_not_grow(void **state)
 
 /* ---- the operator ------------------------------------------------------------------------------------------------ */
 
-/* Checks that the preconditioner is symmetric and positive for random vectors, as conjugate gradients require. */
+/* Checks for random vectors that the preconditioner is symmetric and positive definite, as conjugate gradients
+ * require. */
 static void operator_is_symmetric_and_positive(void **state)
 {
     (void)state;
@@ -376,8 +378,8 @@ static void operator_is_symmetric_and_positive(void **state)
     }
 }
 
-/* Tests a free body: its rigid motions have zero stiffness, or a little from round-off, and must not be treated as soft
- * modes. Balanced loads are solved as fast as for a fixed body. */
+/* Checks a free body, whose rigid motions have zero stiffness up to round-off and must not be amplified. Balanced loads
+ * are solved in as few iterations as for a fixed body. */
 static void free_body_stays_bounded(void **state)
 {
     (void)state;
@@ -394,7 +396,8 @@ static void free_body_stays_bounded(void **state)
     body_free(&b);
 }
 
-/* Breaks the bonds of b across the middle of a plate from x0 to x1: entries become 0 in place. */
+/* Breaks the bonds of b across the middle of a plate between x0 and x1: their entries of the matrix become 0, with the
+ * same sparsity. */
 static void bonds_break(struct body *b, real x0, real x1)
 {
     const real middle = b->size[1] / 2 - 0.5;
@@ -408,8 +411,8 @@ static void bonds_break(struct body *b, real x0, real x1)
         }
 }
 
-/* Checks that the preconditioner of a body remains effective while a crack runs through it, and one rebuilt ignores
- * broken bonds. */
+/* Checks that a preconditioner of the intact body remains effective while a crack grows (at most six more iterations),
+ * and that one created afterwards takes no account of broken bonds. */
 static void broken_bonds_cost_few_iterations(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Active set: forces at rest are exactly zero, results are bitwise equal with and without it, blocks of eight rows
- * become inactive, and events activate them. */
+/* Tests the active set. Forces at rest must be exactly zero, results must be bitwise equal with and without the active
+ * set, blocks of eight rows must become inactive, and loads must activate them. */
 #include <math.h>
 #include <omp.h>
 #include <string.h>
@@ -16,8 +16,9 @@
 
 /* ---- zero forces at rest ----------------------------------------------------------------------------------------- */
 
-/* Checks that forces of `model` on undeformed bodies, regular and irregular, at any position, are zero; dim dimensions,
- * random positions of seed. At positions far from the origin every component of a bond has round-off. */
+/* Checks that forces and energy of `model` are exactly zero in undeformed bodies of `dim` dimensions, regular or
+ * irregular, near the origin or far from it, where bond components have round-off. seed: of size, position and
+ * irregularity. */
 static void check_at_rest(int dim, enum pd_model model, uint64_t seed)
 {
     static const enum space space[DIM_MAX + 1] = {0, SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
@@ -62,7 +63,8 @@ static void test_at_rest(void **state)
 
 /* ---- bitwise equality -------------------------------------------------------------------------------------------- */
 
-/* A plate and a block, hit or pulled at one end: a pulse crosses them; `%s` is replaced by the keys of a case. */
+/* Scenes of a plate and a block that are hit or pulled at one end, so that a pulse crosses them. `%s` is replaced by
+ * the keys of a case. */
 static const char plate[] =
     "name: plate\nspace: plane stress\nthickness: 1 mm\nduration: 24 us\n"
     "material: {young: 72 GPa, poisson: 1/3, density: 2440 kg/m^3, energy_release_rate: 135 J/m^2}\n"
@@ -123,7 +125,7 @@ static void same_bits(const struct run *a, const struct run *b)
     assert_memory_equal(&energy, &(real){b->kernels.bond_energy(&b->bonds, q, NULL)}, sizeof energy);
 }
 
-/* Returns the inactive share of the body of the run, or of its points on the grid. */
+/* Returns the inactive fraction of the body of the run, or of its points on the grid [1]. */
 static real sleeping(const struct run *run)
 {
     const struct transfer_order *active = run->grid->transfer.order;
@@ -132,10 +134,10 @@ static real sleeping(const struct run *run)
     return real_max(particles_at_rest_fraction(&run->bonds, &run->frame->mesh, &run->part), points);
 }
 
-/* Runs the scene of body, boundary, more and keys with and without the active set; results agree after every tenth
- * step. At least `early` of the body is inactive after a tenth of the steps (of points on the grid after the first
- * check, since round-off travels some cells per step there), and nothing at the end. Returns the number of converted
- * particles. */
+/* Runs the scene of `body`, `boundary`, `more` and `keys` with and without the active set. Results must be bitwise
+ * equal after every tenth step. At least the fraction `early` must be inactive after a tenth of the steps (for points
+ * on the grid after the first check, because round-off travels some cells per step), and none at the end. Returns the
+ * number of converted particles. */
 static int64_t check_same(const char *body, const char *boundary, const char *more, const char *keys, real early)
 {
     struct scene s[2];
@@ -184,7 +186,8 @@ static void test_mesh(void **state)
     check_same(plate, pulled, mirror, "method: mpm\nmpm: {frame: reference, strain: small}", 0.1);
 }
 
-/* Tests points on the grid, where disturbances travel from cell to cell: FLIP and wide shapes carry them farthest. */
+/* Checks points on the grid, where disturbances travel from cell to cell, farthest with FLIP and wide shape
+ * functions. */
 static void test_points(void **state)
 {
     (void)state;
@@ -196,8 +199,8 @@ static void test_points(void **state)
     check_same(plate, struck, late, "method: mpm\nmpm: {shape: linear}", 0.05);
 }
 
-/* Tests an adaptive run. The crack tips are peridynamic from the start; the pulse breaks bonds there and more particles
- * convert. */
+/* Checks adaptive runs, in which crack tips are peridynamic from the start, and the pulse breaks bonds there, so that
+ * more particles convert. */
 static void test_adaptive(void **state)
 {
     (void)state;
@@ -210,7 +213,7 @@ static void test_adaptive(void **state)
 
 /* ---- activation -------------------------------------------------------------------------------------------------- */
 
-/* Checks that a load that starts late, far from the wave, moves the particles on which it acts as without an active
+/* Checks that a load that starts late, far from the wave, moves the particles on which it acts as without the active
  * set. */
 static void test_late(void **state)
 {
