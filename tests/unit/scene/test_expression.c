@@ -139,7 +139,7 @@ static void constants_are_folded(void **state)
     assert_int_equal(compile(&e, "2*(3 mm + 4 mm)^2/7 mm", UNIT_LENGTH), OK);
     assert_true(e.n == 1 && !e.in_space && !e.in_time);
     expression_free(&e);
-    assert_int_equal(compile(&e, "1/3 mm", UNIT_LENGTH), OK); /* a number as every key reads it */
+    assert_int_equal(compile(&e, "1/3 mm", UNIT_LENGTH), OK); /* a number with a unit, as in any key */
     assert_true(e.n == 1 && reals_are_bitwise_equal(expression_evaluate(&e, NULL, 0, 0), 1e-3 / 3));
     expression_free(&e);
     assert_int_equal(compile(&e, "2*pi*x + 0*t*m/s", UNIT_LENGTH), OK);

@@ -201,7 +201,7 @@ static void test_snaps(void **state)
         truss_make(&t, 1e-9);
         t.q.held[0] = t.q.held[1] = 3;
         assert_int_equal(truss_find(&t, true), OK);
-        real low = roof[c].from, high = roof[c].to; /* the load decreases from one to the other */
+        real low = roof[c].from, high = roof[c].to; /* bisection: the load decreases from `from` to `to` */
         for (int k = 0; k < 60; k++) {
             const real y = 0.5 * (low + high);
             if (roof_load(y) > roof[c].load)

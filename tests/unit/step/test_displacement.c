@@ -1,4 +1,4 @@
-/* Prescribed displacements: positions accurate to round-off in every method, reactions and stresses compared with
+/* Tests prescribed displacements: positions accurate to round-off with every method, reactions and stresses against
  * Hooke's law, layers behind faces, refusals. */
 #include <float.h>
 #include <math.h>
@@ -36,7 +36,8 @@ struct scene_run {
     struct run e;
 };
 
-/* Creates the run a of the scene `text` with the overrides `key=value` of list, terminated by NULL. */
+/* Creates the run a of the scene `text` with the overrides `key=value` of list, terminated by NULL. Returns the
+ * status. */
 static status run_make(struct scene_run *a, const char *text, va_list list)
 {
     memset(a, 0, sizeof *a);
@@ -68,7 +69,7 @@ static void run_end(struct scene_run *a)
 
 /* ---- positions --------------------------------------------------------------------------------------------------- */
 
-/* All methods that move particles: bonds, the mesh, the grid with both transfers, and coupled. */
+/* All methods that move particles: bonds, the mesh, the grid with both transfers, and coupled ones. */
 static const char *const ways[][3] = {{"method=pd", "mpm.frame=auto", "mpm.transfer=flip"},
                                       {"method=mpm", "mpm.frame=reference", "mpm.levels=0"},
                                       {"method=mpm", "mpm.frame=current", "mpm.transfer=flip"},
@@ -77,8 +78,8 @@ static const char *const ways[][3] = {{"method=pd", "mpm.frame=auto", "mpm.trans
                                       {"method=adaptive", "mpm.frame=current", "mpm.transfer=flip"}};
 enum { WAYS = sizeof ways / sizeof *ways };
 
-/* Returns the largest distance of the particles of a beyond `from` along x from reference position plus u along x, over
- * the last bit of the farthest position [1]. */
+/* Returns the largest distance of the particles of a with X > `from` from their reference position plus u along x. It
+ * is divided by the resolution of the farthest coordinate [1]. */
 static real off_place(const struct scene_run *a, real from, real u)
 {
     const struct particles *p = &a->e.part;
@@ -90,9 +91,9 @@ static real off_place(const struct scene_run *a, real from, real u)
     return most / (far * DBL_EPSILON);
 }
 
-/* Checks at every step of `duration` that driven particles of `scene` beyond `from` (body of `size` [m]) are at their
- * positions to the last bit or two: the time in the middle of a step plus half of it is rounded. In the mesh nodes are
- * exact, and points between them are sums of four to eight terms. */
+/* Checks at every step of `duration` that driven particles of `scene` with X > `from` are at their prescribed positions
+ * to at most four times the resolution: the time in the middle of a step plus half a step is rounded. size: largest
+ * displacement [m]. In the mesh, nodes are exact and points are sums of four to eight terms. */
 static void check_places(const char *scene, real from, real size, real duration)
 {
     char boundary[300];
@@ -140,7 +141,8 @@ static void displaced_is_in_place(void **state)
     check_places(BLOCK, 6e-3, 2e-6, 5e-6);
 }
 
-/* Tests a formula of position and time, for all components: particles and nodes are at its values at the end. */
+/* Checks a displacement by a formula of position and time, for all components: particles and nodes have its values at
+ * the end. */
 static void formulas_are_in_place(void **state)
 {
     (void)state;
@@ -161,9 +163,9 @@ static void formulas_are_in_place(void **state)
     }
 }
 
-/* Tests a bar displaced by u (1 - cos omega t)/2: the final reaction is E A u/L (1 + k L cot(k L))/2, k = omega/c, and
- * the work is stored in the body. Nodes are fixed to the ends of the regions, between which L = 0.76 m; bonds are as
- * stiff as in equilibrium. Initial free waves are 2 % of it. */
+/* Checks a bar displaced by u (1 - cos omega t)/2. The final reaction is E A u/L (1 + k L cot(k L))/2, k = omega/c, and
+ * the work becomes strain energy. Nodes are fixed up to the ends of the regions, L = 0.76 m apart; bonds have the
+ * stiffness of the static solver. Tolerances of 2 and 3 %: free waves from the start. */
 static void reaction_is_hookes(void **state)
 {
     (void)state;
@@ -194,10 +196,9 @@ static void reaction_is_hookes(void **state)
 
 /* ---- statics ----------------------------------------------------------------------------------------------------- */
 
-/* Checks uniform strain: the ends of `scene`, or a frame, are driven by formulas (drive) over the depth of a horizon;
- * the free part follows, the stress is that of Hooke's law, and half the support forces times displacements is the
- * strain energy. solver, model: of the scene. Strains of 1e-6 are linear to 1e-5. Relaxation moves supports in steps
- * with round-off. */
+/* Checks uniform strain: formulas (`drive`) displace the ends or the border of `scene` over the depth of a horizon. The
+ * free part must follow, the stress must be that of Hooke's law (stress[]), and the work must be the strain energy.
+ * solver, model: overrides. Strains of 1e-6 are linear to 1e-5; relaxation moves supports in steps with round-off. */
 static void check_patch(const char *scene, const char *solver, const char *model, const char *drive, const real *strain,
                         const real *stress)
 {
@@ -253,7 +254,7 @@ static void uniform_strain_is_uniform_stress(void **state)
 
 /* ---- layers behind faces ----------------------------------------------------------------------------------------- */
 
-/* Returns the number of particles on which the first load of `scene` acts, with these keys of method, body and
+/* Returns the number of particles on which the first load of `scene` acts, with these overrides of method, body and
  * boundary. */
 static int64_t layer_of(const char *scene, const char *method, const char *body, const char *boundary)
 {
@@ -264,8 +265,8 @@ static int64_t layer_of(const char *scene, const char *method, const char *body,
     return n;
 }
 
-/* Checks that a layer has its specified depth from the outside to the first gap, inside the region only; on a curved
- * face whole columns. */
+/* Checks that the layer behind a face has its specified depth, from the outermost particle to the first gap and inside
+ * the region only. On a curved face it consists of whole columns. */
 static void faces_have_layers(void **state)
 {
     (void)state;
@@ -292,7 +293,7 @@ static void faces_have_layers(void **state)
                      2 * 80);
 }
 
-/* Tests ends fixed by their faces: nodes are at the faces, and the whole bar is free. */
+/* Checks bars fixed by their faces: driven nodes are at the faces, so that the free length is the whole bar. */
 static void faces_hold_nodes(void **state)
 {
     (void)state;
@@ -308,7 +309,8 @@ static void faces_hold_nodes(void **state)
 
 /* ---- refusals ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the status of making the run of the scene with the overrides `key=value`, terminated by NULL. */
+/* Creates the run of the scene with the overrides `key=value`, terminated by NULL, and releases it. Returns the status
+ * of creating it. */
 static status refusal(const char *scene, ...)
 {
     struct scene_run a;
@@ -322,8 +324,8 @@ static status refusal(const char *scene, ...)
 
 #define GRIP(text) "boundary=[{name: grip, " text "}]"
 
-/* Checks what is refused: jumps and speeds above wave speeds, which a run could not follow; positions that are not
- * numbers; keys without effect. */
+/* Checks the refusal of jumps and speeds above wave speeds, which a run could not follow, of positions that are not
+ * numbers, and of keys without effect. */
 static void jumps_are_refused(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* Formulas of loads without a value at some time: the run stops with one line that names the load. */
+/* Tests formulas of loads that have no value at some time: the run stops with a one-line message that names the
+ * load. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -22,7 +23,7 @@ struct scene_run {
     struct run e;
 };
 
-/* Runs the scene `text` with the overrides `key=value`, terminated by NULL, into a. */
+/* Runs the scene `text` with the overrides `key=value`, terminated by NULL. a: receives the run. Returns the status. */
 static status run_of(struct scene_run *a, const char *text, ...)
 {
     va_list list;
@@ -42,8 +43,9 @@ static void run_end(struct scene_run *a)
     scene_free(&a->s);
 }
 
-/* Tests a formula that has no value from some time on, early or only in the last step, of every kind of load and with
- * every solver with steps: one line, with the load's name and the time. With values up to the end the run completes. */
+/* Checks formulas that have no value from some time on, early or only in the last step, for every kind of load and
+ * every solver with steps: the message has the name of the load and the time. With values up to the end the run
+ * completes. */
 static void formulas_without_value_stop_the_run(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Every field of frames compared with closed forms, through frames written by a run: uniform strain, rigid rotation,
- * yielding; all methods and spaces. */
+/* Tests every field of frames against closed forms through frames that a run has written: uniform strain, rigid
+ * rotation, yielding, for all methods and spaces. */
 #include "tests/support/near.h"
 
 #include <stdlib.h>
@@ -14,7 +14,7 @@
 
 /* ---- a run and its frames ---------------------------------------------------------------------------------------- */
 
-/* Runs the scene `text`; begins: only up to the frame at t = 0. */
+/* Runs the scene `text`. begins: true to stop after the frame at t = 0. */
 static void run_text(const char *text, bool begins)
 {
     struct scene s;
@@ -33,7 +33,7 @@ static void run_text(const char *text, bool begins)
     scene_free(&s);
 }
 
-/* A frame with all of its fields, by name. */
+/* A frame whose fields are read by name. */
 struct shown {
     struct hdf f;
     int64_t n;
@@ -67,8 +67,8 @@ static void shown_close(struct shown *a)
     free(a->X);
 }
 
-/* Returns true if particle i of a is farther than `reach` from all faces of the block of edge 1 around the origin, in
- * dim dimensions. */
+/* Returns true if particle i of a is farther than `reach` [m] from all faces of the block of edge 1 m around the origin
+ * in dim dimensions. */
 static bool shown_inside(const struct shown *a, int64_t i, int dim, double reach)
 {
     for (int d = 0; d < dim; d++)
@@ -76,8 +76,8 @@ static bool shown_inside(const struct shown *a, int64_t i, int dim, double reach
     return true;
 }
 
-/* Asserts that the field `name` of a is wanted[columns] within `tolerance` for every particle farther than `reach` from
- * faces. */
+/* Asserts that the field `name` of a is wanted[columns] within `tolerance` for every particle farther than `reach` [m]
+ * from the faces. */
 static void field_is(struct shown *a, int dim, double reach, const char *name, int columns, const double *wanted,
                      double tolerance)
 {
@@ -148,7 +148,8 @@ static void run_block(const struct block *b, const double H[3][3], const char *m
     run_text(text, true);
 }
 
-/* Computes E[6], the Green-Lagrange strain of H in VTK's order, including the out-of-plane strain of b. */
+/* Computes E[6], the Green-Lagrange strain of the displacement gradient H in VTK's order, with the out-of-plane strain
+ * of b. */
 static void strain_of(const struct block *b, const double H[3][3], double *E)
 {
     static const int row[6] = {0, 1, 2, 0, 1, 0}, column[6] = {0, 1, 2, 1, 2, 2};
@@ -159,7 +160,8 @@ static void strain_of(const struct block *b, const double H[3][3], double *E)
     if (strcmp(b->space, "plane stress") == 0) E[2] = -b->poisson / (1 - b->poisson) * (E[0] + E[1]);
 }
 
-/* Computes the stress S[6] of b by Hooke's law in 3D from the strain E including the out-of-plane component. */
+/* Computes the stress S[6] of b by Hooke's law in 3D from the strain E[6], which includes the out-of-plane
+ * component. */
 static void hooke_stress(const struct block *b, const double *E, double *S)
 {
     const double nu = b->poisson, lambda = YOUNG * nu / ((1 + nu) * (1 - 2 * nu)), G = YOUNG / (2 * (1 + nu));
@@ -167,8 +169,8 @@ static void hooke_stress(const struct block *b, const double *E, double *S)
     if (b->dim == 1) S[0] = YOUNG * E[0], S[1] = S[2] = 0;
 }
 
-/* Tests all fields of a block under uniform strain. The stress of material points is exact to the size of strains; that
- * of bonds on this lattice deviates by 1.1 % in C11 in 2D and 5 % in 3D with uncut volumes. */
+/* Checks all fields of a block under uniform strain. The stress of material points is exact up to squares of the
+ * strain; that of bonds on this lattice deviates by 1.1 % in C11 in 2D and by 5 % in 3D with uncut volumes. */
 static void uniform_strain(void **state)
 {
     (void)state;
@@ -198,8 +200,8 @@ static void uniform_strain(void **state)
     }
 }
 
-/* Tests two materials under uniform strain: each contracts across by its own Poisson's ratio, or has the corresponding
- * stress. */
+/* Checks two materials under uniform strain: each has the out-of-plane strain (plane stress) or stress (plane strain)
+ * of its own Poisson's ratio. */
 static void strain_of_parts(void **state)
 {
     static const char *const space[] = {"plane stress", "plane strain"};
@@ -257,7 +259,7 @@ static void rigid_turn(void **state)
     }
 }
 
-/* Checks that fields derived from stress and velocity agree with those in the same frame. */
+/* Checks that fields derived from stress and velocity agree with these fields in the same frame. */
 static void fields_follow(void **state)
 {
     (void)state;
@@ -289,8 +291,8 @@ static void fields_follow(void **state)
 
 /* ---- yielding ---------------------------------------------------------------------------------------------------- */
 
-/* Tests a bar under uniform extension: plastic work W = (sigma^2 - sigma_y^2)/(2 H) = int sigma d eps_p, from its
- * stress and from its strain. */
+/* Checks a yielding bar under uniform extension: the plastic work W = (sigma^2 - sigma_y^2)/(2 H) = int sigma d eps_p
+ * follows from its stress and from its strain. H: hardening modulus. */
 static void yielding_bar(void **state)
 {
     (void)state;
@@ -325,8 +327,8 @@ static void yielding_bar(void **state)
     }
 }
 
-/* Tests a sheet under equibiaxial extension: plastic strain a/2 along each axis, -a across; eps_zz = -2 nu sigma/E -
- * a. */
+/* Checks a yielding sheet under equibiaxial extension: plastic strain a/2 along each axis, -a out of plane; eps_zz = -2
+ * nu sigma/E - a. */
 static void yielding_sheet(void **state)
 {
     (void)state;
@@ -357,7 +359,7 @@ static void yielding_sheet(void **state)
 
 /* ---- fields that are not requested ------------------------------------------------------------------------------- */
 
-/* Checks that of the fields that must be requested a frame has only those of the scene. */
+/* Checks that a frame contains optional fields only if the scene requests them. */
 static void only_what_is_asked_for(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Causes of instability are distinguished: a time step above the limit, loads that the body cannot carry, and energy
- * gains at any step. */
+/* Tests that the causes of an instability are distinguished: a time step above the limit, loads that the body cannot
+ * carry, and energy gains at any step. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <math.h>
@@ -15,7 +15,8 @@
 
 /* ---- growth rate ------------------------------------------------------------------------------------------------- */
 
-/* Returns exponential growth, tenfold in `tenfold` steps, recorded every `stride` steps up to step 20000. */
+/* Returns samples of a quantity that grows exponentially, tenfold in `tenfold` steps, recorded every `stride` steps
+ * before step 20000. */
 static struct quantity_samples rising(real tenfold, int64_t stride)
 {
     struct quantity_samples r = {0};
@@ -72,8 +73,8 @@ static void pace_of_few_values(void **state)
     assert_int_equal(quantity_samples_classify_growth_rate(&r, 2560, 1, &steps), RISE_SLOW);
 }
 
-/* Returns the classified growth rate of x'' = -4 x + damping x' under leap-frog steps dt, whose limit is 1, while the
- * squared velocity grows from 1e-8 to 1. */
+/* Integrates x'' = -4 x + damping x' by leap-frog steps dt, whose limit is 1, until the squared velocity has grown from
+ * about 1e-8 to 1. Returns the class of its growth rate. */
 static enum growth_rate pace_of_oscillator(real dt, real damping)
 {
     struct quantity_samples r = {0};
@@ -90,8 +91,8 @@ static enum growth_rate pace_of_oscillator(real dt, real damping)
     return RISE_UNSURE;
 }
 
-/* Checks that a step beyond the limit by a relative 2e-5 is detected as such; a gain of 1e-3 of the amplitude per step
- * within the limit is not. */
+/* Checks that a step beyond the limit by a relative 2e-5 is classified as fast growth, and an amplitude that gains 1e-3
+ * per step within the limit as slow. */
 static void steps_beyond_the_limit_are_fast(void **state)
 {
     (void)state;
@@ -111,8 +112,8 @@ static const char plate[] =
     "body: {box: {from: [0, 0], to: [20 mm, 20 mm]}}\nparticles: {spacing: 1 mm}\n"
     "pd: {region: {box: {from: [5 mm, 5 mm], to: [15 mm, 15 mm]}}}\noutput: {frames: 0, samples: 100}\n";
 
-/* Writes into `remedy` the advice for key=value where the velocity has grown tenfold in `tenfold` steps until step
- * 20000, in a plate without loads. */
+/* Writes the advice for the override key=value (key may be NULL) to `remedy`, where the velocity has grown tenfold in
+ * `tenfold` steps until step 20000 in a plate without loads. */
 static void remedy_of(const char *key, const char *value, real tenfold, char *remedy)
 {
     struct run e;
@@ -154,7 +155,8 @@ static void slow_growth_is_no_matter_of_the_step(void **state)
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Runs the plate by `method` with the overrides `set` up to NULL; the run must stop. Returns the message. */
+/* Runs the plate with the overrides method[] and set[], pairs of key and value up to NULL; the run must stop as
+ * unstable. Returns the message. */
 static const char *stopped(const char *const *method, const char *const *set)
 {
     struct run e;
@@ -203,7 +205,7 @@ static void loads_beyond_reason_are_named(void **state)
         "the scene starts with 1e+05 m/s", "choose a smaller");
 }
 
-/* Checks that loads that a body can carry are not reported as the cause if the step is too long. */
+/* Checks that a too long time step is reported as the cause where the loads are those that a body can carry. */
 static void steps_too_long_are_named(void **state)
 {
     (void)state;
@@ -212,7 +214,7 @@ static void steps_too_long_are_named(void **state)
                "; choose a smaller time.safety (now dt = ", "no time step");
 }
 
-/* Checks that a body that becomes unstable, sampled only at its end, is reported as unstable. */
+/* Checks that a body that becomes unstable and is sampled only at the end of its run is reported as unstable. */
 static void the_last_sample_is_looked_at(void **state)
 {
     (void)state;
@@ -227,7 +229,7 @@ static void the_last_sample_is_looked_at(void **state)
 
 enum { RING = 24 };
 
-/* A ring of particles in the plane z = 0.7 around (3, -2) with radius 1.3: as particles and as a load. */
+/* A ring of particles in the plane z = 0.7 around (3, -2) with radius 1.3, on which a pressure acts. */
 struct loaded_ring {
     struct particles part;
     real X[DIM_MAX][RING], x[DIM_MAX][RING];
@@ -251,8 +253,8 @@ static void ring_make(struct loaded_ring *r)
     }
 }
 
-/* Sets the present positions of r: stretched along x by the factor `stretch`, rotated by `degrees` about the axis
- * `axis` through the origin, shifted. */
+/* Sets the current positions of r: stretched along x by the factor `stretch`, rotated by `degrees` about the axis
+ * `axis` through the origin, and shifted. */
 static void ring_move(struct loaded_ring *r, int axis, real degrees, real stretch)
 {
     const real angle = degrees * 3.14159265358979323846 / 180, c = cos(angle), s = sin(angle);
@@ -264,8 +266,8 @@ static void ring_move(struct loaded_ring *r, int axis, real degrees, real stretc
     }
 }
 
-/* Checks that a surface that has turned by more than 10 degrees about any axis is named once, if its pressure does not
- * follow; a stretch by 2 is no rotation. */
+/* Checks that a surface that has rotated by more than 10 degrees about any axis is reported if its pressure does not
+ * follow it; a stretch by 2 is no rotation. */
 static void pressures_on_turned_surfaces(void **state)
 {
     (void)state;

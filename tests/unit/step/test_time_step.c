@@ -1,4 +1,5 @@
-/* Time step: integer multiples for coarse cells, light particles of lists, bulk damping, safety factor of the scene. */
+/* Tests the time step: integer multiples for coarse cells, light particles of lists, bulk damping, safety factor of the
+ * scene, steps of frames. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,7 +20,7 @@ static void put(const char *path, const char *text)
     assert_int_equal(fclose(to), 0);
 }
 
-/* Returns the clock of the scene s before its first step. */
+/* Returns the clock of the scene s before its first step, and releases the scene. */
 static struct run_clock clock_made(struct scene *s)
 {
     static struct run e;
@@ -49,8 +50,8 @@ static struct run_clock clock_of_file(const char *path)
     "space: plane stress\nthickness: 0.37 mm\nmaterial: {young: 3 GPa, poisson: 1/3, density: 1180}\n"                 \
     "body: {box: {from: [0, 0], to: [64 mm, 64 mm]}}\nparticles: {spacing: 1 mm}\n"
 
-/* Checks that cells of level 3 move every eighth step: runs have a multiple of eight steps, and end at their
- * duration. */
+/* Checks cells of level 3, which move every eighth step: the number of steps is a multiple of eight, and the run ends
+ * at its duration. */
 static void mesh_levels_divide_the_steps(void **state)
 {
     (void)state;
@@ -65,7 +66,7 @@ static void mesh_levels_divide_the_steps(void **state)
     }
 }
 
-/* Checks that a quarter of the mass at equal stiffness doubles the frequency. */
+/* Checks that a particle with a quarter of the mass at equal stiffness halves the critical time step. */
 static void light_particles_take_short_steps(void **state)
 {
     (void)state;
@@ -87,7 +88,8 @@ static void light_particles_take_short_steps(void **state)
     assert_close(critical[1], 0.5 * critical[0], 1e-9);
 }
 
-/* Checks that masses of a list are compared with those of their own material: none is light here. */
+/* Checks that masses of a list are compared with the density of their own material: the critical time step is that of a
+ * filled body. */
 static void masses_are_of_their_material(void **state)
 {
     (void)state;
@@ -113,8 +115,8 @@ static void masses_are_of_their_material(void **state)
     assert_close(critical[1], critical[0], 1e-12);
 }
 
-/* Checks that the order of materials does not matter for bonds that do not exist yet: stiff and heavy, soft and light,
- * where neither stiffness nor density alone decides. */
+/* Checks that the critical time step of bonds that do not exist yet is independent of the order of materials. One is
+ * stiff and heavy, the other soft and light, so that neither stiffness nor density alone decides. */
 static void lattices_of_all_materials(void **state)
 {
     (void)state;
@@ -137,7 +139,8 @@ static void lattices_of_all_materials(void **state)
     }
 }
 
-/* Checks that the step is a fraction of the critical one, and at most half the time constant of damping. */
+/* Checks that the time step is the requested fraction of the critical one, and at most half the time constant of
+ * damping. */
 static void safety_and_damping(void **state)
 {
     (void)state;
@@ -147,8 +150,8 @@ static void safety_and_damping(void **state)
     assert_true(damped.dt <= (1 + 1e-9) * 0.5 / 7e6 && damped.dt > 0.49 / 7e6);
 }
 
-/* Checks that the least compressible of all materials shortens the step by the root of 1 + c12/c11 over 5/3, c12/c11 =
- * nu/(1 - nu) in plane strain; the first material has the fastest waves. */
+/* Checks that the least compressible material shortens the step by the root of (5/3)/(1 + c12/c11), c12/c11 = nu/(1 -
+ * nu) in plane strain. The other material has the fastest waves. */
 static void incompressible_parts_take_short_steps(void **state)
 {
     (void)state;
@@ -173,7 +176,7 @@ static void incompressible_parts_take_short_steps(void **state)
     }
 }
 
-/* Checks that frames are at the steps nearest to their times: 0.7, 2.3 and 8.6 steps of 20 ns. */
+/* Checks that frames are written at the steps nearest to their times: 0.7, 2.3 and 8.6 steps of 20 ns. */
 static void frames_are_nearest(void **state)
 {
     (void)state;

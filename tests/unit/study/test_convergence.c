@@ -1,4 +1,4 @@
-/* Convergence studies: orders, intervals, spacings. */
+/* Tests convergence studies: order of convergence, confidence intervals, choice of spacings. */
 #include "tests/support/near.h"
 
 #include <math.h>
@@ -16,8 +16,8 @@
 
 enum { LEVELS = 3, RUNS = 5 };
 
-/* Evaluates c for f0 + a h^p at spacings 1, sqrt 2, 2, `runs` runs each, with a deviation of each run by a part of
- * `noise`. */
+/* Evaluates c for values f0 + a h^p at the relative spacings h = 1, sqrt(2), 2, `runs` runs each. The values of the
+ * runs deviate by -1 to 1 times `noise`. Returns the result of the evaluation. */
 static bool converge_at(struct convergence *c, double f0, double a, double p, double noise, int runs)
 {
     static const double part[RUNS] = {0, -1, 1, -0.5, 0.5};
@@ -32,7 +32,7 @@ static bool converge_at(struct convergence *c, double f0, double a, double p, do
     return convergence_evaluate_scalar_result(c, spacing, value, level, n, LEVELS, NULL);
 }
 
-/* Checks that order and limit of a power law are found to round-off; the interval of the finest value contains the
+/* Checks that the order of a power law is found to 1e-9, and that the interval of the finest value contains the
  * limit. */
 static void power_laws_are_found(void **state)
 {
@@ -70,7 +70,8 @@ static void bounds_where_no_order_is_seen(void **state)
     assert_false(convergence_evaluate_scalar_result(&c, spacing, lost, level, 3, 3, NULL));
 }
 
-/* Tests means with random errors: their observed orders, 2.9 and -1.0, are not accepted as true. */
+/* Checks means with random errors: orders of 2.9 and -1.0 are observed, but the most likely orders are within 0.5 to
+ * 2. */
 static void chance_moves_the_order(void **state)
 {
     (void)state;
@@ -93,8 +94,9 @@ static void chance_moves_the_order(void **state)
     }
 }
 
-/* Returns the interval of spacing[], mean[], error[] by rectangular quadrature over value, slope, order and misfit,
- * directly from the definition. */
+/* Returns the half width of the confidence interval of mean[0] by rectangular quadrature over value, slope, order and
+ * misfit of the model, directly from its definition. spacing[], mean[], error[]: of each level; scale: of the
+ * misfit. */
 static double half_width_plainly(const double *spacing, const double *mean, const double *error, double scale)
 {
     static const double order[] = {0.5, 0.75, 1, 1.25, 1.5, 1.75, 2}, weight[] = {0.5, 1, 1, 1, 1, 1, 0.5};
@@ -141,8 +143,8 @@ static void intervals_as_defined(void **state)
     }
 }
 
-/* Tests random values that follow the model of the intervals (Park & Miller's generator): 95 of 100 intervals contain
- * the true value. */
+/* Checks random values that follow the model of the intervals (Park & Miller's generator): 90 to 98 of 100 intervals of
+ * 95 % contain the true value. */
 static void intervals_hold_what_they_name(void **state)
 {
     (void)state;
@@ -168,7 +170,8 @@ static void intervals_hold_what_they_name(void **state)
                                                                * of 100 */
 }
 
-/* Tests scatter only: the error of a mean is Student's; a trend below it does not determine an order. */
+/* Checks runs that scatter: the error of a mean is that of Student's distribution; a trend below it determines no
+ * order, a large one does. */
 static void scatter_hides_small_trends(void **state)
 {
     (void)state;
@@ -184,7 +187,7 @@ static void scatter_hides_small_trends(void **state)
     assert_near(c.order, 1, 1e-9);
 }
 
-/* Checks that a length quantised in spacings has an error of at least half a spacing, even if runs agree. */
+/* Checks that a length in whole spacings has an error of at least half a spacing, even if runs agree. */
 static void steps_of_a_figure_are_errors(void **state)
 {
     (void)state;
@@ -199,7 +202,8 @@ static void steps_of_a_figure_are_errors(void **state)
     assert_true(c.uncertainty[0] > 1 && c.uncertainty[2] > 1);
 }
 
-/* Checks that a bias is included as an independent normal error: 1.96 to 0.6745 standard deviations. */
+/* Checks that a bias is included as an independent normal error: its 95 % value is 1.96 and its 50 % value 0.6745
+ * standard deviations. */
 static void bias_widens_intervals(void **state)
 {
     (void)state;
@@ -223,8 +227,8 @@ static void student_as_published(void **state)
 
 /* ---- spacings ---------------------------------------------------------------------------------------------------- */
 
-/* Tests a plate of 100 x 40 with a crack at mid-height, spacing 0.5: other spacings must divide both sides, with
- * particles on both sides of the crack. */
+/* Checks the spacings of a study of a plate of 100 x 40 with a crack at mid-height: they are near 0.5 times powers of
+ * sqrt(2) and divide both sides and the height of the crack. A crack through a row of particles stays there. */
 static void spacings_fit_faces_and_cracks(void **state)
 {
     (void)state;
@@ -254,7 +258,7 @@ static void spacings_fit_faces_and_cracks(void **state)
     }
 }
 
-/* Checks that, without positions that a lattice must fit, levels have the ratio sqrt(2). */
+/* Checks that without lengths that a lattice must fit, the spacings of a study have the ratio sqrt(2). */
 static void mesh_levels_are_apart(void **state)
 {
     (void)state;
@@ -268,8 +272,8 @@ static void mesh_levels_are_apart(void **state)
 
 /* ---- existing study ---------------------------------------------------------------------------------------------- */
 
-/* Checks that the interval of a figure is that of the level whose spacing is the scene's within 5 %; there is none for
- * other spacings, or from a study of another scene. */
+/* Checks the intervals read from a study: those of the level whose spacing is within 5 % of that of the scene; none for
+ * other spacings or another scene. */
 static void intervals_at_hand(void **state)
 {
     (void)state;

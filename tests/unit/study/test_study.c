@@ -1,4 +1,4 @@
-/* Tests of studies: values of keys, names of runs, contents of tables. */
+/* Tests studies: values of varied keys, names of runs, contents of tables. */
 #include "tests/support/near.h"
 
 #include <math.h>
@@ -13,7 +13,7 @@
 
 /* ---- values ------------------------------------------------------------------------------------------------------ */
 
-/* Asserts that the varied key `text` has the values value[n]. */
+/* Asserts that the text `text` of a varied key yields the values value[n]. */
 static void check_values(const char *text, int n, const char *const *value)
 {
     struct varied_key k;
@@ -66,7 +66,7 @@ static void wrong_values_are_refused(void **state)
 
 /* ---- names ------------------------------------------------------------------------------------------------------- */
 
-/* Checks the names of runs: folder of the study, and varied keys with their values, unique and valid for files. */
+/* Checks the names of runs: folder of the study, and varied keys with their values, unique and valid as file names. */
 static void runs_have_names_of_their_own(void **state)
 {
     (void)state;
@@ -95,7 +95,7 @@ static void runs_have_names_of_their_own(void **state)
     assert_refused(study_initialise(&s, "a.yaml", "", "sweep"), "give the name of a folder");
 }
 
-/* Compares names of the same runs, with the keys in both orders; long ones are hashes. */
+/* Checks that names of runs do not depend on the order of varied keys; long names are hashes. */
 static void names_do_not_depend_on_the_order_of_keys(void **state)
 {
     (void)state;
@@ -146,7 +146,7 @@ static void values_are_short_in_pictures(void **state)
     assert_near(axis_tick_distance(8, 4), 2, 1e-12);
 }
 
-/* Checks that units are taken from the header of a history, if it has the figure. */
+/* Checks that units of results are taken from the header of a history if it has the result. */
 static void figures_have_units(void **state)
 {
     (void)state;
@@ -181,9 +181,9 @@ static void figures_have_units(void **state)
     }
 }
 
-/* Checks that figures that no run of a scene can have are refused with what the scene lacks. lacks: part of the
- * message; NULL: the scene can have the figure. A body without cracks, whose bonds have no limit; one that breaks in
- * load steps. */
+/* Checks that results that no run of a scene can have are refused with a message that contains the expected text; NULL:
+ * the scene can have the result. plate: a body without cracks whose bonds have no limit; steps: one that breaks in load
+ * steps. */
 static void figures_fit_their_scene(void **state)
 {
     (void)state;
@@ -247,7 +247,8 @@ static void figures_fit_their_scene(void **state)
         }
 }
 
-/* Checks that 100000 names take 0.1 s; comparing each with all others would take 24 s. */
+/* Checks that 100000 names are created within 5 s (0.1 s measured); a comparison of each with all others would take 24
+ * s. */
 static void many_names_are_found_in_time(void **state)
 {
     (void)state;
@@ -267,7 +268,7 @@ static void many_names_are_found_in_time(void **state)
 
 /* ---- tables ------------------------------------------------------------------------------------------------------ */
 
-/* Checks that a stopped run has a summary of its part: these are not figures of the scene. */
+/* Checks that the summary of a run that was stopped or has failed is not used for the table. */
 static void stopped_runs_have_no_figures(void **state)
 {
     (void)state;
