@@ -1,18 +1,19 @@
 #!/bin/sh
-# Is the run time that `cleave check` forecasts that of the run? In processor time, while another program computes: within a factor of 2 in
-# 95 of 100 calls for methods pd and mpm; for adaptive runs and load steps the range holds it. Takes some minutes.
+# Compares the run time that `cleave check` forecasts with the processor time of the run, while another program uses the processor. For
+# methods pd and mpm 95 of 100 forecasts must be right within a factor of 2; for adaptive runs and load steps the time must be in the
+# forecast range. Takes some minutes.
 test_name=long_forecast
 . tests/support/summary.sh
 calls=${CALLS:-20}
 
-# seconds SCENE [ARGUMENT...]: the processor time of a run [s], with all that it writes.
+# seconds SCENE [ARGUMENT...]: prints the processor time of a run including its output [s].
 seconds()
 {
     sh -c '"$@" -q -t 1 --overwrite >/dev/null 2>&1; times' sh "$cleave" run "$@" -o "$work/run" |
         awk 'NR == 2 { gsub(/[ms]/, " "); print 60 * $1 + $2 + 60 * $3 + $4 }'
 }
 
-# forecast SCENE [ARGUMENT...]: what check says: run time, least and most [s].
+# forecast SCENE [ARGUMENT...]: prints the forecast of check: run time, lower and upper bound [s].
 forecast()
 {
     "$cleave" check "$@" -t 1 2>/dev/null | sed -n -e 's/^run time [^0-9]*\([0-9.e+-]*\) s (\([0-9.e+-]*\) to \([0-9.e+-]*\) s).*/\1 \2 \3/p' \

@@ -1,5 +1,5 @@
 #!/bin/sh
-# The procedure of inputs/results.md in ParaView itself, and the XDMF index opened from another folder.
+# Runs the procedure of inputs/results.md in ParaView itself, and opens the XDMF index from another folder.
 test_name=long_paraview
 . tests/support/summary.sh
 command -v pvpython >/dev/null && command -v xvfb-run >/dev/null ||

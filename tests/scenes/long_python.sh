@@ -1,7 +1,7 @@
 #!/bin/sh
-# What the Python module (src/python/cleave) does with packages that not every machine has: pictures by matplotlib, tables of pandas, grids
-# of VTK, installation by pip, the examples of inputs/python.md, the notebooks. What cannot run here is named in a line; skipped where nothing
-# can. Takes a minute.
+# The Python module (src/python/cleave) with optional packages: pictures by matplotlib, tables of pandas, grids of VTK, installation by
+# pip, the examples of inputs/python.md, the notebooks. A line names each part that cannot run here; the script is skipped if none can.
+# Takes a minute.
 test_name=long_python
 . tests/support/summary.sh
 

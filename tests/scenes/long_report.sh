@@ -1,6 +1,6 @@
 #!/bin/sh
-# Pages of cleave report in a browser without network: Chromium opens them, moves the slider, changes fields; a screenshot shows the crack
-# where it is, also that of Firefox where it is there.
+# Pages of `cleave report` in browsers without a network: Chromium opens them, moves the slider and changes fields. Screenshots of
+# Chromium, and of Firefox if it is installed, must show the crack at its position.
 test_name=long_report
 . tests/support/summary.sh
 . tests/support/browser.sh

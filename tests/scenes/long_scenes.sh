@@ -1,5 +1,5 @@
 #!/bin/sh
-# Scenes of inputs/ at finer spacings and other time steps: the results accepted by test_scenes.sh depend on neither.
+# Scenes of inputs/ at finer spacings and other time steps: they must yield the results that test_scenes.sh accepts, too.
 test_name=long_scenes
 . tests/support/summary.sh
 . tests/support/scenes.sh

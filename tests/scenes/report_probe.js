@@ -1,5 +1,5 @@
-// Appended to a copy of a page by long_report.sh: works its controls as a reader would, and replaces the page by what
-// it saw.
+// Test code that long_report.sh appends to a copy of a page: operates its controls as a reader would, and replaces the
+// page by the measured values.
 const wait = (ms) => new Promise((done) => setTimeout(done, ms));
 const send = (id, event, value) => (byId(id).value = value, byId(id).dispatchEvent(new Event(event)));
 const screen = () => {
@@ -7,7 +7,7 @@ const screen = () => {
     return c.getContext("2d").getImageData(0, 0, c.width, c.height);
 };
 
-// The colour on the canvas at a position of the body [m], in the plane.
+// Returns the colour on the canvas at the position (x, y) of a plane body [m].
 function colourAt(x, y) {
     const c = byId("view"), ratio = c.width / c.clientWidth, image = screen();
     const px = Math.round(((c.clientWidth - BAR) / 2 + (x - view.x) * view.scale) * ratio),
@@ -15,7 +15,7 @@ function colourAt(x, y) {
     return Array.from(image.data.slice(4 * (py * c.width + px), 4 * (py * c.width + px) + 3));
 }
 
-// Number of pixels that are not white, without the colour bar.
+// Returns the number of pixels that are not white, without the colour bar.
 function painted() {
     const image = screen(), edge = image.width * (1 - BAR / byId("view").clientWidth) - 1;
     let n = 0;
@@ -24,19 +24,20 @@ function painted() {
     return n;
 }
 
-// Number of pixels without a particle that are between two particles in their row, at most 4 pixels from either.
+// Returns the number of pixels without a particle that are between two particles of their row, at most 4 pixels from
+// either.
 function slits() {
     const {owner} = buffer, near = (at, step) => [1, 2, 3, 4].some((k) => owner[at + k * step] >= 0);
     return owner.reduce((n, i, at) => n + (i < 0 && near(at, 1) && near(at, -1)), 0);
 }
 
-// Is a particle at the border of the stage, where a body that does not fit is cut off?
+// Returns true if a particle is at the border of the canvas, where a body that does not fit is cut off.
 function cutOff() {
     const {owner, width, height} = buffer;
     return owner.some((i, at) => i >= 0 && (at < width || at >= width * (height - 1) || (at + 1) % width < 2));
 }
 
-// Number of points of rigid bodies that are outside the stage.
+// Returns the number of points of rigid bodies that are outside the canvas.
 function rigidOutside() {
     let n = 0;
     forRigids(film.frames[view.frame], view.magnify, (body, x) => {
@@ -48,8 +49,8 @@ function rigidOutside() {
     return n;
 }
 
-// Four cells of two spacings below sixteen of one, turned by 0.5: the largest error of their edges, relative to their
-// sizes, and the number of faces between cells of different size.
+// Draws four cells of two spacings below sixteen of one, rotated by 0.5 rad. Returns the largest error of their edges
+// relative to their sizes, and the number of faces between cells of different size.
 function resized() {
     const X = [[], [], []], size = [], [c, s] = [Math.cos(0.5), Math.sin(0.5)];
     const turn = [[c, 0, s], [0, 1, 0], [-s, 0, c]];
@@ -65,7 +66,8 @@ function resized() {
     return [Math.max(...off), joins.filter((j) => j === RESIZED).length];
 }
 
-// Number of faces of cubes that are painted although a parted neighbour still covers them: a dotted lattice.
+// Returns the number of cube faces that are painted although a neighbour still covers them, which would look like a
+// dotted lattice.
 function bareFaces() {
     const frame = film.frames[view.frame], set = particlesOf(film, film.sets[frame.set]), sides = [0, 1, 2, 3, 4, 5];
     const cubes = cellShapes(set, view.x_of, damageOf(frame), () => true);
@@ -73,8 +75,8 @@ function bareFaces() {
     return Array.from(set.X[0]).reduce((n, _, i) => n + sides.filter((s) => bare(i, s)).length, 0);
 }
 
-// What a plane body shows whose displacements are magnified: the share of its particles on the canvas, and at 4 mm
-// along the first pre-crack how far its faces are apart [m] and the darkest red on the canvas there.
+// Magnifies the displacements of a plane body. Returns the share of its particles on the canvas and, at 4 mm along the
+// first pre-crack, the distance of its faces [m] and the darkest red on the canvas.
 function magnified(factor) {
     send("magnify", "input", factor);
     const frame = film.frames[view.frame], set = particlesOf(film, film.sets[frame.set]), [x, y] = view.x_of;
@@ -88,8 +90,8 @@ function magnified(factor) {
     return {share, apart: faces.length ? Math.abs(faces[0][1] - faces[1][1]) : 0, red: Math.max(...red)};
 }
 
-// Of the points between the faces of the first pre-crack that are more than three pixels apart: how many are on a
-// particle, and how many there are.
+// Of the points between the faces of the first pre-crack that are more than three pixels apart: returns the number on
+// a particle, and the number of all.
 function facesShut() {
     const ratio = buffer.height / view.height, shown = [0, 0], [a, b] = view.faces;
     a.forEach((p, k) => {

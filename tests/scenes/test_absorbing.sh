@@ -1,13 +1,14 @@
 #!/bin/sh
-# Absorbing faces from the command line: the scene, bitwise equality on any number of threads and after a stop, the echo, the help.
+# Absorbing faces in runs of a plate: absorbed energy with every method, bitwise equality on any number of threads and after a stop, a
+# face in two parts, the scene as written out, the help.
 test_name=test_absorbing
 . tests/support/summary.sh
 . tests/support/trust.sh
 plate=inputs/absorbing_plate.yaml
 
-# share FOLDER: prints the absorbed energy over the work of the loads.
+# share FOLDER: prints the absorbed energy divided by the work of the loads.
 share() { awk -v a="$(figure "$1" energy.absorbed)" -v w="$(figure "$1" energy.external_work)" 'BEGIN { print a / w }'; }
-# within WHAT VALUE LOW HIGH
+# within WHAT VALUE LOW HIGH: checks LOW <= VALUE <= HIGH.
 within() { holds "$1: $2 is not within $3 .. $4" awk -v x="$2" -v a="$3" -v b="$4" 'BEGIN { exit !(x >= a && x <= b) }'; }
 
 # Bonds and cells conserve energy; APIC dissipates some on its grid, with and without absorbing faces.

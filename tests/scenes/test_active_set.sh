@@ -1,6 +1,7 @@
 #!/bin/sh
-# Columns of history.csv on the share of each method and of particles at rest: shares add up; the share at rest decreases as a wave spreads
-# and never includes particles that it has reached; all other columns are equal without the active set, and all lines after a restart.
+# Columns of history.csv with the share of each method and of particles at rest. The shares of the methods must add up to 1. The share at
+# rest must decrease as a wave spreads and never include particles that the wave has reached. All other columns must be equal without the
+# active set, and all lines after a restart.
 test_name=test_active_set
 . tests/support/summary.sh
 . tests/support/trust.sh
@@ -22,14 +23,15 @@ time: {step: 2 us}
 output: {frames: 1, samples: 1500}
 END_OF_SCENE
 
-# series DIR PROGRAM: runs awk over the samples, with time, steps, pd, mpm, rest of each.
+# series DIR PROGRAM: runs the awk program over the samples of history.csv, with the variables time, steps, pd, mpm (shares of methods)
+# and rest (share at rest).
 series()
 {
     awk -F, "NR == 1 { for (k = 1; k <= NF; k++) { sub(/ \\[.*/, \"\", \$k); at[\$k] = k } next }
         { time = \$1; steps = \$2; pd = \$at[\"pd_share\"]; mpm = \$at[\"mpm_share\"]; rest = \$at[\"inactive_share\"] } $2" "$1/history.csv"
 }
 
-# without DIR: prints its columns without the share at rest.
+# without DIR: prints history.csv without the column of the share at rest.
 without() { awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == "inactive_share") at = k } { $at = ""; print }' "$1/history.csv"; }
 
 right="pd.region=[{box: {from: [300 mm, 0], to: [512 mm, 8 mm]}}]"

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Angular momentum in history.csv and summary.json: bonds, contact, friction and groups of points conserve it, and long rotations keep
-# their energy.
+# Angular momentum in history.csv and summary.json. Bonds, contact and friction must conserve it to round-off, groups of rotating points
+# to 1e-3. In long rotations the energy must stay constant to second order in the time step.
 test_name=test_angular_momentum
 . tests/support/summary.sh
 

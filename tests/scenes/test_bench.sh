@@ -1,6 +1,6 @@
 #!/bin/sh
-# `cleave bench`: refusals, the table of efficiency for a coarse plate, and that of couplings. BUILD: folder of the program.
-# Takes 100 s: every bench is run once, on the smallest bodies for which its results are known.
+# `cleave bench`: refusals, and the columns and values of the tables of every bench, on the smallest bodies for which results are known.
+# BUILD: folder of the program. Takes 100 s: every bench is run once.
 set -eu
 build=$(cd "${BUILD:-build}" && pwd)
 cleave=$build/cleave

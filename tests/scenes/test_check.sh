@@ -1,13 +1,13 @@
 #!/bin/sh
-# Output of `cleave check`: memory, unresolved and unnecessary features of a scene; and no output without a cause. Run times are not tested:
-# they depend on the load of the machine.
-# Takes 40 s: 150 scenes are set up, some of them with 1e5 particles, whose coarse cells small scenes do not have.
+# Output of `cleave check`: memory, unresolved and unnecessary features of a scene, probable mistakes; and no output without a cause. Run
+# times are not tested, because they depend on the load of the machine.
+# Takes 40 s: 150 scenes are set up, some of them with 1e5 particles, because small scenes have no coarse cells.
 test_name=test_check
 . tests/support/summary.sh
 . tests/support/scenes.sh
 
-# checked SCENE [ARGUMENT...]: writes the output of check to the file `said`. trial: `--no-trial` omits run time and memory, which need
-# trial steps of a second or two each; `costs` sets it to nothing.
+# checked SCENE [ARGUMENT...]: writes the output of check to the file `said`. trial: the option --no-trial, which omits run time and
+# memory, whose trial steps take a second or two; `costs` clears it.
 trial=--no-trial
 checked()
 {
@@ -16,8 +16,8 @@ checked()
     "$cleave" check "$scene" $trial "$@" >"$work/said" 2>&1 || fail "check $scene $*: $(cat "$work/said")"
 }
 
-# says WHAT PATTERN SCENE [ARGUMENT...]: checks that the pattern is in the output of check for the scene. silent: that it is not. costs:
-# that it is, with trial steps.
+# says, silent, costs WHAT PATTERN SCENE [ARGUMENT...]: check that the output of check for the scene contains the pattern; that it does
+# not; that it does, with trial steps.
 costs() { trial=; says "$@"; trial=--no-trial; }
 says() { what=$1 pattern=$2; shift 2; checked "$@"; holds "$what" grep -q "$pattern" "$work/said"; }
 silent() { what=$1 pattern=$2; shift 2; checked "$@"; holds "$what" sh -c "! grep -q '$pattern' '$work/said'"; }
@@ -179,7 +179,7 @@ costs "few particles made" '^levels  *321536 particles would fill the body; coar
     kalthoff_3d_fine -s mpm.levels=1 -s particles.spacing=0.5mm -s time.step=auto -s probes=[] -s "body[0].box.to=[100 mm, 100 mm, 4 mm]" \
     -s "body[1].add.box.to=[0, 24 mm, 4 mm]" -s "boundary[0].region.box.to=[0, 24 mm, 4 mm]"
 
-# too_coarse WHAT PATTERN ARGUMENT...: checks that check reports it, and the run once.
+# too_coarse WHAT PATTERN ARGUMENT...: checks that check reports the pattern, and that the run reports it once.
 too_coarse()
 {
     load=$1 words=$2; shift 2
@@ -248,7 +248,7 @@ silent "ends between bonds" 'exactly on' "$work/apart.yaml"
 checked kalthoff_projectile
 is "ends between bodies" "$(grep -c 'exactly on' "$work/said") $(grep -c 'crack [12]: an end lies exactly on 6 bonds, and these' "$work/said")" "2 2"
 
-# pulled FILE RATE TIME: writes a plate loaded at its right end.
+# pulled FILE RATE TIME: writes the scene FILE.yaml of a plate loaded at its right end, with RATE and TIME of the load.
 pulled() { sed "s/RATE/$2/; s/TIME/$3/" "$work/plate.yaml" >"$work/$1.yaml"; }
 cat >"$work/plate.yaml" <<'END'
 space: plane stress
@@ -320,8 +320,8 @@ silent "crack to one side" 'symmetric about[^(]*x =' "$work/uneven.yaml"
 
 # ---- probable mistakes ---------------------------------------------------------------------------------------------------
 
-# warned WHAT PATTERN SCENE [ARGUMENT...]: checks that check reports it, and that a quiet run prints it on standard error and writes it to
-# the summary.
+# warned WHAT PATTERN SCENE [ARGUMENT...]: checks that check prints the warning, and that a run with -q prints it on standard error and
+# writes it to the summary.
 warned()
 {
     says "$@"

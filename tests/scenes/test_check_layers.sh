@@ -1,23 +1,23 @@
 #!/bin/sh
-# What `cleave check` says about the stiffness of thin parts is what runs measure: strips and square bars of 5 layers of bonds and of
-# state-based models in bending, on both kinds of supports, in tension and in torsion, beside closed forms; cells with one dilatation in
-# bending; displaced ends in the middle of a cell.
+# Compares the errors of stiffness that `cleave check` states for thin parts with those of runs against closed forms: strips and square
+# bars of 5 layers of bonds and of state-based models in bending, on two kinds of supports, in tension and in torsion; cells whose points
+# share one dilatation in bending; displaced ends in the middle of a cell.
 # Takes 10 s: 16 equilibria of some thousand particles are found.
 test_name=test_check_layers
 . tests/support/summary.sh
 bend=tests/scenes/claims/bar_bend.yaml twist=tests/scenes/claims/bar_twist.yaml
 
-# told SCENE [ARGUMENT...]: sets `bending` and `twisting` to the errors of the stiffness that check states [%].
+# told SCENE [ARGUMENT...]: sets `bending` and `twisting` to the errors of stiffness that check states [%].
 told()
 {
     "$cleave" check "$@" --no-trial >"$work/said" 2>&1
     bending=$(sed -n 's/.* off by up to about \([0-9]*\) % in bending and tension.*/\1/p' "$work/said")
     twisting=$(sed -n 's/.* in bending and tension, \([0-9]*\) % in twisting.*/\1/p' "$work/said")
 }
-# run FOLDER SCENE [ARGUMENT...]: runs a scene. at PROBE AXIS: prints the displacement of a probe in the run before [m].
+# run FOLDER SCENE [ARGUMENT...]: runs a scene. at PROBE AXIS: prints the displacement of a probe in the previous run [m].
 run() { folder=$work/$1; shift; "$cleave" run "$@" -q -t 1 -o "$folder" >/dev/null 2>"$work/err" || fail "$folder: $(cat "$work/err")"; }
 at() { figure "$folder" "probes.$1.displacement_$2"; }
-# as_told WHAT ERROR TOLD: checks that a measured error is at most what check says, and no less than a third of it [%].
+# as_told WHAT ERROR TOLD: checks that a measured error is at most the error that check states, and not less than a third of it [%].
 as_told() { between "$1" "$(compute "$2 < 0 ? -($2) : $2")" "$(compute "$3 / 3")" "$(compute "$3 + 0.1")"; }
 
 # Pure bending by stress q y/(h/2): of 5 rows at the middle of their areas, 1 - 1/25 of the moment of a linear stress; curvature 2 q/(h E)

@@ -1,12 +1,12 @@
 #!/bin/sh
-# Gross mistakes of a scene, each made on purpose: `cleave check` refuses it or warns of it, with a number and a way out, and is silent about
-# the scene without it.
+# Gross mistakes in scenes, each made on purpose: `cleave check` must refuse the scene or warn, with a number and a remedy, and print
+# nothing about the scene without the mistake.
 # Takes 20 s: 80 scenes are set up.
 test_name=test_check_mistakes
 . tests/support/summary.sh
 
-# says WHAT PATTERN SCENE [ARGUMENT...]: checks that the pattern is in the output of check for the scene. silent: that it is not, and that the
-# scene is accepted. refuses: that the scene is refused with this text.
+# checked SCENE [ARGUMENT...]: stores the output of check. says, silent, refuses WHAT PATTERN SCENE [ARGUMENT...]: check that the output
+# contains the pattern; that it does not and the scene is accepted; that the scene is refused with this text.
 checked() { "$cleave" check "$@" --no-trial -t 1 >"$work/said" 2>&1; }
 says() { what=$1 pattern=$2; shift 2; checked "$@"; holds "$what: $(cat "$work/said")" grep -q "$pattern" "$work/said"; }
 silent() { what=$1 pattern=$2; shift 2; checked "$@"; holds "$what: $(cat "$work/said")" sh -c "grep -q 'is sound$\|can be run[;,]' '$work/said' && ! grep -q '$pattern' '$work/said'"; }

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Figures that documents state, by bench/claims.csv: documents and kept results of benches say what the table has, every number in the
-# tables of results is in it, and scenes that run in seconds still give it.
+# Numbers stated in documents (bench/claims.csv). Documents and stored results of benches must have the numbers of the table, every number
+# in the tables of results must be in it, and scenes that run in seconds must still yield them.
 # Takes 40 s: 60 scenes are run.
 test_name=test_claims
 . tests/support/summary.sh

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Scenes with contact: results stated in inputs/; bitwise equality on any number of threads and after an interruption; refusals.
-# Takes 30 s: two solids perforated by a ball, and the plate with its projectile, need their spacings for correct results.
+# Scenes with contact: results stated in inputs/, bitwise equality on any number of threads and after an interruption, refusals.
+# Takes 30 s: the solids hit by a ball and the plate hit by a projectile need fine spacings.
 test_name=test_contact
 . tests/support/summary.sh
 . tests/support/scenes.sh
@@ -54,8 +54,8 @@ between "beam, notch farther out: in the middle" "$(f middle crack.tips.1.origin
 between "softening beam, notch at 0.825: from there" "$(f soft_notch crack.tips.0.growth)" 0.04 0.08
 between "softening beam, notch at 0.85: none there" "$(f soft_middle crack.tips.0.growth)" 0 1e-3
 between "softening beam, notch at 0.85: in the middle" "$(f soft_middle crack.tips.1.origin_x)" -0.01 0.01
-# overload DIR: K of the largest hoop stress (Erdogan & Sih 1963) at the notch over sqrt(E G_c) when the stress of the lower face in the middle,
-# by its strain over one spacing at half a spacing above it, reaches 10.45 MPa.
+# overload DIR: prints K of the largest hoop stress (Erdogan & Sih 1963) at the notch over sqrt(E G_c) at the time when the stress of the
+# lower face in the middle reaches 10.45 MPa. This stress follows from the strain over one spacing, half a spacing above the face.
 overload()
 {
     awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) { sub(/ .*/, "", $k); at[$k] = k }; next }

@@ -1,5 +1,6 @@
 #!/bin/sh
-# Contact in extreme cases: light and heavy rigid bodies, weights, interfaces; refusals, warnings, stops.
+# Contact in extreme cases: light and heavy rigid bodies, gravity, interfaces, bodies in two pieces, compressed bonds; refusals, warnings,
+# stops.
 test_name=test_contact_limits
 . tests/support/summary.sh
 . tests/support/scenes.sh

@@ -1,5 +1,5 @@
 #!/bin/sh
-# `cleave converge`: error bars that contain known answers, budget, refusals.
+# `cleave converge`: error bars must contain known answers; budget of run time, repeated studies, refusals.
 # Takes 30 s: studies of many small runs.
 test_name=converge
 . tests/support/summary.sh

@@ -1,6 +1,7 @@
 #!/bin/sh
-# README and manual: lengths of pages, links and their anchors, the page of all keys, keys that pages name, and scenes that a reader
-# would copy. Takes 20 s: it checks each scene of the manual and computes two equilibria.
+# README and manual: lengths of pages, links and their anchors, the page of all keys, keys that other pages name, and scenes that a reader
+# would copy.
+# Takes 20 s: it checks each scene of the manual and computes two equilibria.
 test_name=documents
 . tests/support/summary.sh
 . tests/support/scenes.sh
@@ -19,7 +20,7 @@ for page in $pages; do
     holds "$page: $words words, $most at the most" test "$words" -le $most
 done
 
-# Links of a page with their anchors; an anchor is a heading in small letters, blanks as hyphens, without other signs.
+# anchors PAGE: prints the anchors of the headings of a page: lower case, blanks as hyphens, without other punctuation.
 anchors() { sed -n 's/^#\{1,\} //p' "$1" | tr 'A-Z' 'a-z' | sed 's/[^a-z0-9 _-]//g; s/ /-/g'; }
 for page in $pages .github/CONTRIBUTING.md .github/SECURITY.md CHANGELOG.md; do
     { grep -o '](\([^)]*\))' "$page" | sed 's/^](//; s/)$//'; grep -o 'src="[^"]*"' "$page" | sed 's/src="//; s/"$//'; } | grep -v '^https:' | sort -u |

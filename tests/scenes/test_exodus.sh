@@ -1,6 +1,6 @@
 #!/bin/sh
-# Exodus II from the command line: a scene's particles are exported, read back as a list, and run alike; frames of a run become time steps,
-# which VTK's reader shows, where it is there; damaged files and wrong words are refused in one line.
+# Exodus II from the command line. The particles of a scene are exported, read back as a list, and must yield equal results; frames of a
+# run become time steps, which VTK's reader must read if it is installed. Damaged files and invalid arguments must be refused in one line.
 test_name=test_exodus
 . tests/support/summary.sh
 cd "$work" || exit 1
@@ -27,7 +27,7 @@ refused()
     [ $code -eq 2 ] && [ "$(echo "$said" | wc -l)" -eq 1 ] || fail "$*: exit $code: $said"
     case $said in *"$wanted"*) pass ;; *) fail "$*: '$said' has no '$wanted'" ;; esac
 }
-# column NAME: its last value in history.csv of a run.
+# column FOLDER NAME: prints the last value of a column in history.csv of a run.
 column() { awk -F, -v name="$2" 'NR == 1 { for (k = 1; k <= NF; k++) { split($k, word, " "); if (word[1] == name) at = k } } END { print $at }' "$1/history.csv"; }
 
 # Warnings name what the file lacks: rigid bodies and pre-cracks.

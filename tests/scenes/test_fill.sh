@@ -1,5 +1,6 @@
 #!/bin/sh
-# Particles only where they are needed (mpm.fill): results equal to those with all particles, on any number of threads, after interruptions.
+# Particles are created only where they are needed (mpm.fill): results must be equal to those with all particles, on any number of threads
+# and after interruptions.
 test_name=test_fill
 . tests/support/summary.sh
 . tests/support/trust.sh

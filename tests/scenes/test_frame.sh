@@ -1,6 +1,6 @@
 #!/bin/sh
-# Bodies in the reference frame (mpm.frame): compared with peridynamics and closed forms, on any number of threads, after any interruption;
-# refusals.
+# Bodies in the reference frame (mpm.frame): results against peridynamics and closed forms, on any number of threads, after any
+# interruption; choice of the frame by `auto`; refusals.
 test_name=test_frame
 . tests/support/summary.sh
 . tests/support/trust.sh
@@ -26,7 +26,7 @@ same "on 2 threads, interrupted after 12 and 60 lines" "$work/flat1" "$work/stop
 
 # ---- flight through the grid -------------------------------------------------------------------------------------------
 
-# vibration FOLDER: the last energy of stress and vibration of a block, over the first of its stress.
+# vibration FOLDER: prints the last energy of strain and vibration of a block divided by its initial strain energy.
 vibration()
 {
     awk -F, 'NR == 2 { kinetic = $3; strain = $4 } END { printf "%.4f", ($3 + $4 - kinetic) / strain }' "$1/history.csv"
@@ -278,7 +278,7 @@ refuses "two bodies that touch" inputs/hopkinson_bar.yaml $mesh
 
 # ---- choice by auto --------------------------------------------------------------------------------------------------
 
-# chooses FRAME REASON SCENE [ARGUMENT...]: checks the choice that check reports.
+# chooses FRAME REASON SCENE [ARGUMENT...]: checks the choice of the frame that check reports, and its reason.
 chooses()
 {
     what="auto: $1, $2" frame="^frame .*: $1 frame (.*$2"; shift 2

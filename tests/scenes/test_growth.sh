@@ -1,7 +1,7 @@
 #!/bin/sh
-# Cracks with prescribed growth: refusals; bitwise equality on any number of threads and after a stop during the release of bonds, in
-# peridynamics and among material points; stress-intensity factors, released energy and oscillations compared with the closed form (Freund
-# 1990), with transition bonds and without (Imachi et al. 2019).
+# Cracks with prescribed growth: stress-intensity factors, released energy and oscillations against the closed form (Freund 1990), with
+# and without transition bonds (Imachi et al. 2019). Also bitwise equality on any number of threads and after a stop during the release of
+# bonds, in peridynamics and among material points; refusals.
 test_name=test_growth
 . tests/support/summary.sh
 . tests/support/scenes.sh
@@ -9,7 +9,7 @@ test_name=test_growth
 moving=inputs/semi_infinite_crack.yaml
 fast="-s output.samples=92 -s time.step=40ns"
 
-# crack REST: prints the growth of that scene with other keys.
+# crack REST: prints the key `growth` of that scene with further keys.
 crack() { echo "growth=[{at: [30 mm, 0], direction: [1, 0], speed: 1000 m/s, start: 4.4 us$1}]"; }
 
 # ---- results -------------------------------------------------------------------------------------------------------
@@ -32,8 +32,9 @@ start sudden "$work/narrow_0.5.yaml" -s "$(crack ', damping: 0')" $fast
 start coarse "$work/narrow_0.5.yaml" $fast
 wait
 
-# factors FOLDER PROBE FROM: prints least and largest K/K_rest from FROM us to 9 us, root-mean-square deviation of K from a quadratic fit
-# over its mean, number of samples; K_rest = 2 s sqrt(c (t - H/c)(1 - 2 nu)/pi)/(1 - nu) with s = 2 MPa, twice the traction of each edge.
+# factors FOLDER PROBE FROM: prints, for FROM us to 9 us, the smallest and largest K/K_rest, the root mean square deviation of K from a
+# quadratic fit divided by its mean, and the number of samples. K_rest = 2 s sqrt(c (t - H/c)(1 - 2 nu)/pi)/(1 - nu) with s = 2 MPa, twice
+# the traction of each edge.
 factors()
 {
     awk -F, -v name="$2.K_I" -v from="$3" '
@@ -101,8 +102,8 @@ start pull_sudden load_displacement $double \
     -s "growth=[{at: [12 mm, 0], direction: [1, 0], speed: 34.6 m/s, start: 20 us, damping: 0}]"
 wait
 
-# shaking FOLDER: prints the root-mean-square deviation of the reaction from its own parabola over 25 samples, 22 to 78 us, over its last
-# value.
+# shaking FOLDER: prints the root mean square deviation of the reaction from its own parabola over 25 samples, 22 to 78 us, divided by the
+# last reaction.
 shaking()
 {
     awk -F, '
@@ -149,7 +150,7 @@ between "adaptive: released" "$(compute "$(column "$work/adaptive" fracture 9e-6
 
 # ---- refusals ------------------------------------------------------------------------------------------------------
 
-# refuse KEYS WORDS [ARGUMENT...]: checks the refusal of a scene whose growth has these keys; position and reason in one line.
+# refuse KEYS WORDS [ARGUMENT...]: checks that a scene whose growth has these keys is refused in one line with position and reason.
 refuse()
 {
     keys=$1 words=$2; shift 2

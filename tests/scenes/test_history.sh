@@ -1,15 +1,15 @@
 #!/bin/sh
-# Columns of history.csv and figures of summary.json agree with their names: runs with one kind of energy each and none of the others,
-# compared with sums over the bodies computed here.
+# Columns of history.csv and results of summary.json must be what their names say: runs with only one kind of energy each, compared with
+# sums over the bodies computed here and with closed forms in time.
 test_name=test_history
 . tests/support/summary.sh
 
-# most FOLDER COLUMN, least FOLDER COLUMN: print the extremes over all samples.
+# most FOLDER COLUMN, least FOLDER COLUMN: print the largest and the smallest value of a column over all samples.
 most() { awk -F, -v name="$2" 'NR == 1 { for (k = 1; k <= NF; k++) { sub(/ \[.*/, "", $k); if ($k == name) at = k } next }
     NR == 2 || $at + 0 > m { m = $at + 0 } END { print m }' "$1/history.csv"; }
 least() { awk -F, -v name="$2" 'NR == 1 { for (k = 1; k <= NF; k++) { sub(/ \[.*/, "", $k); if ($k == name) at = k } next }
     NR == 2 || $at + 0 < m { m = $at + 0 } END { print m }' "$1/history.csv"; }
-# none FOLDER COLUMN...: checks that these are 0 in all samples.
+# none FOLDER COLUMN...: checks that these columns are 0 in all samples.
 none() { folder=$1; shift; for name in "$@"; do is "$folder: $name" "$(least "$folder" "$name") $(most "$folder" "$name")" "0 0"; done; }
 
 # Two blocks in frictional contact: 10 x 4 particles of 1180 kg/m^3 x 0.37 m x 1 mm^2 at (5, -2) m/s on a block at rest.
@@ -374,7 +374,8 @@ output: {samples: 40, frames: 0}
 END
 sed -e 's/^space.*/space: solid/' -e '/^thickness/d' -e 's/to: .*/to: [8 mm, 6 mm, 5 mm]}}/' -e 's/from: \[0, 0\]/from: [0, 0, 0]/' \
     -e 's/\[\[4000.*/[[4000, 0, 0], [0, -1500, 0], [0, 0, 0]]}]/' "$work/torn.yaml" >"$work/torn_solid.yaml"
-# unlike FOLDER COLUMN: prints the largest difference of the column and that of the probe, over the largest value of the column.
+# unlike FOLDER COLUMN: prints the largest difference of a column and of the same column of the probe, divided by the largest value of the
+# column.
 unlike() { awk -F, -v name="$2" 'NR == 1 { for (k = 1; k <= NF; k++) { sub(/ \[.*/, "", $k); at[$k] = k } next }
     { d = $at[name] - $at["energy." name]; if (d < 0) d = -d; if (d > far) far = d; if ($at[name] > large) large = $at[name] }
     END { print (large > 0 ? far / large : "nothing") }' "$1/history.csv"; }

@@ -1,5 +1,6 @@
 #!/bin/sh
-# Joined bodies: a wave through two materials, halves equivalent to a whole, a weak joint, refusals.
+# Joined bodies: a wave through two materials against its closed form, joined halves against the whole, a weak joint, the energy of broken
+# joints, refusals.
 test_name=test_interfaces
 . tests/support/summary.sh
 . tests/support/scenes.sh
@@ -72,7 +73,7 @@ start strong "$work/strong.yaml"
 start glued_again "$work/glued/scene.yaml"; start halves_again "$work/halves/scene.yaml"
 wait
 
-# most FOLDER COLUMN FROM: prints its largest value from that time on [s].
+# most FOLDER COLUMN FROM: prints the largest value of a column from the time FROM on [s].
 most() { awk -F, -v name="$2" -v from="$3" 'NR == 1 { for (k = 1; k <= NF; k++) { sub(/ .*/, "", $k); if ($k == name) at = k } }
     NR > 1 && $1 >= from + 0 && $at > most { most = $at } END { print most + 0 }' "$work/$1/history.csv"; }
 between "layers: goes on" "$(most layers b.velocity_x 0)" 1.592 1.608

@@ -1,6 +1,6 @@
 #!/bin/sh
-# SIF-driven cracks: the plate with two notches of inputs/kalthoff_sif.yaml, on regular and irregular particles, with factors evaluated at
-# every step, and rarely. Threads with such cracks: test_running_crack.sh and test_state_adaptive.sh.
+# SIF-driven cracks in the plate with two notches of inputs/kalthoff_sif.yaml: crack angle and K_II on regular and irregular particles,
+# with factors evaluated at every step and rarely. Any number of threads: test_running_crack.sh and test_state_adaptive.sh.
 test_name=test_kalthoff_sif
 . tests/support/summary.sh
 . tests/support/scenes.sh

@@ -1,8 +1,8 @@
 #!/bin/sh
-# `cleave export lammps` compared with LAMMPS itself, particle by particle: after 200 steps no position differs by more than 1e-9 of the
-# largest displacement, and the same bonds are broken. Bonds and families in plane stress, plane strain and 3D; cracks in any direction;
-# driven and displaced regions, tractions, body forces and their functions of time; initial velocities and displacements; two ranks.
-# Skipped where LAMMPS is missing.
+# Compares `cleave export lammps` with LAMMPS itself, particle by particle: after 200 steps positions may differ by at most 1e-9 of the
+# largest displacement, and the same bonds must be broken. Bond-based and state-based models in plane stress, plane strain and 3D; cracks
+# in any direction; driven and displaced regions, tractions, body forces and their functions of time; initial velocities and
+# displacements; two MPI ranks. Skipped if LAMMPS is missing.
 test_name=lammps
 . tests/support/summary.sh
 command -v lmp >/dev/null || { echo "test_lammps: lmp (LAMMPS with its package PERI) is missing"; exit 77; }
@@ -34,7 +34,7 @@ boundary:
 output: {frames: 3, samples: 1}
 END
 }
-# agrees NAME RANKS [OPTION...]: exports NAME.yaml, runs LAMMPS, compares.
+# agrees NAME RANKS [OPTION...]: exports NAME.yaml with the options, runs LAMMPS on RANKS ranks and compares the results.
 agrees()
 {
     name=$1 ranks=$2; shift 2

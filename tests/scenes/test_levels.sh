@@ -1,6 +1,6 @@
 #!/bin/sh
-# Levels of coarse cells (mpm.levels): compared with cells of two spacings everywhere, on any number of threads, after interruptions, with
-# long waves and with mirrors; refusals.
+# Coarse cells (mpm.levels): results against cells of two spacings everywhere, on any number of threads, after interruptions, with long
+# waves and with mirrors; refusals.
 test_name=test_levels
 . tests/support/summary.sh
 . tests/support/trust.sh

@@ -1,15 +1,15 @@
 #!/bin/sh
-# Cracks near a plane of symmetry: half a body with a mirror is equivalent to the whole body with each crack and its image, with bonds and
-# adaptive, in 2D and 3D; momentum is conserved to round-off.
-# Takes 25 s: whole bodies beside their halves, in 2D and 3D.
+# Cracks near a plane of symmetry: half a body with a mirror must be equivalent to the whole body with each crack and its image, with
+# bonds and adaptive, in 2D and 3D; momentum must be conserved to round-off.
+# Takes 25 s: each half is run together with the whole body.
 test_name=test_mirror_cracks
 . tests/support/summary.sh
 . tests/support/trust.sh
 . tests/support/scenes.sh
 . tests/support/physics.sh
 
-# alike NAME SCALE WITHIN COLUMN...: checks that these columns of the half's history times SCALE equal those of the whole: to 2e-9 of their
-# largest value, the precision of nine digits, or to WITHIN.
+# alike NAME SCALE WITHIN COLUMN...: checks that these columns of the history of the half, times SCALE, equal those of the whole body
+# within WITHIN of their largest value.
 alike()
 {
     folder=$1 scale=$2 within=$3; shift 3
@@ -24,9 +24,9 @@ alike()
     done
 }
 
-# energies NAME ENERGY...: checks that those at the end are half as large, to $round_off. Weights of bonds near faces are fitted to a
-# relative gradient of 1e-12: half and whole differ by 2e-10 with some kernels. Without weights the same bonds are summed in another order
-# over some hundred steps: 1e-12 measured.
+# energies NAME ENERGY...: checks that these energies of the half at the end are half of those of the whole body, within $round_off.
+# Weights of bonds near faces are fitted to a relative gradient of 1e-12, so that both differ by 2e-10 with some kernels. Without weights
+# the same bonds are summed in another order over some hundred steps: 1e-12 measured.
 round_off=1e-9
 energies()
 {
@@ -38,7 +38,8 @@ energies()
     done
 }
 
-# both NAME HALF_BODY WHOLE_BODY CRACKS ALL_CRACKS [ARGUMENT...]: runs the scene `all`: half the body with the mirror, and the whole.
+# both NAME HALF_BODY WHOLE_BODY CRACKS ALL_CRACKS [ARGUMENT...]: runs the scene `all` as half the body with the mirror and as the whole
+# body, and compares both.
 both()
 {
     folder=$1 part="body=$2" all="body=$3" cracks="cracks=[$4]" twice="cracks=[$5]"; shift 5

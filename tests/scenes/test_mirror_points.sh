@@ -1,5 +1,6 @@
 #!/bin/sh
-# Material points and planes of symmetry: the distance from which on a plane acts on the grid, gaps between a body and a plane, close planes.
+# Material points and planes of symmetry: the distance at which a plane begins to act on the grid, gaps between a body and a plane, planes
+# close to each other.
 test_name=test_mirror_points
 . tests/support/summary.sh
 . tests/support/trust.sh
@@ -20,7 +21,7 @@ particles: {spacing: 0.25 mm}
 boundary: [{name: wall, mirror: {axis: y, at: 0}}]
 output: {frames: 0, samples: 600}
 END
-# turns NAME: prints the time at which the momentum of a run of the block changes its sign [us].
+# turns NAME: prints the time at which the momentum of the block changes its sign in a run [us].
 turns()
 {
     awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k ~ /^momentum_y/) at = k; next }

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Advice of `cleave check` on narrow sections whose width is not a multiple of the spacing: ligaments beside holes, notches and slots,
-# layers of a material, pieces of a line. Widths are those of the drawing; the error is the number of rows of particles, counted by hand,
-# over the width.
+# layers of a material, pieces of a line. Expected widths are those of the drawing; the expected error is the relative difference of the
+# rows of particles, counted by hand, from the width.
 test_name=test_necks
 . tests/support/summary.sh
 . tests/support/scenes.sh
@@ -19,8 +19,8 @@ END
 # checked [ARGUMENT...]: stores the output of check for the plate with these settings.
 checked() { "$cleave" check "$work/plate.yaml" --no-trial "$@" >"$work/said" 2>&1; }
 
-# named WHAT PART [ARGUMENT...]: checks that check reports the part (width, axis, position, rows, error), and no such width at the spacings
-# that it offers.
+# named WHAT PART [ARGUMENT...]: checks that check reports the part (width, axis, position, rows, error), and that at the spacings that it
+# offers check reports no part of this width.
 named()
 {
     what=$1 part=$2; shift 2

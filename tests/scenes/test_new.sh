@@ -1,5 +1,5 @@
 #!/bin/sh
-# Scenes of `cleave new`: each kind is valid, causes no advice, and runs; nothing is overwritten.
+# Scenes written by `cleave new`: each kind must be valid, cause no advice, and run; existing files are not overwritten.
 test_name=new
 . tests/support/summary.sh
 
@@ -26,7 +26,8 @@ is "slow: load over displacement" "$(awk -F, 'NR == 1 { for (k = 1; k <= NF; k++
 holds "a kind is a name, too" "$cleave" new bar >/dev/null
 is "of a scene of that kind" "$(grep -c '^space: line' bar.yaml)" 1
 
-# refused WHAT MESSAGE WORDS...: checks for status 2, one line, and no additional file.
+# refused WHAT MESSAGE WORDS...: checks that `cleave new WORDS...` ends with status 2 and one line that contains MESSAGE, and creates no
+# file.
 refused()
 {
     what=$1 message=$2; shift 2

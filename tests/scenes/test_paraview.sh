@@ -1,5 +1,5 @@
 #!/bin/sh
-# Frames opened by the reader for which they are written, that of VTK 9.1, if python3-vtk9 is installed.
+# Frames are opened by the reader of VTK 9.1, for which they are written, if python3-vtk9 is installed.
 test_name=test_paraview
 . tests/support/summary.sh
 vtk=$(for python in /usr/bin/python3 python3; do "$python" -c 'import vtk; vtk.vtkHDFReader' 2>/dev/null && echo "$python" && break; done)

@@ -1,5 +1,6 @@
 #!/bin/sh
-# Bodies with several materials by regions: waves at an interface, laminates, order of conversion.
+# Bodies whose regions have different materials: waves at an interface, laminates in series and parallel, order of conversion, a list of
+# two materials.
 test_name=test_parts
 . tests/support/summary.sh
 . tests/support/scenes.sh
@@ -86,7 +87,7 @@ done
 start weak "$work/weak.yaml"; wait
 start weak_again "$work/weak/scene.yaml"; wait
 
-# most FOLDER COLUMN FROM: prints its largest value from that time on [s].
+# most FOLDER COLUMN FROM: prints the largest value of a column from the time FROM on [s].
 most() { awk -F, -v name="$2" -v from="$3" 'NR == 1 { for (k = 1; k <= NF; k++) { sub(/ .*/, "", $k); if ($k == name) at = k } }
     NR > 1 && $1 >= from + 0 && $at > most { most = $at } END { print most + 0 }' "$work/$1/history.csv"; }
 for run in pd mpm adaptive both; do      # 0.5 %: dispersion over 160 spacings

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Pictures of fields, slices, films and of scenes before they run, checked by a copy of gnuplot's input.
+# Pictures of fields, sections, films and of scenes before they run, checked by the input of gnuplot, of which a stand-in keeps a copy.
 # Takes 35 s: each picture is a process of gnuplot.
 test_name=test_pictures
 . tests/support/summary.sh

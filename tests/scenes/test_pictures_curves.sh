@@ -1,6 +1,6 @@
 #!/bin/sh
-# Pictures of curves: histories, sweeps, load over displacement, profiles along a bar, checked by a copy of gnuplot's input; pictures in a
-# folder of -o.
+# Pictures of curves: histories, sweeps, load over displacement, profiles along a bar, checked by the input of gnuplot, of which a
+# stand-in keeps a copy; pictures in a folder given by -o.
 # Takes 20 s: each picture is a process of gnuplot.
 test_name=test_pictures_curves
 . tests/support/summary.sh

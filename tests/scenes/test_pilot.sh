@@ -1,7 +1,7 @@
 #!/bin/sh
-# `method: auto`: pilot runs choose, within their budget, a method and spacing that reach the requested accuracy; the choice is stored, and
-# the scene as run states it without auto; impossible requests are reported. Takes 25 s: each choice is made by runs of a scene with several
-# methods and spacings.
+# `method: auto`: pilot runs must choose, within their budget, a method and a spacing that reach the requested accuracy, against known
+# answers. The choice is stored, and the scene as written out contains it in place of auto. Impossible requests must be reported.
+# Takes 25 s: each choice is made by runs of a scene with several methods and spacings.
 test_name=test_pilot
 . tests/support/summary.sh
 case $cleave in /*) ;; *) cleave=$(pwd)/$cleave ;; esac
@@ -143,7 +143,7 @@ fi
 
 # ---- impossible requests ---------------------------------------------------------------------------------------------
 
-# refused WORDS ARGUMENTS: checks for exit status 2, a line with these words, and no run.
+# refused WORDS ARGUMENTS: checks that a run ends with status 2 and a line that contains WORDS, without results.
 refused()
 {
     words=$1; shift

@@ -1,7 +1,7 @@
 #!/bin/sh
 # The Python module (src/python/cleave): runs scenes with overrides, scenes that are dictionaries, and studies; passes on the program's
-# message, location and exit status; reads the files of `cleave`: history, summary, frames by id, probes, fragments, tables of studies, a run
-# in progress. What needs matplotlib, pandas or vtk: long_python.sh. Skipped where numpy or h5py is missing.
+# message, position and exit status; reads the files of `cleave`: history, summary, frames by id, probes, fragments, tables of studies, a
+# run in progress. Functions that need matplotlib, pandas or vtk: long_python.sh. Skipped if numpy or h5py is missing.
 test_name=python
 . tests/support/summary.sh
 

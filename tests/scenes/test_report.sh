@@ -1,5 +1,6 @@
 #!/bin/sh
-# Pages of cleave report: complete, of the stated precision, harmless whatever a scene is called, and never over files of others.
+# Pages of `cleave report`: complete, of the stated precision, without active content whatever the name of a scene is, and never written
+# over other files.
 # Takes 40 s: runs, pages with pictures, and a convergence study.
 test_name=test_report
 . tests/support/summary.sh
@@ -8,9 +9,9 @@ for python in python3 /usr/bin/python3 none; do which=$($python -c 'import h5py,
 python=${which:-python3}
 cd "$work" || exit 1
 
-# whole PAGE [FOLDER]: the page is complete, and says what the files of the run say.
+# whole PAGE [FOLDER]: checks that the page is complete and agrees with the files of the run in FOLDER (report_page.py).
 whole() { $python "$root/tests/scenes/report_page.py" "$@" >said && pass || fail "$1: $(cat said)"; }
-# refused WORD ARGUMENTS: exit status 2 with one line that contains WORD.
+# refused WORD ARGUMENTS: checks that `cleave report ARGUMENTS` ends with status 2 and one line that contains WORD.
 refused()
 {
     word=$1
@@ -278,8 +279,8 @@ is "a convergence study: exit status" $? 0
 whole study.html
 holds "the study's table" grep -q '"table": "figure,unit,value,uncertainty,' study.html
 
-# repeated PAGE FOLDER KIND: runs the command that the page of a study prints, elsewhere, with the scene that it saves. Every run
-# has computed the same, and there are as many.
+# repeated PAGE FOLDER KIND: repeats the study (KIND: sweep or converge) by the options and the scene stored in its page, in another
+# folder. All runs must have equal histories, and their number must be equal.
 repeated()
 {
     rm -rf again && mkdir again

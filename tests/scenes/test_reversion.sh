@@ -1,6 +1,7 @@
 #!/bin/sh
-# Reversion to material points (conversion.reversion) in whole runs: the share of peridynamics decreases behind a wave, without oscillation,
-# without change of momentum and with little of energy; bitwise equality on any number of threads and after any interruption; refusals.
+# Reversion to material points (conversion.reversion) in whole runs: the share of peridynamics must decrease behind a wave without
+# oscillation, momentum must not change, and energy little. Bitwise equality on any number of threads and after any interruption;
+# refusals.
 test_name=test_reversion
 . tests/support/summary.sh
 . tests/support/trust.sh

@@ -1,7 +1,7 @@
 #!/bin/sh
-# Cracks whose speed follows from their toughness: a semi-infinite one loaded by plane waves, compared with the crack-tip equation of motion
-# k(v) K_still(t) = K_Ic (Freund 1990); two tips at once, each controlled by its own factors; threads and restarts; energy released by
-# cracks of prescribed and of computed speed, compared with A_I(v) K^2 (1 - nu^2)/E.
+# Cracks whose speed follows from their toughness. A semi-infinite crack loaded by plane waves is compared with the crack-tip equation of
+# motion k(v) K_still(t) = K_Ic (Freund 1990). Two tips at once are each controlled by their own factors. Released energy, for prescribed
+# and computed speed, is compared with A_I(v) K^2 (1 - nu^2)/E. Also threads and restarts.
 test_name=test_running_crack
 . tests/support/summary.sh
 . tests/support/scenes.sh
@@ -9,9 +9,9 @@ test_name=test_running_crack
 
 # ---- the closed form ----------------------------------------------------------------------------------------------
 
-# motion FOLDER SPEED TOUGHNESS FROM: compares glass under 2 MPa with its exact motion. Prints the mean of v - v_exact and its root mean
-# square, from 1 us after the start to 9 us, over the mean of v_exact; length over the exact one at 9 us; mean of K_eq/K_Ic from 6 to 9 us;
-# energy released from FROM us to 9 us over that of A_I K^2, K = K_Ic, or with SPEED > 0, a prescribed speed, k K_still.
+# motion FOLDER SPEED TOUGHNESS FROM: compares a crack in glass under 2 MPa with its exact motion. Prints mean and root mean square of v -
+# v_exact from 1 us after the start to 9 us, over the mean of v_exact; the length over the exact one at 9 us; the mean of K_eq/K_Ic from 6
+# to 9 us; the energy released from FROM us to 9 us over that of A_I K^2. K = K_Ic, or k K_still for a prescribed SPEED > 0.
 motion()
 {
     awk -F, -v speed="$2" -v toughness="$3" -v from="$4" '

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Scatter of strength from the command line: other seeds break elsewhere; equal seeds are bitwise equal on any number of threads, after a
-# checkpoint and from the echo, and agree at another spacing; refusals.
+# Scattered strength in whole runs: other seeds must break at other positions; equal seeds must be bitwise equal on any number of threads,
+# after a checkpoint and from the scene as written out, and agree at another spacing; refusals.
 test_name=test_scatter
 . tests/support/summary.sh
 . tests/support/scenes.sh

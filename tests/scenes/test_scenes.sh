@@ -1,6 +1,6 @@
 #!/bin/sh
-# Results stated in the scenes of inputs/, checked by the figures of summary.json; of scenes as shipped also rows of bench/claims.csv.
-# Takes 25 s: 22 runs, of which three plates in 3D, two with a fit of surface weights, are half of the time.
+# Results stated in the scenes of inputs/, checked by the values in summary.json; for unchanged scenes also rows of bench/claims.csv.
+# Takes 25 s: 22 runs, of which three plates in 3D, two with a fit of surface weights, take half of the time.
 test_name=test_scenes
 . tests/support/summary.sh
 . tests/support/scenes.sh

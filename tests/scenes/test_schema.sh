@@ -1,5 +1,5 @@
 #!/bin/sh
-# The schema for editors: every shipped scene refers to it and conforms to it; it rejects typical typing errors.
+# The schema for editors: every shipped scene must refer to it and conform to it; it must reject typical typing errors.
 test_name=schema
 . tests/support/summary.sh
 

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Bodies from files, from the command line: the three scenes of inputs/files.md, their volumes, materials, echoes; files that change.
+# Bodies from files: the three scenes of inputs/files.md, with their volumes, materials and scenes as written out; changed files.
 test_name=test_shapes
 . tests/support/summary.sh
 
@@ -9,14 +9,14 @@ awk -v work="$work" '/^```yaml/ { getline; if ($2 ~ /^(blade|gear|fibres)\.yaml:
     /^```$/ { file = "" } file { print > file }' inputs/files.md
 cd "$work" || exit 1
 
-# said NAME PATTERN ARGUMENTS: checks the output of check for a scene.
+# said NAME PATTERN ARGUMENTS: checks that the output of check for the scene NAME contains the pattern.
 said()
 {
     name=$1 pattern=$2; shift 2
     said=$("$cleave" check "$name" "$@" 2>&1)
     case $said in *$pattern*) pass ;; *) fail "$name: no '$pattern' in: $said" ;; esac
 }
-# A refusal in one line with exit status 2.
+# refused: as said, for a scene that is refused in one line with exit status 2.
 refused()
 {
     wanted=$1; shift

@@ -1,6 +1,7 @@
 #!/bin/sh
-# A held and a driven face share the particles and nodes of their common edge: the later one in the scene has them alone. Balance of
-# energies, sum of reactions, either order, mirrored and turned bodies, planes of symmetry; every method and solver. Takes 30 s.
+# A fixed and a driven face share the particles and nodes of their common edge, which only the later boundary in the scene moves. Checks
+# the energy balance, the sum of reactions, either order, mirrored and rotated bodies and planes of symmetry, for every method and solver.
+# Takes 30 s.
 test_name=test_shared_edges
 . tests/support/summary.sh
 . tests/support/trust.sh
@@ -35,13 +36,13 @@ reference='-s method=mpm -s mpm.frame=reference'
 current='-s method=mpm -s mpm.frame=current'
 adaptive='-s method=adaptive'
 
-# edge NAME SCENE BOUNDARIES [ARGUMENT...]: runs the scene with these boundaries.
+# edge NAME SCENE BOUNDARIES [ARGUMENT...]: runs the scene with these boundaries on one thread.
 edge() { to=$1 scene=$2 row=$3; shift 3; OMP_NUM_THREADS=1 calm "$work/$to" "$work/$scene.yaml" -s "boundary=[$row]" "$@"; }
 
-# equal WHAT FOLDER FOLDER COLUMN...: compares the last values of these columns, digit by digit.
+# equal WHAT FOLDER FOLDER COLUMN...: checks that the last values of these columns of both runs are equal in all digits.
 equal() { what=$1 a=$2 b=$3; shift 3; for name; do is "$what: $name" "$(last "$a" "$name")" "$(last "$b" "$name")"; done; }
 
-# sum FOLDER AXIS: prints the sum of all reactions along an axis over the largest component of any.
+# sum FOLDER AXIS: prints the sum of all reactions along an axis divided by the largest component of any reaction.
 sum()
 {
     awk -F, -v axis="force_$2" '

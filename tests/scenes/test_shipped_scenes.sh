@@ -1,12 +1,13 @@
 #!/bin/sh
-# Advice of `cleave check` on a shipped scene is answered in the scene: each line of accuracy and of hints by a comment
+# Shipped scenes must answer the advice of `cleave check`: for each line of accuracy and hints they have a comment
 #     # check: WORDS: REASON
-# whose words are in that line. One comment may answer several lines; a comment that answers none is an error. No scene causes a warning: what
-# it means is said by its key accept.
+# whose words are in that line. One comment may answer several lines; a comment that answers none is an error. No scene may cause a
+# warning unless its key `accept` names it.
 test_name=test_shipped_scenes
 . tests/support/summary.sh
 
-# unanswered SCENE SAID: prints the lines of advice and the comments that remain.
+# unanswered SCENE SAID: prints the lines of advice in the file SAID that no comment of the scene answers, and the comments that answer
+# none.
 unanswered()
 {
     awk '

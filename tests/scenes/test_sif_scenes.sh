@@ -1,6 +1,6 @@
 #!/bin/sh
-# Stress-intensity factors of inputs/: an edge crack compared with the closed form, for all models, both solvers and adaptive coupling, and
-# an inclined crack in both modes.
+# Stress-intensity factors of scenes of inputs/: an edge crack against its closed form, for all models, both solvers and adaptive
+# coupling, and an inclined crack in both modes against boundary collocation.
 test_name=test_sif_scenes
 . tests/support/summary.sh
 . tests/support/scenes.sh
@@ -14,7 +14,7 @@ test_name=test_sif_scenes
     echo '  - sif: {name: far, outer: 3 mm}'
 } >"$work/edge.yaml"
 
-# inclined PHI: writes the inclined crack with another angle [degrees].
+# inclined PHI: writes the scene inclined_PHI.yaml of the inclined crack with the angle PHI [degrees].
 inclined()
 {
     awk -v phi="$1" '
@@ -48,7 +48,7 @@ wait
 
 # ---- the edge crack: 11.93 MPa mm^0.5 (3.009 sigma sqrt(pi a), boundary collocation) --------------------------------------
 
-# off RUN PROBE: prints the relative error of K_I.
+# off RUN PROBE: prints the relative error of K_I of a probe.
 off() { compute "$(f "$1" "probes.$2.K_I") / (11.93e6 * sqrt(1e-3)) - 1"; }
 # With surface correction the remaining error is at the end of the crack: as if it were longer by half a horizon; twice as much with twice
 # the spacing (ratio 2.08 measured; it would be 1.5 if K were 2 % too large in both).
@@ -79,7 +79,8 @@ apart "adaptive and pd" "$(off coupled sif)" "$(off alone sif)" 0.01
 
 # ---- the inclined crack, at half the resolution of the scene ----------------------------------------------------------
 
-# deviation RUN PROBE MODE F_I F_II: prints the deviation from collocation over the root of the sum of squares of both factors.
+# deviation RUN PROBE MODE F_I F_II: prints the deviation of the factor of MODE (I or II) from collocation, F_I or F_II, over the root of
+# the sum of squares of both.
 deviation()
 {
     wanted=$4

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Pre-cracks as slits of the mesh (conversion.notch): compared with cut bonds, on any number of threads, after an interruption, with the
-# active set; in half a body with a mirror; contact of faces; cracks that cannot be slits.
+# Pre-cracks as slits of the mesh (conversion.notch): results against cut bonds, on any number of threads, after an interruption, with the
+# active set, in half a body with a mirror; contact of crack faces; cracks that cannot be slits.
 test_name=test_slits
 . tests/support/summary.sh
 . tests/support/trust.sh
@@ -109,7 +109,7 @@ is "faces that pass stay material points" "$(f through conversion.pd_share_start
 
 # ---- cracks that cannot be slits ------------------------------------------------------------------------------------------
 
-# stays REASON ARGUMENT...: checks that the crack cuts bonds by default, with a reason, and is refused as a slit in one line.
+# stays REASON ARGUMENT...: checks that the crack cuts bonds by default, with this reason, and that a slit is refused in one line.
 stays()
 {
     reason=$1; shift

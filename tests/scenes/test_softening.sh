@@ -1,6 +1,6 @@
 #!/bin/sh
-# Bonds that soften, from the command line: the strength of a strip of glass in tension, energy, equal bits on any number of threads and
-# after a checkpoint, a strip in compression, an adaptive run, scatter, what check prints, refusals.
+# Softening bonds in whole runs: the strength of a strip of glass in tension, energy balance, bitwise equality on any number of threads
+# and after a checkpoint, a strip in compression, an adaptive run, scatter, output of check, refusals.
 # Takes 30 s: a strip runs until it breaks in each of these cases.
 test_name=test_softening
 . tests/support/summary.sh

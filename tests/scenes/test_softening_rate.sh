@@ -1,6 +1,7 @@
 #!/bin/sh
-# A strength that grows with the strain rate, from the command line: a strip of glass pulled at three rates, energy, equal bits after the
-# echo and a checkpoint, what check prints, refusals. Takes 25 s: a strip runs until it breaks in each of these cases.
+# A strength that depends on the strain rate, in whole runs: a strip of glass pulled at three rates, energy balance, bitwise equality from
+# the scene as written out and after a checkpoint, output of check, refusals.
+# Takes 25 s: a strip runs until it breaks in each of these cases.
 test_name=test_softening_rate
 . tests/support/summary.sh
 . tests/support/scenes.sh

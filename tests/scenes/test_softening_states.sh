@@ -1,6 +1,6 @@
 #!/bin/sh
-# Bonds of ospd and mospd that soften, from the command line: strength of a strip, energy, equal bits on any number of threads and after a
-# checkpoint, what a crack dissipates, compression, adaptive runs, load steps, what check prints, refusals.
+# Softening bonds of ospd and mospd in whole runs: strength of a strip, energy balance, bitwise equality on any number of threads and
+# after a checkpoint, energy dissipated by a crack, compression, adaptive runs, load steps, output of check, refusals.
 # Takes 35 s: a strip runs until it breaks in each of these cases.
 test_name=test_softening_states
 . tests/support/summary.sh

@@ -1,7 +1,7 @@
 #!/bin/sh
-# Load steps of bodies whose bonds soften: loads of notched strips, snap-back, energy, equal bits on any number of threads and after a
-# checkpoint, given loads, a crack that closes, a solid, refusals.
-# Takes 30 s: a crack is grown, closed and pressed in 80 load steps, four times.
+# Load steps of bodies whose bonds soften: loads of notched strips against a separate program, snap-back, energy balance, bitwise equality
+# on any number of threads and after a checkpoint, prescribed loads, a crack that closes, a solid, refusals.
+# Takes 30 s: a crack grows, closes and is pressed in 80 load steps, four times.
 test_name=test_softening_steps
 . tests/support/summary.sh
 . tests/support/scenes.sh

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Static solvers from the command line: the edge crack with both, the summary, bitwise equality on any number of threads and after kills,
-# supports between nodes, refusals.
+# Static solvers in whole runs: an edge crack with both solvers, a cantilever of points, supports between nodes, bitwise equality on any
+# number of threads and after kills, refusals, warnings.
 test_name=test_solver
 . tests/support/summary.sh
 . tests/support/trust.sh

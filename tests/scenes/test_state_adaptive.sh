@@ -1,5 +1,6 @@
 #!/bin/sh
-# State-based bonds in adaptive runs: reproducibility, momentum, a pulse through the interface, and cracks that turn.
+# State-based models in adaptive runs: reproducibility, momentum, reflection of a pulse at the interface, and cracks that change
+# direction.
 test_name=test_state_adaptive
 . tests/support/summary.sh
 . tests/support/scenes.sh

@@ -1,7 +1,7 @@
 #!/bin/sh
-# Load steps from the command line: output files, pictures, bitwise equality on any number of threads and after stops between any two load
-# steps, `cleave check`, refusals, and a run without equilibrium.
-# Takes 25 s: each shipped scene in load steps is run as a whole and in pieces.
+# Load steps in whole runs: output files, pictures, bitwise equality on any number of threads and after stops between any two load steps,
+# `cleave check`, refusals, and a run without equilibrium.
+# Takes 25 s: each shipped scene in load steps is run without a stop and in parts.
 test_name=test_steps
 . tests/support/summary.sh
 . tests/support/trust.sh
@@ -166,7 +166,7 @@ fi
 
 # ---- bitwise equality ----------------------------------------------------------------------------------------------
 
-# bits WHAT ARGUMENTS: checks bitwise equality on 1 and 2 threads, and after stops at every load step.
+# bits WHAT ARGUMENTS: checks bitwise equality of a run on 1 and 2 threads, and after stops at every load step.
 bits()
 {
     what=$1; shift

@@ -1,7 +1,7 @@
 #!/bin/sh
-# Load steps of yielding material points, compared with closed forms: bilinear curve of a bar with permanent set and reversed flow, moment
-# of a beam, thick-walled cylinder; their energies for any number of steps, bitwise equality on any number of threads and after stops
-# between any two load steps, refusals.
+# Load steps of yielding material points against closed forms: the bilinear curve of a bar with permanent strain and reversed flow, the
+# moment of a beam, a thick-walled cylinder. Their energies for any number of steps, bitwise equality on any number of threads and after
+# stops between any two load steps, refusals.
 test_name=test_steps_yield
 . tests/support/summary.sh
 . tests/support/trust.sh
@@ -32,7 +32,8 @@ sed -e 's/^space: .*/space: line/; /^thickness/d; s/poisson: 0.3, //; s/, free\]
 
 # ---- the bilinear curve ----------------------------------------------------------------------------------------------
 
-# curve WHAT SCENE AREA VOLUME: checks the curve up to 480 MPa, unloading, and from -480 MPa with the same slope to -624 MPa.
+# curve WHAT SCENE AREA VOLUME: checks the stress of a bar loaded to 480 MPa, unloaded and loaded in the opposite direction, where it
+# yields at -480 MPa with the same slope up to -624 MPa; and its energies. AREA: section [m^2]; VOLUME [m^3].
 curve()
 {
     to=$work/$1
@@ -138,7 +139,7 @@ between "cylinder: 300 MPa" "$(column "$work/limit" outer.displacement_x 0.91)" 
 
 # ---- bitwise equality --------------------------------------------------------------------------------------------------
 
-# bits WHAT SCENE ARGUMENTS: checks bitwise equality on 1 and 2 threads, and after stops at every load step.
+# bits WHAT SCENE ARGUMENTS: checks bitwise equality of a run on 1 and 2 threads, and after stops at every load step.
 bits()
 {
     what=$1; shift

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Strength surfaces from the command line: whole plates of glass in tension, equal biaxial tension and shear, energy, equal bits on any
-# number of threads and after a checkpoint, an adaptive run, load steps, scatter, frames, what check prints, refusals.
+# Strength surfaces in whole runs: plates of glass in uniaxial tension, equibiaxial tension and shear, energy balance, bitwise equality on
+# any number of threads and after a checkpoint, an adaptive run, load steps, scatter, frames, output of check, refusals.
 # Takes 40 s: whole plates at two horizons.
 test_name=test_strength_surface
 . tests/support/summary.sh

@@ -1,5 +1,6 @@
 #!/bin/sh
-# `cleave sweep`: runs, lists, skips finished runs, counts failures, excludes a second one; kills during runs.
+# `cleave sweep`: runs and tables of a sweep; finished runs are skipped, failed ones are counted, a second sweep in the same folder is
+# refused; kills during runs.
 # Takes 20 s: sixty short runs, and a picture for each key.
 test_name=sweep
 . tests/support/summary.sh

@@ -1,11 +1,12 @@
 #!/bin/sh
-# Voids narrower than a bond or a cell: a slot in a shape, doubled nodes of a mesh. They are equivalent to pre-cracks at the same position
-# in every method and frame, with a mirror, in 3D; their faces have contact; where they stay closed the run reports it.
+# Voids narrower than a bond or a cell, by a slot in a shape or duplicate nodes of a mesh. They must be equivalent to pre-cracks at the
+# same position in every method and frame, with a mirror, and in 3D; their faces have contact; a run reports faces that stay closed.
 test_name=test_voids
 . tests/support/summary.sh
 . tests/support/scenes.sh
 
-# scene NAME SLOT [LINES]: writes a glass strip under tension with a notch 8 mm deep.
+# scene NAME SLOT [LINES]: writes the scene NAME.yaml of a glass strip under tension with a notch 8 mm deep, to which SLOT (keys of
+# solids) and LINES are added.
 scene()
 {
     cat >"$work/$1.yaml" <<END
