@@ -1,6 +1,6 @@
-"""Checks a page of cleave report: report_page.py PAGE [FOLDER]. Every array has the length that its reference says, no array is without
-reference, texts cannot be markup, nothing is fetched. With FOLDER, the run of the page, particles, fields and history are those of its
-files, to the precision that the page states. Prints what is wrong, and at the end what was compared."""
+"""Checks a page of `cleave report`: report_page.py PAGE [FOLDER]. Every array must have the length that its reference states, every array
+must have a reference, texts must contain no markup, and nothing may be loaded from elsewhere. With FOLDER, the run of the page, particles,
+fields and history must be those of its files, to the precision that the page states. Prints each fault, and at the end what was compared."""
 import base64, csv, json, re, sys
 
 SIZE = {"u8": 1, "u16": 2, "i16": 2, "f32": 4, "png": 1, "svg": 1}
@@ -48,7 +48,7 @@ def values(reference):
 
 
 def rigid_points(frame):
-    """Points of all rigid bodies in a frame, as the browser computes them."""
+    """Returns the points of all rigid bodies in `frame` as coordinates [m], computed as the browser does."""
     points = []
     for body, at in zip(film["rigid"], frame["rigid"]):
         X, dim = values(body["X"]), film["dim"]
@@ -59,7 +59,7 @@ def rigid_points(frame):
 
 
 def compare_rigids(folder, frame):
-    """The surfaces of a frame are those of its .vtp file."""
+    """Checks that the surfaces of rigid bodies in `frame` are those of its .vtp file, to seven digits."""
     vtp = open("%s/frames/rigid_%06d.vtp" % (folder, frame["number"])).read()
     array = lambda name: [float(v) for v in re.search('Name="%s"[^>]*>([^<]*)<' % name, vtp).group(1).split()]
     there, here, size = array("Points"), rigid_points(frame), 0

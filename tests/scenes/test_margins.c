@@ -1,6 +1,6 @@
-/* Blank edges of pictures. `test_margins FILE...` prints a line for each PNG: the number of blank pixels at its left,
- * right, upper and lower edge, its width and its height [pixels]. Text that is cut off leaves 0 blank pixels. Without a
- * file it tests its own counting. */
+/* Counts blank edges of pictures. `test_margins FILE...` prints a line for each PNG: the number of blank pixels at its
+ * left, right, upper and lower edge, its width and its height [pixels]. Text that is cut off leaves 0 blank pixels.
+ * Without a file the program tests itself. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -12,15 +12,16 @@
 #include <cmocka.h>
 #include <png.h>
 
-/* Pixels whose smallest channel of red, green and blue is below this value are ink: light grey counts as blank. */
+/* A pixel is ink if its smallest channel of red, green and blue is below this value, so that light grey counts as
+ * blank. */
 #define INK 235
 
 struct margins {
     unsigned left, right, upper, lower, width, height;
 };
 
-/* Returns the margins of the picture pixel[4 width height], 4 bytes a pixel: red, green, blue and opacity; all four are
- * 0 if it has no ink. */
+/* Returns the margins of the picture pixel[4 width height], 4 bytes a pixel: red, green, blue and opacity. The four
+ * margins are 0 if the picture has no ink. */
 static struct margins margins_of(const uint8_t *pixel, unsigned width, unsigned height)
 {
     struct margins m = {width, width, height, height, width, height};
@@ -36,8 +37,7 @@ static struct margins margins_of(const uint8_t *pixel, unsigned width, unsigned 
     return m;
 }
 
-/* Reads the PNG `path` and stores the margins of its picture in *m. Returns 0, or -1 after a line that says what is
- * wrong with the file. */
+/* Reads the PNG `path` and stores the margins of its picture in *m. Returns 0, or prints the error and returns -1. */
 static int margins_of_file(const char *path, struct margins *m)
 {
     png_image image = {.version = PNG_IMAGE_VERSION};
@@ -54,8 +54,8 @@ static int margins_of_file(const char *path, struct margins *m)
     return read ? 0 : -1;
 }
 
-/* Checks that a white picture of 9 x 7 pixels with ink, and light grey that is none, has the margins of the ink; one
- * that is cut short is not read. */
+/* Checks the margins of a white picture of 9 x 7 pixels with two pixels of ink and one of light grey, which is blank. A
+ * truncated file must not be read. */
 static void margins_are_those_of_the_ink(void **state)
 {
     char path[] = "/tmp/test_margins.XXXXXX";
