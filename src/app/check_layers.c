@@ -140,7 +140,7 @@ double count_particle_layers_across_thin_parts(const struct run *run, int body_i
 static double soft_families(double poisson, double layers) { return (poisson > 0.47 ? 30 : 15) * 10 / layers; }
 
 /* Returns the relative error of the deflection in bending of a body of material points [%], if all points of a cell
- * have one dilatation: such cells resist the bending of a thin body less tha cells of linear functions. layers:
+ * have one dilatation: such cells resist the bending of a thin body less than cells of linear functions. layers:
  * particle layers across the body, N; poisson: Poisson's ratio nu. The error is a/N^2 + b/N^4, where an odd N counts as
  * the next even one, with a = 170 and b = 760 + 6100 (nu - 0.3), or b = 760 for nu below 0.3. It is an empirical fit,
  * within a sixth of the error, to load steps of cantilevers in plane strain, of length 80, height 8 and 2 to 24 layers

@@ -4,7 +4,7 @@
  * Its datasets are virtual: they concatenate the rows of all frames, which stay in their own files, so that no crash
  * damages them. The group Steps stores where each time begins (docs.vtk.org, VTKHDF specification, "Temporal data"):
  * each time is one part; its points, cells and connectivity begin at the number of preceding points, and its part of
- * Offsets, which has one entry more tha cells, begins one entry later per preceding part. */
+ * Offsets, which has one entry more than cells, begins one entry later per preceding part. */
 #include "output_fields.h"
 #include "output_index.h"
 
