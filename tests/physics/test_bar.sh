@@ -50,7 +50,7 @@ wait
 
 # ---- errors --------------------------------------------------------------------------------------------------------
 
-# error FOLDER QUANTITY REFERENCE: checks an error against 1.1 times the reference.
+# error FOLDER QUANTITY REFERENCE: checks that the error of a quantity is at most 1.1 times the reference value.
 error() { between "$1 $2" "$(f "$1" "probes.exact.$2")" 0 "$(compute "1.1 * $3")"; }
 
 while read -r run l1; do error "$run" L1 "$l1"; done <<'END'

@@ -9,9 +9,9 @@ test_name=test_bar_plastic
 # Names of the runs; setting() has the arguments of each.
 rows="mpm mpm_apic mpm_linear pd pd_lattice adaptive adaptive_lattice adaptive_handshake"
 
-# Relative stiffness of bonds at the precursor and at the full load (0.9796 for volume modification with three neighbours), the largest
-# plastic work over the exact one, and arguments. The step overshoots, by a third in peridynamics, and hardens the material behind: more
-# plastic work, never less.
+# setting RUN: prints the relative stiffness of the bonds at the elastic precursor and at the full load (0.9796 for volume modification with
+# three neighbours), the upper limit of the plastic work divided by the exact one, and the arguments of the run. The sudden load makes the
+# stress overshoot (by a third in peridynamics), which hardens the material: the plastic work is larger than the exact one, never smaller.
 setting()
 {
     case $1 in
@@ -37,7 +37,7 @@ start fine bar_plastic -s particles.spacing=1.25mm -s time.step=1.25us; pace
 start below bar_plastic -s boundary[1].traction=[-0.3]; pace
 wait
 
-# within ROW FIGURE WANTED SHARE: checks a figure with a relative tolerance.
+# within RUN QUANTITY EXACT TOLERANCE: checks a quantity of the comparison with the exact solution; the tolerance is relative.
 within()
 {
     found=$(f $1 probes.exact.$2)

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Cook's membrane at Poisson's ratio 0.4999: cells do not lock, in plane strain and in space, in load steps (reference frame) and in the
-# current frame. Quadratic finite elements: the upper corner moves by 27.4 to 27.6 um.
+# Cook's membrane at Poisson's ratio 0.4999, by the mesh of the reference frame in load steps and in the current frame: cells in plane
+# strain and in 3D do not lock. Reference: quadratic finite elements, with which the upper corner is displaced by 27.4 to 27.6 um.
 test_name=test_cook
 . tests/support/summary.sh
 . tests/support/scenes.sh

@@ -9,7 +9,7 @@ test_name=test_coupling_bars
 . tests/support/physics.sh
 . tests/support/trust.sh
 
-# bar FOLDER SCENE ARGUMENT...: starts a run in the background, at most two at a time; `landed` waits for the last.
+# bar FOLDER SCENE ARGUMENT...: starts a run in the background, at most two at a time; `landed` waits for all that are still running.
 bar()
 {
     start "$@"
@@ -18,10 +18,11 @@ bar()
 }
 all="handshake pm pg pmg pgg partial"
 
-# coupling NAME: prints the value of the key.
+# coupling NAME: prints the value of the key `coupling` for a name of this script, such as partial32.
 coupling() { case $1 in partial*) echo "partial stress" ;; *) echo "$1" ;; esac; }
 
-# quiet FOLDER: checks momentum to round-off, as in sound(); the largest error of these runs is 5e-14.
+# quiet FOLDER: checks that the run is done and that its relative error of momentum is at most 1e-12; the largest one of these runs is
+# 5e-14.
 quiet()
 {
     is "$1 status" "$(f "$1" status)" done
@@ -30,7 +31,7 @@ quiet()
 
 # ---- a pulse through an interface ----------------------------------------------------------------------------------
 
-# pulse FOLDER WIDTH ARGUMENT...: runs a pulse of this width [spacings].
+# pulse FOLDER WIDTH ARGUMENT...: starts the run of a pulse of this width [spacings].
 pulse()
 {
     folder=$1 width=$2; shift 2
@@ -147,8 +148,9 @@ partial 0.068 1.2491e-4
 undamped 0.068 1.2491e-4
 END
 
-# column_rms FOLDER COLUMN FROM TO: root mean square at 7.5 ms over the particles between two positions: of (value - 2 value + value)/4 over
-# neighbours for `velocity`, of the difference from the exact value for `stress`.
+# column_rms FOLDER COLUMN FROM TO: prints a root mean square at 7.5 ms over the particles between two positions [m]. For `velocity`: of
+# (v_k-1 - 2 v_k + v_k+1)/4, the motion that alternates from particle k to its neighbours; for other columns: of the difference from the
+# exact value.
 column_rms()
 {
     awk -F, -v name="$2" -v from="$3" -v to="$4" '
@@ -195,7 +197,7 @@ done
 
 # ---- spallation ----------------------------------------------------------------------------------------------------
 
-# struck FOLDER SPEED ARGUMENT...: runs an impact.
+# struck FOLDER SPEED ARGUMENT...: starts a run in which the flyer hits the bar at this speed [m/s].
 struck() { folder=$1 speed=$2; shift 2; bar "$folder" bar_spall -s "bodies[1].velocity=[-$speed]" "$@"; }
 
 for c in pg handshake partial; do

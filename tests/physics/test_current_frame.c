@@ -1,7 +1,8 @@
-/* The linear step in the current frame is the leap-frog integration of one energy. FLIP: with forces F = -W u on the
- * grid velocities, u the displacement, the step is v' = Q v - dt W u, u' = u + dt v' (Q: the interface damping). It
- * remains bounded (spectral radius 1) if m W is symmetric, W >= 0 and dt^2 W <= 2 (1 + Q). All matrices are measured
- * from the engine's own steps, and a third step must agree with their prediction, which shows that only v' moves u. */
+/* Checks that one linear step in the current frame is the leap-frog integration of one energy. FLIP: with forces -W u
+ * on the nodal velocities (u: displacements), the step is v' = Q v - dt W u, u' = u + dt v', Q being the interface
+ * damping. It is bounded (spectral radius 1) if m W is symmetric (m: masses), W >= 0 and dt^2 W <= 2 (1 + Q). Q and W
+ * are measured from steps of the engine. A third step must agree with their prediction, which shows that v' alone
+ * changes u. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <math.h>
@@ -17,16 +18,17 @@
 #include "coupling/coupling_part.h"
 #include "probes/diagnostics.h"
 
-/* initial velocity over c: bonds rotate by its square, which pairs of opposite motions reduce to third order */
+/* Initial velocity divided by the wave speed c [1]. It is small because bonds rotate: forces deviate from linear ones
+ * by terms of second order, of which opposite velocities leave the third order. */
 #define AMPLITUDE 1e-5
-/* relative to the largest entry: positions span ten spacings, so that round-off is 1e-15/1e-5 of a motion, a few
- * times */
+/* Tolerance of asymmetry, relative to the largest entry of a matrix. Positions span ten spacings: their round-off is
+ * 1e-15 over the motion of 1e-5, a few times. */
 #define SYMMETRIC 1e-8
 
 /* ---- bodies ------------------------------------------------------------------------------------------------------ */
 
-/* Free blocks with nodes at irregular positions: for particles at the kinks of a shape function forces would depend on
- * |u|. */
+/* Free blocks and the peridynamic regions in them. Nodes are at irregular positions, since for particles at the kinks
+ * of a shape function forces would depend on |u|. */
 struct block {
     const char *space, *edge, *origin, *region;
 };
@@ -47,7 +49,8 @@ struct held_run {
     struct scene s;
 };
 
-/* Creates the run r of a block b by `method`. poisson: NULL for that of bonds; more: further keys, one per line. */
+/* Creates the run r of the block b by `method` and performs its first step. poisson: Poisson's ratio, NULL for that of
+ * bonds; more: further keys of the scene, one per line. */
 static void run_make(struct held_run *r, const struct block *b, const char *method, const char *poisson,
                      const char *more)
 {
@@ -91,22 +94,23 @@ static void at_rest(struct held_run *r, const struct places *was)
     r->e.grid->sort_needed = true;
 }
 
-/* Matrices [n][n] of a step, and velocities after the third step. */
+/* Matrices [n][n] of a step of n unknowns, scaled by square roots of masses: damping Q, stiffness W times dt^2, and
+ * `third`, the velocities after the third step for a unit velocity of each unknown. */
 struct operators {
     int n;
     real *Q, *W, *third;
 };
 
-/* Adds the current velocities of p over `unit` to column k of the n x n matrix `to`. */
+/* Adds the current velocities of p, divided by `unit`, to column k of the n x n matrix `to`. */
 static void add_column(const struct particles *p, real *to, int n, int k, real unit)
 {
     for (int j = 0; j < n; j++) to[j * n + k] += p->v[j % p->dim][j / p->dim] / unit;
 }
 
-/* Measures column k of *o with the run r from rest at the places `was`, by velocities of sign `sign`. With interface
- * damping, the velocities after a step with unit velocity of one unknown are column k of Q; without damping, the
- * velocity lost in the second step is column k of dt^2 W, and the velocities after the third step are stored. Half the
- * difference of both signs is used. */
+/* Measures column k of the matrices *o with the run r, from rest at the positions `was`. With interface damping, the
+ * velocities after one step from a unit velocity of unknown k are column k of Q. Without it, the velocity lost in the
+ * second step is column k of dt^2 W, and the velocities after the third step are stored. Called for sign = 1 and -1,
+ * the sign of the unit velocity; each call adds half of the result. */
 static void column(struct held_run *r, const struct places *was, int k, real sign, struct operators *o)
 {
     struct particles *p = &r->e.part;
@@ -125,8 +129,8 @@ static void column(struct held_run *r, const struct places *was, int k, real sig
     r->e.coupling->damping_share = share;
 }
 
-/* Measures Q and dt^2 W of r into *o, scaled by the square roots of the masses, so that symmetry in the mass metric
- * becomes symmetry. */
+/* Measures the matrices *o of the run r and scales them by the square roots of the masses, so that matrices that are
+ * symmetric in the mass metric become symmetric. They must be freed. */
 static void operators_make(struct held_run *r, struct operators *o)
 {
     struct particles *p = &r->e.part;
@@ -150,7 +154,8 @@ static void operators_make(struct held_run *r, struct operators *o)
     memory_free(was.volume);
 }
 
-/* Returns the largest |A - A^T| over the largest entry of the n x n matrix A, and symmetrises A. */
+/* Returns the largest entry of |A - A^T| divided by the largest entry of |A|, and replaces the n x n matrix A by its
+ * symmetric part. */
 static real asymmetry(real *A, int n)
 {
     real largest = 0, odd = 0;
@@ -163,8 +168,8 @@ static real asymmetry(real *A, int n)
     return odd / largest;
 }
 
-/* Returns the largest difference between the third velocity in *o and the leap-frog prediction v2 - W (v1 + v2), v1 =
- * 1, v2 = 1 - W, over the largest entry of W. */
+/* Returns the largest difference between the third velocities in *o and the leap-frog prediction v3 = v2 - W (v1 + v2),
+ * divided by the largest entry of W. v1 = 1 and v2 = 1 - W are the velocities after the first two steps. */
 static real unpredicted(const struct operators *o)
 {
     const int n = o->n;
@@ -255,7 +260,8 @@ static void test_one_energy(void **state)
         check_one_energy(one_energy[k].block, "adaptive", NULL, one_energy[k].more);
 }
 
-/* Tests bodies that have one dilatation in a cell (kernels/mpm/dilatation.h). */
+/* Checks points with a mean dilatation per cell (kernels/mpm/dilatation.h), which prevents volumetric locking, for the
+ * properties of one energy that the head of this file states. */
 static void test_dilatation(void **state)
 {
     (void)state;
@@ -268,8 +274,8 @@ static void test_dilatation(void **state)
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Returns the kinetic energy of r after `steps` steps from random velocities of 1e-8 c over the initial one; infinite
- * if the run stopped. */
+/* Sets random velocities of up to 1e-8 c and runs r for `steps` steps. Returns the largest kinetic energy, divided by
+ * the initial one [1]; INFINITY if the run stopped. */
 static real shaken(struct held_run *r, int steps)
 {
     struct particles *p = &r->e.part;
@@ -285,7 +291,7 @@ static real shaken(struct held_run *r, int steps)
     return most;
 }
 
-/* Checks that APIC dissipates energy and never gains any, also near nu = 1/2 in 3D. */
+/* Checks that with APIC the kinetic energy never exceeds the initial one in 3000 steps, also near nu = 1/2 in 3D. */
 static void test_apic(void **state)
 {
     (void)state;
@@ -313,8 +319,9 @@ static void test_apic(void **state)
     }
 }
 
-/* Tests a coupled plate over 1e4 steps at 0.8 of the critical step: the energy balance closes, and the remaining energy
- * is less than the initial one. A step with the velocities of the first map diverges at step 1516. */
+/* Checks a coupled plate over 1e4 steps at 0.8 of the critical step: the energy balance closes to 1e-5, and at the end
+ * kinetic and strain energy are less than the initial energy. A step that strains points with the velocities before the
+ * second map (the first map of FLIP) diverges at step 1516. */
 static void test_plate(void **state)
 {
     (void)state;
@@ -344,10 +351,11 @@ static void test_plate(void **state)
     memory_free(r);
 }
 
-/* Checks that rigidly rotating bodies are not strained: bonds and points agree on the unstrained state, in 2D and about
- * an oblique axis in 3D. Two revolutions. With first-order strains a body of points would grow by pi w per revolution,
- * w = 0.0016 the angle per step, and gain 13 to 32 % of its energy. Tolerance 1e-4: centrifugal stretch of at most (w
- * r/c)^2 = 1e-4, which vibrates, and quadrature errors of points that change cells. */
+/* Checks that bodies that rotate rigidly by two revolutions keep their energy: bonds and points agree on the unstrained
+ * state, in 2D and about an oblique axis in 3D. Tolerance 3e-4: centrifugal stretches of at most (w r/c)^2 = 1e-4,
+ * which vibrate (w: angular velocity), and quadrature errors of points that change cells. First-order strains would
+ * make a body of points grow by pi times the angle of 0.0016 per step in a revolution, and gain 13 to 32 % of its
+ * energy. */
 static void test_turning(void **state)
 {
     (void)state;

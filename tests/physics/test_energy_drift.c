@@ -1,7 +1,7 @@
-/* Unbreakable bodies keep their energy over arbitrarily long runs: a sample of pairs of the long map
- * (bench/stability/energy_drift*.c; `cleave bench stability` has all). Drift is measured as the rate per step, fitted
- * over the second half of a run: 25,000 steps detect 5e-8 per step as well as 1e5. long_energy.sh sets LONG: 1e5 steps.
- * Takes 20 s: 25 bodies. */
+/* Checks that unbreakable bodies keep their energy over arbitrarily long runs: a sample of the cases of `cleave bench
+ * stability` (bench/stability/energy_drift*.c). The drift is the growth rate of the energy per step, fitted over the
+ * second half of a run, of which 25,000 steps detect 5e-8 as well as 1e5. With the environment variable LONG
+ * (long_energy.sh) runs have 1e5 steps. Takes 20 s: 25 bodies. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <math.h>
@@ -13,7 +13,7 @@
 #include "../bench/stability/energy_drift.h"
 #include "tests/support/near.h"
 
-/* Returns the number of steps: `most` with the environment variable LONG, else a quarter. */
+/* Returns the number of steps of a run: `most` with the environment variable LONG, else a quarter of it. */
 static int64_t steps_of(int64_t most) { return getenv("LONG") ? most : most / 4; }
 
 static const struct drift_case *named(const char *name)
@@ -45,8 +45,8 @@ static void all_hold(const struct drift_case *sample, int n, int64_t steps)
 
 /* ---- growth is detected ------------------------------------------------------------------------------------------ */
 
-/* Checks that the test itself sees growth: a bar of bonds with 1.03 times the critical step, 2 sqrt(m/k) of its
- * stiffest mode, which is known to 2 %. A sample in every step, since the run stops soon. */
+/* Checks that growth of energy is detected: a bar of bonds runs with 1.03 times its critical step, 2 sqrt(m/k) of the
+ * stiffest mode, known to 2 %. A sample is taken in every step, since the run stops soon. */
 static void test_seen(void **state)
 {
     (void)state;
@@ -106,11 +106,11 @@ static void test_held(void **state)
     all_hold(held, COUNT_OF(held), steps_of(100000));
 }
 
-/* Faces of a notch of zero width that repeatedly collide. At the beginning and end of contact leap-frog integration
- * gains or loses energy; the accounts of contact_balance.c remove the excess at the next contact. Measured: at most 0.3
- * % above the initial energy, 6 % below; without accounts three times the energy. Between these bounds the energy goes
- * up and down, by round-off differently on each kind of processor: the growth rate fitted to the last 50,000 steps is
- * up to 1.3e-6 a step (AVX2), which is the way from the lower to the upper bound. */
+/* Bodies with a notch of zero width whose faces collide repeatedly. Leap-frog integration gains or loses energy when a
+ * contact begins or ends; contact_balance.c removes the gain at the next contact. Measured energy: 6 % below to 0.3 %
+ * above the initial one, three times the initial one without this correction. Between these bounds the energy varies,
+ * by round-off differently on each processor: the growth rate fitted over the last 50,000 steps is up to 1.3e-6 per
+ * step (AVX2), the rise from the lower to the upper bound. */
 static const struct drift_case touching[] = {
     {.c = {MESH("partial stress", "ospd", 0.2, NOTCH), .contact = true}},
     {.c = {MESH("handshake", "mospd", 0.3, NOTCH), .contact = true}},
@@ -138,7 +138,8 @@ static const struct drift_case current[] = {
     {.c = {GRID("handshake", "bond", 0, HALF, "flip")}},
     {.c = {GRID("partial stress", "ospd", 0.2, DISC, "flip")}},
     {.c = {GRID("partial stress", "mospd", 0.3, CORNER, "apic")}},
-    /* Excluded: stopped within 1000 steps for any step size. */
+    /* Strongly irregular particles: checks that no instability stops these runs, which one at any step size would do
+     * within 1000 steps. */
     {.c = {GRID("partial stress", "bond", 0, SQUARE, "flip"), .irregularity = 0.9}},
     {.c = {GRID("partial stress", "bond", 0, SQUARE, "apic"), .irregularity = 0.7}},
 };
@@ -150,9 +151,9 @@ static void test_current(void **state)
     assert_true(holds(named("solid, apic, nu 0.49"), 2000));
 }
 
-/* Checks a known property: noise in a bar of FLIP points gains energy in proportion to its velocities (about 0.013 v/c
- * per step), because weights move with the points between forces and strains; no linear step gains energy. The
- * reference frame and APIC do not gain. */
+/* Checks a known property: random motion in a bar of FLIP points gains energy, in proportion to its velocities v (about
+ * 0.013 v/c per step), because the weights move with the points between forces and strains. It is an effect beyond the
+ * linear step. The reference frame and APIC do not gain energy. */
 static void test_noise(void **state)
 {
     (void)state;
@@ -167,7 +168,7 @@ static void test_noise(void **state)
     assert_true(holds(&apic, steps_of(50000)) && holds(&mesh, steps_of(50000)));
 }
 
-/* A plate with a slit between its cells or inside them, without breaking: energy over 1e5 steps. */
+/* A plate with a slit between its cells or inside them, whose bonds do not break. */
 #define SLIT(height)                                                                                                   \
     {                                                                                                                  \
         .name = "slit at " height, .c = {                                                                              \
@@ -187,7 +188,7 @@ static void test_slit(void **state)
     all_hold(slit, COUNT_OF(slit), 10000);
 }
 
-/* Tests four scenes that are prone to gain energy, over 10000 steps. */
+/* Checks four cases that are prone to gain energy, over 10,000 steps. */
 static void test_named(void **state)
 {
     (void)state;

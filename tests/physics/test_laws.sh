@@ -1,5 +1,6 @@
 #!/bin/sh
-# Flow laws through the whole engine: a bar of copper that hits a wall, with its energy, after a restart, and sheets in other spaces.
+# Flow laws through the whole engine: copper bars that hit a wall, energy balance and restart in every space, two bodies of different laws
+# compared with each alone, and a thinning sheet in plane stress compared with a block.
 test_name=test_laws
 . tests/support/summary.sh
 . tests/support/scenes.sh
@@ -11,8 +12,8 @@ start bar taylor_bar $coarse
 start hot taylor_bar_jc $coarse
 wait
 
-# Length after the impact, for the half spacing from the last particle to the end of the bar. At 0.8 mm the bar is a tenth of a spacing
-# longer than at 0.4 mm (21.4 to 21.5 mm).
+# length FOLDER POSITION: prints the length of a bar after the impact [mm]. POSITION: end of the bar before the impact, half a spacing
+# beyond the particle of the probe [m]. At a spacing of 0.8 mm the bar is a tenth of a spacing longer than at 0.4 mm (21.4 to 21.5 mm).
 length() { compute "1000 * ($2 + $(f $1 probes.point.displacement_z))"; }
 between "bar: length [mm]" "$(length bar 0.0324)" 21.0 22.0
 between "hot bar: length [mm]" "$(length hot 0.0254)" 16.4 17.8
@@ -69,7 +70,7 @@ voce="{name: voce, material: voce, shape: {box: {from: [0, 12 mm], to: [10 mm, 1
 steel="young: 200 GPa, poisson: 0.3, density: 7800"
 of_plain="{name: plain, $steel, yield_stress: 300 MPa, yield_hardening: 2 GPa}"
 of_voce="{name: voce, $steel, yield_stress: 200 MPa, hardening: {voce: {saturation: 150 MPa, rate: 20}}}"
-# bodies NAME BODIES MATERIALS HEIGHT: runs bodies of these materials, with a probe at a height [mm].
+# bodies NAME BODIES MATERIALS HEIGHT: runs the scene NAME of these bodies and materials, with a point probe at this height [mm].
 bodies()
 {
     scene $1 <<END

@@ -1,7 +1,7 @@
-/* Scenes in which methods fail: each quantity is in its known range, and exactly the methods with a remedy fail
- * (bench/stability/limits.h has the table, `cleave bench stability` draws it). Some rows are left to long_energy.sh,
- * which sets LONG. Takes 25 s: mostly shear at constant volume near nu = 1/2, where every method needs many small
- * steps. */
+/* Runs the scenes of bench/stability/limits.h in which some methods fail. Each measured quantity must be within the
+ * known range of the table, and exactly the methods for which the table states a remedy must fail. Rows that take long
+ * run with LONG only (long_energy.sh). Takes 25 s: mostly shear at constant volume near nu = 1/2, where every method
+ * needs many small steps. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <math.h>
@@ -33,8 +33,8 @@ static bool row_is_as_known(const struct limits_scene *s, const struct limits_ro
     return false;
 }
 
-/* Returns true if row r of the scene s takes long and has a quicker equivalent: a million steps of a plate, and squares
- * that rotate at 100 m/s instead of 10. */
+/* Returns true if row r of the scene s takes long, so that it runs with LONG only: a plate over a million steps, and
+ * squares that rotate at 100 m/s instead of 10 m/s. */
 static bool is_for_long(const struct limits_scene *s, const struct limits_row *r)
 {
     return s == &limits_million || (s == &limits_spin && r->given == 100);

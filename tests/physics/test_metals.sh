@@ -36,11 +36,11 @@ probes: [{point: {at: [0.5 mm]}}]
 output: {frames: 2}
 END
 
-# stress FOLDER TIME: prints the stress [MPa]; work_of FOLDER: the plastic work at the end [MJ/m^3].
+# stress FOLDER TIME: prints the axial stress at the point at this time [MPa]. work_of FOLDER: prints the plastic work at the end [MJ/m^3].
 stress() { compute "$(column "$work/$1" point.stress_xx "$2")/1e6"; }
 work_of() { compute "$(f "$1" energy.plastic)/0.002e6"; }
 
-# balanced WHAT FOLDER: explicit steps of cells close the balance of energy to round-off.
+# balanced WHAT FOLDER: checks that the energy balance of explicit steps of cells closes to round-off.
 balanced() { apart "$1: energy balance" "$(f "$2" energy.balance_error)" 0 1e-12; }
 
 steel="young: 200 GPa, density: 7850, yield_stress: 200 MPa"

@@ -1,11 +1,13 @@
-/* Every internal force of bonds, states, cells of the reference frame and supports is the gradient of one non-negative
- * energy: the linearised operator is symmetric, has no negative eigenvalue and no zero eigenvalues besides those of the
- * bonds or cells alone; and that energy is the one in the energy balance. A line for each case;
+/* Checks that the internal forces of bonds, states, cells of the reference frame and supports are the gradient of one
+ * non-negative energy. The linearised operator K must be symmetric, without negative eigenvalues, and with no more zero
+ * eigenvalues than rigid motions and the zero-energy modes of bonds or cells alone. The energy must be the one of the
+ * energy balance. Prints a line for each case.
  *
  *     build/tests/test_operator [part of a case's name] ...
  *
- * runs some of them. OPERATOR_DUMP=folder writes every K there (operator_dump), OPERATOR_FLUTTER=1 also computes
- * complex eigenvalues, OPERATOR_SHOW=1 updates the stress of points before each evaluation, as a sample does. */
+ * runs the cases whose names contain one of the parts. OPERATOR_DUMP=folder writes every K to the folder
+ * (operator_dump), OPERATOR_FLUTTER=1 also computes complex eigenvalues, OPERATOR_SHOW=1 updates the stress of points
+ * before each evaluation, as a sample does. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <omp.h>
@@ -21,7 +23,7 @@
 #define LEDGER 1e-6      /* terms of third order at displacements of 1e-6 spacings */
 #define NEGATIVE (-1e-8) /* relative to the highest eigenvalue: differences leave 1e-11 */
 
-/* A case. loose: number of zero-energy modes of the bonds or cells alone, besides rigid motions. */
+/* A named case. loose: number of zero-energy modes of the bonds or cells alone, besides rigid motions. */
 struct body {
     const char *name;
     struct stability_case c;
@@ -33,7 +35,7 @@ static int asks, done, wrong;
 
 /* ---- one case ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the number of rigid motions that the support of the case c leaves to `bodies` bodies. */
+/* Returns the number of rigid motions that the supports of the case c allow for `bodies` separate bodies. */
 static int rigid_of(const struct stability_case *c, int bodies)
 {
     static const int rigid[][DIM_MAX + 1] = {[FREE] = {0, 1, 3, 6},
@@ -91,8 +93,8 @@ static void check_all(const struct body *b, int n)
     for (int k = 0; k < n; k++) check(b[k].name, &b[k].c, b[k].loose);
 }
 
-/* Begins a test: no failures so far, one thread, since bodies are small. Every test ends with the number of its
- * failures. */
+/* Begins a test: sets the number of failures to zero and uses one thread. A test ends by checking that there were
+ * none. */
 static void begin(void)
 {
     omp_set_num_threads(1); /* bodies are small */
@@ -101,7 +103,8 @@ static void begin(void)
 
 /* ---- eigenvalue routines ----------------------------------------------------------------------------------------- */
 
-/* Tests known eigenvalues: a free chain of springs has 2 - 2 cos(k pi/n); a cyclic shift has the n-th roots of 1. */
+/* Checks the eigenvalue routines against closed forms: 2 - 2 cos(k pi/n) for a free chain of n springs, n and 2n for
+ * ones plus n on the diagonal, and the n-th roots of 1 for a cyclic shift. */
 static void test_tools(void **state)
 {
     (void)state;
@@ -215,7 +218,7 @@ static void test_slits(void **state)
     assert_int_equal(wrong, 0);
 }
 
-/* A body of two materials, with the interface across cells and across the start of the bonds. */
+/* A body of two materials whose interface crosses cells and bonds. */
 #define PARTS(at, more)                                                                                                \
     "space: plane stress\nthickness: 1e-3\nduration: 1\nmaterials: [{name: a, young: 72e9, density: 2440}, "           \
     "{name: b, young: 9e9, density: 1200}]\nbody: {box: {from: [0, 0], to: [12e-3, 10e-3]}}\n"                         \
@@ -284,7 +287,8 @@ static struct stability_case coupled(struct stability_case law)
     return law;
 }
 
-/* Tests every law with every shape of the region: partial stress; every third one: handshake. */
+/* Checks coupled bodies of every law with every shape of the peridynamic region: all with partial stress, every third
+ * combination with handshake coupling. */
 static void test_coupled(void **state)
 {
     (void)state;

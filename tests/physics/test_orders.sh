@@ -1,28 +1,28 @@
 #!/bin/sh
-# Observed orders of convergence on four grids, with spacing and step halved together, within 0.15 of theory, for the manufactured solution
-# of inputs/bar_converge.yaml and the smooth pulse of inputs/bar_smooth.yaml.
+# Observed orders of convergence on four grids, whose spacing and step are halved together, within 0.15 of theory, for the manufactured
+# solution of inputs/bar_converge.yaml and the smooth pulse of inputs/bar_smooth.yaml.
 test_name=test_orders
 . tests/support/summary.sh
 . tests/support/scenes.sh
 
 grids="100 200 400 800"                  # particles per metre
 
-# at N: prints the settings of a grid; waves cross a quarter of a spacing per step.
+# at N: prints the arguments for N particles per metre; a wave crosses a quarter of a spacing per step.
 at() { echo "-s particles.spacing=1/$1 -s time.step=1/$((400 * $1))"; }
 
 # pace: limits the number of runs to two at a time.
 going=0
 pace() { going=$((going + 1)); if [ $going -eq 2 ]; then wait; going=0; fi; }
 
-# refine NAME SCENE [ARGUMENT...]: starts the runs NAME.1 .. NAME.4.
+# refine NAME SCENE [ARGUMENT...]: starts the runs NAME.1 .. NAME.4 on the four grids, coarse to fine.
 refine()
 {
     name=$1 scene=$2 k=0; shift 2
     for n in $grids; do k=$((k + 1)); start $name.$k $scene $(at $n) "$@"; pace; done
 }
 
-# orders NAME U V STRESS STRAIN: checks the orders of the root-mean-square errors of displacement, velocity, stress and E x strain (from
-# displacements) between successive grids; -: no order is expected.
+# orders NAME U V STRESS STRAIN: checks the orders of convergence of the root-mean-square errors between successive grids: of displacement,
+# velocity, stress, and Young's modulus times the strain from displacements. - : an order that is not checked.
 orders()
 {
     name=$1; shift
@@ -37,7 +37,7 @@ orders()
     done
 }
 
-# observed NAME QUANTITY: prints its three orders.
+# observed NAME QUANTITY: prints the three orders of convergence of an error between the runs NAME.1 .. NAME.4, one a line.
 observed()
 {
     awk -v wanted="\"$2\":" '
@@ -46,7 +46,7 @@ observed()
         "$work/$1.1/summary.json" "$work/$1.2/summary.json" "$work/$1.3/summary.json" "$work/$1.4/summary.json"
 }
 
-# relative NAME QUANTITY EXACT: prints an error over the root mean square of the exact field.
+# relative NAME QUANTITY RMS: prints an error of the run NAME divided by RMS, the root mean square of the exact field (a formula).
 relative() { compute "$(f "$1" probes.exact.$2) / ($3)"; }
 
 # Every shape with each of its transfers is in at least one of the two problems.

@@ -1,5 +1,5 @@
-/* Patch tests of each method alone: uniform strain must cause no motion and have the elastic energy. Expected values
- * are from closed forms on the lattice. Coupled methods: test_coupling.c. */
+/* Patch tests of each method alone (test_coupling.c has those of coupled methods): uniform strain must cause no force
+ * on inner particles and nodes, and the elastic energy or stress must agree with closed forms on the lattice. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -29,8 +29,8 @@ static const struct cloud_plan lattice[] = {
     {.space = SPACE_SOLID, .count = {9, 9, 9}, .horizon = 3.015},
 };
 
-/* Compares forces on inner particles with the sum of the magnitudes of bond forces. Tolerance: round-off of positions,
- * 1e-15 of a spacing, over strains of 1e-2. */
+/* Checks that the forces on inner particles of a uniformly strained lattice vanish. Tolerance, relative to the sum of
+ * the magnitudes of the bond forces: round-off of positions, 1e-15 of a spacing over strains of 1e-2. */
 static void test_pd_rest(void **state)
 {
     (void)state;
@@ -57,8 +57,8 @@ static void test_pd_rest(void **state)
         }
 }
 
-/* Computes the stress of the bonds of the middle particle of `plan` under `strain` over C11 times the strain, component
- * by component. */
+/* Computes stress[k] of the bonds of the middle particle of a body by `plan` under the displacement gradient `strain`
+ * [Pa]. */
 static void lattice_stress(const struct cloud_plan *plan, const real strain[DIM_MAX][DIM_MAX], real *stress)
 {
     struct particle_cloud c;
@@ -70,7 +70,7 @@ static void lattice_stress(const struct cloud_plan *plan, const real strain[DIM_
     particle_cloud_free(&c);
 }
 
-/* Elastic constants C11, C12, C66 of the lattice and its dilatational stiffness, over those of the material. */
+/* Dilatational stiffness and elastic constants C11, C12, C66 of a lattice, divided by those of the material [1]. */
 struct constants {
     real dilatation, c11, c12, c66;
 };
@@ -98,8 +98,8 @@ static struct constants lattice_constants(const struct cloud_plan *plan)
     return result;
 }
 
-/* Tests the lattice calibration: dilatational stiffness exact; the constants deviate only by the anisotropy of the
- * lattice. */
+/* Checks the calibration on the lattice: the dilatational stiffness is exact, and C11, C12, C66 differ from those of
+ * the material by the known anisotropy of the lattice only (tolerance 6e-4). */
 static void test_pd_lattice(void **state)
 {
     (void)state;
@@ -116,7 +116,8 @@ static void test_pd_lattice(void **state)
     }
 }
 
-/* Tests isotropic weights: two weights for the directions make the lattice isotropic. */
+/* Checks that weights that differ between axes and diagonals make the elastic constants of the lattice those of the
+ * isotropic material. */
 static void test_pd_isotropic(void **state)
 {
     (void)state;
@@ -135,7 +136,8 @@ static void test_pd_isotropic(void **state)
         }
 }
 
-/* Tests the continuum and the volume-modified calibration: dilatational energy over the classical one. */
+/* Checks the ratio of the dilatational stiffness of the lattice to that of the material for the continuum and the
+ * volume-modified calibration against expected values (tolerance 6e-4). */
 static void test_pd_calibrations(void **state)
 {
     (void)state;
@@ -161,7 +163,8 @@ static void test_pd_calibrations(void **state)
 
 /* ---- material points --------------------------------------------------------------------------------------------- */
 
-/* Tests two points per cell and direction, aligned with the cells, under uniform stress: no force on inner nodes. */
+/* Checks that two points per cell and direction, aligned with the cells, under uniform stress cause no force on inner
+ * nodes, for every shape function, and a force on nodes at the edge. */
 static void test_mpm_rest(void **state)
 {
     (void)state;
@@ -190,10 +193,10 @@ static void test_mpm_rest(void **state)
         }
 }
 
-/* Returns the largest residual of an inner node over sigma A for points of `shape`, stretched by lambda under uniform
- * stress, for the worst position of the points in their cells. 1D, two points per cell initially. cpGIMP, with the
- * exact mean of the hat functions, has none up to lambda = 4, where its width is two cells; beyond, the width stays
- * constant and points separate. */
+/* Returns the largest force on an inner node in 1D, divided by stress times cross-section [1], under uniform stress
+ * with the shape functions `shape`, for the worst of 500 positions of the points in their cells. lambda: stretch of the
+ * points, of which there are two per cell at lambda = 1. With cpGIMP, the exact mean of the hat functions, the force is
+ * 0 up to lambda = 4, where a point is two cells wide; beyond, the width is limited and gaps open between points. */
 static real crossing_residual(enum shape shape, real lambda)
 {
     real worst = 0;

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Closed forms of elasticity and mechanics, each tested with the program: from the scene to figures.
+# Checks of the whole program, from scene to results, against closed forms of elasticity and mechanics.
 test_name=test_physics
 . tests/support/summary.sh
 . tests/support/scenes.sh
@@ -220,7 +220,7 @@ for space in stress strain solid; do
 done
 go wave_solid_uniform solid -s method=pd -s pd.weights=uniform
 landed
-# pace FOLDER SPEED: prints the speed of half the pressure between two points, over the given speed.
+# pace FOLDER SPEED: prints the speed at which half the pressure travels between two probes, divided by SPEED [m/s].
 pace()
 {
     half=$(compute "0.5e8 / (7800 * $2)")

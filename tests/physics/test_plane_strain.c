@@ -1,5 +1,5 @@
-/* Out-of-plane stress in plane strain, as frames, probes and profiles report it: uniform strain and plastic flow,
- * compared with closed forms, for every method. */
+/* Checks the out-of-plane stress sigma_zz in plane strain in frames, probes and profiles, for every method: uniform
+ * strain and plastic flow are compared with closed forms. */
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -12,8 +12,8 @@
 #define FOLDER "run"
 enum { ROW_KEYS = 6 };
 
-/* Two distant blocks of two materials under equal strain. In 0.3 us a wave travels 1.8 mm from their edges (nu = 0.4:
- * 2.2 mm). */
+/* Two distant blocks of two materials with equal initial strain. In the run of 0.3 us a wave travels 1.8 mm from their
+ * edges, or 2.2 mm if nu = 0.4. */
 #define BLOCKS(space)                                                                                                  \
     "space: " space "\nthickness: 1 mm\nduration: 0.3 us\nmethod: mpm\n"                                               \
     "materials:\n  - {name: soft, young: 70 GPa, poisson: 1/4, density: 2700}\n"                                       \
@@ -26,14 +26,14 @@ enum { ROW_KEYS = 6 };
     "probes: [{point: {name: gauge, at: [50.5 mm, 0.5 mm]}}, "                                                         \
     "{line: {name: across, from: [-50 mm, 0.5 mm], to: [-49 mm, 0.5 mm], points: 2}}]\n"
 #define TRACE 3e-5 /* eps_xx + eps_yy of the initial strain */
-/* Half width of the undisturbed middle of a block: 12 mm minus two horizons, which surface corrections affect, or minus
- * the distance travelled by the wave [m]. */
+/* Half width of the middle of a block that is undisturbed [m]: below 12 mm minus two horizons, in which surface
+ * corrections act, minus the distance travelled by the wave. */
 #define INSIDE 3.6e-3
 
-/* Tolerance of frames in single precision; sigma_zz is at least a tenth of a difference of stresses. */
+/* Tolerance of frames, whose numbers are in single precision, relative to |sigma_xx| + |sigma_yy|. */
 #define SINGLE 1e-6
-/* Tolerance of linear quantities: the strain of about 1e-5 causes deviations in bond stretches and in stresses of the
- * reference frame that rotate with their cell. */
+/* Tolerance of quantities that are linear in the strain: at a strain of about 1e-5 bond stretches, and stresses of the
+ * reference frame that rotate with their cell, differ from linear ones. */
 #define SMALL 1e-4
 
 struct row {
@@ -85,7 +85,7 @@ static void done(struct ran *r)
     assert_int_equal(system("rm -rf " FOLDER), 0);
 }
 
-/* Returns the value of the column `name` in the last row of `file`, history.csv or a profile; NAN if there is none. */
+/* Returns the value of the column `name` in the last row of the CSV file `file`; NAN if there is no such column. */
 static double last_value(const char *file, const char *name)
 {
     char head[4096], line[4096], last[4096] = "";
@@ -114,8 +114,9 @@ static bool inside(const struct output_frame *f, int64_t i)
     return fabs(f->X[0][i] - centre) < INSIDE && fabs(f->X[1][i]) < INSIDE;
 }
 
-/* Checks sigma_zz in the frame `name` of r. exact: the interior has its initial strain; else sigma_zz is compared with
- * the in-plane stress of the frame. kinds: adds the numbers of particles of each kind. */
+/* Checks sigma_zz of the frame file `name` of the run r. Everywhere it must be nu (sigma_xx + sigma_yy) of the frame;
+ * with `exact` also that of the initial strain in the middle of the blocks. kinds[k]: increased by the number of
+ * particles of kind k there. */
 static void frame_holds(const struct ran *r, const char *name, bool exact, int64_t *kinds)
 {
     struct output_frame f;
@@ -131,8 +132,9 @@ static void frame_holds(const struct ran *r, const char *name, bool exact, int64
     frame_free(&f);
 }
 
-/* Tests uniform strain in every method. Ghost forces of couplings move particles near an interface, and bonds transmit
- * disturbances of the edges faster than a wave: there a later frame is compared with its own strain. */
+/* Checks uniform strain with one method. The first frame must have the exact sigma_zz. In the last frame only material
+ * points must: ghost forces of couplings move particles near an interface, and bonds transmit disturbances of the edges
+ * faster than a wave. state: method and keys. */
 static void uniform_strain(void **state)
 {
     const struct row *row = *state;
@@ -155,7 +157,7 @@ static void uniform_strain(void **state)
     done(&r);
 }
 
-/* Checks plane stress: sigma_zz is 0, and no column reports it. */
+/* Checks that in plane stress sigma_zz is 0 in frames and that histories and profiles have no column for it. */
 static void plane_stress_has_none(void **state)
 {
     (void)state;
@@ -170,10 +172,14 @@ static void plane_stress_has_none(void **state)
     done(&r);
 }
 
-/* A block extended along x flows without hardening as soon as 2 G e = sigma_y; then y and z are equivalent, so that
- *     sigma_xx - sigma_yy = sigma_y,   sigma_zz = sigma_yy = K e - sigma_y/3,   e = ln(1 + G t), the total extension,
- * 9 sigma_y/E at the end; an elastic sigma_zz would be a fifth too small. A wave travels 1.2 mm from the edges; short
- * waves ahead of it have 1.2e-4 of the yield stress at 6.4 mm. */
+/* A block that is extended along x and yields without hardening as soon as 2 G e = sigma_y (e: extension, G: shear
+ * modulus). From then on y and z are equivalent:
+ *
+ *     sigma_xx - sigma_yy = sigma_y,   sigma_zz = sigma_yy = K e - sigma_y/3,   e = ln(1 + g t)
+ *
+ * with the velocity gradient g and the bulk modulus K. At the end e = 9 sigma_y/E; an elastic sigma_zz would be a fifth
+ * too small. A wave travels 1.2 mm from the edges; short waves ahead of it have 1.2e-4 of the yield stress at 6.4 mm.
+ */
 #define FLOWING                                                                                                        \
     "space: plane strain\nthickness: 1 mm\nduration: 0.2 us\nmethod: mpm\n"                                            \
     "material: {young: 200 GPa, poisson: 1/4, density: 7800, yield_stress: 400 MPa}\n"                                 \

@@ -84,9 +84,9 @@ holds "driven_elastic: converts" test -n "$(f driven_elastic conversion.first_ti
 
 # ---- plane waves ---------------------------------------------------------------------------------------------------
 
-# Between rollers, without hardening: q = |sigma_xx - sigma_yy| = sigma_y behind both fronts, in spaces without transverse strain. The
-# precursor has sigma_y (1 - nu)/(1 - 2 nu) = 60 MPa and travels at sqrt(C11/rho), the plastic front at sqrt(K/rho).
-# plane SPACE YIELDING: prints the scene of such a strip.
+# plane SPACE YIELDING: prints the scene of a strip between rollers under pressure. Without hardening q = |sigma_xx - sigma_yy| = sigma_y
+# behind both fronts, in spaces without transverse strain. The precursor has sigma_y (1 - nu)/(1 - 2 nu) = 60 MPa and travels at
+# sqrt(C11/rho), the plastic front at sqrt(K/rho).
 plane() { strip "$1" "poisson: 1/4, $2" | sed 's/^duration/method: mpm\n&/'; }
 plane "plane stress" "yield_stress: 60 MPa, yield_tangent: 50 GPa" | scene stress
 plane "plane strain" "yield_stress: 40 MPa" | scene strain

@@ -1,6 +1,6 @@
 #!/bin/sh
-# A plate that rotates by 0.1257 rad, with all models, with material points and coupled: the angle, and quantities that must remain 0; the
-# state of the probe after kills.
+# A plate that rotates by 0.1257 rad, with each bond model, with material points and coupled: its angle, quantities that must remain zero,
+# and the state of the probe after kills.
 test_name=test_rigid
 . tests/support/summary.sh
 . tests/support/scenes.sh
@@ -19,7 +19,8 @@ start both rigid_rotation $turning -s model=bond $half -s method=adaptive -s mpm
     -s 'pd.region={box: {from: [-0.2, -0.2], to: [0.2, 0.2]}}'
 wait
 
-# off FOLDER: prints the largest |angle/(omega t) - 1| over the samples.
+# off FOLDER: prints the largest |angle/(omega t) - 1| over the samples, with the angular velocity omega = pi/2 per second; words if there
+# are fewer than 15 samples.
 off()
 {
     awk -F, '

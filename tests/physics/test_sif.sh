@@ -1,7 +1,7 @@
 #!/bin/sh
-# Stress-intensity factors compared with closed forms: a plate whose crack is hit by plane waves from both sides (a semi-infinite crack,
-# suddenly loaded, until the first reflection arrives), with bonds and, with a gap as crack, with material points; and a slowly loaded plate
-# with an edge crack.
+# Stress-intensity factors compared with closed forms. A plate whose crack is hit by plane waves from both sides is a semi-infinite crack
+# that is suddenly loaded, until the first reflection arrives; with bonds, and with material points and a gap as crack. Further: a slowly
+# loaded plate with an edge crack, and a crack under a body force.
 test_name=test_sif
 . tests/support/summary.sh
 . tests/support/scenes.sh
@@ -63,8 +63,8 @@ start edge "$work/edge.yaml"
 start again "$work/bonds.yaml" -t 2
 wait
 
-# farthest FOLDER PROBE: prints the largest |K_I/K - 1| over the samples from 5 to 9 us, K = 2 s sqrt(c t (1 - 2 nu)/pi)/(1 - nu) with s = 2
-# MPa and t since the waves have travelled 20 mm (Freund 1990); and the number of samples.
+# farthest FOLDER PROBE: prints the largest |K_I/K - 1| over the samples from 5 to 9 us, with the closed form K = 2 s sqrt(c t (1 - 2
+# nu)/pi)/(1 - nu) (Freund 1990), s = 2 MPa, and t the time since the waves have travelled 20 mm; words if there are fewer than 15 samples.
 farthest()
 {
     awk -F, -v name="$2.K_I" '

@@ -56,7 +56,7 @@ start edge "$work/edge.yaml"; start square "$work/square.yaml"; wait
 start centre "$work/centre.yaml"; start shear "$work/shear.yaml"; wait
 start whole "$work/whole.yaml" -s particles.spacing=0.2mm; start shaken "$work/shaken.yaml"; wait
 
-# off RUN PROBE MODE F A: prints the relative error of a factor; exact: F sigma sqrt(pi A), A in mm.
+# off RUN PROBE MODE F A: prints the relative error of a stress-intensity factor. Exact: F sigma sqrt(pi A) with sigma = 1 MPa and A in mm.
 off() { compute "$(f "$1" "probes.$2.K_$3") / (($4) * 1e6 * sqrt(3.14159265358979e-3 * ($5))) - 1"; }
 
 # Tada's correction of the secant formula: (1 - 0.025 w^2 + 0.06 w^4) sqrt(sec(pi w/2)), w = 2a/W = 0.4 (0.1 %); by collocation, H = 2 W:

@@ -1,5 +1,5 @@
-/* The automatic time step relative to the observed limit; steps beyond the limit are detected; bodies with unusual
- * limits. */
+/* Checks the automatic time step against the observed stability limit, the detection of steps beyond the limit, and the
+ * steps of bodies with unusual limits. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <math.h>
@@ -52,7 +52,7 @@ static const struct stability_case bounds[] = {
     {.dim = 2, .method = "adaptive", .frame = "reference", .coupling = "handshake", .region = ISLANDS},
 };
 
-/* Checks that the automatic step is between 0.6 and 0.95 of the observed limit. */
+/* Checks that the automatic step is 0.6 to 0.95 of the observed limit (STABILITY_LEAST and STABILITY_MOST). */
 static void test_bounds(void **state)
 {
     (void)state;
@@ -67,7 +67,8 @@ static void test_bounds(void **state)
     }
 }
 
-/* Checks that strains from velocities of the first map with linear shapes, unstable for any step, are refused. */
+/* Checks that APIC with linear shape functions is refused: it strains points with the velocities before the update of
+ * the points (first map), which is unstable for any step. */
 static void test_no_limit(void **state)
 {
     (void)state;
@@ -79,8 +80,8 @@ static void test_no_limit(void **state)
     assert_non_null(strstr(status_message(), "apic is unstable with mpm.shape: linear"));
 }
 
-/* Tests points that move through their cells: each position has another limit, and the automatic step is stable in
- * all. */
+/* Checks that the automatic step is stable while points move through their cells, since the limit depends on their
+ * positions. */
 static void test_drift(void **state)
 {
     (void)state;
@@ -95,9 +96,9 @@ static void test_drift(void **state)
 
 /* ---- beyond the limit -------------------------------------------------------------------------------------------- */
 
-/* Tests 1.2 times the limit: the run stops within 1000 steps, with position, step and remedy. APIC with edges on nodes,
- * where the limit is that of the interior; slightly beyond nodes growth would move the edge to positions with another
- * limit. */
+/* Checks that runs with 1.2 times the observed limit stop within 1000 steps with a message of position, step and
+ * remedy. APIC bodies have their edges on nodes, where the limit is that of the interior; slightly beyond nodes the
+ * growing motion would move an edge to positions with another limit. */
 static void test_caught(void **state)
 {
     (void)state;
@@ -113,8 +114,8 @@ static void test_caught(void **state)
 
 /* ---- edges ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the critical time step that Cleave computes for the scene `text` with the override key=value [s]; key NULL:
- * without. */
+/* Returns the critical time step of the scene `text` [s], with the override key=value; without an override if key is
+ * NULL. */
 static double automatic_of(const char *text, const char *key, const char *value)
 {
     struct run e;
@@ -127,8 +128,8 @@ static double automatic_of(const char *text, const char *key, const char *value)
     return critical;
 }
 
-/* Checks that the step scales with the length; a body without bonds has a step, and so has one whose bonds are all
- * cut. */
+/* Checks that the critical step is proportional to the length of a body, and that a body of one particle, which has no
+ * bonds, has a step of the order of its size over the wave speed. */
 static void test_scales(void **state)
 {
     (void)state;
@@ -156,8 +157,8 @@ static void test_scales(void **state)
     }
 }
 
-/* Tests rows between mirrors, where images move against their sources; a thin plate; a stiff light material in a soft
- * heavy one: the estimate includes all modes. */
+/* Checks that the step of bodies with unusual modes is 0.6 to 0.95 of the observed limit: rows between symmetry planes,
+ * where images move against their particles; a thin plate; a stiff light particle in a soft heavy body. */
 static void test_odd_bodies(void **state)
 {
     (void)state;
@@ -185,7 +186,7 @@ static void test_odd_bodies(void **state)
     }
 }
 
-/* Checks that a row between mirrors closer than the reach of its bonds is refused: no step is stable
+/* Checks that a row between symmetry planes closer than the reach of its bonds, for which no step is stable, is refused
  * (loads/mirrors.h). */
 static void test_close_mirrors(void **state)
 {

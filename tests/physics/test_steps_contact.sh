@@ -1,6 +1,6 @@
 #!/bin/sh
 # Contact and rigid bodies in load steps: a beam on rollers compared with ASTM E399, a disc between jaws, a crack under compression compared
-# with one without contact, bodies on bodies; bitwise equality on any number of threads and after stops.
+# with the closed form, and bodies on bodies; bitwise equality on any number of threads and after stops.
 test_name=test_steps_contact
 . tests/support/summary.sh
 . tests/support/scenes.sh
@@ -85,7 +85,7 @@ start open "$work/shut.yaml" -s contact.between=none
 start rollers "$work/rollers.yaml" -s steps.number=8
 wait
 
-# most FOLDER COLUMN: prints its largest magnitude.
+# most FOLDER COLUMN: prints the largest magnitude of a column of history.csv.
 most()
 {
     awk -F, -v name="$2" 'NR == 1 { for (k = 1; k <= NF; k++) { sub(/ .*/, "", $k); if ($k == name) at = k } next }
