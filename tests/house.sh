@@ -1,6 +1,7 @@
 #!/bin/sh
-# Checks the rules of src/README.md that a machine can check: rooms include and call only what lies below them; lines, functions and files
-# keep their limits; names of functions are unique; comments and src/README.md name what exists.
+# Checks the rules of src/README.md that a machine can check. Files of a room (a folder of the program, such as src/grid with include/grid)
+# include and call only files of lower rooms; lines, functions and files keep their limits; names of functions are unique; files that
+# comments and src/README.md name exist.
 test_name=house
 . tests/support/summary.sh
 
@@ -10,7 +11,7 @@ program=$(find src include kernels bench -name '*.[ch]' | sort)
 # Rooms from the lowest to the highest; rooms on one line may use each other in this order.
 rooms="base data bonds kernels simd loads output geometry scene run grid mesh rigid contact coupling fracture solver probes step quasistatic engine export plot study report bench app"
 
-# nothing WHAT: passes if the file `found` is empty, else fails with its contents.
+# nothing WHAT: the check WHAT passes if the file $found is empty, else it fails and prints the file.
 found=$work/found
 nothing()
 {

@@ -43,7 +43,7 @@ static void complain(const char *format, ...)
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Paths of a run of Cleave: its folder, its scene and the file that receives its messages. */
+/* Paths of a run of Cleave: its output folder, its scene file, and the file that receives its standard error. */
 struct place {
     char folder[NAME], scene[NAME], said[NAME];
 };
@@ -63,8 +63,8 @@ static void scene_put(const struct fault_scene *s)
     if (!f || fputs(s->text, f) < 0 || fclose(f) != 0) complain("cannot write %s", place_of("", s).scene);
 }
 
-/* Reads the messages that the run p has printed on standard error. Returns the last line that is not a warning, in
- * static memory; "" if there is none. Stores the number of such lines in *lines. */
+/* Reads the messages that the run p has printed on standard error and stores in *lines the number of lines that are not
+ * warnings. Returns the last of these lines in static memory; "" if there is none. */
 static const char *said(const struct place *p, int *lines)
 {
     static char line[1024];
@@ -101,9 +101,9 @@ static _Noreturn void run_here(const struct fault_plan *plan, const struct place
     _exit(program_main(resume ? 9 : 8, words));
 }
 
-/* Runs `cleave run` in a child process for the scene and folder of p, on `threads` threads, with the option --resume if
- * `resume` is true; the call that the plan names is disturbed. Returns the exit status, or SIGNAL + the number of the
- * signal that ended the process; -1 if no process could be started. */
+/* Runs `cleave run` in a child process and waits for its end. plan: call of a function to be disturbed; p: scene and
+ * folder; threads: number of threads; resume: true for the option --resume. Returns the exit status of the process, or
+ * SIGNAL plus the number of the signal that ended it; -1 if no process could be started. */
 static int run(const struct fault_plan *plan, const struct place *p, int threads, bool resume)
 {
     int ended = 0;
@@ -126,8 +126,9 @@ static struct place reference_of(const struct fault_scene *s)
     return p;
 }
 
-/* Resumes the run p with --resume on `threads` threads and compares its results with those of the run `reference`.
- * Counts and prints a failure if the run fails or the results differ. what: description of the disturbance before. */
+/* Resumes the run p with --resume on `threads` threads and compares its output folder with that of `reference`. Prints
+ * and counts a failure (complain) if the run fails or the files differ. what: description of the previous disturbance.
+ */
 static void resumes(const char *what, const struct place *reference, const struct place *p, int threads)
 {
     int lines;
@@ -138,8 +139,8 @@ static void resumes(const char *what, const struct place *reference, const struc
         complain("%s, then --resume: other results", what);
 }
 
-/* Runs share(0) and share(1) in two child processes at once, each of which does one half of the tests. Returns the sum
- * of the numbers of failures that the processes have counted. */
+/* Runs share(0) and share(1) in two child processes at the same time; share(worker) performs one half of the tests.
+ * Returns the sum of the numbers of failures of both processes, each limited to 100. */
 static int in_two(void (*share)(int worker))
 {
     int all = 0;

@@ -1,5 +1,6 @@
-/* Small scenes to be disturbed: together they contain every kind of probe, every method and model, conversion,
- * reversion, contact and growth. A sample in every step, and a checkpoint after it in scenes that are killed. */
+/* Small scenes for runs that are disturbed on purpose. Together they contain every kind of probe, every method and
+ * model, conversion, reversion, contact and crack growth. Most of them sample every step; scenes whose runs are killed
+ * also write a checkpoint after each sample. */
 #ifndef CLEAVE_TESTS_FAULT_SCENES
 #define CLEAVE_TESTS_FAULT_SCENES
 
@@ -34,7 +35,7 @@ static const struct fault_scene converting_scene = {
     "probes: [tip, break, energy, momentum, reaction: {boundary: top}, point: {at: [20 mm, 12 mm]},\n"
     "         line: {from: [1 mm, 5 mm], to: [29 mm, 5 mm], points: 9}]\n"};
 
-/* A pulse in a bar: its front converts points to peridynamic particles, which revert behind it. */
+/* A pulse in a bar, whose front converts material points to peridynamic particles; they revert to points behind it. */
 #define PASSING                                                                                                        \
     {                                                                                                                  \
         "passing",                                                                                                     \

@@ -1,5 +1,5 @@
-/* The wrapped calls of faults.h. A wrapped call of the program (__wrap_x) continues in x of this file, which all
- * libraries also call, and x continues in the C library. */
+/* Implements faults.h. A call of the program is linked to __wrap_x, which calls the x of this file, as all libraries
+ * do; x calls the C library's function x (found by dlsym). */
 #define _GNU_SOURCE /* O_TMPFILE */
 #include "faults.h"
 
@@ -40,7 +40,8 @@ void faults_arm(const struct fault_plan *p, long *count)
     counts = count;
 }
 
-/* Counts a call of the kind `call`. Returns true if it must fail, with errno set. */
+/* Counts a call of the kind `call`. If it is the call of the plan, stops or kills the process or breaks an invariant,
+ * as the plan states. Returns true if the call must fail, with errno set; false if faults_arm has not been called. */
 static bool hit(enum fault_call call)
 {
     if (!counts) return false;
@@ -53,11 +54,11 @@ static bool hit(enum fault_call call)
     return plan.deed == DO_FAIL;
 }
 
-/* Counts a call of the kind `call` on the file fd; returns true if it must fail. Standard input, output and error are
- * never disturbed. */
+/* Counts a call of the kind `call` on the file descriptor fd; returns true if it must fail. Calls on standard input,
+ * output and error are neither counted nor disturbed. */
 static bool hit_file(enum fault_call call, int fd) { return fd > STDERR_FILENO && hit(call); }
 
-/* Defines `next`, the C library's function of this name. */
+/* Declares the function pointer `next` and sets it to the C library's function of this name. */
 #define NEXT(type, name, ...)                                                                                          \
     static type (*next)(__VA_ARGS__);                                                                                  \
     if (!next) *(void **)&next = dlsym(RTLD_NEXT, name)
@@ -99,7 +100,7 @@ static void log_sync(int fd)
 
 /* ---- the whole process ------------------------------------------------------------------------------------------- */
 
-/* Returns the argument `mode` of open() with these flags, which is in `rest` only if a file may be created; else 0. */
+/* Returns the argument `mode` of open() with these flags, read from `rest`; 0 unless the flags create a file. */
 static mode_t mode_of(int flags, va_list rest) { return flags & (O_CREAT | O_TMPFILE) ? va_arg(rest, mode_t) : 0; }
 
 int open(const char *path, int flags, ...)
@@ -244,7 +245,8 @@ WRAP(int, close, (int fd), (fd), hit_file(OWN_CLOSE, fd) && (close(fd), errno = 
 
 /* ---- stages of a run --------------------------------------------------------------------------------------------- */
 
-/* Defines a stage at which the run may be stopped or killed, before the function does its work. */
+/* Defines the wrapper of an engine function at which runs are stopped or killed: it counts a call of the kind `place`,
+ * then calls the function. */
 #define PLACE(type, name, parameters, arguments, place)                                                                \
     type __real_##name parameters;                                                                                     \
     type __wrap_##name parameters;                                                                                     \

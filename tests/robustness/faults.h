@@ -1,5 +1,6 @@
-/* Makes the n-th call of a kind fail, or stops or kills the run at it: calls of the program's own objects (link-time
- * wrapping, see Makefile) and of the whole process with its libraries (symbols of the executable take precedence). */
+/* Makes the n-th call of one kind fail, or stops or kills the process at this call. OWN_*: calls of the program's own
+ * objects (link-time wrapping, see Makefile); ALL_*: calls of the whole process with its libraries, since symbols of
+ * the executable take precedence; AT_*: calls of functions of the engine. */
 #ifndef CLEAVE_TESTS_FAULTS
 #define CLEAVE_TESTS_FAULTS
 
@@ -30,10 +31,11 @@ enum fault_call {
     FAULT_CALLS
 };
 
-/* Action at the call. DO_STOP: SIGINT; DO_KILL: SIGKILL; DO_BREAK: an internal invariant fails. */
+/* What happens at the call. DO_FAIL: it fails; DO_STOP: the process receives SIGINT; DO_KILL: SIGKILL; DO_BREAK: an
+ * invariant is violated. */
 enum fault_deed { DO_NOTHING, DO_FAIL, DO_STOP, DO_KILL, DO_BREAK };
 
-/* Which call of a system or engine function by the tested run is disturbed, and how. */
+/* The one call that is disturbed, and how. */
 struct fault_plan {
     enum fault_call call;
     enum fault_deed deed;
@@ -44,9 +46,9 @@ struct fault_plan {
 
 extern const char *const fault_name[FAULT_CALLS];
 
-/* Starts to count the calls of each kind (enum fault_call) in count[FAULT_CALLS], shared memory that outlives the
- * process, and to disturb the call that the plan names. To save time, files are no longer synced from then on, except
- * the log. */
+/* Starts to count calls and to disturb the call of the plan, which is copied. count[FAULT_CALLS]: number of calls of
+ * each kind (enum fault_call), in shared memory that outlives the process. From then on fsync has no effect on files
+ * other than the log, to save time. */
 void faults_arm(const struct fault_plan *plan, long *count);
 
 /* Returns a hash of the bytes of the file `path`; 0 if there is no such file. */

@@ -1,10 +1,11 @@
-/* Fuzzer: changes inputs at random, using the words of a dictionary; inputs that reach new branches are kept and
- * changed further. The sources under test are compiled with sanitizers and call __sanitizer_cov_trace_pc() in each
+/* Fuzzer: changes inputs at random, also by inserting words of a dictionary; inputs that reach new branches are kept
+ * and changed further. The sources under test are compiled with sanitizers and call __sanitizer_cov_trace_pc() in each
  * branch (Makefile).
  *
- *     fuzz TARGET SECONDS SEED DICTIONARY FILE...      or, with 0 seconds: each file once, unchanged
+ *     fuzz TARGET SECONDS SEED DICTIONARY FILE...
  *
- * The current input is in TARGET.input, also after the end of the process. */
+ * With 0 seconds each file is used once, unchanged. The current input is in the file TARGET.input, also after the
+ * process has ended. */
 #include "fuzz.h"
 
 #include <fcntl.h>
@@ -75,7 +76,7 @@ static uint64_t draw(uint64_t below)
 
 /* ---- inputs ------------------------------------------------------------------------------------------------------ */
 
-/* Adds a copy of bytes[n] to the pool of inputs, in place of a random one if the pool is full. */
+/* Adds a copy of the input bytes[n] to the pool of inputs. It replaces a random one if the pool is full. */
 static void pool_add(const uint8_t *bytes, size_t n)
 {
     const int at = pooled < POOL ? pooled++ : (int)draw(POOL);
@@ -107,8 +108,8 @@ static void read_words(const char *path)
 
 /* ---- changes ----------------------------------------------------------------------------------------------------- */
 
-/* Inserts `gap` bytes at `at` in bytes[*n], or removes -gap bytes; returns true if it was possible within `most`
- * bytes. */
+/* Inserts a gap of `gap` bytes at the index `at` of bytes[*n], or removes -gap bytes if gap is negative, and updates
+ * *n. Returns false and changes nothing if the result would exceed `most` bytes or there are too few to remove. */
 static bool shift(uint8_t *bytes, size_t *n, size_t at, long gap, size_t most)
 {
     if (gap > 0 && *n + (size_t)gap > most) return false;
@@ -126,7 +127,8 @@ static void put(uint8_t *bytes, size_t *n, size_t at, const void *piece, size_t 
     memmove(bytes + at, piece, length);
 }
 
-/* Writes a number at the limits of integers and reals into bytes[n] at `at`. */
+/* Overwrites a part of bytes[n] near the index `at` by a random one of the numbers at the limits of integers and
+ * reals. */
 static void put_number(uint8_t *bytes, size_t n, size_t at)
 {
     static const int64_t number[] = {
@@ -176,7 +178,8 @@ static void change(uint8_t *bytes, size_t *n, size_t most)
 
 /* ---- the loop ---------------------------------------------------------------------------------------------------- */
 
-/* Returns memory for the bytes of a file for `target`, mapped so that they remain after a crash. */
+/* Creates the file TARGET.input of INPUT_MOST bytes for `target` and returns it mapped in memory, so that it is
+ * complete after a crash. */
 static uint8_t *make_room(const char *target)
 {
     char path[64];

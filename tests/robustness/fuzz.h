@@ -5,7 +5,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Reads bytes[n] as the text of a scene. */
+/* Reads bytes[n] as a scene, which is accepted or refused in one line; an accepted scene is written, read back and
+ * written identically. */
 void fuzz_scene(const uint8_t *bytes, size_t n);
 
 /* Reads a valid scene with bytes[n] as overrides, lines KEY=VALUE. */
@@ -20,7 +21,7 @@ void fuzz_exodus(const uint8_t *bytes, size_t n);
 /* Reads bytes[n] as a checkpoint, after its footer, which holds a hash, has been corrected. */
 void fuzz_checkpoint(const uint8_t *bytes, size_t n);
 
-/* Composes a scene from the choices bytes[n], and runs it if it is valid. */
+/* Composes the text of a scene by choices according to bytes[n], and runs it if it is valid. */
 void fuzz_valid(const uint8_t *bytes, size_t n);
 
 /* Creates a valid checkpoint as the first input of fuzz_checkpoint. Returns its bytes, to be released with free, and

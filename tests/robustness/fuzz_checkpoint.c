@@ -1,5 +1,5 @@
-/* Target of fuzz.h: checkpoints with arbitrary bytes and a correct footer. They must be refused in one line, or the run
- * must continue for some steps. */
+/* Target of fuzz.h: checkpoint files of arbitrary bytes with a footer that matches them. A run must refuse such a file
+ * in one line, or continue from it for some steps. */
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,7 +24,7 @@ static const char text[] =
 static struct scene scene;
 static struct output out;
 
-/* Creates a run of the scene with output in the folder `fuzz_run`. */
+/* Sets up *run from the scene of this file, with output to the folder fuzz_run. Release it with run_free_memory. */
 static void begin(struct run *run)
 {
     if (!scene.text && scene_read_text(&scene, text, strlen(text), "fuzz", NULL, 0) != OK)
@@ -50,7 +50,7 @@ uint8_t *fuzz_checkpoint_seed(size_t *n)
     return seed;
 }
 
-/* Writes bytes[n] with a matching footer as checkpoint.h5; there is no other checkpoint. */
+/* Writes bytes[n] with a matching checksum footer to fuzz_run/checkpoint.h5 and removes the previous checkpoint. */
 static void put_checkpoint(const uint8_t *bytes, size_t n)
 {
     static const char path[] = "fuzz_run/checkpoint.h5";

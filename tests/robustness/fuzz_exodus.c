@@ -1,5 +1,5 @@
-/* Target of fuzz.h: Exodus II files, as meshes and as particle lists. A refusal must be one line; an accepted mesh must
- * enclose a volume, and an accepted list have finite positions. */
+/* Target of fuzz.h: Exodus II files, read as meshes and as particle lists, in 2D and 3D. They are refused in one line,
+ * or an accepted mesh has a positive volume and an accepted list finite positions. */
 #include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
@@ -45,7 +45,8 @@ void fuzz_exodus(const uint8_t *bytes, size_t n)
     }
 }
 
-/* Writes two squares to the file `to`, or with `spheres` their four lower nodes, with a side set and a node set. */
+/* Writes an Exodus II file to `to`: two squares on six nodes or, if `spheres` is true, their four lower nodes as
+ * spheres; with a side set and a node set. */
 static void seed_write(FILE *to, bool spheres)
 {
     struct netcdf_writer w = {.to = to};

@@ -1,5 +1,5 @@
-/* Target of fuzz.h: particle lists. A refusal must be one line; in an accepted list every position and volume must be a
- * finite number. */
+/* Target of fuzz.h: particle lists in CSV. They are refused in one line, or every position and volume of an accepted
+ * list is finite. */
 #include <fcntl.h>
 #include <math.h>
 #include <string.h>

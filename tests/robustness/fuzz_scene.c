@@ -1,5 +1,5 @@
-/* Targets of fuzz.h: scenes and overrides. A refusal must state position and reason in one line; an accepted scene is
- * written out, read back and must be written out identically. */
+/* Targets of fuzz.h: scenes and overrides. They are refused in one line with position and reason, or an accepted scene
+ * is written, read back, and written again to an identical text. */
 #include <stdlib.h>
 #include <string.h>
 

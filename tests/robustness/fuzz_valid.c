@@ -1,5 +1,5 @@
-/* Target of fuzz.h: scenes of every space, method, model, shape, load and probe, chosen by the bytes: mostly
- * reasonable, some unusual. A run must end with finite numbers or state in one line why not. */
+/* Target of fuzz.h: valid scenes of every space, method, model, shape, load and probe, composed by choices according to
+ * the input bytes. A run must end with finite results or state in one line why it does not. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -22,7 +22,7 @@ struct maker {
     int dim;
 };
 
-/* Returns a number less than `below` from the next byte of m; 0 when the bytes are used up. */
+/* Returns a number from 0 to below - 1 chosen by the next byte of m; 0 if all bytes have been used. */
 static int choose(struct maker *m, int below) { return m->at < m->n ? m->bytes[m->at++] % below : 0; }
 
 static void add(struct maker *m, const char *format, ...)
@@ -34,7 +34,7 @@ static void add(struct maker *m, const char *format, ...)
     if (length > 0) m->length += (size_t)length < TEXT - m->length ? (size_t)length : TEXT - m->length - 1;
 }
 
-/* Appends one of several texts, `choices` separated by |, to the scene of m. */
+/* Appends one of the texts in `choices`, which are separated by |, to the scene of m. */
 static void add_one(struct maker *m, const char *choices)
 {
     int count = 1;
@@ -43,7 +43,7 @@ static void add_one(struct maker *m, const char *choices)
     add(m, "%.*s", (int)strcspn(choices, "|"), choices);
 }
 
-/* Appends [a, b, ..] with components between low and high to the scene of m. */
+/* Appends a vector [a, b, ..] with a component for each dimension, between low and high, to the scene of m. */
 static void add_vector(struct maker *m, double low, double high)
 {
     for (int d = 0; d < m->dim; d++) add(m, "%s%g", d ? ", " : "[", low + (high - low) * choose(m, 17) / 16);
@@ -59,7 +59,8 @@ static void add_box(struct maker *m, const double *from, const double *to)
     add(m, "]}}");
 }
 
-/* Appends a solid that is subtracted or kept, possibly moved and repeated, to the scene of m. */
+/* Appends a solid that is subtracted from a body or intersected with it, possibly moved, mirrored or repeated, to the
+ * scene of m. */
 static void add_cut(struct maker *m)
 {
     add(m, ", {"), add_one(m, "subtract|subtract|intersect"), add(m, ": {");
@@ -80,8 +81,8 @@ static void add_cut(struct maker *m)
     add(m, "}"), add_one(m, turns[m->dim - 1]), add(m, "}");
 }
 
-/* Appends the bodies to the scene of m. Lengths are in spacings of 1 m; waves travel about one spacing per second.
- * edge: receives lengths of edges. */
+/* Appends materials, a region and one or two bodies to the scene of m. The spacing is 1 m; waves travel about one
+ * spacing per second. edge[dim]: receives the edge lengths of the bodies [m]. */
 static void add_bodies(struct maker *m, double *edge)
 {
     static const double zero[DIM_MAX];
@@ -154,7 +155,8 @@ static void add_loads(struct maker *m, const double *edge)
     add(m, "output: {frames: 2, samples: 1000000}\n");
 }
 
-/* Fails if a result of the run is not finite, unless the run reported it. when: for the message. */
+/* Ends the fuzzer with a message (fuzz_fail) if positions, velocities, stresses or balances of the run are not finite
+ * or its damage is not within 0 and 1. when: text for the message. */
 static void judge(const struct run *run, const char *when)
 {
     const struct particles *p = &run->part;

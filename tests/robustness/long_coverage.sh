@@ -1,6 +1,6 @@
 #!/bin/sh
-# Lists functions that no small scene and no other command reaches, by file, in build-coverage/uncovered.txt, for inspection; no share is
-# required. Benches are left out.
+# Writes the functions that are called by no small scene (small_scenes.txt) and no other command (small_commands.txt), by file, to
+# build-coverage/uncovered.txt, for inspection. No coverage is required, except that half of all functions are called. Benches are left out.
 test_name=long_coverage
 . tests/support/summary.sh
 . tests/support/small_scenes.sh

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Each call of the whole process fails once, libraries included; and file systems that have no space or names left, refuse permission, or
-# disappear. Saved data stay whole, and runs continue from them once writing is possible.
+# Makes each call of the whole process fail once, libraries included, and tests file systems that are full, without inodes, read-only or
+# removed during a run. Saved data stay unchanged, and runs resume from them once writing is possible.
 test_name=long_faults
 [ ! -w /dev/shm ] || export TMPDIR=/dev/shm       # in memory, to avoid waiting for a disk
 . tests/support/summary.sh
@@ -21,7 +21,7 @@ cat "$work/whole"
 calm "$work/calm" $small -t 1
 interrupted "$work/part" 40 $small
 
-# refusing WHAT TEXT: checks that the run that ended with $result stated the reason in one line.
+# refusing WHAT TEXT: checks that the run, whose exit status is $result, failed with one line (in $work/err) that contains TEXT.
 refusing()
 {
     holds "$1: exit status $result" test $result -eq 1 -o $result -eq 2
@@ -29,7 +29,8 @@ refusing()
     holds "$1: says $(cat "$work/err")" grep -q "$2" "$work/err"
 }
 
-# goes_on WHAT FOLDER: checks that both checkpoints are unchanged and that the run reaches its end from them.
+# goes_on WHAT FOLDER: checks that both checkpoints in FOLDER are those before the disturbance, and that the run resumes and ends with the
+# results of an undisturbed run.
 goes_on()
 {
     for file in checkpoint.h5 checkpoint.previous.h5; do holds "$1: $file" cmp "$work/part/$file" "$2/$file"; done
@@ -37,8 +38,8 @@ goes_on()
     same "$1" "$work/calm" "$2"
 }
 
-# mounted OPTIONS COMMAND: runs a command in a new file system with these options that holds the interrupted run; the result is copied to
-# $work/after.
+# mounted OPTIONS: resumes the interrupted run in a new tmpfs file system remounted with these options. Copies the result to $work/after;
+# $result: exit status, 77 if nothing could be mounted.
 mounted()
 {
     rm -rf "$work/after"; mkdir -p "$work/mounted"

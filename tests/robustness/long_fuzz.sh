@@ -24,7 +24,8 @@ printf 'material.young=1 GPa\nparticles.spacing=2 mm\nboundary[0].velocity=[1, 2
 # An input found by fuzzing: the grid grows at the last step, and with it the arrays of loads.
 printf '\155\143\160\141\142\047\163\163\142\157\165\156\144\141\162\160\162\157\142\145\163\056\154\151\000\145' >"$work/grown"
 
-# fuzz TARGET FILE...: runs the fuzzer; finds are kept beside the build.
+# fuzz TARGET FILE...: runs the fuzzer on a target, with these files as first inputs. Returns 1 if it found a fault; the input is then kept
+# in the folder fuzz of the build.
 fuzz()
 {
     target=$1 leaks=1; shift

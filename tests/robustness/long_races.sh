@@ -44,7 +44,7 @@ is "loops with a race: exit status" $? 66
 instrumented build-races "-fsanitize=thread -fno-omit-frame-pointer" CC="$cc" OPTIMISE=-O1 SETS=portable
 holds "Archer is on" sh -c 'ARCHER_OPTIONS=verbose=1 "$1" info 2>&1 | grep -q -i "archer detected.* with tsan"' sh "$cleave"
 
-# clean NAME ARGUMENTS: no race on three threads, an odd number that divides work unevenly.
+# clean NAME ARGUMENTS: checks that a run on three threads, an odd number that divides work unevenly, succeeds without a data race.
 clean()
 {
     scene=$1; shift

@@ -39,7 +39,7 @@ done
 
 instrumented build-sanitizers "$flags -fno-sanitize-recover=undefined -fno-omit-frame-pointer" OPTIMISE=-O0 SETS="${SETS:-portable}"
 
-# ends STATUS WHAT COMMAND...: checks the exit status and that there is no report.
+# ends STATUS WHAT COMMAND...: checks that the command ends with this exit status and that no sanitizer reports a fault.
 ends()
 {
     wanted=$1 what=$2; shift 2
@@ -59,7 +59,7 @@ clean()
 }
 each_scene "${SCENES:-.}" clean
 
-# calls STATUS WHAT ARGUMENT...: other commands, refusals, and a run that is stopped and resumed.
+# calls STATUS WHAT ARGUMENT...: checks as ends() a call of cleave with these arguments, for the lines of small_commands.txt.
 calls()
 {
     wanted=$1 what=$2; shift 2

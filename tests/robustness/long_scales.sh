@@ -1,6 +1,7 @@
 #!/bin/sh
-# Nothing that has a dimension is hidden: small scenes of every kind, with lengths times 16, times 64 and masses a quarter (powers of two),
-# have the same results, scaled, to the digits that history.csv prints. Takes 600 s: two runs of each of 130 scenes.
+# Checks that no quantity with a dimension is hidden in the code. Small scenes of every kind are run in units whose lengths, times and
+# masses are multiplied by 16, 64 and 1/4 (powers of two); scaled results must agree in all digits that history.csv prints. Takes 600 s: two
+# runs of each of 130 scenes.
 test_name=long_scales
 . tests/support/summary.sh
 . tests/support/small_scenes.sh

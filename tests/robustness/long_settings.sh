@@ -11,7 +11,8 @@ for place in de_DE tr_TR; do
     localedef -i $place -f UTF-8 "$work/locales/$place.UTF-8" 2>/dev/null || echo "no locale $place: not tested"
 done
 
-# under SETTING... -- ARGUMENT...: checks that a run with these variables (words of env) is bitwise equal to $work/one.
+# under SETTING... -- ARGUMENT...: checks that a run with these environment variables (words of env) has results bitwise equal to those in
+# $work/one.
 under()
 {
     setting=

@@ -9,7 +9,8 @@ seed=${SEED:-$(date +%s)}
 echo "seed $seed"
 export OMP_WAIT_POLICY=passive
 
-# disturbed WHAT ARGUMENTS: runs that are stopped and killed, 5 times each.
+# disturbed WHAT ARGUMENTS: checks that a run which is stopped 5 times, and one which is killed 5 times, at random moments, have the results
+# of an undisturbed run, bitwise.
 disturbed()
 {
     what=$1; shift
@@ -20,7 +21,7 @@ disturbed()
     kills 5 "$work/whole" "$@"
 }
 
-# in_steps WHAT ARGUMENTS: also runs that are stopped after every load step.
+# in_steps WHAT ARGUMENTS: checks as disturbed(), and also a run that is stopped after every load step.
 in_steps()
 {
     disturbed "$@"; shift

@@ -22,7 +22,7 @@ ${CC:-cc} -g -O0 -o "$work/unset" "$work/unset.c" || fail "unset.c is not built"
 $memcheck "$work/unset" >"$work/out" 2>"$work/err"
 is "a value that is not set: exit status" $? 9
 
-# clean NAME ARGUMENTS: checks that there is no fault.
+# clean NAME ARGUMENTS: checks that a run succeeds and that valgrind reports no fault.
 clean()
 {
     scene=$1; shift

@@ -10,8 +10,8 @@
 
 #include "faults.h"
 
-/* Returns true if the files a and b, summaries of runs, agree in all lines before "threads", that is, in all figures
- * but those about the machine. */
+/* Returns true if the summaries of runs in the files a and b agree in all lines before "threads"; the lines from there
+ * on are about the machine. */
 static bool same_figures(const char *a, const char *b)
 {
     char x[1024], y[1024];
@@ -24,7 +24,8 @@ static bool same_figures(const char *a, const char *b)
     return same;
 }
 
-/* State of the walk over a reference folder: each of its files must be in the other folder with equal bytes. */
+/* State of a walk over the files of a reference folder, each of which must be in the folder `other` with equal
+ * contents. */
 static const char *other;
 static size_t reference_length;
 static int files, differing;
@@ -55,8 +56,8 @@ static int count_one(const char *path, const struct stat *s, int type, struct FT
     return 0;
 }
 
-/* Returns true if `folder` contains files under temporary names, such as a run leaves that is killed while it writes.
- */
+/* Returns true if `folder` contains a file with a temporary name (*.tmp), as a run leaves it that is killed while it
+ * writes. */
 static bool half_written(const char *folder)
 {
     files = 0;
@@ -64,8 +65,9 @@ static bool half_written(const char *folder)
     return files > 0;
 }
 
-/* Compares the folders of two runs file by file and prints which files differ. Returns true if both folders have the
- * same files with equal bytes, more than four, checkpoints and hidden files aside, and no file has a temporary name. */
+/* Compares the output folders of two runs and prints the files that differ. Returns true if both have more than four
+ * files, the same ones with equal contents (summaries up to lines about the machine), and none with a temporary name.
+ * Checkpoints and hidden files are left out. */
 static bool same_files(const char *reference, const char *folder)
 {
     other = folder, reference_length = strlen(reference), files = differing = 0;

@@ -1,8 +1,8 @@
-/* No data are lost: each call of the program fails once, runs are stopped and killed at any stage, checkpoints are
- * damaged; --resume must always reach results bitwise equal to those of an undisturbed run. `test_faults whole` does so
- * for the calls of the whole process, libraries included (tests/robustness/long_faults.sh). Runs alone: it consists of
- * two processes, and a run that exceeds PATIENCE counts as hanging. Takes 30 s: about 2000 runs, one for each failing
- * call. */
+/* Checks that no data are lost: each call of the program fails once, runs are stopped and killed at many points, and
+ * checkpoints are damaged. A run resumed with --resume must always have results bitwise equal to those of an
+ * undisturbed run. `test_faults whole` disturbs the calls of the whole process, libraries included
+ * (tests/robustness/long_faults.sh). Runs alone: it uses two processes, and a run longer than PATIENCE counts as
+ * hanging. Takes 30 s: about 2000 runs. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -30,9 +30,9 @@ int __wrap_main(int argc, char **argv);
 
 /* ---- every call fails once --------------------------------------------------------------------------------------- */
 
-/* Every `step`-th call of a run fails. A failed run is resumed for each `look`-th of these; for these also a resumed
- * run, previously stopped at sample 2, fails. lossy: libraries do not survive the fault; only loss of data is
- * tested. */
+/* A series of runs in which calls of one kind fail, one call per run: every `step`-th call with the errno `cause`. For
+ * each `look`-th of these runs the failed run is resumed, and the call also fails in a resumed run (stopped at sample 2
+ * before). lossy: libraries may crash after such a fault, so that the exit status is not checked. */
 struct sweep {
     enum fault_call call;
     int cause, step, look;
@@ -55,8 +55,8 @@ static const struct sweep *sweeps = own_sweeps;
 static int sweep_count = COUNT_OF(own_sweeps);
 static struct place small_reference;
 
-/* Checks the end of the run p after a fault: success, or one line that states what failed. what: for the message; end:
- * exit status; cause: errno of the fault. */
+/* Checks how the run p ended after a fault: exit status 0 and the results of small_reference, or status 1 or 2 and one
+ * line that names the cause. what: description for messages; end: exit status; cause: errno of the fault. */
 static void outcome(const char *what, const struct place *p, int end, int cause)
 {
     int lines;
@@ -116,7 +116,8 @@ static void failing_calls_lose_nothing(void **state)
     assert_int_equal(in_two(sweep_share), 0);
 }
 
-/* Checks that a text in memory is complete, or its end reports the loss, whichever allocation fails. */
+/* Checks that a text written to a stream in memory is complete, or that closing the stream reports the loss, whichever
+ * of its first 40 allocations fails. */
 static void texts_in_memory_are_whole_or_refused(void **state)
 {
     enum { NUMBERS = 3000, EACH = 7 };
@@ -143,8 +144,9 @@ static void texts_in_memory_are_whole_or_refused(void **state)
     assert_int_equal(wrong, 0);
 }
 
-/* Breaks an invariant while a file is renamed, for each rename in turn, in the stepping or the writing thread. worker:
- * 0 or 1, half of the tests. */
+/* Violates an invariant at each rename of a file in turn, in the thread that computes or the one that writes. The run
+ * must end with status 1 and one line, leave no temporary file, and be resumable. worker: 0 or 1, which half of the
+ * renames. */
 static void break_share(int worker)
 {
     const struct place p = place_of(worker ? "b" : "a", &small_scene);
@@ -173,7 +175,7 @@ static void broken_invariants_lose_nothing(void **state)
 
 /* ---- stopped and killed ------------------------------------------------------------------------------------------ */
 
-/* Checks that every kind of probe is in one of the scenes that are disturbed. */
+/* Checks that every kind of probe is in one of the fault scenes, whose runs are stopped and resumed. */
 static void every_probe_is_watched(void **state)
 {
     bool watched[64] = {false};
@@ -190,8 +192,10 @@ static void every_probe_is_watched(void **state)
         if (!watched[kind]) fail_msg("no scene has probe %d", kind);
 }
 
-/* Ends a run of s `times` times by `deed` at the `number`-th call of `place` (0: a number for which the run completes),
- * and resumes it each time on another number of threads. */
+/* Runs the scene s and ends it `times` times by `deed` (DO_STOP or DO_KILL) at the `number`-th call of the kind
+ * `place`, each time resuming it on another number of threads, and compares the final results with those of an
+ * undisturbed run. number 0: calls of the undisturbed run divided by times + 1, so that the run is ended at equal
+ * distances. */
 static void disturb(const struct fault_scene *s, enum fault_call place, long number, enum fault_deed deed, int times)
 {
     const struct place reference = reference_of(s), p = place_of("disturbed", s);
@@ -223,8 +227,8 @@ static void stopped_runs_resume(void **state)
     assert_int_equal(in_two(stop_share), 0);
 }
 
-/* Kills a run at calls; a resumed run couples once at its start, and again where it was killed. worker: 0 or 1, half of
- * the tests. */
+/* Kills runs at conversions, couplings and equilibria. A resumed run couples once at its start, so that the run is
+ * killed at the third coupling. worker: 0 or 1, which half of the tests. */
 static void kill_share(int worker)
 {
     if (worker == 0)
@@ -242,7 +246,7 @@ static void killed_runs_resume(void **state)
 
 /* ---- order ------------------------------------------------------------------------------------------------------- */
 
-/* Copies the path of the folder of the file `path` to folder[NAME]; "." if it names none. */
+/* Copies the path `file` without its last component, i.e. the folder, to folder[NAME]; "." if there is no slash. */
 static void folder_of(const char *path, char *folder)
 {
     snprintf(folder, NAME, "%s", path);
@@ -258,8 +262,8 @@ struct log_line {
     unsigned long hash;
 };
 
-/* Returns the line of the log line[lines] with the first sync of a path before line `from` (step -1) or after it (step
- * 1); -1 if there is none before a line of `end` (NULL: no limit). */
+/* Searches the log line[lines] of calls for an fsync of `path`, backwards (step -1) or forwards (step 1) from line
+ * `from` on. Returns its line number; -1 if there is none before a rename to the path `end` (NULL: no limit). */
 static int find_sync(const struct log_line *line, int lines, int from, int step, const char *path, const char *end)
 {
     for (int k = from; k >= 0 && k < lines; k += step) {
@@ -269,8 +273,8 @@ static int find_sync(const struct log_line *line, int lines, int from, int step,
     return -1;
 }
 
-/* Checks the rename in line[k] of the log line[lines]: the file was synced before, and its folder is synced afterwards,
- * before the next file of that name. */
+/* Checks the rename in line[k] of the log line[lines]: the file was synced with its final contents before, and its
+ * folder is synced afterwards, before another file gets this name. Before a checkpoint, history.csv must be synced. */
 static void check_rename(const struct log_line *line, int lines, int k)
 {
     char folder[NAME], history[2 * NAME];
@@ -332,7 +336,7 @@ static void files_are_synced_in_order(void **state)
 
 /* ---- damage ------------------------------------------------------------------------------------------------------ */
 
-/* Inverts a bit of a file. */
+/* Inverts one bit of the file `path`, at a position that follows from `at`. Returns false if that fails. */
 static bool flip(const char *path, uint64_t at)
 {
     unsigned char byte = 0;
@@ -347,8 +351,9 @@ static bool flip(const char *path, uint64_t at)
     return done;
 }
 
-/* Inverts half of 60 bits spread over the checkpoint of a run: none is accepted as whole, and the previous checkpoint
- * is used. worker: 0 or 1, half of the bits. */
+/* Inverts one bit in the newest checkpoint of a stopped run, for half of 60 positions spread over the file. --resume
+ * must detect the damage, use the previous checkpoint and have the results of an undisturbed run. worker: 0 or 1, which
+ * half of the positions. */
 static void flip_share(int worker)
 {
     static const struct fault_plan stop = {AT_SAMPLE, DO_STOP, 2, 0, 0};
@@ -374,8 +379,8 @@ static void damaged_checkpoints_are_found(void **state)
     assert_int_equal(in_two(flip_share), 0);
 }
 
-/* Creates a folder of this process in TMPDIR, or beside `program`, for all files of the tests; its path is stored in
- * `folder`. */
+/* Creates a folder for all files of the tests in TMPDIR, or beside `program` (argv[0]), and makes it the working
+ * folder. folder[NAME]: receives its name. Returns 0 on success. */
 static int enter(char *program, char *folder)
 {
     const char *place = getenv("TMPDIR");

@@ -1,6 +1,6 @@
-/* Coverage of the small scenes run under sanitizers (small_scenes.txt): they contain every key and every word of
- * scenes, and all other commands are in small_commands.txt. A key or command added to the tables fails here until a
- * small scene or command has it. */
+/* Checks that the small scenes run under sanitizers (small_scenes.txt) contain every key and every word of scenes, and
+ * that all other commands and their options are in small_commands.txt. A key or command added to the tables fails here
+ * until a small scene or command has it. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -22,15 +22,15 @@ static bool here[KEYS_MOST]; /* key k occurs in the current scene */
 
 /* ---- the list ---------------------------------------------------------------------------------------------------- */
 
-/* A line of the list: settings are overrides, first those of the scene from which it is derived. */
+/* One line of small_scenes.txt. setting[n]: overrides, beginning with those of the scene from which it is derived. */
 struct small_scene {
     char name[64], file[256];
     int n;
     struct scene_override setting[SETTINGS_MOST];
 };
 
-/* Checked by small_commands.txt only: its pilot runs would take minutes under a sanitizer (test_pilot.sh makes
- * some). */
+/* A scene that is called in small_commands.txt only, since the trial runs of its automatic settings would take minutes
+ * under a sanitizer. */
 static const struct small_scene auto_scene = {.name = "auto", .file = "tests/robustness/scenes/auto.yaml"};
 
 /* Removes blanks at both ends of `text` and returns its new beginning. */
@@ -41,7 +41,8 @@ static char *trimmed(char *text)
     return text;
 }
 
-/* Reads the list of small scenes into list[] and returns their number; the texts of settings are not freed. */
+/* Reads small_scenes.txt into list[SCENES_MOST] and returns the number of scenes. The texts of the settings are never
+ * freed. */
 static int list_read(struct small_scene *list)
 {
     FILE *f = fopen("tests/robustness/small_scenes.txt", "r");
@@ -75,7 +76,7 @@ static int list_read(struct small_scene *list)
 
 /* ---- content of a scene ------------------------------------------------------------------------------------------ */
 
-/* Returns the words of key k that are features, as a|b|c; "" if there are none. */
+/* Returns the words of key k that must occur in a scene, as a|b|c; "" if there are none. */
 static const char *words_of(const struct key *k)
 {
     if (k->type == KEY_FLAG) return "true|false";
@@ -95,7 +96,7 @@ static void word_seen(const struct key *k, const char *word)
 
 static void group_walk(const struct yaml_node *n, const char *group);
 
-/* Returns the group to which the keys below key k belong. */
+/* Returns the path of the group of the table to which the keys below key k belong. */
 static const char *group_below(const struct key *k)
 {
     if (k->type == KEY_REGION || (k->words && strncmp(k->words, "solid", 5) == 0)) return "solid";
@@ -117,7 +118,8 @@ static void key_walk(const struct key *k, const struct yaml_node *n)
         group_walk(n, group_below(k));
 }
 
-/* Records the keys of `group` in the node n; a word in a list stands for a kind, as for probes. */
+/* Records all keys of the group `group` in the tree below the node n. A word in place of a mapping is a key of the
+ * group, such as the kind of a probe. */
 static void group_walk(const struct yaml_node *n, const char *group)
 {
     if (n->kind == NODE_LIST)
@@ -132,7 +134,8 @@ static void group_walk(const struct yaml_node *n, const char *group)
         }
 }
 
-/* Returns true if the group of key k applies to the current scene, so that a missing key has its default. */
+/* Returns true if the group of key k occurs in the current scene or always applies, so that key k has its default if it
+ * is missing. */
 static bool group_is_here(const struct key *k)
 {
     char group[64];
@@ -145,7 +148,7 @@ static bool group_is_here(const struct key *k)
     return false;
 }
 
-/* Records the keys of the scene `small` after its includes and settings, and the words of the defaults of missing
+/* Records the keys of the scene `small`, after its includes and settings, and the words of the defaults of its missing
  * keys. */
 static void scene_note(const struct small_scene *small)
 {
@@ -222,7 +225,7 @@ static void every_key_and_word_stands_in_a_small_scene(void **state)
     assert_int_equal(complaints, 0);
 }
 
-/* Writes the options in the usage of the command c to option[] as " -o "; returns their number. */
+/* Stores the options in the usage text of the command c in option[], each as " -o ", and returns their number. */
 static int options_of(const struct command *c, char option[WORDS_MOST][32])
 {
     char copy[LINE_MOST];
@@ -236,7 +239,8 @@ static int options_of(const struct command *c, char option[WORDS_MOST][32])
     return n;
 }
 
-/* Returns true if there is a line that calls the command c, with this option unless it is "". */
+/* Returns true if a line of small_commands.txt calls the command c with the option `option` (" -o "; "" for any
+ * call). */
 static bool is_called(const struct command *c, const char *option)
 {
     FILE *f = fopen("tests/robustness/small_commands.txt", "r");
@@ -251,7 +255,8 @@ static bool is_called(const struct command *c, const char *option)
     return found;
 }
 
-/* Checks that every command and every option of its usage is called, except those of benches, which take minutes. */
+/* Checks that small_commands.txt calls every command and every option of its usage, except options of benches, which
+ * take minutes. */
 static void every_command_and_option_is_called(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
 #!/bin/sh
-# Protection of folders: ownership, treatment of an older run, and missing descriptors.
+# Protection of folders: which folders a run may use or replace, what happens to an older run and to other files in them, and closed
+# standard descriptors.
 # Takes 25 s: some 300 starts of the program, two thirds of them refusals, and runs that hold a folder while others request it.
 test_name=test_guards
 . tests/support/summary.sh
@@ -283,7 +284,7 @@ declined()
     is "$what: lines" "$(grep -c -v '^warning: ' "$work/err")" 1
     holds "$what: $(cat "$work/err")" grep -q -e "$text" "$work/err"
 }
-# kept WHAT FOLDER: checks that it holds the files that `desk` created.
+# kept WHAT FOLDER: checks that the folder contains the files that `desk` created, unchanged.
 kept() { is "$1: files of others" "$(cat "$2"/* 2>/dev/null)" "$(cat "$work/papers"/*)"; }
 cat >"$work/strip.yaml" <<'END'
 # comments of the user
@@ -497,7 +498,7 @@ declined "a pipe for a run to compare" "contains no run" compare "$work/pipe.yam
 
 escape=$(printf '\033')
 red=$(printf '\033[31mred\302\233')
-# silent WHAT COMMAND...: checks that neither output has an escape sequence, and that one of them has the word.
+# silent WHAT COMMAND...: checks that the output of a command contains the word `red`, from a name, but no escape sequence of terminals.
 silent()
 {
     what=$1; shift

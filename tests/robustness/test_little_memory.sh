@@ -1,5 +1,6 @@
 #!/bin/sh
-# Memory limits: scenes that need more are refused, and a failed allocation in the program or a library leaves one line.
+# Runs under memory limits: scenes that need more memory are refused, and an allocation that fails in the program or a library causes one
+# line on standard error.
 test_name=test_little_memory
 . tests/support/summary.sh
 . tests/support/trust.sh
@@ -7,7 +8,7 @@ test_name=test_little_memory
 solid="inputs/kalthoff_winkler_3d.yaml -s pd.surface=none -s particles.spacing=2mm -s duration=1us -s accept=[steps,particles,reach] -s output.frames=2 -s output.samples=4 -s output.checkpoint=0"
 (ulimit -v 4000000 && "$cleave" info >/dev/null 2>&1) || { echo "ulimit -v is not to be had here"; exit 77; }
 
-# within MEGABYTES THREADS: runs under that limit; $result: its status.
+# within MEGABYTES THREADS: runs the scene with this limit of address space; $result: its exit status.
 within()
 {
     (ulimit -v $(($1 * 1024)); exec "$cleave" run -q -t "$2" -o "$work/r" --overwrite $solid) >"$work/out" 2>"$work/err"

@@ -1,5 +1,5 @@
 #!/bin/sh
-# The list of faults for `make mutants` is up to date: each text occurs exactly once in its file, each test that it names exists.
+# Checks the list of faults for `make mutants`: each old text occurs exactly once in its file, and each test that it names exists.
 test_name=test_mutants
 . tests/support/summary.sh
 

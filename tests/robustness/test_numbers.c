@@ -1,5 +1,5 @@
-/* All numbers of frames are finite. `test_numbers FILE...` checks frames, as tests/support/summary.sh does with those
- * of all scripts, and prints what it finds; without a file it tests its own detection. */
+/* `test_numbers FILE...` prints the datasets of these HDF5 files that contain numbers which are not finite;
+ * tests/support/summary.sh calls it for the frames of all scripts. Without a file it tests its own detection. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -20,7 +20,7 @@ static hsize_t count_bad(const double *value, hsize_t n)
     return bad;
 }
 
-/* Reads all *n values of the dataset `list`, allocated; NULL if it has no real numbers. */
+/* Reads all *n values of the dataset `list`. Returns them in memory to be freed; NULL if they are not real numbers. */
 static double *numbers_of(hid_t list, hsize_t *n)
 {
     const hid_t type = H5Dget_type(list), space = H5Dget_space(list);
@@ -58,7 +58,7 @@ static herr_t sync_near(hid_t file, const char *name, const H5O_info_t *info, vo
     return 0;
 }
 
-/* Counts the bad values of the file `path`; a file that is not HDF5 has none. */
+/* Counts the values that are not finite in all datasets of the file `path`. A file that is not HDF5 has none. */
 static struct search look_through(const char *path)
 {
     struct search s = {.file = path};

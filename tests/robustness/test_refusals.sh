@@ -30,7 +30,7 @@ END
 
 # Hundreds of cases: what follows starts no programs but Cleave.
 
-# nothing_left WHAT: checks that only files of this script exist.
+# nothing_left WHAT: checks that a refused command has left no files in the working folder.
 nothing_left()
 {
     left=
@@ -40,7 +40,7 @@ nothing_left()
     is "$1: left behind" "$left" ""
 }
 
-# replace LINE TEXT: writes bad.yaml, the valid scene with one line replaced; ^ is a line break.
+# replace LINE TEXT: writes bad.yaml, the valid scene good.yaml with line number LINE replaced by TEXT, in which ^ is a line break.
 replace()
 {
     at=0
@@ -55,7 +55,8 @@ replace()
     done <good.yaml >bad.yaml
 }
 
-# ended WHAT STATUS START WORDS: checks the last program's exit status and its only line: beginning and contents.
+# ended WHAT STATUS START WORDS: checks that the last command ended with STATUS = 2, printed nothing but one line on standard error, which
+# begins with START and contains WORDS, and left no files.
 ended()
 {
     is "$1: exit status" "$2" 2
@@ -355,7 +356,8 @@ ended "a scene without a name" $? "" ""
 
 # ---- particle lists ----------------------------------------------------------------------------------------------------
 
-# list WHAT PLACE WORDS: uses the list on standard input as the body.
+# list WHAT PLACE WORDS: checks that the particle list on standard input is refused as a body, with a line that begins with PLACE and
+# contains WORDS.
 list()
 {
     cat >kept/grains.csv

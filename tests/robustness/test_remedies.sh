@@ -1,6 +1,6 @@
 #!/bin/sh
-# Changes that a refusal recommends are possible: for each combination that no method or model can do, checks the words of the message, and
-# that the scene passes `cleave check` with each of these changes.
+# Checks that the changes which a refusal recommends are possible: for each combination that a method or model does not support, the message
+# has the expected words, and the scene passes `cleave check` with each of the recommended changes.
 # Takes 10 s: 60 small scenes are read and set up.
 test_name=test_remedies
 . tests/support/summary.sh
@@ -28,7 +28,7 @@ sed 's/^particles:/  - {name: wall, material: stiff, shape: {box: {from: [0, -5 
     s/^material: \(.*\)/materials:\n  - \1\n  - {name: stiff, young: 700 GPa, density: 7800}/; s/- {name: plate,/& material: m,/' "$plate" >"$work/stiff.yaml"
 wall=$work/wall.yaml
 
-# refused PATTERN SCENE ARGUMENT...: checks that the scene is refused with this text; keeps scene and arguments for `remedied`.
+# refused PATTERN SCENE ARGUMENT...: checks that the scene with these arguments is refused with this text; stores both for `remedied`.
 refused()
 {
     pattern=$1 scene=$2; shift 2
@@ -39,8 +39,8 @@ refused()
 }
 keep() { printf '%s\n' "$@" >"$work/kept"; }
 
-# remedied ARGUMENT...: checks that the scene refused last passes with further arguments, which follow the earlier ones. other SCENE
-# ARGUMENT...: that another scene does.
+# remedied ARGUMENT...: checks that the scene refused last passes `cleave check` if these arguments follow the earlier ones. other SCENE
+# ARGUMENT...: checks the same for another scene.
 other() { scene=$1; shift; remedied "$@"; }
 remedied()
 {

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Kernel sets: a scene gives equal results with each, to round-off; each is bitwise reproducible on any number of threads; info lists them,
-# and a wrong name is refused.
+# Kernel sets (kernels compiled for one set of vector instructions): a scene has equal results with each, to round-off, and bitwise equal
+# results on any number of threads; `cleave info` lists the sets, and a wrong name is refused.
 # Takes 25 s: runs of each set of kernels that the processor has.
 test_name=test_sets
 . tests/support/summary.sh
@@ -59,9 +59,9 @@ boundary:
   - {traction: [0, -6 MPa, 0], face: y-}
 END
 
-# alike A B UNTIL: checks that no column of history.csv differs by more than 2e-9 of its largest magnitude before the time UNTIL. Nine
-# digits are written: round-off of 1e-16 may change the last one, by a half in each file. Left out: quantities that are round-off (momentum)
-# or small differences (balance_error, errors), and energies below the round-off of the largest one: grazing faces have 1e-20 J of contact.
+# alike A B UNTIL: checks that no column of history.csv in the folders A and B differs by more than 2e-9 of its largest magnitude before the
+# time UNTIL [s]. Nine digits are written, and round-off may change the last one in each file. Left out are columns that are round-off or
+# small differences (momentum, errors), and differences of energies below the round-off of the largest energy.
 alike()
 {
     paste -d , "$1/history.csv" "$2/history.csv" | awk -F, -v until="$3" '
@@ -99,7 +99,8 @@ done
 
 # ---- restart with another set ------------------------------------------------------------------------------------------
 
-# resumed SET LINES: resumes the stopped strip with this set; LINES: expected on standard error.
+# resumed SET LINES: checks that the strip, stopped with the first kernel set, can be resumed with SET and then prints LINES lines on
+# standard error.
 resumed()
 {
     rm -rf "$work/resumed"

@@ -1,11 +1,12 @@
 #!/bin/sh
-# Default number of threads: physical cores, within the mask, on machines simulated by hwloc.
+# Checks the default number of threads of a run on machines that hwloc simulates: one per physical core within the CPU mask of the process.
 set -eu
 cleave=$(cd "${BUILD:-build}" && pwd)/cleave
 unset OMP_NUM_THREADS OMP_PROC_BIND OMP_PLACES
 fail() { echo "test_threads: $1" >&2; exit 1; }
 
-# says MACHINE CORES THREADS: hardware threads are twice the cores if each has two, and a run uses one per core.
+# says MACHINE CORES THREADS: checks what `cleave info` prints for the machine MACHINE (a description for hwloc): CORES cores, the default
+# number of threads, and THREADS hardware threads.
 says()
 {
     HWLOC_SYNTHETIC=$1 "$cleave" info >out || fail "$1: info failed"

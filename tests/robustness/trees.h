@@ -19,8 +19,8 @@ static inline int remove_one(const char *path, const struct stat *s, int type, s
 /* Removes the folder `path` with all that is in it. Failures are ignored. */
 static inline void remove_tree(const char *path) { nftw(path, remove_one, 8, FTW_DEPTH | FTW_PHYS); }
 
-/* Makes the folder `name` in the folder of the test program the working folder, for all files of the test; creates it
- * if it is missing. program: path of the test program, argv[0]. Returns false if that fails. */
+/* Creates the folder `name` beside the test program, if it is missing, and makes it the working folder. program: path
+ * of the test program, argv[0]. Returns false if that fails. */
 static inline bool enter_folder_beside(const char *program, const char *name)
 {
     char path[4096];

@@ -1,7 +1,7 @@
-# Reads a list of faults: one a line, `file @ old @ new @ tests`, comments after #, blank lines. Prints a line for every fault that
-# is wrong in itself: its text does not occur exactly once in the file, a test does not exist, ...
-# Environment: TESTS: paths of all tests, one a line; JOBS: a folder in which each fault gets a folder JOBS/0001/ with the files
-# file, place (file:line), old, new, tests (paths) and, if it is wrong, wrong; empty: none.
+# Reads a list of faults for run.sh: one per line, `file @ old @ new @ tests`; blank lines and lines after # are ignored. Prints a line for
+# every fault that cannot be used, e.g. because its old text does not occur exactly once in the file or a test does not exist.
+# Environment: TESTS: paths of all tests, one per line; JOBS: a folder in which each fault is stored as a folder JOBS/0001/ with the files
+# file, place (file:line), old, new, tests (paths) and, if the fault cannot be used, wrong; if JOBS is empty, nothing is stored.
 
 BEGIN {
     n = split(ENVIRON["TESTS"], path, "\n")
@@ -15,7 +15,7 @@ BEGIN {
 
 function trim(text) { sub(/^[ \t]+/, "", text); sub(/[ \t]+$/, "", text); return text }
 
-# Returns the lines of a file, each with its newline; reads the file once.
+# Returns the contents of a file as one text; reads each file once.
 function text_of(file, all, line) {
     if (!(file in text)) {
         all = ""
@@ -26,7 +26,7 @@ function text_of(file, all, line) {
     return text[file]
 }
 
-# Counts the places of `old` in `all`; sets `row` to the line of the first.
+# Returns the number of occurrences of `old` in the text `all`; sets `row` to the line number of the first.
 function places(all, old, count, at, before) {
     count = 0
     while ((at = index(all, old)) > 0) {
@@ -36,7 +36,7 @@ function places(all, old, count, at, before) {
     return count
 }
 
-# Returns what is wrong with the fault, or nothing; sets `paths` to those of its tests.
+# Returns the reason why a fault cannot be used, or nothing; sets `paths` to the paths of its tests, one per line.
 function wrong(fields, file, old, new, tests, count, n, k, name) {
     if (fields != 4) return fields " fields where `file @ old @ new @ tests` has 4"
     if (text_of(file) == "") return "no such file"

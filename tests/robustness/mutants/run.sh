@@ -47,7 +47,7 @@ for list in "$@"; do awk 1 "$list"; done | awk -f tests/robustness/mutants/list.
 [ -n "$(ls "$work/jobs")" ] || { echo "mutants: no fault in $*" >&2; exit 2; }
 cat "$work"/jobs/*/tests | sort -u >"$work/tests"
 
-# goals TEST...: prints the make targets of these tests.
+# goals TEST...: prints the make targets that these tests require.
 goals()
 {
     for goal in "$@"; do
@@ -58,7 +58,7 @@ goals()
     done | sort -u
 }
 
-# build TREE LOG GOAL...: builds in a copy of the tree.
+# build TREE LOG GOAL...: makes the goals in a copy of the source tree, with the output in the file LOG; returns the status of make.
 build()
 {
     there=$1 log=$2; shift 2
@@ -71,7 +71,8 @@ build "$tree" "$work/log" -j"$lanes" build/cleave $objects || { tail -n 20 "$wor
 
 # ---- lanes -----------------------------------------------------------------------------------------------------------
 
-# attempt LANE FOLDER LIMIT TEST: runs a test in a copy of the tree for at most LIMIT seconds; returns its status.
+# attempt LANE FOLDER LIMIT TEST: runs a test in the copy of the source tree in FOLDER for at most LIMIT seconds; returns its exit status.
+# LANE: number of the background process.
 attempt()
 {
     here=$2 limit=$3 test=$4
@@ -86,7 +87,8 @@ attempt()
     return $result
 }
 
-# put_back LANE: restores the sources and objects of the lane, with their times.
+# put_back LANE: restores the sources and objects of the copy of the tree of this lane (background process) that have changed, with their
+# times.
 put_back()
 {
     (cd "$work/lane$1" && find . -type f -newer "$work/stamp$1") | while read -r path; do
@@ -99,7 +101,7 @@ put_back()
     done
 }
 
-# first LANE TEST: runs a test without a fault, once for all lanes. Records its duration, or why it cannot be used.
+# first LANE TEST: runs a test without a fault, once for all lanes. Records its duration in $work/first, or why it cannot be used.
 first()
 {
     name=$(basename "$2" .c) says=
@@ -128,7 +130,8 @@ first()
     echo $(($(date +%s) - begin)) >"$work/first/$name"
 }
 
-# judge LANE JOB: builds with the fault and runs its tests; records the verdict, and the test that decides, in JOB.
+# judge LANE JOB: puts the fault of the folder JOB into the copy of the tree of this lane, builds it and runs its tests. Writes the verdict,
+# and the test that detected the fault, to JOB.
 judge()
 {
     job=$2 file=$(cat "$2/file") verdict="NOT SEEN" by= tried=
@@ -159,7 +162,7 @@ judge()
     put_back "$1"
 }
 
-# lane NUMBER: judges the faults that no other lane has started.
+# lane NUMBER: one of the background processes; judges faults that no other lane has started, one after another, and prints a line for each.
 lane()
 {
     running=
