@@ -403,7 +403,7 @@ static bool check_partial(const struct particle_cloud *c, const struct partial_s
         assert_true(least_kept(m, p->dim, got) >= -CLOSE * m->c11);
         return false;
     }
-    /* The share of a bond that only touches a corner of the cell has an absolute error of 1e-16 on the order of 1. */
+    /* The length inside the cell of a bond that only touches its corner has an absolute error of 1e-16. */
     for (int k = 0; k < n * n; k++) assert_true(fabs(got[k] - expected[k]) <= CLOSE * fmax(largest, 1e-3));
     return true;
 }
@@ -420,7 +420,7 @@ static void check_partials(const struct particle_cloud *c, const struct partial_
 static void test_partial_stress(void **state)
 {
     (void)state;
-    int whole[2] = {0}; /* points whose bonds would carry more than the stress, and others */
+    int whole[2] = {0}; /* numbers of points whose bonds would carry more than the whole stress, and of others */
     for (int dim = 1; dim <= DIM_MAX; dim++)
         for (int way = 0; way < WAYS; way++) {
             struct particle_cloud c;

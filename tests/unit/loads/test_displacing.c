@@ -59,7 +59,7 @@ static void test_values(void **state)
             real u[DIM_MAX];
             const real place = formula ? square(m.c.p.X[0][k]) : 1;
             load_prescribed_displacement_of_particle(&m.l.load[0], &m.c.p, k, 2, u);
-            assert_near(u[0], 0.5 * 3 * place, 1e-15 * 3); /* t/4 at 2 is 1/2, and so is its integral */
+            assert_near(u[0], 0.5 * 3 * place, 1e-15 * 3); /* t/4 and its integral t^2/8 are both 1/2 at t = 2 */
             load_prescribed_displacement_of_particle(&m.l.load[0], &m.c.p, k, 6, u);
             assert_near(u[0], (displaces ? 1 : 4) * 3 * place, 1e-15 * 12);
             assert_true(u[1] == 0);

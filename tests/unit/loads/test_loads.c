@@ -42,7 +42,7 @@ static void test_sine(void **state)
     }
     for (int d = 0; d < 2; d++) assert_near(l.impulse[d], sum[d], 1e-12 * 3e6 * volume * dt * (double)p->n);
 
-    real work = 0; /* over the displacement, with the same forces */
+    real work = 0; /* work of the same forces on the displacements */
     for (int64_t i = 0; i < p->n; i++)
         for (int d = 0; d < 2; d++) {
             real way = 1e-6 * (real)(i + d);

@@ -138,7 +138,7 @@ static void check_partial(const struct quarter *q, const struct partial_stress *
         int32_t a = part->index[i], b = whole->index[q->twin[i]];
         assert_int_equal(a >= 0, b >= 0);
         if (a < 0) continue;
-        for (int k = 0; k < size; k++) /* shares of stress: of order one */
+        for (int k = 0; k < size; k++) /* fractions of stress, of order one */
             assert_true(fabs(part->matrix[a * size + k] - whole->matrix[b * size + k]) <= CLOSE);
         entries++;
     }

@@ -29,8 +29,8 @@ static void flow_block_make(struct block *b, enum space space, real yield, int o
     }
 }
 
-/* Creates in `space` the block b. Material 1 has linear hardening; material 0 has Voce's law or, in place of it, a back
- * stress, with recall if `recall` > 0. mode: time integration of the law; in explicit steps all points have laws. */
+/* Creates in `space` the block b. Material 0 has Voce's law and a back stress, with recall if `recall` > 0; so does
+ * material 1 in explicit steps, else it has linear hardening. mode: time integration of the law. */
 static void law_block_make(struct block *b, enum space space, real recall, enum law_mode mode)
 {
     flow_block_make(b, space, 0.05, WITH_BACK_STRESS | (mode == LAW_EXPLICIT ? WITH_MESH_STRESS : 0));

@@ -74,7 +74,7 @@ static void test_whole_and_cut(void **state)
                 whole[d] = NEW("test.whole", b.mesh.grid.n, real);
                 memcpy(whole[d], b.mesh.grid.force[d], sizeof(real) * (size_t)b.mesh.grid.n);
             }
-            struct partial_stress nothing; /* the same with every cell cut */
+            struct partial_stress nothing; /* zero partial stresses, with which no cell counts as complete */
             partial_of(&nothing, &b.c.p, b.c.material, 0);
             b.source.partial = &nothing;
             mesh_remove_points_and_return_lost_energy(&b.mesh, &b.c.p, &b.source, NULL, 0);

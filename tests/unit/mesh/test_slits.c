@@ -75,7 +75,7 @@ static void test_parts(void **state)
             int64_t pairs = 0;
             for (int64_t i = 0; i < b.c.p.n; i++)
                 for (int64_t j = 0; j < i; j++) {
-                    bool near = true; /* others share no node in any case */
+                    bool near = true; /* distant points share no node anyway */
                     for (int d = 0; d < dim; d++)
                         near = near && fabs(b.c.p.X[d][i] - b.c.p.X[d][j]) < 4 * CLOUD_SPACING;
                     if (!near || !parted(&b, i, j)) continue;

@@ -57,7 +57,7 @@ static void figures_are_found(void **state)
     for (size_t k = 0; k < COUNT_OF(wanted); k++) {
         double value;
         assert_int_equal(summary_read_number("sound", wanted[k].key, &value), OK);
-        assert_true(value == wanted[k].value); /* the same text gives the same number */
+        assert_true(value == wanted[k].value); /* equal texts are converted to equal numbers */
     }
     char name[32], cut[4];
     assert_int_equal(summary_read_string("sound", "name", name, sizeof name), OK);

@@ -229,7 +229,7 @@ static void indices_list_all_frames(void **state)
     for (int k = 0; k < 40; k++) assert_int_equal(output_write_frame(&o, &p, k / 7.0, k, scene_text), OK);
     assert_int_equal(run_list_frames("indices", &n, &list), OK);
     assert_int_equal(n, 40);
-    /* 17 digits: the same double. */
+    /* 17 digits restore a double exactly. */
     for (int k = 0; k < n; k++) assert_true(list[k].number == k && list[k].time == k / 7.0);
     memory_free(list);
     assert_int_equal(file_read_whole("indices/frames.xdmf", &text, &length), OK);
@@ -315,7 +315,7 @@ static void older_run_is_replaced_unless_resumed(void **state)
     for (size_t k = 0; k < COUNT_OF(made); k++) assert_int_equal(output_write_text(&o, made[k], "x", 1), OK);
     assert_int_equal(output_write_text(&o, "frames/000000.hdf.cleave.tmp", "x", 1), OK);
     assert_int_equal(file_append_checksum_footer("again/frames/000000.hdf"),
-                     OK); /* by which a frame is known as Cleave's */
+                     OK); /* the footer that marks a frame as Cleave's */
     assert_int_equal(file_replace_by_temporary("again/frames/000000.hdf"), OK);
     static const char *const others[] = {"frames/000001.hdf.tmp", "checkpoint.h5.tmp", "history.csv.tmp"};
     for (size_t k = 0; k < COUNT_OF(others); k++) assert_int_equal(output_write_text(&o, others[k], "mine", 4), OK);

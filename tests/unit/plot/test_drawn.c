@@ -60,8 +60,8 @@ static void graded_lists_are_closed(void **state)
     plotted_particles_free(&c), frame_free(&f);
 }
 
-/* Checks that pictures of one frame and of six show the same section of a rigid plate much longer than the body. A
- * section through a solid that misses the plate is not enlarged by it. */
+/* Checks that pictures of one frame and of six show the same part of a rigid plate much longer than the body, 0.3 of
+ * the width of the body on each side. A section through a solid that misses the plate is not enlarged by it. */
 static void long_rigid_bodies_are_cut_off(void **state)
 {
     (void)state;

@@ -77,8 +77,8 @@ static status tape_exchange(struct archive *a, const char *name, void *data, siz
     return OK;
 }
 
-/* Checks the error of the momentum balance of a body that was fast, is slow and then loses momentum. The error is
- * relative to the largest momentum so far, before and after a restart. */
+/* Checks the errors of both balances of a body that was fast, is slow and then gains momentum. They are relative to the
+ * largest sum of m |v| and to the largest energy so far, before and after a restart. */
 static void ledger_survives_a_restart(void **state)
 {
     (void)state;

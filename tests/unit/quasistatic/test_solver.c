@@ -374,7 +374,10 @@ static void test_on_plane(void **state)
     solve(&b, QUARTER("-0.1 mm", "4.9 mm"), "solver=cg", "solver_tolerance=1e-7", NULL);
     solved(&a), solved(&b);
     assert_true(fabs(a.e.part.X[0][0]) < 1e-15);
-    assert_int_equal(a.e.loads.images, 3 * 24 + 3 * 24 + 3 * 3 + 2 * 3); /* three layers, and those of the planes */
+    assert_int_equal(
+        a.e.loads.images,
+        3 * 24 + 3 * 24 + 3 * 3 +
+            2 * 3); /* three layers beyond each plane and at the corner; 2 x 3 of particles on the other plane */
     assert_true(difference(&a, &b) < 1e-4);
     assert_true(b.e.clock.step < 150);
     solution_free(&a), solution_free(&b);

@@ -56,7 +56,7 @@ static void test_trial_within_trial(void **state)
     expect(&e, 0.125);
     flow(&e, 0.5);
     plastic_state_restore(&e.statics->plastic, &e.bonds, &e.part, e.optional);
-    expect(&e, 0.125); /* the start of the next solution, not that of the inner trial */
+    expect(&e, 0.125); /* the state before the outer trial */
     run_free_memory(&e);
     scene_free(&s);
 }

@@ -124,8 +124,8 @@ static void symmetric_bodies_are_filled_symmetrically(void **state)
     }
 }
 
-/* Checks that a driven layer below the plate continues the lattice of the plate, and so does a second body, whose
- * lattice is not aligned with its own box. */
+/* Checks that a layer below the plate continues the lattice of the plate, whether it is a part of the plate or a second
+ * body. A body of infinite extent is refused. */
 static void added_solids_continue_the_lattice(void **state)
 {
     (void)state;
@@ -360,7 +360,7 @@ static void bad_bodies_are_refused(void **state)
     s.initial[0].sets_strain = true;
     s.initial[0].displacement_gradient[0] = -1.5;
     assert_refused(bodies_fill_with_particles(&p, &s.scene, NULL, 0), "inside out");
-    s.initial[0].displacement_gradient[s.scene.dim + 1] = 3; /* expanded across by as much and more */
+    s.initial[0].displacement_gradient[s.scene.dim + 1] = 3; /* lateral stretch of 4 */
     assert_refused(bodies_fill_with_particles(&p, &s.scene, NULL, 0), "inside out");
     s.scene.bodies = 0;
     assert_refused(bodies_fill_with_particles(&p, &s.scene, NULL, 0), "the scene has no body");

@@ -48,8 +48,8 @@ static void csv_lists_are_read(void **state)
     remove(name);
 }
 
-/* Checks two bodies from one file, each with its own rows. A missing spacing is replaced by that of the mean
- * particle. */
+/* Checks two bodies from one file, each with its own rows. Without a spacing in the scene, particles are sorted with
+ * the spacing of the mean particle. */
 static void bodies_share_a_list(void **state)
 {
     (void)state;

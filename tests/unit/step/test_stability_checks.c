@@ -65,7 +65,7 @@ static void pace_of_few_values(void **state)
                      RISE_UNSURE); /* at some time within 20000 steps */
     quantity_samples_add_value(&r, 640, -1e-3);
     assert_int_equal(quantity_samples_classify_growth_rate(&r, 1280, 1, &steps), RISE_FAST);
-    quantity_samples_add_value(&r, 650, 0.5); /* too close to the last: left out */
+    quantity_samples_add_value(&r, 650, 0.5); /* too close to the previous value: ignored */
     assert_int_equal(r.n, 2);
     quantity_samples_add_value(&r, 1280, 1e-3); /* a background value, or slow growth: undecidable */
     assert_int_equal(quantity_samples_classify_growth_rate(&r, 1920, 1, &steps), RISE_UNSURE);
