@@ -22,7 +22,7 @@ static const struct {
     {"model|method|choosing|choice|accuracy", "inputs/choosing.md"},
     {"result|results|figures|summary|frame|frames|output|csv|hdf|paraview", "inputs/results.md; `cleave help run`"},
     {"fragment|fragments|fragmentation|pieces",
-     "fragments.csv and fragment of summary.json, in inputs/results.md; a scene: inputs/ring_fragments.yaml"},
+     "fragments.csv and `fragments` of summary.json, in inputs/studies.md; a scene: inputs/ring_fragments.yaml"},
     {"impact|projectile|collision|bodies_meet|spall", "inputs/contact.md; `cleave new NAME impact` writes a scene"},
     {"branch|branching|crack_branching", "a scene: inputs/glass_branching.yaml; the probe `tip` follows a crack tip"},
     {"crack|crack_growth|crack_propagation|propagation|growth|fracture_mechanics",

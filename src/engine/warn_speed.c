@@ -121,8 +121,8 @@ void run_warn_of_supports_moving_too_fast(const struct scene *s, const struct lo
                 s->boundary[b].name, speed, limit);
         else
             warnings_add_if_new(warnings,
-                                "boundary %s: at t = 0 its velocity differs by up to %.3g m/s from that of its "
-                                "particles; from %.3g m/s on (critical stretch x wave speed) bonds beside it break; "
+                                "boundary %s: its velocity differs by up to %.3g m/s from that of its particles at "
+                                "t = 0; from %.3g m/s on (critical stretch x wave speed) bonds beside it break; "
                                 "use a lower velocity; if an impact is intended, add accept: [speed]",
                                 s->boundary[b].name, jump, limit);
     }

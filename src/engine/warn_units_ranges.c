@@ -36,7 +36,7 @@ static const struct {
     [ACCEPT_REACH] = {1, INFINITY, "in the duration waves travel", " spacings", "duration, lengths (m) and young (Pa)"},
     [ACCEPT_PARTICLES] = {8, INFINITY, "it has a crack, and its least number of particles across is", "",
                           "spacing and lengths (m)"},
-    [ACCEPT_DENSITY] = {0.5, 3e4, "its density is", " kg/m^3", "density (kg/m^3; g/cm^3?)"},
+    [ACCEPT_DENSITY] = {0.5, 3e4, "its density is", " kg/m^3", "density (kg/m^3; g/cm^3? t/mm^3?)"},
     [ACCEPT_YIELD] = {2e-5, 0.3, "its yield stress over Young's modulus is", "", "yield_stress (Pa) and young (Pa)"},
     [ACCEPT_PASSAGES] = {0, 2000, "the number of times that waves cross the bodies in the duration is", "",
                          "duration (s), lengths (m) and young (Pa)"},

@@ -94,7 +94,8 @@ static status mirror_checked(const struct boundary *b, const struct particles *p
     }
     if (!(below && above)) return OK;
     return status_set(REFUSED,
-                      "boundary %s: the mirror plane %c = %.6g m cuts the body; move the plane to a face of the body",
+                      "boundary %s: the mirror plane %c = %.6g m cuts the body; move the plane to a face of the "
+                      "body, or cut the body there (`intersect` or `subtract` a box)",
                       b->name, "xyz"[b->axis], b -> at);
 }
 

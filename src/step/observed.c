@@ -55,7 +55,7 @@ static void say_torn(struct warnings *to, const struct loads *loads, const struc
 {
     const uint8_t both = FLAG_DRIVEN | FLAG_LOST_BOND;
     const char *name = "";
-    char text[512];
+    char text[768];
     int others = -1;
     for (int b = loads->n; b-- > 0;) {
         const struct load *l = &loads->load[b];
@@ -64,11 +64,14 @@ static void say_torn(struct warnings *to, const struct loads *loads, const struc
             tears |= (p->flag[l->particle[k]] & both) == both;
         if (tears) name = l->boundary->name, others++;
     }
-    snprintf(text, sizeof text,
-             "boundary %s%s: bonds of the particles that it drives break, the first %s, so the grip may tear off and "
-             "no longer load the body; drive a deeper layer (a larger depth or region), or look at the damage there. "
-             "These bonds count in crack.driven_bonds, not in crack.start_time and probes",
-             name, others > 0 ? " and others" : "", when);
+    snprintf(
+        text, sizeof text,
+        "boundary %s%s: bonds of the particles that it drives break, the first %s, so the grip may tear off and "
+        "no longer load the body. If the motion stretches the body behind beyond the stretch at which bonds break, use "
+        "a lower speed or a motion that ends; if the grip alone tears, drive a deeper layer (a larger depth or "
+        "region). Look at the damage there. "
+        "These bonds count in crack.driven_bonds, not in crack.start_time and probes",
+        name, others > 0 ? " and others" : "", when);
     warnings_add_and_print(to, text);
 }
 

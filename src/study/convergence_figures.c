@@ -319,7 +319,7 @@ static struct scalar_result_study figure_in_printed_unit(const struct scalar_res
         level->mean /= unit.factor, level->error /= unit.factor, level->deviation /= unit.factor;
         p.c.uncertainty[k] /= unit.factor, p.c.discretisation[k] /= unit.factor;
     }
-    p.c.extrapolated /= unit.factor;
+    p.c.extrapolated /= unit.factor, p.c.index /= unit.factor;
     return p;
 }
 

@@ -218,6 +218,7 @@ status result_name_check_is_known(const struct scene *s, const char *name)
     if (known)
         return status_set(REFUSED, "%.80s: runs of this scene do not have this figure, which needs %s", name, lacks);
     const bool similar = n.distance <= (int)strlen(n.name) / 2;
+    for (char *number = n.name; (number = strchr(number, '#'));) *number = '0';
     return status_set(
         REFUSED, "%.80s: summary.json has no such figure; %s%s%s (join names by points, such as crack.angle_deg)", name,
         similar ? "did you mean " : "see inputs/results.md", similar ? n.name : "", similar ? "?" : "");

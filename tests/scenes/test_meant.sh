@@ -231,7 +231,7 @@ boundary:
   - {name: other, traction: [0, 0], face: x-}
 output: {frames: 0, samples: 20}
 END
-free=$work/free.yaml changes='boundary pull: its velocity changes by up to 20 m/s within 2.07e-06 s, the time' held='boundary pull: at t = 0 its velocity differs by up to 20 m/s from that of its particles'
+free=$work/free.yaml changes='boundary pull: its velocity changes by up to 20 m/s within 2.07e-06 s, the time' held='boundary pull: its velocity differs by up to 20 m/s from that of its particles at t = 0'
 alike='boundary.other={name: other, velocity: [20, free], face: x-, time: {ramp: {until: 1 ms}}}'
 silent "a slow ramp on a free body" 'beside it break' "$free"
 says "a fast ramp on a free body" "$changes" "$free" -s 'boundary.pull.time={ramp: {until: 1 us}}'

@@ -16,7 +16,11 @@ pyvista, which are imported at the first call. Files are read when they are requ
 try:
     import numpy  # noqa: F401: the only package that every function needs
 except ImportError:
-    raise ImportError("cleave: the package numpy is missing (pip install numpy; Debian: apt-get install python3-numpy)") from None
+    import sys
+
+    raise ImportError(
+        f"cleave: {sys.executable} has no package numpy (for it: pip install numpy; for /usr/bin/python3 of Debian: apt-get install python3-numpy)"
+    ) from None
 
 from ._errors import Error, SceneError
 from ._frame import Frame, Frames
