@@ -1,5 +1,5 @@
-/* Target of fuzz.h: particle lists in CSV. They are refused in one line, or every position and volume of an accepted
- * list is finite. */
+/* Target of fuzz.h: particle lists in CSV. They are refused in one line, or all positions and velocities of an accepted
+ * list are finite and its materials have names or numbers in range. */
 #include <fcntl.h>
 #include <math.h>
 #include <string.h>

@@ -85,9 +85,9 @@ struct store {
     } entry[ENTRIES];
 };
 
-/* Saves the entry called `name`, `size` bytes from `data` on, in the store a->file if a->saving is true, else restores
- * it from there: the function of an archive that is a store. The test fails if a name is saved twice or restored
- * without having been saved, or if the size differs. Returns OK. */
+/* Saves the entry called `name`, `size` bytes at `data`, in the store a->file if a->saving is true, else restores these
+ * bytes from it: the exchange function of a struct archive whose file is a store. The test fails if a name is saved
+ * twice, is restored without having been saved, or has another size. Returns OK. */
 static inline status store_exchange(struct archive *a, const char *name, void *data, size_t size)
 {
     struct store *s = a->file;
@@ -132,7 +132,7 @@ static inline void notched_free(struct body *b, struct crack_tips *t)
 }
 
 /* Returns a brittle material with Young's modulus 200 Pa, Poisson's ratio 0.25, density 1 kg/m^3 and critical stretch
- * 1, with the constants derived for a space. */
+ * 1, with the constants derived for the space `space`. */
 static inline struct material steel(enum space space)
 {
     struct material m = {.young = 200, .poisson = 0.25, .density = 1, .critical_stretch = 1};

@@ -1,15 +1,15 @@
-# Sourced by tests of pages, after summary.sh: opens pages of cleave report in Chromium. browser: its command; empty: none is there.
+# Sourced by tests of pages, after summary.sh: opens pages of `cleave report` in Chromium. $browser: its command, empty if there is none.
 browser=
 for name in chromium chromium-browser google-chrome; do [ -n "$browser" ] || browser=$(command -v $name || true); done
 
-# chrome ARGUMENTS: Chromium without window and network.
+# chrome ARGUMENTS: runs Chromium without window and network; its messages are in $work/console.
 chrome()
 {
     timeout 300 "$browser" --headless --no-sandbox --disable-gpu --hide-scrollbars --user-data-dir="$work/profile" --proxy-server=127.0.0.1:9 \
         --window-size=1200,1500 --virtual-time-budget=30000 "$@" 2>"$work/console"
 }
 
-# seen NAME: what report_probe.js saw on the page of this run, in the file NAME.json.
+# seen NAME: opens the report of the run $work/NAME and stores what report_probe.js finds on the page in $work/NAME.json.
 seen()
 {
     { sed 's|<head>|&<script>const problems = []; for (const e of ["error", "securitypolicyviolation"]) addEventListener(e, (what) => problems.push(e + ": " + (what.message \|\| what.violatedDirective)), true); console.error = (what) => problems.push(String(what));</script>|' \
@@ -18,5 +18,5 @@ seen()
 }
 # The interpreter itself, without modules of other origin: `python3` may be a script that first looks for one, which takes twenty times as long.
 interpreter="$(python3 -c 'import sys; print(sys.executable)') -S"
-# says NAME EXPRESSION: checks a condition on what was seen, s.
+# says NAME EXPRESSION: checks that a Python expression of s, the contents of $work/NAME.json, is true.
 says() { $interpreter -c "import json, sys; s = json.load(open('$work/$1.json')); sys.exit(0 if $2 else 1)" 2>/dev/null && pass || fail "$1: not $2: $(cut -c1-1500 "$work/$1.json")"; }

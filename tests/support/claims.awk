@@ -22,7 +22,7 @@ BEGIN { FS = ","; number = "[-+]?[0-9]+([.][0-9]+)?([eE][-+]?[0-9]+)?" }
 
 function bad(text) { print text; failures++ }
 
-# Reads a document: page[name] and the text below each heading, section[name, heading].
+# Reads a document into page[name] and the text below each of its headings into section[name, heading].
 function load(name,    line, title, fenced)
 {
     loaded[name] = 1
@@ -43,7 +43,7 @@ function load(name,    line, title, fenced)
     if (page[name] == "") bad(name ": no such document")
 }
 
-# Finds the number that # stands for in `place`: "" and a message in `fault` unless it is there exactly once.
+# Finds in `place` the number at the position of #. Returns "" and sets `fault` to a message unless there is exactly one.
 function find(where, place,    half, n, rest, found, piece)
 {
     gsub(/@/, "[-+0-9.e]+", place)
@@ -64,7 +64,7 @@ function find(where, place,    half, n, rest, found, piece)
     return found
 }
 
-# Half of the last digit that a number is written with.
+# Returns half a unit of the last digit with which a number is written.
 function half_digit(value,    digits, exponent)
 {
     digits = value
@@ -75,14 +75,15 @@ function half_digit(value,    digits, exponent)
 
 function apart(a, b) { return a - b > 0 ? a - b : b - a }
 
-# The file that `source` names before its expression: "" if none.
+# Returns the file that a source names before its expression; "" if it names none.
 function file_of(source)
 {
     if (match(source, /^test_[a-z_]+: /)) return fresh ? substr(source, 1, RLENGTH - 2) ".txt" : ""
     return match(source, /^[A-Za-z0-9_.\/]+[.][a-z]+: /) ? substr(source, 1, RLENGTH - 2) : ""
 }
 
-# The number in the line of a file, or of a bench's printed results, that `source` matches; benches with = in their name have files with _.
+# Returns the number in the line of a file, or of the printed results of a bench, that `source` matches. Results of benches with = in their
+# name are in files with _ instead.
 function printed(command, source,    name, words, line, found, value, factor, offset, within)
 {
     name = file_of(source)
@@ -125,7 +126,7 @@ function printed(command, source,    name, words, line, found, value, factor, of
     return found == "" ? "" : found * factor + offset
 }
 
-# Whether `got` agrees with a row's value: within its tolerance, or on the side that < and > tell.
+# Returns whether `got` is within the tolerance of a row's value, or on the side of it that < or > states.
 function agrees(got, value, tolerance)
 {
     if (tolerance == "<") return got <= value + half_digit(value)
@@ -133,7 +134,7 @@ function agrees(got, value, tolerance)
     return apart(got, value) <= tolerance
 }
 
-# Whether inputs/references.md lists the publication that a source names: all of its words stand in one line.
+# Returns whether a line of inputs/references.md contains all words of the publication that a source names.
 function listed(what,    words, n, k, line, all)
 {
     n = split(what, words, " ")
@@ -146,7 +147,7 @@ function listed(what,    words, n, k, line, all)
     return all
 }
 
-# A place in a document, with its section if one is named.
+# Returns the text of a document in which a place is searched: the section that the place names, else the whole page.
 function stated(name, place,    title, at)
 {
     if (!loaded[name]) load(name)
@@ -186,7 +187,8 @@ file_of($6) == "" && $6 !~ /^(-$|paper: |formula: )/ && $5 !~ /^cleave bench / {
     count++
 }
 
-# Every number in the tables of a document, but for first columns and columns of limits, references, sizes and commands, is claimed.
+# Checks that every number in the tables of a document is claimed, i.e. is in bench/claims.csv; first columns and columns of limits,
+# references, sizes and commands are left out.
 function cells(name, only,    k, n, cell, head, heads, j, rest, value)
 {
     if (!loaded[name]) load(name)

@@ -1,10 +1,10 @@
-# Figures of bench/claims.csv that runs of scenes and benches give now, for test_claims.sh, long_claims.sh and tests that run such scenes.
-# Sourced after summary.sh, whose functions it uses.
+# Compares the figures of bench/claims.csv, numbers that documents state, with those that scenes and benches yield when they are run; for
+# test_claims.sh, long_claims.sh and tests that run such scenes anyway. Sourced after summary.sh, whose functions it uses.
 claims=$root/bench/claims.csv
 compare() { awk -v results="$1" -v fresh="$2" -v tables="${3:-}" -f "$root/tests/support/claims.awk" "$claims"; }
 
-# scene_of NAME: the scene that a command names. A name without a folder is that of a scene printed in README.md below a line with `NAME`,
-# or in a page of the manual below `# NAME`: it is written to a file of its own.
+# scene_of NAME: prints the path of the scene that a command names. A name without a folder is that of a scene printed in README.md below a
+# line with `NAME`, or in a page of the manual below `# NAME`, which is written to a file.
 scene_of()
 {
     case $1 in
@@ -18,8 +18,8 @@ scene_of()
     echo "$work/$1"
 }
 
-# each FILE FORMULA: prints a formula for every line of a table, with names of its columns in brackets; ` if CONDITION` behind it selects
-# lines. A name alone needs no brackets.
+# each FILE FORMULA: prints the value of a formula for every line of a CSV table. The formula contains names of columns in brackets; a
+# condition after ` if ` selects lines. A single name needs no brackets.
 each()
 {
     awk -F, -v formula="$2" '
@@ -37,10 +37,10 @@ each()
     awk -F, -v OFMT=%.12g -f "$work/each.awk" "$1"
 }
 
-# count FILE CONDITION: the number of lines of a table for which a condition holds.
+# count FILE CONDITION: prints the number of lines of a table for which the condition is true.
 count() { each "$1" "1 if $2" | wc -l | tr -d ' '; }
 
-# over FOLDER WHAT FORMULA: the `largest`, `smallest`, `first`, `last` or `mean` value of a formula over the lines of history.csv.
+# over FOLDER WHAT FORMULA: prints the `largest`, `smallest`, `first`, `last` or `mean` value of a formula over the lines of history.csv.
 over()
 {
     each "$1/history.csv" "$3" | awk -v OFMT=%.12g -v what="$2" '
@@ -49,9 +49,9 @@ over()
         END { print what == "mean" && NR ? sum / NR : value }'
 }
 
-# value_at RUN PATH: a figure of the run RUN1: its path in summary.json; `column NAME TIME`: a column of history.csv at the last sample not
-# after a time [s]; `passes NAME VALUE`: the first time at which a column is at least a value; `largest FORMULA` and others: as in over();
-# `fragments CONDITION`: lines of fragments.csv. N|PATH: of the N-th run of a command.
+# value_at RUN PATH: prints a figure of the run in the folder RUN1; N|PATH: in the folder RUNN. PATH: a path in summary.json; `column NAME
+# TIME`: a column of history.csv at the last sample not after TIME [s]; `passes NAME VALUE`: the first time at which a column is at least
+# VALUE; `largest FORMULA` and the like, as in over(); `fragments CONDITION`: the number of such lines of fragments.csv.
 value_at()
 {
     case $2 in
@@ -68,8 +68,8 @@ value_at()
     esac
 }
 
-# value_of RUN SOURCE: the figure that a source gives of a run: a path, with a formula behind it after a blank; or a formula with paths in
-# braces.
+# value_of RUN SOURCE: prints the figure that SOURCE describes of the runs RUN1, RUN2, ...: a path of value_at() followed by a formula after
+# a blank, or a formula with paths in braces; nothing if a path is missing.
 value_of()
 {
     formula=$2
@@ -88,7 +88,7 @@ value_of()
     case $formula in *missing* | *null*) ;; *) compute "$formula" ;; esac
 }
 
-# runs TO COMMAND: runs its scenes, `cleave run SCENE [OPTION...]` with && between them, and leaves them in folders TO1, TO2, ...
+# runs TO COMMAND: runs the scenes of a command, `cleave run SCENE [OPTION...]` joined by &&, into the folders TO1, TO2, ...
 runs()
 {
     part=0
@@ -107,7 +107,7 @@ runs()
     done
 }
 
-# formulas: compares rows whose source is a formula with it.
+# formulas: checks the value of each row whose source is a formula against this formula.
 formulas()
 {
     awk -F, '$6 ~ /^formula: / { print $2 "," $3 "," substr($6, 10) "," $1 }' "$claims" >"$work/rows"
@@ -117,7 +117,8 @@ formulas()
 # Rows of the table that a run of a scene gives: not those of files, publications, formulas, or without a source.
 of_runs='$5 ~ /^cleave run / && $6 !~ /^([A-Za-z0-9_.\/]+[.][a-z]+: |paper: |formula: |-$)/'
 
-# compare_rows WHEN COMMAND RUN: compares what RUN1, RUN2, ... give with value and tolerance of the rows of this kind and command.
+# compare_rows WHEN COMMAND RUN: checks the rows of this kind and command: their values against the figures of the runs RUN1, RUN2, ...,
+# within the tolerances of the rows.
 compare_rows()
 {
     awk -F, -v when="$1" -v command="$2" '$4 == when && $5 == command && '"$of_runs"' { print $2 "," $3 "," $6 "," $1 }' "$claims" |
@@ -133,8 +134,8 @@ compare_rows()
     done <"$work/rows"
 }
 
-# claimed FOLDER COMMAND: compares the quick rows of a command with a run of it that a test has made for other reasons; test_claims.sh leaves
-# such commands out. The command is written out in quotes, as in the table.
+# claimed FOLDER COMMAND: checks the `quick` rows of a command with a run of it that the calling test has made anyway; test_claims.sh leaves
+# such commands out. The command must be in double quotes, as in the table, since test_claims.sh searches for it.
 claimed()
 {
     ln -s "$work/$1" "$work/claimed1"
@@ -142,7 +143,7 @@ claimed()
     rm "$work/claimed1"
 }
 
-# measure WHEN: runs each command of the rows of this kind once, and compares what its runs give with value and tolerance.
+# measure WHEN: runs each command of the rows of this kind once and checks the figures of its runs with compare_rows().
 measure()
 {
     awk -F, -v when="$1" 'NR > 1 && $4 == when && '"$of_runs"' && !($5 in seen) { seen[$5] = 1; print $5 }' "$claims" >"$work/commands"

@@ -21,8 +21,8 @@ static inline real cloud_half_width(enum shape shape, real h)
     return 0.5 * (shape == SHAPE_QUADRATIC ? h : CLOUD_SPACING);
 }
 
-/* Plan of a body on a lattice of CLOUD_SPACING. The members left at 0 stand for one particle in a direction, a regular
- * lattice, whole volumes and calibration on the lattice. */
+/* Plan of a body on a lattice of CLOUD_SPACING, from which particle_cloud_make makes its particles. Members that are 0
+ * mean: one particle in this direction, a regular lattice, whole volumes of neighbours, calibration on the lattice. */
 struct cloud_plan {
     enum space space;
     int count[DIM_MAX]; /* particles per direction; 0 means 1 */
@@ -37,9 +37,9 @@ struct cloud_plan {
     enum influence influence;
 };
 
-/* A body with all that bond kernels need: particles, two materials with the limits and yield stretches of their bonds
- * (by pair of materials), cells, source of bonds, bonds, and the arrays of surface corrections. It owns its arrays;
- * release them with particle_cloud_free. */
+/* A body with all that bond kernels need: particles; two materials, with the limits and yield stretches of bonds by
+ * pair of materials; cells for the neighbour search; bonds and the data from which they are made; surface corrections.
+ * It owns its arrays; release them with particle_cloud_free. */
 struct particle_cloud {
     struct particles p;
     struct material material[CLOUD_MATERIALS];

@@ -7,7 +7,8 @@
 
 static const double SPACING = 1e-3; /* [m] */
 
-/* Creates a block of nx x ny x nz particles at rest, without damage, in dim dimensions. */
+/* Returns an output frame of nx x ny x nz particles at rest on a lattice centred at the origin, without damage, in dim
+ * dimensions. Its arrays are allocated. */
 static struct output_frame block_make(int nx, int ny, int nz, int dim)
 {
     const int count[3] = {nx, ny, nz};

@@ -4,11 +4,11 @@
 
 #include "kernels/laws/law_update.h"
 
-/* Maps the trial stress of one point [Pa] back to the yield surface, in place, by one explicit step at 300 K without
- * effect of the strain rate. before: stress at the start of the step [Pa], NULL: 0; both have the components of
- * particles.stress. *a, *work: accumulated plastic strain [1] and plastic work [J/m^3], updated; *zz, used in plane
- * strain only: sigma_zz - nu (sigma_xx + sigma_yy) [Pa], updated. Returns the increment of plastic strain [1], 0 if the
- * point does not yield; nothing is changed then. */
+/* Maps the trial stress of one point back to the yield surface of the flow law `law`, in place, by one explicit step at
+ * 300 K without an effect of the strain rate. stress: trial stress [Pa]; before: stress at the start of the step [Pa],
+ * NULL: 0; both with the components of particles.stress. *a, *work: accumulated plastic strain [1] and plastic work
+ * [J/m^3], updated. *zz: sigma_zz - nu (sigma_xx + sigma_yy) in plane strain [Pa], updated. Returns the increment of
+ * plastic strain [1]; 0, with nothing changed, if the point does not yield. */
 static inline real law_step(const struct law *law, enum space space, const real *before, real *stress, real *a,
                             real *work, real *zz)
 {

@@ -1,10 +1,9 @@
 #!/bin/sh
-# lint.sh FILES: searches C files for faults without running them (`make lint`). cppcheck reads all files together, clang-tidy 14 each
-# alone, with the checks of .clang-tidy. Prints what is found; status 1 if there is anything.
-#
-# cppcheck leaves out three of its own checks: uninitvar takes arrays of fixed length for unset that a loop fills (the compiler and
-# valgrind see those that are), arrayIndexOutOfBoundsCond takes a test of one bound for one of both, and compareBoolExpressionWithInt
-# names loops to `dim > 1`, which are meant: they end at 0 in a line.
+# lint.sh FILES: searches C files for faults without running them (`make lint`), by cppcheck for all files together and clang-tidy 14 for
+# each one with the checks of .clang-tidy. Prints what they report; exit status 1 if they report anything.
+# Three checks of cppcheck are switched off. uninitvar regards arrays of fixed length as unset that a loop fills (the compiler and valgrind
+# detect real cases); arrayIndexOutOfBoundsCond regards a test of one bound as one of both; compareBoolExpressionWithInt reports loops to
+# `dim > 1`, which are intended.
 set -u
 for tool in cppcheck clang-tidy-14; do
     command -v $tool >/dev/null || { echo "$tool is missing: apt-get install cppcheck clang-tidy-14" >&2; exit 1; }

@@ -43,9 +43,10 @@ struct spectrum {
     real imaginary;       /* largest imaginary part of the eigenvalues of M^-1 K over the highest; NAN: not computed */
 };
 #define OPERATOR_ZERO 1e-9
-/* displacement [spacings]: terms of third order contribute this relative error of the energy */
+/* Displacement for tests of the energy [spacings]: terms of third order cause a relative error of the energy of this
+ * size. */
 #define OPERATOR_SHAKE 1e-6
-/* displacement [spacings]: four-point differences have an error of 1e-14, round-off causes 1e-11 */
+/* Displacement for derivatives [spacings]: four-point differences have an error of 1e-14, round-off causes 1e-11. */
 #define OPERATOR_STEP 2e-4
 
 /* ---- unknowns ---------------------------------------------------------------------------------------------------- */

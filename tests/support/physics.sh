@@ -5,8 +5,8 @@
 # scene NAME: writes standard input as the scene NAME.
 scene() { cat >"$work/$1.yaml"; }
 
-# strip SPACE [MATERIAL]: prints the scene of a strip of steel between rollers, whose end is loaded by a pressure of 100 MPa; further keys of
-# its material.
+# strip SPACE [MATERIAL]: prints the scene of a strip of steel between rollers, whose end is loaded by a pressure of 100 MPa. MATERIAL:
+# further keys of its material.
 strip()
 {
     to="4 mm" middle="1.5 mm" from=0 depth="thickness: 1 mm" rollers=""
@@ -32,7 +32,8 @@ probes: [{point: {name: near, at: [50.5 mm, $middle]}}, {point: {name: far, at: 
 END
 }
 
-# go FOLDER NAME [ARGUMENT...]: starts a run of such a scene in the background, at most two at a time; `landed` waits for the last.
+# go FOLDER NAME [ARGUMENT...]: starts a run of the scene NAME of scene() in the background, at most two at a time; `landed` waits for those
+# still running.
 going=0
 go()
 {
@@ -44,8 +45,8 @@ go()
 
 landed() { wait; going=0; }
 
-# read_csv: common start of the awk programs here: `at` is the index of the column `name`, x that of positions. Values to be compared need a
-# "+ 0": awk reads numbers below 1e-308 as words.
+# read_csv: common beginning of the awk programs of this file: sets `at` to the index of the column `name` and x to that of the column x.
+# Values to be compared need a "+ 0", since awk reads numbers below 1e-308 as words.
 read_csv='FNR == 1 {
     for (k = 1; k <= NF; k++) { sub(/ \[.*/, "", $k); if ($k == name) at = k; if ($k == "x") x = k }
     next
@@ -53,7 +54,7 @@ read_csv='FNR == 1 {
 
 # ---- series: a column of history.csv over time ---------------------------------------------------------------------
 
-# mean FOLDER COLUMN FROM TO: prints its mean over these times [s].
+# mean FOLDER COLUMN FROM TO: prints the mean of a column between two times [s].
 mean()
 {
     awk -F, -v name="$2" -v from="$3" -v to="$4" "$read_csv"'
@@ -61,7 +62,7 @@ mean()
         END { if (n) printf "%.9g", sum / n }' "$work/$1/history.csv"
 }
 
-# most FOLDER COLUMN [FROM]: prints its largest magnitude at any sample, or from this time [s] on.
+# most FOLDER COLUMN [FROM]: prints the largest magnitude of a column over all samples, or over those from the time FROM on [s].
 most()
 {
     awk -F, -v name="$2" -v from="${3:-0}" "$read_csv"'
@@ -69,7 +70,7 @@ most()
         END { if (n) printf "%.9g", largest }' "$work/$1/history.csv"
 }
 
-# rises FOLDER COLUMN VALUE: prints the time at which it first reaches the value [s], interpolated between samples.
+# rises FOLDER COLUMN VALUE: prints the time at which a column first reaches the value [s], interpolated between samples.
 rises()
 {
     awk -F, -v name="$2" -v value="$3" "$read_csv"'
@@ -79,7 +80,7 @@ rises()
 
 # ---- profiles: a line probe called `bar` at the end of the run, with one station per particle ----------------------
 
-# along FOLDER COLUMN FROM TO: prints its mean over the stations between two positions [m].
+# along FOLDER COLUMN FROM TO: prints the mean of a column over the points of the profile between two positions [m].
 along()
 {
     awk -F, -v name="$2" -v from="$3" -v to="$4" "$read_csv"'
@@ -95,7 +96,8 @@ strain()
         END { if (n > 1) printf "%.9g", (u1 - u0) / (x1 - x0) }' "$work/$1/bar_000001.csv"
 }
 
-# front FOLDER VALUE: prints the first position, midway between stations, at which du/dx exceeds the value with increasing x [m].
+# front FOLDER VALUE: prints the first position at which du/dx rises to the value with increasing x [m], interpolated between the middles of
+# neighbouring points of the profile.
 front()
 {
     awk -F, -v name=displacement_x -v value="$2" "$read_csv"'
@@ -108,7 +110,7 @@ front()
         { place = $x; u = $at }' "$work/$1/bar_000001.csv"
 }
 
-# astray FOLDER COLUMN A B C: prints its largest difference from A + B x + C x^2.
+# astray FOLDER COLUMN A B C: prints the largest difference of a column of the profile from A + B x + C x^2.
 astray()
 {
     awk -F, -v name="$2" -v a="$3" -v b="$4" -v c="$5" "$read_csv"'
@@ -116,7 +118,7 @@ astray()
         END { if (n) printf "%.9g", largest }' "$work/$1/bar_000001.csv"
 }
 
-# extreme FOLDER COLUMN: prints its largest magnitude in the last profiles of all lines.
+# extreme FOLDER COLUMN: prints the largest magnitude of a column in the last profiles of all line probes.
 extreme()
 {
     awk -F, -v name="$2" "$read_csv"'

@@ -1,10 +1,11 @@
-# For tests of pictures: sourced after summary.sh, goes to $work. What gnuplot is told of the last picture is kept in the file `drawn`.
-# strip.yaml: a plate with a pre-crack and a rigid body.
+# For tests of pictures: sourced after summary.sh, makes $work the working folder. The commands that gnuplot receives for the last picture
+# are kept in the file `drawn`. Writes strip.yaml, a plate with a pre-crack and a rigid body.
 command -v gnuplot >/dev/null || { echo "gnuplot is missing: files not tested"; exit 77; }
 
 gnuplot=$(command -v gnuplot)
 mkdir "$work/bin"
-# keep_commands FILE [-a]: keeps what gnuplot is told in the file, that of the last picture, or with -a of all from now on.
+# keep_commands FILE [-a]: from now on keeps the commands that gnuplot receives in FILE: those of the last picture or, with -a, of all
+# pictures.
 keep_commands() { printf '#!/bin/sh\nexec tee %s "%s/%s" | "%s" "$@"\n' "${2-}" "$work" "$1" "$gnuplot" >"$work/bin/gnuplot"; }
 keep_commands drawn
 chmod +x "$work/bin/gnuplot"
@@ -14,7 +15,7 @@ cd "$work" || exit 1
 
 drawn() { holds "$1" grep -a -q -e "$2" drawn; }
 made() { holds "$1 is made" test -s "$1"; }
-# refused WORD ARGUMENTS: checks for exit status 2 with one line that contains WORD.
+# refused WORD ARGUMENTS: checks that `cleave plot ARGUMENTS` ends with exit status 2 and one line that contains WORD.
 refused()
 {
     word=$1

@@ -10,8 +10,8 @@
 #include "kernels/kernels.h"
 #include "kernels/mpm/shape.h"
 
-/* Tolerance relative to the largest entry of a field. Weights come from positions with an absolute error of 1e-16 times
- * the cells between point and anchor (about ten), sums have up to 64 terms: 1e-14 is typical. */
+/* Tolerance relative to the largest entry of a field. Weights follow from positions whose error is 1e-16 times the
+ * about ten cells between a point and the origin of the grid, and sums have up to 64 terms: 1e-14 is typical. */
 #define CLOSE 1e-12
 
 /* Points on a grid, with all that a step of the transfer kernels needs. Release with point_cloud_free. */
@@ -31,8 +31,9 @@ struct transfer_kernels {
     int dim, shape, transfer;
 };
 
-/* Gives the points of s random materials, volumes, stresses, velocities and forces, and makes about a fifth of them
- * peridynamic. seed: state of the random numbers, advanced; spin: difference of the velocities of neighbours [m/s]. */
+/* Sets random materials, volumes, stresses, velocities and forces of the points of s, and makes about a fifth of them
+ * peridynamic. seed: state of the random numbers, advanced; spin: half of the largest difference of velocities [m/s].
+ */
 static inline void point_cloud_set_random_state(struct point_cloud *s, uint64_t *seed, real spin)
 {
     struct particles *p = &s->c.p;
@@ -53,7 +54,8 @@ static inline void point_cloud_set_random_state(struct point_cloud *s, uint64_t 
     particles_rebuild_lists_by_kind(p);
 }
 
-/* Gives every second point of s a random partial stress, which it leaves to bonds, from the seed *seed. */
+/* Gives every second point of s a random partial stress, the part of its stress that bonds carry. seed: state of the
+ * random numbers, advanced. */
 static inline void point_cloud_set_random_partial_stress(struct point_cloud *s, uint64_t *seed)
 {
     const int64_t size = square(symmetric_tensor_component_count(s->dim));
@@ -89,8 +91,8 @@ static inline void point_cloud_move_points_to_cell_ends(struct point_cloud *s)
     }
 }
 
-/* Creates s, points and grid of the case k. spin: difference of the velocities of neighbours [m/s]; 2 m/s rotate a
- * point by less than 1e-3 rad in the step. */
+/* Creates the points and the grid of s for the kernels k. spin: half of the largest difference of velocities [m/s]; 2
+ * m/s rotate a point by less than 1e-3 rad in the step. Release s with point_cloud_free. */
 static inline void point_cloud_make(struct point_cloud *s, const struct transfer_kernels *k, real spin)
 {
     static const enum space space[] = {SPACE_LINE, SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
@@ -131,7 +133,8 @@ static inline void point_cloud_free(struct point_cloud *s)
     particle_cloud_free(&s->c);
 }
 
-/* Performs a step of the kernels of case k on s; returns what g2p() does. impulse[dim] [N s], *work [J]: of walls. */
+/* Performs one step of the kernels k on s. impulse[dim] [N s], *work [J]: increased by the impulse and work of walls.
+ * Returns the return value of the kernel g2p. */
 static inline int64_t point_cloud_step(struct point_cloud *s, const struct transfer_kernels *k, real *impulse,
                                        real *work)
 {

@@ -1,7 +1,7 @@
 #!/bin/sh
-# Runs test programs and scripts on as many threads as OMP_NUM_THREADS says: in parallel on one thread each, those first whose heads state
-# the most seconds, then one after another on all threads those whose source contains `Runs alone`. Prints a line for each, the output of
-# those that fail, and a count. A script that cannot run here exits with status 77 after a line with the reason: SKIPPED.
+# Runs test programs and scripts, as many at a time as OMP_NUM_THREADS states, on one thread each, those first whose heads state the most
+# seconds. Then runs those whose source contains `Runs alone`, one after another on all threads. Prints a line for each, the output of those
+# that fail, and a count. A script that cannot run here exits with status 77 after a line with the reason: SKIPPED.
 lanes=${OMP_NUM_THREADS:-$(getconf _NPROCESSORS_ONLN)}
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
@@ -14,7 +14,7 @@ trap 'trap "" TERM; kill 0; exit 1' INT TERM HUP
 hearing="env --default-signal=INT,QUIT"
 $hearing true 2>/dev/null || hearing=
 
-# source_of TEST: prints the script itself, or the source of the program.
+# source_of TEST: prints the path of a script itself, or of the source of a test program.
 source_of()
 {
     path=${1#"${BUILD:-build}/"}
@@ -30,10 +30,10 @@ alone()
     esac
 }
 
-# seconds_stated TEST: prints the number in `Takes 30 s` in its head, 0 if there is none.
+# seconds_stated TEST: prints the number in `Takes 30 s` in the head of a test; 0 if there is none.
 seconds_stated() { head -n 12 "$(source_of "$1")" | sed -n 's/.*Takes \([0-9]*\) s.*/\1/p' | grep . || echo 0; }
 
-# try TEST LANE: runs a test and prints the result.
+# try TEST LANE: runs a test and prints a line with its result, and its output if it fails. LANE: number of the background process.
 try()
 {
     log=$folder/log$2 said=$folder/said$2 start=$(date +%s)
@@ -53,9 +53,9 @@ try()
     head -n 1 "$said" >>"$folder/results"
 }
 
-# lane NUMBER: runs the tests of the list `beside` in its order, but for those that another lane has started. Threads that a test starts
-# itself do not spin while they wait, because the other lanes need the processors. Memory that is freed is kept (glibc): bodies that are made
-# anew again and again would else fetch their pages from the system each time, half of the time of such tests.
+# lane NUMBER: one of the background processes: runs the tests of the list `beside`, in order, that no other lane has started. Threads of a
+# test do not spin while they wait, since other lanes need the processors. Freed memory is kept (glibc): bodies that are made repeatedly
+# would else fetch their pages from the system each time, half of the time of such tests.
 lane()
 {
     export OMP_NUM_THREADS=1 GOMP_SPINCOUNT=0 KMP_BLOCKTIME=0 MALLOC_TRIM_THRESHOLD_=200000000 MALLOC_MMAP_THRESHOLD_=30000000

@@ -1,8 +1,9 @@
 #!/bin/sh
-# Functions for test_scenes.sh and long_scenes.sh: runs of inputs/, two in parallel on one thread each, as fast as one after another on two
-# threads, with bitwise equal results. Sourced after summary.sh.
+# Functions for scripts that run scenes of inputs/: runs use one thread each, two in parallel, which takes as long as one after another on
+# two threads and has bitwise equal results. Sourced after summary.sh.
 
-# start FOLDER SCENE [ARGUMENT...]: starts a run in the background; `wait` for it.
+# start FOLDER SCENE [ARGUMENT...]: starts a run in the background; `wait` waits for its end. SCENE: a file, or the name of a scene of
+# inputs/.
 start()
 {
     to=$work/$1; scene=$2; shift 2
@@ -10,15 +11,15 @@ start()
     { "$cleave" run "$scene" -o "$to" -t 1 -q "$@" 2>"$to.err" || fail "$to: $(cat "$to.err")"; } &
 }
 
-# f FOLDER PATH...: prints figures of such a run.
+# f FOLDER PATH...: prints figures of the run in this folder, as figure() does.
 f() { folder=$work/$1; shift; figure "$folder" "$@"; }
 
-# last FOLDER COLUMN: prints its value in the last line of history.csv.
+# last FOLDER COLUMN: prints the value of a column in the last line of history.csv.
 last() { awk -F, -v name="$2" 'NR == 1 { for (k = 1; k <= NF; k++) { sub(/ .*/, "", $k); if ($k == name) at = k } } END { print $at }' \
     "$work/$1/history.csv"; }
 
-# sound FOLDER BALANCE: checks that the run is done, momentum to round-off (1e-12, 25 times the largest error of these runs, 4e-14), and the
-# energy balance within BALANCE of the largest sum.
+# sound FOLDER BALANCE: checks that the run is done, that its relative error of momentum is at most 1e-12 (25 times the largest error of
+# these runs, 4e-14), and that the relative error of the energy balance is at most BALANCE.
 sound()
 {
     set -- "$1" "$2" $(f "$1" status momentum_error energy.balance_error)

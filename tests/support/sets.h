@@ -1,4 +1,5 @@
-/* Loop over the kernel sets that this processor can run:  FOR_EVERY_SET failures += ...; */
+/* Loop over the kernel sets (kernels compiled for one set of vector instructions) that this processor can run:
+ * FOR_EVERY_SET failures += ...; */
 #ifndef CLEAVE_TESTS_SETS
 #define CLEAVE_TESTS_SETS
 

@@ -7,7 +7,7 @@ sed 's/ *| */|/g; s/; */;/g; s/ *$//; /^#/d' tests/robustness/small_scenes.txt |
     $2 in file { $3 = settings[$2] ($3 == "" ? "" : ";" $3); $2 = file[$2] }
     { file[$1] = $2; settings[$1] = $3; print }' >"$work/small_scenes"
 
-# call_with SCENE SETTINGS COMMAND...: runs COMMAND with the scene's file and its settings as -s.
+# call_with FILE SETTINGS COMMAND...: runs COMMAND FILE -s KEY=VALUE ..., with the settings KEY=VALUE;KEY=VALUE;...
 call_with()
 {
     scene_file=$1 rest=$2; shift 2
@@ -29,8 +29,8 @@ each_scene()
     while IFS='|' read -r name file settings <&3; do call_with "$file" "$settings" "$@" "$name"; done 3<"$work/each_scene"
 }
 
-# each_command COMMAND...: runs COMMAND STATUS WHAT ARGUMENT... for every line of small_commands.txt, in order; @ becomes the folder
-# $work/c.
+# each_command COMMAND...: runs COMMAND STATUS WHAT ARGUMENT... for every line of small_commands.txt, in order: expected exit status, the
+# line, and the arguments of cleave. @ in a line becomes the folder $work/c.
 each_command()
 {
     mkdir -p "$work/c"
@@ -43,8 +43,8 @@ each_command()
     done 4<"$work/each_command"
 }
 
-# instrumented FOLDER FLAGS SETTING...: builds a program for a tool in a folder of its own, with these compiler flags and settings of make,
-# and makes it $cleave.
+# instrumented FOLDER FLAGS SETTING...: builds the program in FOLDER with these compiler flags and settings of make, for a tool such as a
+# sanitizer, and sets $cleave to it.
 instrumented()
 {
     folder=$1 flags=$2; shift 2

@@ -6,9 +6,9 @@
 
 #include "tests/support/reference.h"
 
-/* State of all bonds of a body of n particles: bond i-j at [i n + j] of each array except `due`. The caller fills onset
- * and critical: the stretches s_0, where softening begins, and s_c, the critical stretch of a brittle bond of equal
- * energy. */
+/* State of all bonds of a body of n particles. All arrays but `due` have an entry for each bond i-j at [i n + j]. The
+ * caller sets the stretches onset (s_0, where softening begins) and critical (s_c, critical stretch of a brittle bond
+ * of equal energy). */
 struct soften_reference {
     enum softening law;
     real *most, *onset, *critical; /* largest stretch, 0: not begun; s_0 and s_c of each bond [1] */

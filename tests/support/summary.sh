@@ -1,6 +1,7 @@
 #!/bin/sh
-# Functions for all test scripts: figures from summary.json and history.csv with awk alone, and counted checks. Sourced from the project's
-# root after `test_name` is set. Defines $cleave, $root and $work, a folder that is removed at the end.
+# Functions for all test scripts: figures from summary.json and history.csv by awk alone, and counted checks. Sourced from the root of the
+# project after `test_name` is set. Sets $cleave (the program), $root (the root of the project) and $work, a temporary folder that is
+# removed at the end.
 set -u
 root=$(pwd)
 work=$(mktemp -d)
@@ -15,8 +16,8 @@ checks=0 failures=0
 fail() { echo "$test_name: $1" >&2; failures=$((failures + 1)); }
 pass() { checks=$((checks + 1)); }
 
-# numbers FOLDER: checks that all numbers in frames and histories below it are finite, except for nan where there is no tip or front yet,
-# fewer than two contours, no factors, or no yielded point.
+# numbers FOLDER: checks that all numbers in frames and histories below the folder are finite. Columns may be nan that have no value:
+# without a crack tip or front, with fewer than two contours, without stress-intensity factors or yielded points.
 numbers()
 {
     none=$(find "$1" \( -path '*/frames/*.hdf' -o -name 'particles_*.h5' \) -exec "$look_through" {} + -o -name history.csv -exec awk -F, '
@@ -28,7 +29,7 @@ numbers()
     is "$1: numbers" "$none" ""
 }
 
-# finish: makes the comparisons that were noted, prints the count, and exits with the status of the script.
+# finish: performs the noted comparisons, prints the number of checks, and exits with status 0 if none has failed.
 finish()
 {
     numbers "$work"
@@ -38,11 +39,11 @@ finish()
     exit
 }
 
-# note KIND WHAT NUMBER...: notes a comparison of numbers. `finish` makes all of them in one start of awk: one for each took longer than many
-# of the runs that are tested.
+# note KIND WHAT NUMBER...: notes a comparison of numbers, which `finish` performs. One start of awk for all saves time: one for each took
+# longer than many of the runs that are tested.
 note() { printf '%s\034%s\034%s\034%s\034%s\035' "$1" "$2" "$3" "$4" "$5" >>"$work/.noted"; }
 
-# compare_noted: makes these comparisons, and counts them.
+# compare_noted: performs the noted comparisons and counts those that hold and those that fail.
 compare_noted()
 {
     set -- $(awk -v test="$test_name" '
@@ -108,10 +109,10 @@ passes()
         at && $at + 0 >= value + 0 { print $1; exit }' "$1/history.csv"
 }
 
-# compute FORMULA: prints its value, evaluated by awk.
+# compute FORMULA: prints the value of a formula, evaluated by awk.
 compute() { awk "BEGIN { printf \"%.9g\", $1 }" </dev/null; }
 
-# record WHAT VALUE TEXT: writes what is measured to the file that FIGURES names, if it does: long_claims.sh compares it with documents.
+# record WHAT VALUE TEXT: appends a measured value to the file $FIGURES if that is set; long_claims.sh compares it with documents.
 record() { [ -z "${FIGURES:-}" ] || echo "$1 is ${2:-missing} $3" >>"$FIGURES"; }
 
 # between WHAT VALUE LOW HIGH: checks that VALUE is a number with LOW <= VALUE <= HIGH.
@@ -120,7 +121,7 @@ between() { record "$1" "$2" "within $3 $4"; note between "$1" "$2" "$3" "$4"; }
 # apart WHAT A B MOST: checks that two numbers differ by at most MOST.
 apart() { record "$1" "$2" "beside $3"; note apart "$1" "$2" "$3" "$4"; }
 
-# near WHAT VALUE WANTED SHARE: checks that the relative difference is at most SHARE.
+# near WHAT VALUE WANTED TOLERANCE: checks that the difference of two numbers is at most TOLERANCE times the second.
 near()
 {
     [ -z "${FIGURES:-}" ] || record "$1 over $3" "$(compute "(${2:-nan}) / ($3)")" ""
@@ -128,7 +129,7 @@ near()
     note near "$1" "$2" "$3" "$4"
 }
 
-# absent WHAT VALUE: checks that the run has no such figure.
+# absent WHAT VALUE: checks that VALUE, a figure of a run, is empty.
 absent() { if [ -z "$2" ]; then pass; else fail "$1: $2, where there should be none"; fi; }
 
 # is WHAT VALUE WANTED: checks that two words are equal.

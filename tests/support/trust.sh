@@ -1,6 +1,6 @@
 #!/bin/sh
-# Functions for test_trust.sh and long_trust.sh: small scenes, and runs that are disturbed without effect on results. Sourced after
-# summary.sh.
+# Functions for test_trust.sh, long_trust.sh and other scripts: small scenes, checks of one run, and runs that are stopped or killed and
+# resumed, which must not change results. Sourced after summary.sh.
 
 # A small plate with cracking notches, a spalling bar, a solid plate: name, scene and the arguments that make it small. All in the current
 # frame; test_frame.sh has them in the reference frame.
@@ -10,7 +10,7 @@ flat="inputs/kalthoff_winkler.yaml $current -s duration=36us -s particles.spacin
 line="inputs/hopkinson_bar.yaml -s duration=1.2ms -s time.step=1us -s output.frames=10 -s output.samples=200"
 solid="inputs/kalthoff_winkler_3d.yaml $current -s duration=24us -s output.frames=4 -s output.samples=50"
 
-# calm FOLDER ARGUMENTS: checks that a run succeeds and prints only warnings.
+# calm FOLDER ARGUMENTS: checks that a run succeeds, prints nothing but warnings, and writes finite numbers only.
 calm()
 {
     to=$1; shift
@@ -21,7 +21,8 @@ calm()
     numbers "$to"
 }
 
-# ended STATUS WHAT FOLDER TEXT ARGUMENT...: checks for this exit status and one line, besides warnings, with this text.
+# ended STATUS WHAT FOLDER TEXT ARGUMENT...: checks that a run ends with this exit status and one line, besides warnings, that contains
+# TEXT.
 ended()
 {
     wanted=$1 what=$2 folder=$3 text=$4; shift 4
@@ -43,10 +44,10 @@ warned()
     holds "$what: in the summary" grep -q "$text" "$folder/summary.json"
 }
 
-# physical FOLDER: prints the figures of its summary that do not depend on the machine.
+# physical FOLDER: prints the lines of summary.json that do not depend on the machine.
 physical() { sed '/"threads"/,$d' "$1/summary.json"; }
 
-# same WHAT A B: checks that two folders have the same frames, samples, scene and figures, byte for byte, and no temporary files.
+# same WHAT A B: checks that two folders have equal frames, samples, scenes and figures, byte for byte, and that B has no temporary files.
 same()
 {
     physical "$2" >"$work/figures_a"
@@ -61,12 +62,12 @@ same()
 # bare WHAT FOLDER: checks that no temporary file is left.
 bare() { is "$1: temporary files" "$(find "$2" -name '*.tmp')" ""; }
 
-# random LOW HIGH: prints a random number of seconds; the seed is that of the script.
+# random LOW HIGH: prints a random number between LOW and HIGH [s]; $seed is the seed of the script.
 draw=0
 random() { draw=$((draw + 1)); awk -v s="$seed" -v k=$draw -v low="$1" -v high="$2" 'BEGIN {
     srand(s * 1000 + k); rand(); printf "%.3f", low + (high - low) * rand() }'; }
 
-# await FOLDER LINES PID: waits until history.csv has that many lines or the process has ended.
+# await FOLDER LINES PID: waits until history.csv has at least LINES lines or the process PID has ended.
 await()
 {
     while kill -0 "$3" 2>/dev/null; do
@@ -80,10 +81,10 @@ await()
 hearing="env --default-signal=INT"
 $hearing true 2>/dev/null || hearing=
 
-# interrupt FOLDER SIGNAL LINES ARGUMENTS: a run that receives the signal when history.csv has that many lines, at least one of them new (a
-# resumed run finds lines before it handles signals); $result: its status. On a busy machine the run may end before the lines are counted:
-# it is therefore paused while they are counted, and restarted from its previous state if all lines but the last were there, because the run
-# no longer handles signals before the last. A run that had more steps and ignored the signal has status 0.
+# interrupt FOLDER SIGNAL LINES ARGUMENTS: starts or resumes a run, which receives the signal when history.csv has LINES lines, at least one
+# of them new (a resumed run finds lines before it handles signals). $result: exit status. On a busy machine the run may end before the
+# lines are counted. It is therefore paused while they are counted, and repeated from its previous state if all lines but the last were
+# there, since the run no longer handles signals before the last. A run that had more steps and ignored the signal has status 0.
 interrupt()
 {
     to=$1 signal=$2 length=$3 tries=0; shift 3
@@ -109,7 +110,7 @@ interrupt()
     done
 }
 
-# interrupted FOLDER LINES ARGUMENTS: a new run, stopped by SIGINT when history.csv has that many lines.
+# interrupted FOLDER LINES ARGUMENTS: starts a new run and stops it by SIGINT when history.csv has LINES lines; checks its exit status.
 interrupted()
 {
     rm -rf "$1"
@@ -118,8 +119,8 @@ interrupted()
     is "$to: interrupted" $result 130
 }
 
-# twice_interrupted FOLDER LINES LATER ARGUMENTS: a new run on 2 threads, stopped by SIGINT when history.csv has LINES lines, resumed and
-# stopped again when the file has LATER lines. Resuming it tests threads and both stops at once.
+# twice_interrupted FOLDER LINES LATER ARGUMENTS: starts a new run on 2 threads, stops it by SIGINT when history.csv has LINES lines,
+# resumes it and stops it again at LATER lines. When the caller resumes it, threads and both stops are tested at once.
 twice_interrupted()
 {
     twice=$1 first=$2 later=$3; shift 3
@@ -128,7 +129,8 @@ twice_interrupted()
     is "$twice: interrupted again" $result 130
 }
 
-# piecewise FOLDER ARGUMENTS: a run in load steps that stops after each of them and is resumed, on one thread; $parts: number of pieces.
+# piecewise FOLDER ARGUMENTS: performs a run in load steps on one thread that stops after each load step and is resumed, up to its end.
+# $parts: number of its parts.
 piecewise()
 {
     to=$1 parts=0 status=130; shift
@@ -140,7 +142,7 @@ piecewise()
     is "$to: status, $(cat "$work/err")" $status 0
 }
 
-# coarser SCENE FACTOR: prints the override that multiplies the spacing of a shipped scene.
+# coarser SCENE FACTOR: prints the arguments that multiply the spacing of a scene of inputs/ by FACTOR.
 coarser()
 {
     h=$(sed -n 's/^variables: .*[{ ]h: \([0-9.]*\) mm.*/\1/p' "$1")
@@ -148,8 +150,8 @@ coarser()
     echo "-s particles.spacing=$(compute "$2 * $(sed -n 's/^particles: {spacing: \([0-9.]*\) mm.*/\1/p' "$1")")mm"
 }
 
-# disturbances SIGNAL HOW MANY REFERENCE ARGUMENTS: a run that receives the signal at random moments, on a random number of threads, each
-# time followed by --resume; whenever the run ends it must equal the reference, and starts anew.
+# disturbances SIGNAL NUMBER REFERENCE ARGUMENTS: starts a run on a varying number of threads and sends it the signal at a random moment,
+# then resumes it, NUMBER times. Whenever the run reaches its end, its results must equal those in the folder REFERENCE, and it begins anew.
 disturbances()
 {
     deed=$1 wanted=$2 reference=$3 ended_early=0 ended=0; shift 3

@@ -1,10 +1,11 @@
-/* Tests of what is said about other programs on the machine (base/busy.h). */
+/* Tests of the warning about other programs that use the machine (base/busy.h). */
 #include "tests/support/near.h"
 
 #include "base/busy.h"
 
-/* Returns true if machine_compose_warning_if_overloaded writes a warning about a machine with the load `load` of other
- * programs, `cores` cores and `threads` threads, and checks that this warning contains the text `words`. */
+/* Returns true if machine_compose_warning_if_overloaded writes a warning for a load of other programs of `load`
+ * processes, `cores` cores and `threads` threads of the run. Fails the test if this warning does not contain `words`.
+ */
 static bool said(double load, int cores, int threads, const char *words)
 {
     char text[256] = "";
@@ -14,8 +15,8 @@ static bool said(double load, int cores, int threads, const char *words)
     return busy;
 }
 
-/* Checks that no warning is written about idle machines and machines with a core for every process and thread, and that
- * the warning about 3 other programs and 2 threads on 2 cores names the factor 2.5. */
+/* Checks that there is no warning for idle machines and for machines with a core for every process and thread, and the
+ * factors in the warnings about overloaded ones, such as 2.5 for 3 other processes and 2 threads on 2 cores. */
 static void load_is_described(void **state)
 {
     (void)state;

@@ -129,8 +129,8 @@ static int break_invariant(bool broken)
 
 static void break_here(void *unused) { (void)unused, break_invariant(true); }
 
-/* Checks that a violated invariant ends the process with exit status 1 and one line, whichever of several threads find
- * it. Must run before any thread team of this process exists, since a child process would lack the team. */
+/* Checks that a violated invariant ends the process with exit status 1 and one line, even if several threads violate
+ * it. It runs before any thread team of this process exists, since a child process would lack the team. */
 static void broken_invariants_leave_one_line(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* Tests of the cost-accuracy table: Pareto front of a set of points, and the cheapest method for an error. */
+/* Tests of the cost-accuracy table: the Pareto front of a set of points, the fastest method for an error, the exact
+ * solutions of the problems, and the lines of the measured table. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -31,8 +32,8 @@ static void front_has_what_nothing_beats(void **state)
     assert_int_equal(accuracy_find_pareto_front(&cloud[6], 2, front), 0);
 }
 
-/* Checks accuracy_find_pareto_front for random sets of points by the definition: along the front the time grows and the
- * error falls, and for every point of the set a point of the front is at least as good in both values. */
+/* Checks accuracy_find_pareto_front for random sets of points by the definition of the front: time grows and error
+ * falls along it, and for every point of the set a point of the front is at most as large in time and error. */
 static void front_of_random_clouds(void **state)
 {
     (void)state;
@@ -68,7 +69,8 @@ static void cheapest_is_the_first_good_enough(void **state)
 
 /* ---- exact forms satisfy rho u_tt = c12 grad div u + G (lap u + grad div u) + f ---------------------------------- */
 
-/* A closed form of motion u = at(context, X, t) in an elastic medium, whose equation of motion is tested. */
+/* A motion in closed form, u = at(context, X, t), in an isotropic elastic medium, which is to satisfy the equation of
+ * motion. */
 struct motion {
     int dim;
     real c12, shear, density, length, time; /* length and time scales, for the steps of finite differences */
@@ -100,7 +102,7 @@ static real acceleration(const struct motion *m, const real *X, real t, int comp
 }
 
 /* Asserts that the residual of the equation of motion of m with the body force f[dim] at the position X and time t is
- * at most 1e-5 of its largest term, which is the error of the finite differences used. */
+ * at most 2e-5 of its largest term, an error that the finite differences explain. */
 static void assert_moves(const struct motion *m, const real *X, real t, const real *f)
 {
     for (int a = 0; a < m->dim; a++) {
@@ -121,8 +123,8 @@ static void manufactured_motion(const void *context, const real *X, real t, real
     for (int d = 0; d < ((const struct manufactured *)context)->dim; d++) u[d] = v.displacement[d];
 }
 
-/* Computes f, the sum of the body forces of the scene text of m at the position X [m] and the time t [s], by reading
- * the text as a scene. */
+/* Computes f[dim], the body force of the manufactured solution m at the position X [m] and the time t [s], from the
+ * text that is written for scenes, which is read as a scene. */
 static void force_of_scene(const struct manufactured *m, const real *X, real t, real *f)
 {
     char text[4096];
@@ -222,8 +224,8 @@ static void pulses_are_solutions(void **state)
     }
 }
 
-/* Checks that initial stress and velocity of particles in a transverse wave pulse agree: rho c v equals the traction on
- * the plane of the wave. */
+/* Checks that initial stress, velocity and displacement of particles in a transverse wave pulse agree: the traction on
+ * planes of the wave is -rho c v, with the shear wave speed c, to round-off. */
 static void particles_start_in_a_transverse_wave(void **state)
 {
     (void)state;
@@ -290,8 +292,8 @@ static bool keys_have(const char *keys, const char *key, const char *value)
     return has;
 }
 
-/* Checks that a line of the table, given by the texts column[], is a run of the plan of the bench, with the scene keys
- * of its method. */
+/* Checks that a line of the table, with the texts column[], is a run of the bench, and that it states the present scene
+ * keys of its method (those for particles, time, output and contact are left out). */
 static void line_is_of_the_plan(char *const *column)
 {
     const struct accuracy_problem *q = problem_named(column[PROBLEM]);

@@ -1,5 +1,5 @@
-/* Tests of the problems of the cost-accuracy table: every scene is valid, the exact field of the plate with a hole
- * satisfies its equations, and a cheap point of each problem has its measured error. */
+/* Tests of the problems of the cost-accuracy table: every scene is valid, the exact solution for the plate with a hole
+ * satisfies its equations, and coarse, quick runs of each problem have their measured errors. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -87,7 +87,8 @@ static const struct accuracy_method *method_called(const char *name)
     return NULL;
 }
 
-/* Measured errors. Tolerance 20 %: compilers round differently, and cracks are sensitive to round-off. */
+/* Coarse, quick runs of the bench and their measured errors. Tolerance 20 %: compilers round differently, and cracks
+ * are sensitive to round-off. */
 static const struct cheap {
     const struct accuracy_problem *problem;
     int at;

@@ -19,9 +19,9 @@ static const char *verdict_on(const struct circle_case *c, double spacing, doubl
     return circle_verdict(&(struct circle_run){.of = c, .spacing = spacing, .found = found});
 }
 
-/* Checks circle_verdict: a value on the edge of the tolerance holds; one beyond it, and none at all, are missed. A
- * notch of 0.5 mm is three horizons long up to a spacing of 0.0553 mm. A case with a limit of its own has that one
- * alone: 0.345 l is 0.0501 mm. */
+/* Checks circle_verdict. A value at the edge of the tolerance holds; a value beyond it and a missing value are missed.
+ * A notch of 0.5 mm has no verdict above a spacing of 0.0553 mm, where it is shorter than three horizons. A case with a
+ * limit of its own (horizon of 0.345 crack lengths) has none above this limit, 0.0501 mm. */
 static void verdicts_follow_the_tolerance(void **state)
 {
     (void)state;
@@ -61,9 +61,9 @@ static void each_circle_has_runs_or_a_reason(void **state)
     for (int k = 1; k <= 9; k++) assert_true(seen[k]);
 }
 
-/* Writes a specimen as a list of particles on a lattice of the spacing [m] that is turned by `degrees` about `middle`
- * [m], checks that the particles lie on the lattice and that none is on y = 0, and returns the sum of their volumes
- * [m^3]. Stores the sizes of the body in *list. specimen: the body. */
+/* Writes a specimen as a list of particles on a lattice of the spacing `spacing` [m] turned by `degrees` about (middle,
+ * 0) [m], and stores the sizes of the body in *list. Checks that the particles are on the lattice and none is on y = 0.
+ * Returns the sum of their volumes [m^3]. */
 static double volume_of_list(const struct circle_specimen *specimen, double spacing, int degrees, double middle,
                              struct circle_list *list)
 {
@@ -87,8 +87,7 @@ static double volume_of_list(const struct circle_specimen *specimen, double spac
     return sum;
 }
 
-/* Checks that a body on a turned lattice has the volume of the specimen, within the volume of a layer of one spacing
- * around its edge. */
+/* Checks that a body on a turned lattice has the volume of the specimen within 1 %. */
 static void turned_bodies_have_their_volume(void **state)
 {
     (void)state;
@@ -105,9 +104,9 @@ static void turned_bodies_have_their_volume(void **state)
         }
 }
 
-/* Checks the number of rows in the sections of a body on a lattice turned by 45 degrees, whose rows are spacing/sqrt(2)
- * apart. For spacing 0.1 mm, with a gap in the middle, a strip 5 mm wide has 70 rows, 0.99 of its section; a strip that
- * is notched by 1 mm has 14 in the notch, 57 before it, and 7 in the loaded layer of 0.5 mm. */
+/* Checks the sections of bodies on a lattice turned by 45 degrees, whose rows are spacing/sqrt(2) apart, in numbers of
+ * rows. Spacing 0.1 mm, with a gap in the middle: a strip 5 mm wide has 70 rows, 0.99 of its section. A strip with a
+ * notch of 1 mm has 14 rows in the notch, 57 beside it, and 7 in the loaded layer of 0.5 mm. */
 static void turned_bodies_tell_their_section(void **state)
 {
     (void)state;

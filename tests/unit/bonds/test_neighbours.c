@@ -1,4 +1,5 @@
-/* Neighbour searches and rows of bonds, compared with all pairs. */
+/* Neighbour searches and stored bonds compared with tests of all pairs of particles. A row is the list of bonds of one
+ * particle; eight rows form a row block, whose columns hold one bond of each row (SELL-C layout). */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -12,8 +13,8 @@
 
 /* ---- search ------------------------------------------------------------------------------------------------------ */
 
-/* Compares the particles of p within `radius` of X that the cells c find, without `skip`, with a test of all
- * particles. */
+/* Checks that the cells c find those particles of p within `radius` of X [m], without the particle `skip`, that a test
+ * of all particles finds, in ascending order. */
 static void search_equals_all_pairs(const struct particles *p, const struct cells *c, const real *X, real radius,
                                     int32_t skip)
 {
@@ -110,7 +111,7 @@ static const struct rows_case rows_case[] = {
      MIXED | BODIES | MATERIALS | CRACKED},
 };
 
-/* Cracks in general position, so that no tie has to be decided; ties are tested with regions. */
+/* Cracks in general position: no bond passes exactly through an edge. Such cases are tested in test_ground.c. */
 static real crack_corner[DIM_MAX + 1][4][DIM_MAX] = {
     {{0}},
     {{17.61e-3}},
@@ -176,8 +177,8 @@ static void check_bond(const struct particle_cloud *c, const real *w, const real
     if (c->bonds.row_of[j] >= 0) assert_memory_equal(&w[i * p->n + j], &w[j * p->n + i], sizeof(real));
 }
 
-/* Compares sums over the row of particle i (its bonds) of c with sums over all pairs of particles. Tolerance 1e-6:
- * volumes are in single precision, and sums have up to 100 terms. */
+/* Compares sums over the row of particle i of c with sums over all pairs: volume of its family, damage, and smallest
+ * limit of its bonds. Tolerance 1e-6: volumes are in single precision, and sums have up to 100 terms. */
 static void check_row(const struct particle_cloud *c, int64_t i)
 {
     const struct particles *p = &c->p;
@@ -196,8 +197,8 @@ static void check_row(const struct particle_cloud *c, int64_t i)
     assert_true(c->bonds.trigger[row] > 0.999 * smallest || c->bonds.trigger[row] == smallest); /* INFINITY: no bonds */
 }
 
-/* Checks for all columns of the bonds of c (one bond of each of eight particles) that the flags of a column agree with
- * its eight lanes, that no bond occurs twice in a row, and that padding contributes nothing. */
+/* Checks all columns of the bonds of c: their flags agree with the eight bonds, no bond is twice in a row, lengths
+ * agree with positions, and padding has no weight. */
 static void check_columns(const struct particle_cloud *c)
 {
     const struct bonds *b = &c->bonds;
@@ -270,8 +271,8 @@ static void test_rows(void **state)
     }
 }
 
-/* Compares `columns` columns of a block of eight rows (bonds of eight particles) of b, from column number `column` on,
- * with those of the bonds `new`, from column number `of` on. */
+/* Compares `columns` columns of the bonds b, from column `column` on, with those of the bonds `new` from column `of`
+ * on. Weights may be 0 in b, for bonds broken by load. */
 static void check_row_block_like_new(const struct bonds *b, int64_t column, const struct bonds *new, int64_t of,
                                      int64_t columns)
 {
@@ -285,8 +286,7 @@ static void check_row_block_like_new(const struct bonds *b, int64_t column, cons
 }
 
 /* Checks that the rows of c, rebuilt from the bonds `old`, agree with rows created from scratch, except for bonds
- * broken by load. Returns the number of blocks of eight rows (bonds of eight particles) with as many bonds as
- * before. */
+ * broken by load. Returns the number of row blocks that existed before and have as many bonds as before. */
 static int64_t check_like_new(struct particle_cloud *c, const struct bonds *old)
 {
     struct bonds *b = &c->bonds;
@@ -312,8 +312,8 @@ static int64_t check_like_new(struct particle_cloud *c, const struct bonds *old)
     return taken;
 }
 
-/* Checks rows that are rebuilt after material points became peridynamic against new rows: bonds broken by load stay
- * broken. */
+/* Checks rows that are rebuilt after material points have become peridynamic: they agree with new rows, but bonds
+ * broken by load remain broken, and the fracture energy is unchanged. */
 static void test_rows_inherit(void **state)
 {
     (void)state;
@@ -347,8 +347,8 @@ static void test_rows_inherit(void **state)
     assert_true(taken > 0);
 }
 
-/* Checks rows that are rebuilt repeatedly, each time for one more column of the body, against new rows: they reuse free
- * storage, and sometimes the storage moves. */
+/* Checks rows that are rebuilt repeatedly, each time with one more peridynamic column of the body: they agree with new
+ * rows, mostly use free storage, and sometimes move to larger storage. */
 static void test_rows_again(void **state)
 {
     (void)state;
@@ -384,8 +384,8 @@ static void test_rows_again(void **state)
     }
 }
 
-/* Checks that rows made from the site map of a lattice are bitwise equal to those of the neighbour search, and that
- * bonds that may yield are always searched. */
+/* Checks that rows made from the site map of a lattice are bitwise equal to those of the neighbour search. Bonds that
+ * may yield are always made by the search, which is used for the comparison. */
 static void test_rows_of_lattice(void **state)
 {
     (void)state;

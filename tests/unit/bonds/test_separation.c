@@ -1,5 +1,6 @@
-/* The critical stretch of state-based bonds corresponds to their energy release rate: halves of a lattice are separated
- * until no bond is left, and the work of the kernels' forces per area is G_c. */
+/* Checks that the critical stretch of bonds corresponds to the energy release rate G_c: two halves of a lattice are
+ * separated until no bond is left, and the work of the kernels' forces per area is G_c. Further: energy, micro-modulus
+ * and elastic constants of neighbourhoods. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stddef.h>
@@ -36,8 +37,8 @@ static void pulled_make(struct pulled *b, enum pd_model model, real poisson, enu
     cloud_bonds(&b->c);
 }
 
-/* Displaces the upper half of the body b by `opening` [m] and returns the force that pulls at the upper half of its
- * middle column [N]. */
+/* Displaces the upper half of the body b by `opening` [m] and returns the force of the bonds on the upper half of its
+ * middle column [N], positive if it resists the opening. */
 static real pull(struct pulled *b, real opening)
 {
     struct particles *p = &b->c.p;
@@ -86,10 +87,10 @@ static void test_work_of_separation(void **state)
             }
 }
 
-/* Compares the energy that separates a lattice of the ordinary state-based model at the critical stretch of Madenci &
- * Oterkus 2014 with the energy release rate from which that stretch follows. The closed form is for a continuum with
- * omega = delta/r and a complete weighted volume Q: at a horizon of 3.015 spacings the lattice is within 3 % for every
- * Poisson's ratio, and 5 to 9 % above if Q decreases with the family. */
+/* Compares the work of separation at the critical stretch of Madenci & Oterkus 2014 (ordinary state-based model) with
+ * the energy release rate from which this stretch follows. The closed form is for a continuum with omega = delta/r and
+ * a complete weighted volume Q. At a horizon of 3.015 spacings the lattice is within 3 % for every Poisson's ratio
+ * (tolerance 3.5 %), and 5 to 9 % above if Q decreases with the family (tolerance 4 to 10 %). */
 static void test_ordinary(void **state)
 {
     (void)state;
@@ -106,8 +107,9 @@ static void test_ordinary(void **state)
         }
 }
 
-/* Checks the force per area of all bonds across a plane at the critical stretch s: 9 E h s^2/(4 pi) in plane stress and
- * E h s^2/3 in 1D (Silling & Askari 2005; h: horizon). Tolerance 5 %, for a lattice with a horizon of 12 spacings. */
+/* Checks the energy per area of all bonds across a plane at the critical stretch s: 9 E h s^2/(4 pi) in plane stress
+ * and E h s^2/3 in 1D (Silling & Askari 2005; h: horizon). Tolerance 5 %, for a lattice with a horizon of 12 spacings.
+ */
 static void test_crossing(void **state)
 {
     (void)state;
@@ -128,8 +130,8 @@ static void test_crossing(void **state)
 }
 
 /* Checks that the micro-modulus by the continuum integral and that by the sum over a large lattice agree for every
- * influence function. Tolerance: the integral includes the volume of the particle itself, which the sum lacks: of
- * (horizon/r)^2 in 2D about 0.56/40 at a horizon of 40 spacings, of horizon/r in 1D 0.5/40. */
+ * influence function. Tolerance 2 %: the integral includes the volume of the particle itself, which the sum lacks; with
+ * (horizon/r)^2 in 2D it is about 0.56/40 at a horizon of 40 spacings, with horizon/r in 1D 0.5/40. */
 static void test_influence(void **state)
 {
     (void)state;
@@ -148,9 +150,9 @@ static void test_influence(void **state)
         }
 }
 
-/* Checks that lattices have the elastic constants of the isotropic material for every influence function, since the two
- * weights by direction, and the calibration, include it; bond-based models, with their Poisson's ratio. Tolerance:
- * round-off of sums over some hundred bonds. */
+/* Checks for every influence function that lattices have the elastic constants of the isotropic material, in bond-based
+ * models with their Poisson's ratio. The two weights by direction and the calibration depend on the influence function.
+ * Tolerance: round-off of sums over some hundred bonds. */
 static void test_isotropy(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
-/* Blocks of eight rows that follow a stencil: which they are, their implied bonds, bitwise equal results of every
- * kernel compared with explicitly stored bonds, and their rebuilding. */
+/* Row blocks (the bonds of eight particles) that follow a stencil, i.e. share one list of bonds instead of storing
+ * their own: which blocks do, the bonds that a stencil implies, and their rebuilding. Results of every kernel must be
+ * bitwise equal to those of explicitly stored bonds. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -55,17 +56,17 @@ static real apart(const struct particles *p, int64_t i, int64_t j)
     return sqrt(r2);
 }
 
-/* Returns true if block `row_block` of eight rows (bonds of eight particles) is at an end of the body c: eight
- * neighbours in a row may then begin before the first particle or end after the last, and such blocks store their
- * bonds. */
+/* Returns true if row block `row_block` (the bonds of eight particles) is within a cutoff of the first or last particle
+ * of the body c. Eight consecutive neighbours may then begin before the first or end after the last particle, so that
+ * such blocks store their bonds. */
 static bool at_an_end(const struct particle_cloud *c, int64_t row_block)
 {
     return fmin(apart(&c->p, 0, row_block * LANES), apart(&c->p, c->p.n - 1, row_block * LANES + 7)) <
            c->source.family.cutoff;
 }
 
-/* Checks which blocks of eight rows (bonds of eight particles) follow a stencil shared by several blocks: lines of 32
- * particles are four blocks each, all on the lattice; those in the middle follow one. */
+/* Checks which row blocks follow a stencil: lines of 32 particles are four blocks each; all follow one unless they are
+ * at an end of the body, and the half of them in the middle of the lines follow a whole one. */
 static void test_who_follows(void **state)
 {
     (void)state;
@@ -85,8 +86,8 @@ static void test_who_follows(void **state)
         }
 }
 
-/* Checks that the bonds agree with those of all pairs of particles, and that reading them changes nothing in
- * storage. */
+/* Checks that reading the rows yields the bonds that a test of all pairs of particles finds, and that row blocks that
+ * follow a stencil still do so afterwards. */
 static void test_what_is_stored(void **state)
 {
     (void)state;
@@ -122,9 +123,9 @@ static void make_again(struct particle_cloud *c)
     bonds_make(&c->bonds, NULL, &c->p, &c->source);
 }
 
-/* Checks that data copied from blocks of eight rows (bonds of eight particles) with equal surroundings agree with data
- * computed for each block: bonds, triggers, volumes of neighbours and the critical step. A heavier corner, which
- * affects none of these, prevents copying. */
+/* Checks that row blocks whose data are copied from blocks with equal surroundings agree with blocks whose data are
+ * computed each: bonds, triggers, volumes of neighbours and the critical step. A heavier corner particle, which affects
+ * none of these data, prevents copying. */
 static void test_twins(void **state)
 {
     (void)state;
@@ -150,7 +151,7 @@ static void test_twins(void **state)
         }
 }
 
-/* All results of the kernels for the current positions, one after another. */
+/* Results of the force, energy and stress kernels for the current positions, one after another. */
 struct made {
     real *value;
     int64_t n;
@@ -179,8 +180,7 @@ static struct made make_all(struct particle_cloud *c, enum pd_model model)
     return m;
 }
 
-/* Returns the number of inner blocks of eight rows of b (bonds of eight particles) whose columns store no weights,
- * since all weights are 1. */
+/* Returns the number of row blocks of b whose stencil stores no weights, since all of them are 1. */
 static int64_t count_units(const struct bonds *b)
 {
     int64_t units = 0;
@@ -250,8 +250,7 @@ static void test_fault(void **state)
     particle_cloud_free(&c);
 }
 
-/* Checks that a bond that changes makes its block of eight rows (bonds of eight particles) store its bonds explicitly,
- * and no other block. */
+/* Checks that a bond whose weight changes makes its row block store its bonds explicitly, and no other block. */
 static void test_who_leaves(void **state)
 {
     (void)state;
@@ -266,8 +265,8 @@ static void test_who_leaves(void **state)
     particle_cloud_free(&c);
 }
 
-/* Checks that a block of eight rows (bonds of eight particles) with changed weights, which no stencil has, stays
- * explicit when rows around it are rebuilt. */
+/* Checks that a row block with a changed weight, which no stencil has, remains explicit when the rows around it are
+ * rebuilt. */
 static void test_who_stays_out(void **state)
 {
     (void)state;
@@ -298,7 +297,7 @@ static void test_who_stays_out(void **state)
     particle_cloud_free(&c);
 }
 
-/* Lists the bonds of row `row` of b (bonds of one particle) in to[], without padding. Returns their number. */
+/* Copies the bonds of row `row` of b (the bonds of one particle), without padding, to to[256]. Returns their number. */
 static int row_bonds(const struct bonds *b, int64_t row, struct bond *to)
 {
     int n = 0;
@@ -326,8 +325,8 @@ static void assert_rows_equal(const struct bonds *a, const struct bonds *b)
     }
 }
 
-/* Converts the material points of c within `radius` of the middle axis to peridynamic particles: a tube, whose radius
- * grows from call to call. */
+/* Makes all particles of c within `radius` [spacings] of the middle axis peridynamic, and the others material
+ * points. */
 static void convert_tube(struct particle_cloud *c, real radius)
 {
     const struct particles *p = &c->p;
@@ -339,8 +338,8 @@ static void convert_tube(struct particle_cloud *c, real radius)
     particles_rebuild_lists_by_kind(&c->p);
 }
 
-/* Checks that beside material points, too, the site map yields the bonds that a search finds, and that bonds that may
- * yield are searched. */
+/* Checks that rows made from the site map of a lattice agree with those of the neighbour search also beside material
+ * points, while a peridynamic tube grows. Bonds that may yield are always made by the search. */
 static void test_beside_points(void **state)
 {
     (void)state;

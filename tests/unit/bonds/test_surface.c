@@ -1,5 +1,5 @@
-/* Weights of bonds near faces: they minimise the functional stated in surface_fit.c, evaluated here bond by bond; they
- * are symmetric, also in mirrors; the bending energy is that of the beam. */
+/* Weight factors of bonds near faces (surface_fit.c). They minimise the functional that surface_fit.c states, evaluated
+ * here bond by bond; they are symmetric, also in mirrors; and a bent body has the energy of a beam. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -17,7 +17,8 @@ enum { STRAINS = 6 };
 
 /* ---- the functional, from its definition ------------------------------------------------------------------------- */
 
-/* A body, the requirements of its faces, and a factor for each particle and offset. */
+/* A body, the areas and moments that its faces require, and the factor of each bond: factor[t n + k] for particle t
+ * near a face and the offset k to its neighbour. */
 struct plain {
     struct particle_cloud cloud;
     struct particles_near_faces body;
@@ -33,8 +34,8 @@ struct plain {
             for (int c = 0; c < (dim); c++)                                                                            \
                 for (int d = 0; d < (dim); d++)
 
-/* Returns the scalar x . P x for the faces near particle t of s, with P^-1 = 1 + 1000 Q, by elimination. Q: products of
- * the tractions that strains cause on these faces; x: one number for each basis strain. */
+/* Returns x . P x for the particle t of s, with P^-1 = 1 + 1000 Q, by Gaussian elimination. x: one number for each
+ * basis strain; Q: scalar products of the tractions on the faces near the particle under pairs of basis strains. */
 static real weighed(const struct plain *s, int64_t t, const real *x)
 {
     real m[STRAINS][STRAINS + 1], sum = 0;
@@ -59,9 +60,9 @@ static real weighed(const struct plain *s, int64_t t, const real *x)
     return sum;
 }
 
-/* Returns the functional that the factors of bonds minimise, for particle t of s: sum_k (T:B_k) P (T:B_k) of a
- * difference T of fourth moments, plus sum_p (n_p.T) P (n_p.T) of a difference of third moments. B_k: basis strains; P:
- * as in weighed. */
+/* Returns the part of the functional for the particle t of s: sum_k (T:B_k) P (T:B_k) for the difference `fourth` of
+ * fourth moments, plus sum_p (n_p.T) P (n_p.T) for the difference `third` of third moments. B_k: basis strains; n_p:
+ * axes; P: as in weighed. */
 static real squares(const struct plain *s, int64_t t, real (*fourth)[DIM_MAX][DIM_MAX][DIM_MAX],
                     real (*third)[DIM_MAX][DIM_MAX])
 {
@@ -82,7 +83,8 @@ static real squares(const struct plain *s, int64_t t, real (*fourth)[DIM_MAX][DI
     return sum;
 }
 
-/* Adds the moments of bond number k of s, times `factor`, to the fourth and third moments. */
+/* Adds the moments of the bond with the offset k of s, times `factor`, to fourth and third moments, normalised by the
+ * whole family. */
 static void add_bond(const struct plain *s, int k, real factor, real (*fourth)[DIM_MAX][DIM_MAX][DIM_MAX],
                      real (*third)[DIM_MAX][DIM_MAX])
 {
@@ -169,8 +171,8 @@ static void plain_free(struct plain *s)
     particle_cloud_free(&s->cloud);
 }
 
-/* Returns the derivative of the functional of s by the factor of bond number k of particle t, which counts at both of
- * its ends. */
+/* Returns the derivative of the functional of s by the factor of the bond with the offset k of particle t, by a central
+ * difference. The factor is changed at both ends of the bond. */
 static real slope(struct plain *s, int64_t t, int k)
 {
     const int n = s->body.offset.n;
@@ -212,8 +214,9 @@ static void check_least(const struct cloud_plan *plan)
     plain_free(&s);
 }
 
-/* Checks that the fitted factors minimise the functional, by its slopes, for bodies so small that no two particles have
- * equal surroundings except in mirrors: the sets of bonds with one factor then impose no constraint. */
+/* Checks that the fitted factors minimise the functional within their limits of 0.2 and 3: slopes vanish to 1e-6, or
+ * point outwards at a limit. The bodies are so small that no two particles have equal surroundings except in mirrors,
+ * so that bonds that share one factor impose no further constraint. */
 static void factors_are_least(void **state)
 {
     (void)state;
@@ -230,9 +233,10 @@ static void factors_are_least(void **state)
 
 /* ---- faces ------------------------------------------------------------------------------------------------------- */
 
-/* Checks the areas of faces along a row across a plate, far from its other sides: both faces are half a spacing beyond
- * the outer particles. Expected weight of a flat face: the sum of 1 - r/4 over the bonds of up to two spacings (in a
- * horizon of three); of the face of a particle on it: 1 + 2 (3/4 + 1/2), to the third power. */
+/* Checks the areas of faces along a row of particles across a plate, far from its other sides. Their moment shows that
+ * both faces are half a spacing beyond the outer particles. Expected weight of a face at a depth of 0 to 2 particles:
+ * the ratio of the sum of 1 - r/4 over the bonds that reach the face to that of an outer particle, 1 + 2 (3/4 + 1/2),
+ * to the third power. */
 static void faces_are_at_their_places(void **state)
 {
     (void)state;
@@ -257,9 +261,9 @@ static void faces_are_at_their_places(void **state)
 
 /* ---- energy ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the energy [J] of a beam of `length` x `layers` particles in pure bending, u = k (x y, -(x^2 + nu y^2 - nu
- * z^2)/2, -nu y z), which leaves all faces free but the ends: E I k^2/2 per length. Two lengths separate it from the
- * energy of the ends. surface: rule of the weights near faces. space: plane or solid. */
+/* Returns the energy of a beam of `length` x `layers` particles bent with the curvature k, divided by E I k^2/2 [m]: u
+ * = k (x y, -(x^2 + nu y^2 - nu z^2)/2, -nu y z), which leaves all faces but the ends free. The difference of two
+ * lengths is free of the energy of the ends. space: plane stress or solid; surface: rule of the weights near faces. */
 static real bending_energy(enum space space, enum surface_rule surface, int length, int layers)
 {
     const real curvature = 1e-3;
@@ -315,7 +319,7 @@ static void bending_has_the_energy_of_a_beam(void **state)
 /* A plane of symmetry at x = 0. */
 static const struct boundary mirror[] = {{.name = "left", .kind = BOUNDARY_MIRROR, .body = -1, .axis = 0, .at = 0}};
 
-/* Checks that half of a body beside a mirror has the factors of the whole body. */
+/* Checks that half of a body beside a mirror has the weight factors of the whole body, to 1e-7. */
 static void half_is_as_the_whole(void **state)
 {
     (void)state;
@@ -346,8 +350,8 @@ static void half_is_as_the_whole(void **state)
     particle_cloud_free(&half);
 }
 
-/* Checks that the residual of the solver shows whether it gave up: it converges with the number of products that it may
- * use, but not with three. */
+/* Checks that the returned residual of the fit shows whether its solver has converged: below 1e-12 with
+ * SURFACE_PRODUCTS matrix products, above 1e-6 with three. */
 static void residual_is_told(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Contact: forces and energy compared with a plain sum over all pairs without bonds, the third law, forces as the
- * gradient of the energy, and the stiffness of the law. */
+/* Contact between particles: forces and energy compared with sums over all pairs without bonds, Newton's third law,
+ * forces as the gradient of the energy, the stiffness of the contact law, and contact with a rigid ball. */
 #include <math.h>
 #include <string.h>
 
@@ -13,7 +13,7 @@
 #include "step/stability.h"
 #include "step/checks.h"
 
-/* A body hits a cracked one, whose crack closes. */
+/* A body that hits a cracked one, whose crack closes. */
 static const char plane[] =
     "name: hit\nspace: plane stress\nthickness: 2 mm\nmethod: pd\nduration: 30 us\n"
     "materials:\n  - {name: hard, young: 200 GPa, poisson: 1/3, density: 8000}\n"
@@ -36,8 +36,8 @@ static const char line[] = "name: hit\nspace: line\nsection: 4 mm^2\nmethod: pd\
                            "  - {name: target, shape: {box: {from: [0.02 mm], to: [20.02 mm]}}}\n"
                            "particles: {spacing: 1 mm}\ncontact: {between: all}\noutput: {frames: 1, samples: 10}\n";
 
-/* A rotated box, whose side faces are staircases on the lattice, cut through and sheared: columns of one half pass
- * those of the other. */
+/* A rotated box, whose side faces are staircases on the lattice, is cut through and sheared: columns of particles of
+ * one half slide past those of the other. */
 static const char turned[] =
     "name: turned\nspace: solid\nmethod: pd\nduration: 16 us\n"
     "material: {young: 110 GPa, density: 4430, energy_release_rate: 500 J/m^2}\n"
@@ -79,8 +79,8 @@ static real length(const struct particles *p, real *const *place, int64_t i, int
     return sqrt(r2);
 }
 
-/* Returns the contact stiffness k of particles i and j [N/m]: 15 c V V/delta, with the micro-modulus c, the volumes V
- * and the horizon delta; for two materials the harmonic mean. */
+/* Returns the contact stiffness k of particles i and j [N/m]: 15 c V_i V_j/delta, with the micro-modulus c (for two
+ * materials the harmonic mean), the volumes V and the horizon delta. */
 static real plain_stiffness(const struct run *run, int64_t i, int64_t j)
 {
     const struct particles *p = &run->part;
@@ -98,8 +98,8 @@ static bool may_meet(const struct run *run, int64_t i, int64_t j)
     return !has_bond(run, i, j);
 }
 
-/* Computes the contact of the law `pair` by sums over all pairs of particles without a bond that are closer than one
- * spacing and closer than in the reference state. f[dim n]: receives the forces [N]. Returns the energy [J]. */
+/* Computes the contact of the law `pair` for all pairs of particles without a bond whose distance is less than one
+ * spacing and less than in the reference state. f[dim n]: receives the forces [N]. Returns the energy [J]. */
 static real plain_pairs(const struct run *run, real *f)
 {
     const struct particles *p = &run->part;
@@ -121,11 +121,11 @@ static real plain_pairs(const struct run *run, real *f)
 
 /* ---- law `surface` ----------------------------------------------------------------------------------------------- */
 
-/* Returns Wendland's kernel at the distance q of its range [1], 0 beyond it. */
+/* Returns Wendland's kernel (1 - q)^4 (1 + 4 q) at the distance q, relative to its range; 0 beyond the range. */
 static real wendland(real q) { return q < 1 ? pow(1 - q, 4) * (1 + 4 * q) : 0; }
 
-/* Returns the density of a face at the height s [spacings] above a particle of a layer: the number of particles nearby,
- * weighted by the kernel of the law. */
+/* Returns the density that particles of a plane layer have at the height s above one of them [spacings]: the number of
+ * particles nearby, weighted by Wendland's kernel with a range of two spacings. */
 static real above_layer(int dim, real s)
 {
     real sum = 0;
@@ -135,8 +135,8 @@ static real above_layer(int dim, real s)
     return sum;
 }
 
-/* Returns the height above a layer at which its density (above_layer) has the value `density`, by bisection
- * [spacings]. */
+/* Returns the height above a layer of particles [spacings] at which its density (above_layer) has the value `density`,
+ * by bisection. */
 static real height_of(int dim, real density)
 {
     real low = 0, high = 2;
@@ -150,8 +150,8 @@ static real height_of(int dim, real density)
     return 0.5 * (low + high);
 }
 
-/* Returns by how much the surface of the body of particle i (ball or box) exceeds half a spacing above the particle
- * [spacings]. */
+/* Returns by how much the distance of particle i from the surface of its body (ball or box) exceeds half a spacing
+ * [spacings], within 0.6; 0 for particles farther inside. */
 static real plain_rise(const struct run *run, int64_t i)
 {
     const struct particles *p = &run->part;
@@ -166,9 +166,9 @@ static real plain_rise(const struct run *run, int64_t i)
     return rise > 0.6 ? 0 : real_max(rise, -0.6);
 }
 
-/* Returns the height of particle i above the surface of the particles near faces with which it may come into contact,
- * at the positions place[dim] (current or reference) [spacings]. *softest: receives the stiffness k of the softest pair
- * [N/m]. */
+/* Returns the height of particle i above the layer of particles near faces with which it may come into contact, minus
+ * the mean of their plain_rise weighted by the kernel [spacings]. place[dim]: current or reference positions; *softest:
+ * receives the stiffness of the softest pair [N/m]. */
 static real plain_height(const struct run *run, int64_t i, real *const *place, real *softest)
 {
     const struct contact *c = run->contact;
@@ -184,9 +184,9 @@ static real plain_height(const struct run *run, int64_t i, real *const *place, r
     return height_of(run->part.dim, density) - (density > 0 ? rise / density : 0);
 }
 
-/* Returns the contact energy of all particles by the law `surface` [J]: the sum of 1/4 k (zero - height)^2. zero:
- * height at which contact begins, the sum of the rise of the own surface and half a spacing, or less if the reference
- * state is closer. */
+/* Returns the contact energy of all particles by the law `surface` [J]: the sum of 1/4 k (zero - height)^2, with the
+ * height of plain_height and the stiffness k of the softest pair. zero: height at which contact begins, 1 + plain_rise
+ * [spacings], or the height in the reference state if that is less. */
 static real plain_faces(const struct run *run)
 {
     real energy = 0, softest;
@@ -200,7 +200,7 @@ static real plain_faces(const struct run *run)
     return energy;
 }
 
-/* Computes the forces of contact alone into run->part.f. */
+/* Computes the forces of contact, without bonds and loads, into run->part.f. */
 static void contact_alone(struct run *run)
 {
     for (int d = 0; d < run->part.dim; d++) memset(run->part.f[d], 0, (size_t)run->part.n * sizeof(real));
@@ -208,8 +208,8 @@ static void contact_alone(struct run *run)
     contact_compute_forces(run->contact, &run->part, 0);
 }
 
-/* Checks Newton's third law: sums of forces and moments vanish up to the round-off of the up to a dozen pairs of a
- * particle. */
+/* Checks that the sums of contact forces and of their moments vanish. Tolerance: round-off of the up to a dozen pairs
+ * of a particle. */
 static void check_third_law(const struct run *run)
 {
     const struct particles *p = &run->part;
@@ -229,8 +229,8 @@ static void check_third_law(const struct run *run)
     }
 }
 
-/* Compares the contact of the run with plain sums over all particles. Law `pair`: forces and energy agree to round-off.
- * Law `surface`: the energy agrees within the error of the table of heights, 1e-6 spacings. */
+/* Compares the contact of the run with sums over all pairs (plain_pairs, plain_faces). Law `pair`: forces and energy
+ * agree to round-off. Law `surface`: the energy agrees within the error of the table of heights, 1e-6 spacings. */
 static void check_plain(struct run *run)
 {
     const struct particles *p = &run->part;
@@ -273,8 +273,9 @@ static void check_gradient(struct run *run)
     }
 }
 
-/* Runs the collision of the scene `text` with the contact law `law` and compares with the plain sums after every fourth
- * step. pairs_least: smallest number of pairs that must have been in contact. */
+/* Runs the collision of the scene `text` with the contact law `law` and compares contact with the sums over all pairs
+ * after every fourth step. Fails unless at least `pairs_least` pairs were in contact and contact lasted for 3
+ * comparisons. */
 static void check_collision(const char *text, const char *law, real pairs_least)
 {
     struct scene s;
@@ -327,9 +328,9 @@ static void check_law_gradient(struct run *run)
     memory_free(drag);
 }
 
-/* Tests surfaces far above their particles, which come into contact out of reach of the density of the faces: no energy
- * appears without work of a force. Tolerance: with contact off, the energy balance of this run, whose grips start
- * suddenly, is off by at most 0.0081. */
+/* Checks surfaces far above their particles, which come into contact beyond the range in which the density of a face is
+ * not zero: no energy may appear without work of a force. Tolerance 1 %: without contact the energy balance of this
+ * run, whose grips start suddenly, is off by up to 0.81 %. */
 static void test_steps(void **state)
 {
     (void)state;
@@ -349,9 +350,9 @@ static void test_steps(void **state)
     contact_end(run, &s);
 }
 
-/* Checks the stiffness k of a pair of lattice particles against closed forms: 5/6 E A/D in 1D (neighbourhoods of 3
- * spacings: E A/D is 6 k1, and k is 15/3.015 k1), and 0.51 E h per column in 2D. Tolerance 3 %: weights by direction
- * change the micro-modulus. */
+/* Checks the stiffness k of a pair of lattice particles against closed forms: 15/(3.015 6) E A/D = 5/6 E A/D in 1D (D:
+ * spacing; neighbourhoods of 3 spacings), and 0.51 E h per column in 2D (h: thickness). Tolerance 3 % in 2D: weights by
+ * direction change the micro-modulus. */
 static void test_stiffness(void **state)
 {
     (void)state;
@@ -364,8 +365,8 @@ static void test_stiffness(void **state)
     contact_end(run, &s);
 }
 
-/* Checks for the contact law `law` that bodies at rest one spacing apart, and the faces of a crack, have no force and
- * bitwise no motion. */
+/* Checks for the contact law `law` that bodies at rest one spacing apart, and the faces of a crack, have exactly zero
+ * velocity after 1000 steps. */
 static void check_rest(const char *law)
 {
     static const char text[] = "name: rest\nspace: plane stress\nthickness: 1 mm\nmethod: pd\nduration: 100 us\n"
@@ -390,9 +391,9 @@ static void test_rest(void **state)
     check_rest("surface");
 }
 
-/* Checks the account of the energy error of a row (contact of one particle) whose gap enters and leaves contact: it
- * equals the deficit of the work of the force, 1/2 K g_n (g_n+1 - g_n-1)/2 at each step inside, as the energy is 0
- * before and after. */
+/* Checks the account of the error of leap-frog integration in the contact of one particle whose gap g becomes negative
+ * and positive again. It must equal minus the work of the force over all steps n in contact, the sum of 1/2 K g_n
+ * (g_n+1 - g_n-1)/2, since the energy is 0 before and after. */
 static void test_account(void **state)
 {
     (void)state;
@@ -411,8 +412,8 @@ static void test_account(void **state)
     }
 }
 
-/* Checks the contact size of particles, the edge of a cube of the volume of the particle, and the width of a notch,
- * which separates only particles of one body. */
+/* Checks the contact size of particles, the edge of a cube of equal volume, and that a notch has its width between
+ * particles of one body and 0 between particles of two. */
 static void test_sizes(void **state)
 {
     (void)state;
@@ -448,9 +449,9 @@ static void test_sizes(void **state)
     }
 }
 
-/* Checks contact with a rigid ball: it begins at the smallest distance that a particle had at their first contact, and
- * this limit follows a particle that moves outwards, not one that moves inwards. The patch of overlapping particles has
- * the diagonal of their box. */
+/* Checks contact of particles with a rigid ball. Contact begins at a distance that follows a particle that moves
+ * outwards, but not one that moves inwards (depth and zero). The size of the contact patch is the diagonal of the
+ * bounding box of the overlapping particles. */
 static void test_beside_a_ball(void **state)
 {
     (void)state;
