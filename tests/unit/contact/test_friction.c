@@ -1,5 +1,5 @@
-/* Spring of friction compared with Coulomb's law and its energies; forces and moments of rigid bodies as the gradient
- * of their energy. */
+/* Friction: the spring of a contact compared with Coulomb's law and its energies; forces and moments on rigid bodies as
+ * the gradient of their contact energy; sliding bodies; weights of particles of different sizes. */
 #include <math.h>
 #include <string.h>
 
@@ -12,8 +12,8 @@
 #include "rigid/rigid_part.h"
 #include "step/sample.h"
 
-/* Checks a friction spring of 3 kN/m on a face with the normal (0, 0.6, 0.8): it sticks up to 0.2 N, then slides with
- * this force; the work of the motion is stored or dissipated, and the stored part vanishes at separation. */
+/* Checks a friction spring of 3 kN/m on a face with the normal (0, 0.6, 0.8). It sticks up to 0.2 N and then slides
+ * with this force; the work of the motion is stored or dissipated; at separation the stored energy is dissipated. */
 static void spring_of_coulomb(void **state)
 {
     (void)state;
@@ -36,7 +36,8 @@ static void spring_of_coulomb(void **state)
     assert_close(s.lost, given, 1e-12);
 }
 
-/* Checks that a friction spring keeps its length and lies in the rotated face when the face rotates. */
+/* Checks that a friction spring is rotated with its face: it remains in the plane of the face, and its length and
+ * energy are unchanged. */
 static void spring_follows_its_face(void **state)
 {
     (void)state;
@@ -52,7 +53,7 @@ static void spring_follows_its_face(void **state)
 
 /* ---- in a body --------------------------------------------------------------------------------------------------- */
 
-/* Reads the scene `text` into s and returns its run before the first step. */
+/* Reads the scene `text` into *s and returns a new run of it before its first step. */
 static struct run *body_begin(struct scene *s, const char *text)
 {
     struct run *run = NEW("test.engine", 1, struct run);
@@ -84,7 +85,7 @@ static void forces_at(struct run *run, real dt)
     contact_compute_forces(run->contact, p, dt);
 }
 
-/* A block pressed into a disc by 0.1 spacings, eccentrically. */
+/* A block that is pressed into a disc by 0.1 spacings, off the centre of the disc. */
 static const char pressed[] =
     "space: plane strain\nthickness: 0.37 m\nduration: 1 us\nmethod: pd\n"
     "material: {young: 3 GPa, poisson: 1/4, density: 1180}\nbodies:\n"
@@ -127,7 +128,8 @@ static void rigid_force_is_a_gradient(void **state)
     body_end(run, &s);
 }
 
-/* An eccentrically pivoted disc beside two separated contacts: its moment is nonzero, unlike that of a centred disc. */
+/* A disc with an eccentric pivot, in contact with two separate bodies: the moment on it is not zero, unlike that on a
+ * disc pivoted at its centre. */
 static const char pivoted[] =
     "space: plane strain\nthickness: 0.37 m\nduration: 1 us\nmethod: pd\n"
     "material: {young: 3 GPa, poisson: 1/4, density: 1180}\nbodies:\n"
@@ -164,8 +166,8 @@ static const char blocks[] = "space: plane strain\nthickness: 0.37 m\nduration: 
                              "  - {name: high, shape: {box: {from: [4 mm, 5 mm], to: [14 mm, 9 mm]}}}\n"
                              "particles: {spacing: 1 mm}\ncontact: {between: bodies, friction: 0.3}\n";
 
-/* Checks that bodies that move together have no friction, and that a sliding body experiences the friction coefficient
- * times the normal force against its motion. */
+/* Checks that bodies that move together have no friction, and that a sliding body experiences 0.3 times the normal
+ * force against its motion. Tolerance 2 %: forces at the ends of the face are oblique. */
 static void faces_rub(void **state)
 {
     (void)state;
@@ -199,7 +201,7 @@ static const char barred[] =
     "  - {name: bar, rigid: true, mass: 2 kg, shape: {box: {from: [-3 mm, 6 mm], to: [31 mm, 9 mm]}}}\n"
     "particles: {spacing: 1 mm}\ncontact: {between: bodies, friction: 0.3}\n";
 
-/* Computes force[dim], the sum of the forces p->f on the particles of the block [N]. */
+/* Sums the forces p->f of all particles (the block) into force[2] [N]. */
 static void block_force(const struct particles *p, real *force)
 {
     force[0] = force[1] = 0;
@@ -207,9 +209,10 @@ static void block_force(const struct particles *p, real *force)
         for (int d = 0; d < 2; d++) force[d] += p->f[d][i];
 }
 
-/* Checks that particles that move and rotate with a rigid body experience no friction. If the body moves faster along
- * its face, it exerts friction times the normal force on them, and the work of sliding is dissipated: 0.3 force 1.6 m/s
- * time. A sample includes this work in the dissipated energy. */
+/* Checks that particles that move and rotate with a rigid body experience no friction. If the body is faster along its
+ * face, it exerts the friction coefficient times the normal force on them, its moment balances that on the particles,
+ * and the dissipated energy is 0.3 force 1.6 m/s time. A sample includes this energy in the dissipated energy of the
+ * run. */
 static void rigid_body_rubs(void **state)
 {
     (void)state;
@@ -248,8 +251,8 @@ static void rigid_body_rubs(void **state)
     body_end(run, &s);
 }
 
-/* Checks the weights of faces of particles of different sizes against the formula: W = (1 - q)^4 (1 + 4 q) with q =
- * r/(2 D), times D_l/D in 2D. r: distance; D: mean of both sizes; D_l: size of the other particle. */
+/* Checks the kernel weights of pairs of particles of different sizes against the formula W = (1 - q)^4 (1 + 4 q) times
+ * D_l/D (2D). q = r/(2 D); r: distance; D: mean of both sizes; D_l: size of the other particle. */
 static void weights_of_sizes(void **state)
 {
     (void)state;

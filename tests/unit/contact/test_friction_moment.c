@@ -1,5 +1,5 @@
-/* Friction between particles conserves momentum and angular momentum, its work equals the energy that springs store and
- * dissipate, and bodies that rotate together have none. */
+/* Friction between particles of two bodies: it conserves momentum and angular momentum, its work is the energy that
+ * springs store and dissipate, and bodies that rotate together have none. */
 #include <math.h>
 #include <string.h>
 
@@ -10,7 +10,7 @@
 #include "tests/support/near.h"
 #include "step/report.h"
 
-/* A block on another one of another material. */
+/* A block on another one of a different material. */
 static const char plane[] =
     "space: plane strain\nthickness: 0.37 mm\nduration: 1 us\nmethod: pd\n"
     "materials:\n  - {name: hard, young: 200 GPa, poisson: 1/4, density: 8000}\n"
@@ -60,8 +60,8 @@ static const real *axis_of(int dim)
     return dim == 2 ? across : odd;
 }
 
-/* Creates the run of the scene `text`, which is read into s, searches contacts, then presses the upper block obliquely
- * into the lower one and rotates both by an arbitrary angle. Returns the run. */
+/* Reads the scene `text` into *s and creates its run, finds the pairs in contact, presses the upper block obliquely
+ * into the lower one, and rotates both together by 0.7 rad. Returns the run. */
 static struct run *pressed_begin(struct scene *s, const char *text)
 {
     struct run *run = NEW("test.engine", 1, struct run);
@@ -85,8 +85,8 @@ static void pressed_end(struct run *run, struct scene *s)
     scene_free(s);
 }
 
-/* Computes the forces of contact into run->part.f, after a step of dt [s], which stretches the friction springs; dt =
- * 0: without. */
+/* Computes the forces of contact into run->part.f after a step of dt [s], by whose motion the friction springs are
+ * stretched; dt = 0: without stretching them. */
 static void forces_after(struct run *run, real dt)
 {
     struct particles *p = &run->part;
@@ -95,8 +95,9 @@ static void forces_after(struct run *run, real dt)
     contact_compute_forces(run->contact, p, dt);
 }
 
-/* Moves the particles of the run by a step dt [s]. Returns the mean power of friction at the velocities of this step,
- * with the forces before and after the step [W]. drag[dim n]: friction forces [N], updated. */
+/* Moves the particles of the run by a step dt [s] and computes the friction forces drag[dim n] [N], i.e. contact forces
+ * minus those without springs. Returns the power of friction at the velocities of this step [W], with the mean of the
+ * forces before (drag as passed) and after the step. */
 static real slide(struct run *run, real dt, real *drag)
 {
     struct particles *p = &run->part;
@@ -161,9 +162,9 @@ static void set_moving(struct particles *p)
     }
 }
 
-/* Runs the scene `text` for `steps` steps over `time` [s] and checks the sums of forces after each (check_sums).
- * Returns the difference between the work of friction and the energy that springs have stored and dissipated, divided
- * by this energy. */
+/* Runs the scene `text` for `steps` steps over `time` [s] and checks the sums of friction forces after each step
+ * (check_sums). Returns the relative difference between the work of friction and the energy that springs have stored
+ * and dissipated. */
 static real work_error(const char *text, real time, int steps)
 {
     struct scene s;
@@ -184,9 +185,9 @@ static real work_error(const char *text, real time, int steps)
     return work / energy - 1;
 }
 
-/* Checks that the work of friction in the scene `text` equals the energy of the springs. Measured difference: 1.4e-4 in
- * 2D, where the spring rotates with its face by 1e-3 per step, and 6e-7 in 3D; it decreases in proportion to the
- * step. */
+/* Checks that the work of friction in the scene `text` equals the energy of the springs, to 3e-4 in 40 steps and 1e-4
+ * in 160. Measured in 40 steps: 1.4e-4 in 2D, where the spring rotates with its face by 1e-3 per step, and 6e-7 in 3D;
+ * the difference is proportional to the step. */
 static void check_sliding(const char *text)
 {
     assert_near(work_error(text, 20e-6, 40), 0, 3e-4);
@@ -196,9 +197,9 @@ static void check_sliding(const char *text)
 static void sliding_in_the_plane(void **state) { (void)state, check_sliding(plane); }
 static void sliding_in_space(void **state) { (void)state, check_sliding(space); }
 
-/* Checks that two bodies of the scene `text` that rotate together by 0.1 rad in 100 steps have no friction. Tolerance:
- * chords instead of arcs cause a slip of 1e-9 of the arm per step. (A slip relative to the mean velocity of the
- * neighbouring particles, a spacing away, would be 1e-3 of a spacing.) */
+/* Checks that two bodies of the scene `text` that rotate together by 0.1 rad in 100 steps have no friction energy.
+ * Tolerance: chords instead of arcs cause a slip of 1e-9 of the arm per step. A slip relative to the mean velocity of
+ * neighbours a spacing away would be 1e-3 of a spacing. */
 static void check_turning(const char *text)
 {
     struct scene s;
@@ -232,10 +233,10 @@ static void turning_together(void **state)
 
 #define H 0.7e-3 /* spacing [m] */
 
-/* Tests a particle at the height H above `felt` particles along x, which alternately deviate from the line by `aside`:
- * it moves by 1 um along the axis `along` and sticks. Returns the largest force of the couple on one of these
- * particles, divided by the friction force; *balance: receives the share of the moment of friction that the couple
- * balances. */
+/* Computes the friction of a particle at the height H above `felt` particles along x, whose y alternates between
+ * `aside` and -aside [m]: it moves by 1 um along the axis `along` and sticks. The moment of friction about these
+ * particles is balanced by a couple of forces on them. Returns the largest of these forces divided by the friction
+ * force. *balance: receives the fraction of the moment that the couple balances. */
 static real couple_of(int felt, real aside, int along, real *balance)
 {
     struct particles p;
@@ -279,8 +280,9 @@ static real couple_of(int felt, real aside, int along, real *balance)
     return most / sqrt(dot(spring.drag, spring.drag, 3));
 }
 
-/* Checks that particles in a line can balance a moment along the line and not one across it, that no force exceeds
- * sqrt(10) times the friction force where they almost cannot, and that they can again away from the line. */
+/* Checks the couple that balances the moment of friction on particles in a line. It balances a moment across the line,
+ * but not one along it; almost none if the particles hardly deviate from the line, and all of it if they deviate by 0.4
+ * spacings. No force may exceed sqrt(10) times the friction force. */
 static void felt_in_a_line(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
-/* Interface damping conserves momentum, angular momentum and rigid motion, only dissipates energy, stops motion that
- * alternates from point to point, and hardly affects long waves. */
+/* Interface damping, which acts on material points near peridynamic particles: it conserves momentum, angular momentum
+ * and rigid motion, only dissipates energy, stops motion that alternates from point to point, and hardly affects long
+ * waves. */
 #include "coupling/interface_zone.h"
 
 #include "tests/support/cloud.h"
@@ -29,8 +30,8 @@ static void half_free(struct particle_cloud *c, struct interface_zone *zone)
     particle_cloud_free(c);
 }
 
-/* Sums of momentum, angular momentum x_a p_b - x_b p_a, and twice the kinetic energy; scale: sums of the magnitudes of
- * the terms. */
+/* sum: momentum, angular momentum x_a p_b - x_b p_a, and twice the kinetic energy; scale: sums of the magnitudes of
+ * their terms. */
 enum { SUMS = 7 };
 static void sums_of(const struct particles *p, real *sum, real *scale)
 {
@@ -46,8 +47,8 @@ static void sums_of(const struct particles *p, real *sum, real *scale)
         }
 }
 
-/* Checks what interface damping conserves, for random velocities on an irregular body: momentum and angular momentum
- * agree to the round-off of the sums (1e-14 of their terms), and the kinetic energy decreases by the recorded loss. */
+/* Checks interface damping of random velocities on an irregular body: momentum and angular momentum are conserved to
+ * the round-off of their sums (1e-14 of the terms), and the kinetic energy decreases by the recorded loss. */
 static void test_kept(void **state)
 {
     (void)state;
@@ -75,7 +76,7 @@ static void test_kept(void **state)
 }
 
 /* Checks that rigid motion is not damped, since no two particles move relative to each other along the line between
- * them. */
+ * them. Tolerance: round-off. */
 static void test_rigid(void **state)
 {
     (void)state;
@@ -99,9 +100,9 @@ static void test_rigid(void **state)
     }
 }
 
-/* Checks the damping of waves in a bar against the closed form, with d_i = v_(i-1) - 2 v_i + v_(i+1). If all neighbours
- * are in the zone, k = 1/16 stops motion that alternates from point to point in one step, and reduces sin(q i) by (2 -
- * 2 cos q)^2/16. */
+/* Checks the damping of waves in a bar against the closed form. With complete neighbourhoods and the coefficient 1/16,
+ * one step reduces sin(q i) by (2 - 2 cos q)^2/16; motion that alternates from point to point (q = pi) stops. Points
+ * outside the zone are not changed. */
 static void test_waves(void **state)
 {
     (void)state;
@@ -122,8 +123,8 @@ static void test_waves(void **state)
     }
 }
 
-/* Checks that a crack across the zone, between two rows, uncouples its faces when they separate, that they are coupled
- * without the crack, and that there are no pairs of particles of two bodies. */
+/* Checks the damping of two halves above each other that separate: it acts across their boundary, but not if a crack is
+ * there or they are two bodies. */
 static void test_parted(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
-/* Reversion to material points: energy and momentum of a block that reverts under uniform strain, stress of
- * neighbourhoods incomplete at surfaces, selection of the particles that may revert, and their insertion into a
- * mesh. */
+/* Reversion of peridynamic particles to material points: energy and momentum of bodies that revert, the stress of
+ * particles with incomplete neighbourhoods at surfaces, the selection of particles that may revert, and their insertion
+ * into a mesh. */
 #include "coupling/reversion.h"
 
 #include "tests/support/cloud.h"
@@ -31,9 +31,9 @@ static void setting_make(struct setting *s, const struct cloud_plan *plan)
 
 static void know_stress(struct setting *s) { bond_stress_table[s->c.p.dim][PD_BOND](&s->c.bonds, &s->c.p); }
 
-/* Selects the particles of s that may revert, at three times; checks that none is selected before the dwell time has
- * passed, which only starts at the first call. list: receives the indices of the selected particles. Returns their
- * number at the end of the dwell time. */
+/* Selects the particles of s that may revert at the times 1, 1.999 and 2. Checks that none is selected before the dwell
+ * time of 1, which starts at the first call, has passed. list: receives the indices of the particles selected last.
+ * Returns their number. */
 static int64_t choose(struct setting *s, int32_t **list)
 {
     know_stress(s);
@@ -50,8 +50,9 @@ static void setting_never(struct setting *s)
 
 /* ---- energy ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the energy of the bonds of s, plus 1/2 sigma_given C^-1 sigma summed over the points [J], where sigma_given
- * is the part of the stress sigma that a point transfers itself. partial: partial stresses. */
+/* Returns the energy of the bonds of s plus that of the points [J]: the sum of 1/2 V sigma_given : C^-1 sigma. sigma:
+ * stress of a point; sigma_given: the part that it transfers to the grid itself; partial: partial stresses of the
+ * points. */
 static real energy_of(const struct setting *s, const struct partial_stress *partial)
 {
     const struct particles *p = &s->c.p;
@@ -70,9 +71,9 @@ static real energy_of(const struct setting *s, const struct partial_stress *part
     return sum;
 }
 
-/* Tests the reversion of a block in the middle of a uniformly strained bar: only the method that carries the stress
- * changes, so that the energy stays equal (published error: 0) and the momentum is bitwise equal. Tolerance: finite
- * strain and round-off for 60 particle energies, as in test_coupling.c. */
+/* Checks the reversion of a block in the middle of a uniformly strained bar: stress and energy do not change (published
+ * error: 0), and positions and velocities are bitwise equal. Tolerance: finite strain and round-off for 60 particle
+ * energies, as in test_coupling.c. */
 static void test_bar(void **state)
 {
     (void)state;
@@ -117,10 +118,9 @@ static void test_bar(void **state)
     particle_cloud_free(&s.c);
 }
 
-/* Compares the energy that is lost when a whole bar reverts during a standing wave of stress E e exp(-(4 X/width)^2),
- * by the smoothing of bonds, with published values. Published relative loss for a travelling pulse, half of whose
- * energy is kinetic and is kept: -0.09 % at 80 spacings, -0.3 % at 40, -1.8 % at 16; measured -0.083, -0.327, -1.86
- * %. */
+/* Compares the loss of energy when a whole bar reverts during a standing wave of the stress E e exp(-(4 X/width)^2),
+ * which bonds smooth, with published values. Published relative losses, for a travelling pulse whose kinetic half is
+ * kept: -0.09 % at a width of 80 spacings, -0.3 % at 40, -1.8 % at 16; measured -0.083, -0.327, -1.86 %. */
 static void test_wave(void **state)
 {
     (void)state;
@@ -149,9 +149,9 @@ static void test_wave(void **state)
     }
 }
 
-/* Tests the reversion of a whole body: a particle at a corner, with a quarter or an eighth of a neighbourhood, gets the
- * stress of a particle in the middle, and the volume of the uniform deformation gradient. Tolerance: weights of bonds
- * are in single precision. */
+/* Checks the reversion of a whole strained body: all particles, also those at a corner with a quarter or an eighth of a
+ * neighbourhood, have the stress of a particle in the middle (tolerance 1e-5: weights are in single precision), and the
+ * volume of the uniform deformation gradient. */
 static void test_surfaces(void **state)
 {
     (void)state;
@@ -199,8 +199,8 @@ static real distance(const struct particles *p, int64_t i, int64_t j)
 
 enum reason { REASON_BREAK, REASON_STRESS, REASON_REGION };
 
-/* Checks that the region that one particle of a square, which must not revert, keeps from reverting agrees with a plain
- * evaluation of its definition. */
+/* Checks that one particle of a square that must not revert (damage, stress or region) keeps exactly those within its
+ * reach, two horizons or one, from reverting. */
 static void test_who_stays(void **state)
 {
     (void)state;
@@ -241,8 +241,9 @@ static void test_who_stays(void **state)
     }
 }
 
-/* Checks that a stress that returns before the end of the dwell time restarts it, and that particles enclosed in a
- * narrow gap do not revert. */
+/* Checks three rules of reversion in a bar: stress that returns before the end of the dwell time restarts the dwell
+ * time; the stress of particles with half a neighbourhood counts twice; particles in a gap shorter than a whole
+ * neighbourhood do not revert. */
 static void test_dwell_and_gap(void **state)
 {
     (void)state;
@@ -290,8 +291,9 @@ static void test_dwell_and_gap(void **state)
 
 /* ---- the mesh ---------------------------------------------------------------------------------------------------- */
 
-/* Tests points that leave a mesh, which moves rigidly with uniform strain, and return: all nodes, also removed ones,
- * have the displacement of that motion again, momentum is conserved, and the change of kinetic energy is recorded. */
+/* Checks points that leave a mesh, which moves rigidly with uniform strain, and are inserted again. All nodes, also
+ * removed ones, have the displacement of this motion again, momentum is conserved, and the change of kinetic energy is
+ * returned. */
 static void test_mesh(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* State-based bonds coupled to material points: residual of uniform strain across a flat interface, moment on a point,
- * and zero energy of conversion. */
+/* State-based bonds coupled to material points: residual forces of uniform strain at a flat interface, moments on
+ * points, energies of conversion, and stiffness that bonds take over from points. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -57,8 +57,8 @@ static void stress_set(struct particle_cloud *c, const real strain[DIM_MAX][DIM_
         }
 }
 
-/* Computes the forces of the bonds of b with the model `model`, after the material points with bonds have been
- * evaluated. */
+/* Computes the partial stresses and strains of the material points with bonds, then the forces of the bonds of b with
+ * the model `model`. */
 static void forces(struct both *b, enum pd_model model)
 {
     struct particle_cloud *c = &b->s.c;
@@ -68,7 +68,7 @@ static void forces(struct both *b, enum pd_model model)
 }
 
 /* Returns the largest nodal force in a body with the interface k under the displacement gradient `strain`, divided by
- * the largest stress times the area of a cell's face [1]; nodes near other faces of the body are left out. */
+ * the largest stress times the area of a cell's face [1]. Nodes near other faces of the body are left out. */
 static real residual(const struct partners *k, const real strain[DIM_MAX][DIM_MAX])
 {
     struct both b;
@@ -91,12 +91,11 @@ static real residual(const struct partners *k, const real strain[DIM_MAX][DIM_MA
     return force;
 }
 
-/* Compares the residual force at a flat interface with expected values, divided by S h (stress times cell edge), with
- * the interface on a node, by model, cell size and load (axial, biaxial, shear), after cancellation by symmetry. Model
- * with rotations: zero for forces along the normal of a flat interface; A/2 for the anisotropic part in the depth of
- * its bonds, and in shear half of the part that leaves the line of the bond. Ordinary model: the same with its own A,
- * plus the difference of the lattice's fourth moments, as for bonds. The numbers are from an independent program that
- * sums dense matrices. */
+/* Compares the residual force at a flat interface on a node, relative to stress times cell edge, with values of an
+ * independent program that sums dense matrices, for two models, Poisson's ratios 0.25 and 0.45, and axial, biaxial and
+ * shear strain. Model with rotations: no force normal to the interface; A/2 (A: anisotropic part of its bonds) and half
+ * of the part across the bond in shear. Ordinary model: likewise with its own A, plus the difference of the fourth
+ * moments of the lattice, as for bonds. */
 static void test_flat(void **state)
 {
     (void)state;
@@ -112,8 +111,8 @@ static void test_flat(void **state)
             }
 }
 
-/* Checks in 3D that bonds of two spacings, which end within one cell, leave no residual force. Tolerance 5e-6:
- * round-off of positions over the strain. */
+/* Checks in 3D that bonds of two spacings, which end within one cell, leave no residual force at an interface.
+ * Tolerance 5e-6: round-off of positions over the strain. */
 static void test_flat_solid(void **state)
 {
     (void)state;
@@ -128,8 +127,8 @@ static void test_flat_solid(void **state)
 
 /* ---- torque ------------------------------------------------------------------------------------------------------ */
 
-/* Checks the moment on a material point with bonds, which see only a part of its family: the torque of the force states
- * of the point equals the moment on its cell, to round-off over the strain. */
+/* Checks the moment on material points that have bonds with a part of their family only: the torque of the force states
+ * of a point equals the moment on its cell. Tolerance: round-off over the strain. */
 static void test_torque(void **state)
 {
     (void)state;
@@ -171,8 +170,8 @@ static void test_torque(void **state)
 
 /* ---- energy of conversion ---------------------------------------------------------------------------------------- */
 
-/* Returns the energy of the bonds of b with the model `model`, plus 1/2 sigma_given : C^-1 sigma summed over the points
- * [J], where sigma_given is the part of the stress sigma that a point transfers itself. */
+/* Returns the energy of the bonds of b with the model `model` plus that of the points [J]: the sum of 1/2 V sigma_given
+ * : C^-1 sigma. sigma: stress of a point; sigma_given: the part that it transfers to the grid itself. */
 static real energy_of(const struct both *b, enum pd_model model)
 {
     const struct particle_cloud *c = &b->s.c;
@@ -219,9 +218,10 @@ static real jump(enum pd_model model, const real strain[DIM_MAX][DIM_MAX], int e
     return came;
 }
 
-/* The sides of the block contribute nothing: the energy is that of four corners, for any size, load and model, where
- * less than half of a bond runs in material points. In the ordinary model the lattice differs from the points by 1.4 %
- * axially and 3.4 % in shear (its fourth moments), over the block and half of the bonds around it. */
+/* Energy of a corner of a converted block, where less than half of a bond is inside material points, in units of the
+ * energy of a particle, for any size, load and model; the sides of the block have none. In the ordinary model the
+ * lattice also differs from the points by up to 1.4 % axially and 3.4 % in shear (its fourth moments), over the block
+ * and half of the bonds around it. */
 #define CORNER (-0.08604)
 static void test_energy(void **state)
 {
@@ -238,9 +238,9 @@ static void test_energy(void **state)
         }
 }
 
-/* Checks that bonds between two materials have the same response to strain from both ends, with the moduli of both: B
- * of the law with rotations for a vector, A/D for a mean strain, each end relative to the sum over its family. Also
- * checks that the cell of a particle has its volume: width from the section in 1D, from the thickness in 2D. */
+/* Checks the response of bonds between two materials to strain: it is equal from both ends, with the mean moduli of
+ * both materials (B for the vector part, A for the mean strain). Also checks that the cell of a particle in the plane
+ * has its volume: four times the volume doubles its edge. */
 static void test_response(void **state)
 {
     (void)state;
@@ -277,8 +277,9 @@ static void test_response(void **state)
     particle_cloud_free(c);
 }
 
-/* Checks that the energies of rows add up to the total, including those of points at the ends of bonds, which rotate
- * with their cells: a plate with one peridynamic half, stretched and rotated by 0.3 rad. */
+/* Checks that the sum of the energies of all rows is the total energy, including material points with bonds that rotate
+ * with their cells, in a half peridynamic plate that is stretched and rotated by 0.3 rad. (A row is the list of bonds
+ * of one particle.) */
 static void test_rows(void **state)
 {
     (void)state;
@@ -304,9 +305,9 @@ static void test_rows(void **state)
     patch_free(&b.s);
 }
 
-/* Checks the limit on T, the stiffness that bonds take from a point, where bonds are stiffer than the point: the
- * remainder V C - T has no negative eigenvalue, and T is not reduced where the remainder has positive ones: the product
- * of the remainder and the reduction is 0, as tensors. */
+/* Checks the limit on T, the stiffness that bonds take over from a point of the volume V and the stiffness C, for a T
+ * that exceeds V C in some directions: T is reduced only in directions in which nothing of the point's stiffness
+ * remains, i.e. the product of the remainder V C - T and the reduction of T is 0, as tensors. */
 static void test_positive(void **state)
 {
     (void)state;

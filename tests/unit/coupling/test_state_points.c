@@ -1,5 +1,5 @@
-/* Material points at the ends of state-based bonds: forces on particles and nodes are the exact gradient of one energy,
- * also in rotating bodies; state of a point on the grid; and stress that it leaves to its bonds. */
+/* Material points that have state-based bonds: forces on particles and nodes are the gradient of one energy, also in
+ * rotating bodies; the state of such points on the grid; and their partial stress. */
 #include <string.h>
 
 #include "tests/support/cloud.h"
@@ -17,7 +17,8 @@
 #define TURN_MOST 0.2 /* largest rotation of a particle [rad] */
 #define SHAKE 0.02    /* random displacements [spacings]: strains of some percent */
 
-/* A body, half of whose bonds end at points, and at images of peridynamic particles. */
+/* A body with a peridynamic disc or ball at a symmetry plane: bonds end at material points and at images of
+ * particles. */
 static const char plate[] =
     "name: plate\nspace: plane stress\nthickness: 1 mm\nduration: 1 us\nmethod: adaptive\n"
     "material: {young: 72 GPa, poisson: 0.2, density: 2440 kg/m^3}\n"
@@ -39,8 +40,8 @@ static void engine_from(struct run *run, struct scene *s, const char *text)
 
 /* ---- gradient ---------------------------------------------------------------------------------------------------- */
 
-/* Returns component d of the position X[dim], rotated about z and randomly displaced; coordinates normal to a mirror of
- * the run are kept. seed: state of the random numbers. */
+/* Returns component d of the displacement of the position X[dim] [m]: a rotation about z by an angle that grows with x,
+ * and a random part. seed: state of the random numbers, advanced. */
 static real shaken(const struct run *run, const real *X, int d, uint64_t *seed)
 {
     const real angle = TURN_MOST * X[0] / 20e-3;
@@ -73,8 +74,8 @@ static real energy_of(struct run *run)
            mesh_strain(&run->frame->mesh, &run->part, run->frame->elastic, !run->scene->small_strain);
 }
 
-/* Compares the force *force on one component of a particle or node of the run with the derivative of the energy by its
- * coordinate *place, by central differences. scale: largest force [N], to which the tolerance refers. */
+/* Compares the force on one component of a particle or node of the run, *force [N], with minus the derivative of the
+ * energy by its coordinate *place, by central differences. scale: largest force [N]; the tolerance is 1e-6 of it. */
 static void check_slope(struct run *run, real *place, const real *force, real scale)
 {
     const real step = 1e-5 * run->scene->spacing, was = *place;
@@ -95,8 +96,8 @@ static real largest(const struct run *run)
     return most;
 }
 
-/* Compares forces with the energy gradient (check_slope) at every few unknowns of both kinds, particles and nodes,
- * without nodes on or beyond a plane of symmetry, which move with others. */
+/* Compares forces with the energy gradient (check_slope) for every fifth unknown of particles and of nodes. Nodes on or
+ * beyond a plane of symmetry, which follow others, are left out. */
 static void check_gradient(struct run *run)
 {
     struct particles *p = &run->part;
@@ -117,8 +118,9 @@ static void check_gradient(struct run *run)
     assert_true(particles > 60 && nodes > 50);
 }
 
-/* Checks the forces of coupled bodies against the energy gradient. Tolerance 1e-6 of the largest force: third
- * derivative of the energy times the squared step of the difference, and round-off over the step. */
+/* Checks the forces of coupled bodies against the energy gradient, in 2D and 3D, for two models and both couplings.
+ * Tolerance 1e-6 of the largest force: third derivative of the energy times the square of the difference step, and
+ * round-off over the step. */
 static void test_gradient(void **state)
 {
     (void)state;
@@ -139,8 +141,9 @@ static void test_gradient(void **state)
 
 /* ---- a point on the grid ----------------------------------------------------------------------------------------- */
 
-/* Checks the state of the material point of row `row` (its bonds): the pressure follows from the strain of its bonds,
- * the other components of the strain from its stress; also checks its rotation. */
+/* Checks the state of the material point of row `row` (its bonds): the mean strain is the sum of those of its bonds and
+ * of its own stress; its pressure and its force on the mean strain (end_pull) follow from it with the modulus A, its
+ * stiffness with the modulus B. */
 static void check_point(const struct run *run, int64_t row)
 {
     const struct bonds *b = &run->bonds;

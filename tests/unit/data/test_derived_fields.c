@@ -3,7 +3,8 @@
 
 #include "data/derived_fields.h"
 
-/* Checks that a tensor is reproduced by its principal values along its axes. */
+/* Checks that principal values and axes of rotated tensors are those of their construction: values agree, axes are
+ * orthonormal, and both reproduce the tensor, to round-off. */
 static void principal_values_of_turned_tensors(void **state)
 {
     static const real values[][3] = {{3, 1, -2}, {5, 5, 1}, {2, -1, -1}, {1, 1, 1}, {4e9, 1, -4e9}, {0, 0, 0}};

@@ -1,5 +1,5 @@
-/* Surfaces compared with closed forms: volumes of sphere and torus, winding numbers, distances; open and reversed
- * surfaces. */
+/* Closed and open triangulated surfaces compared with closed forms: volumes of ball and torus, winding numbers,
+ * distances; surfaces that are reversed or have holes. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -86,8 +86,8 @@ static void ball_and_torus(void **state)
     }
 }
 
-/* Checks hull_is_convex_near_point: a ball is convex everywhere, a torus on its outer rim and not on its inner
- * one; the answer is false where too many faces are near. */
+/* Checks hull_is_convex_near_point: a ball is convex everywhere, a torus on its outer side but not on its inner one;
+ * the answer is false where too many faces are near. */
 static void convex_near(void **state)
 {
     (void)state;
@@ -133,8 +133,9 @@ static void turned_and_open(void **state)
     hull_free(&s);
 }
 
-/* Checks the winding numbers of a ball of radius 1/2 inside a ball: the volume that both enclose is found twice if both
- * have outward normals, but not if the inner one is a cavity. */
+/* Checks the winding numbers of a ball of radius 1/2 inside a ball: the volume that both enclose is found to be
+ * enclosed twice if both have outward normals, but not if the inner one is a cavity. Tolerance 5 %: random positions.
+ */
 static void ball_in_ball(void **state)
 {
     (void)state;
@@ -160,7 +161,7 @@ static void ball_in_ball(void **state)
     }
 }
 
-/* Checks that of faces given twice one is kept, and that a pair with opposite orientations is removed. */
+/* Checks that one of two equal faces is kept, and that two faces of opposite orientation are both removed. */
 static void doubles(void **state)
 {
     (void)state;
@@ -178,7 +179,7 @@ static void doubles(void **state)
     hull_free(&s);
 }
 
-/* Tests a closed surface in 2D, a square with a square hole: distances, inside and outside. */
+/* Checks a closed surface in 2D, a square with a square hole: area, signed distances, normals and winding number. */
 static void plane_ring(void **state)
 {
     (void)state;

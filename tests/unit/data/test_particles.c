@@ -94,8 +94,8 @@ static void images_are_added_behind(void **state)
     particles_free(&p);
 }
 
-/* Checks that the bounding box of particles includes images only on request, and that particles are recognised as being
- * on a lattice. */
+/* Checks that the coordinate range of particles includes mirror images only if they are counted in, and that
+ * lattice_contains_coordinate accepts lattice positions with round-off and rejects a deviation of 1e-7 spacings. */
 static void extent_and_sites(void **state)
 {
     (void)state;

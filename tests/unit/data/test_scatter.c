@@ -13,8 +13,8 @@ static int test_scatter_ascending(const void *a, const void *b)
 
 static real normal_below(real g) { return 0.5 * erfc(-g * M_SQRT1_2); }
 
-/* Checks that the distribution function of the quantile returns the probability. Tolerance: seven digits of the
- * formula, times the magnitude, at most 8. */
+/* Checks that the distribution function of the quantile is the probability, from 1e-15 to 0.9. Tolerance: the formula
+ * has seven digits, and the relative error grows with the magnitude, which is at most 8. */
 static void test_quantiles(void **state)
 {
     (void)state;
@@ -27,8 +27,8 @@ static void test_quantiles(void **state)
     assert_exact(normal_distribution_quantile(0.5), 0);
 }
 
-/* Sorts value[n] and returns the largest distance between their distribution and F(value, parameter) (Kolmogorov); it
- * exceeds 1.63/sqrt(n) in 1 % of samples. */
+/* Sorts value[n] and returns the largest distance between their empirical distribution and F(value, parameter)
+ * (Kolmogorov). It exceeds 1.63/sqrt(n) for 1 % of all samples. */
 static real kolmogorov(real *value, int n, real (*F)(real, real), real parameter)
 {
     real most = 0;
@@ -50,8 +50,8 @@ static real weibull_of_square(real s, real m) { return weibull(s * s, m); }
 
 enum { MANY = 20000 };
 
-/* Checks by Kolmogorov's distance that strength factors at distant positions, in every dimension, and of particles
- * without a correlation length, have the requested distribution, in every form of the request. */
+/* Checks by Kolmogorov's distance that strength factors have the requested distribution (Weibull, lognormal, Weibull of
+ * the energy), at distant positions in every dimension and for particles without a correlation length (dim 0). */
 static void test_distributions(void **state)
 {
     (void)state;
@@ -120,8 +120,8 @@ static void test_weakest_link(void **state)
         }
 }
 
-/* Checks that the random field depends on the position only, not on distance, order or number of neighbours, and that
- * it is smooth, equally far from the origin. */
+/* Checks that the strength factor depends on the position only, not on the index of the particle, and is smooth (1 um
+ * changes it by less than 2e-3). Very far from the origin it must remain between 0 and 2. */
 static void test_by_place(void **state)
 {
     (void)state;

@@ -1,12 +1,12 @@
-/* Curves of softening bonds, their energy, and the strength that they give: closed forms and the values of a quadrature
- * that is not ours. */
+/* Curves of softening bonds, their energy, and the strength of bodies with such bonds, compared with closed forms and
+ * independent quadratures. */
 #include "data/softening.h"
 
 #include "tests/support/near.h"
 
-/* Checks the areas under the softening curves against closed forms: 1/2; 5/18 with the kink at 2/9 and 1/3; (1/5 -
- * exp(-5)/(1 - exp(-5))) within the 0.8 % of the strength by which chords are above an exponential. Each begins at 1
- * and ends at 0. */
+/* Checks the areas under the normalised softening curves against closed forms: linear 1/2; bilinear, with the kink at
+ * 2/9 and 1/3, 5/18; exponential 1/5 - exp(-5)/(1 - exp(-5)), within 0.8 % of the strength, by which chords exceed an
+ * exponential. Each curve begins at 1 and ends at 0. */
 static void test_curves(void **state)
 {
     (void)state;
@@ -27,8 +27,9 @@ static void test_curves(void **state)
     assert_near(softening_curve_normalised_force(&concrete, 2.0 / 9), 1.0 / 3, 1e-15);
 }
 
-/* Checks the energy that a bond dissipates by softening against closed forms: s_c^2/2 in all; for the linear curve s_f
- * = s_c^2/s_0 and D(k) = s_0 s_f (k - s_0)/(2 (s_f - s_0)). */
+/* Checks the energy D that a bond dissipates up to the stretch k, divided by its stiffness and length, against closed
+ * forms. In all it is s_c^2/2 (s_c: critical stretch of a brittle bond). For linear softening from s_0 to s_f =
+ * s_c^2/s_0 it is D(k) = s_0 s_f (k - s_0)/(2 (s_f - s_0)). */
 static void test_energy(void **state)
 {
     (void)state;
@@ -47,10 +48,10 @@ static void test_energy(void **state)
     }
 }
 
-/* Compares the strengths of neighbourhoods with linear softening with independent quadratures over 1440 (plane) and
- * 2000 (space) directions in steps of strain of 0.01, to three digits. Closed forms for equal biaxial tension: 1/(1 -
- * nu) in the plane at any kappa; for shear at kappa = 1: 1/(1 + nu), at 4: 0.864. Shear in space beside a program of
- * 4000 directions of a spiral, in steps of strain of 3 %, which miss a peak by 1e-3. */
+/* Compares the peak stresses of neighbourhoods with linear softening, relative to E s_0, with independent quadratures
+ * over 1440 (plane) and 2000 (space) directions, to three digits. kappa = s_c^2/s_0^2. Closed forms: 1/(1 - nu) in
+ * biaxial tension in the plane, 1/(1 + nu) in shear at kappa = 1 (nu = 1/3 in the plane, 1/4 in space). Shear in space
+ * is compared with 4000 directions in steps of strain of 3 %, which miss a peak by 1e-3. */
 static void test_strength(void **state)
 {
     (void)state;
@@ -73,8 +74,8 @@ static void test_strength(void **state)
     assert_near(softening_curve_normalised_peak_stresses(&c, SPACE_PLANE_STRESS, 4).shear, 0.864, 1.5e-3);
 }
 
-/* Checks that the onset stretch gives the strength: E' s_0 tension(s_c^2/s_0^2) = strength, and that it is beyond the
- * critical stretch where the strength cannot be reached. */
+/* Checks that the onset stretch s_0 follows from the strength: modulus s_0 tension(s_c^2/s_0^2) = strength, with the
+ * normalised peak stress `tension`. For a strength that cannot be reached s_0 must exceed the critical stretch. */
 static void test_onset(void **state)
 {
     (void)state;

@@ -86,7 +86,7 @@ static void examples_make(void)
 /* ---- checks of one solid ----------------------------------------------------------------------------------------- */
 
 /* Checks that the volume of the solid s is `volume`, by quasi-random points in a box slightly larger than its bounding
- * box. */
+ * box. Tolerance: 2e-3 of the box. */
 static void check_volume(const struct solid *s, int dim, real volume)
 {
     const struct region r = {.n = 1, .solid = (struct solid *)(uintptr_t)s};
@@ -99,8 +99,8 @@ static void check_volume(const struct solid *s, int dim, real volume)
     assert_float_equal(region_volume_within_box(&r, dim, from, to), volume, 2e-3 * box);
 }
 
-/* Checks the bounding box of the solid s: no point of the solid is outside, and the solid touches each side of the
- * box. */
+/* Checks the bounding box of the solid s by 3000 random points just outside each side: none is in the solid, and the
+ * nearest is within 0.15 of it, so that the box is not too large. */
 static void check_bounds(const struct solid *s, int dim)
 {
     const struct region r = {.n = 1, .solid = (struct solid *)(uintptr_t)s};
@@ -121,9 +121,9 @@ static void check_bounds(const struct solid *s, int dim)
     }
 }
 
-/* Checks the signed distance of the solid s by the two conditions that define it: no gradient exceeds 1, and from
- * outside, a step back along the normal by the distance leads to the surface. Also checks that normals are unit vectors
- * and that the sign agrees with the level. */
+/* Checks the signed distance of the solid s at random points by two conditions that define it. It changes by at most
+ * the distance between two points, and a step back along the normal by the distance leads from outside to the surface.
+ * Normals must be unit vectors, and the sign must be that of the level-set value. */
 static void check_distance(const struct solid *s, int dim)
 {
     uint64_t seed = 99;
@@ -154,7 +154,8 @@ static void test_every_kind(void **state)
     }
 }
 
-/* Checks for every kind of solid that a rotated, mirrored and displaced solid changes only its position. */
+/* Checks for every kind of solid that volume, bounding box and distance are also right if it is rotated, mirrored and
+ * displaced. */
 static void test_every_kind_moved(void **state)
 {
     (void)state;
@@ -226,7 +227,8 @@ static void test_gear(void **state)
     memory_free(s[1].image), memory_free(s[1].motion), box_tree_free(&s[1].tree);
 }
 
-/* Checks that a grid of holes equals the list of the holes, and that a mirror image is at its exact position. */
+/* Checks that a grid of holes equals a list of the holes, that a mirror image equals a hole at its position, and that a
+ * grid of too many copies is refused. */
 static void test_grid_and_mirror(void **state)
 {
     (void)state;
@@ -291,8 +293,8 @@ static void many_free(struct solid *list)
     }
 }
 
-/* Checks that search trees do not change results, for solids of all kinds, many of them rotated, in sequences that are
- * added, subtracted and intersected. */
+/* Checks that search trees do not change results: a list of 200 solids of all kinds, many of them rotated, in sequences
+ * that are added, subtracted and intersected, has bitwise equal results with and without trees. */
 static void test_index_of_list(void **state)
 {
     (void)state;
@@ -327,7 +329,8 @@ static void test_index_of_list(void **state)
     }
 }
 
-/* Checks that a solid with copies equals a list of the copies, one after another; also an extrusion. */
+/* Checks that a solid with 200 copies has results bitwise equal to those of a list of the copies, in 2D and as an
+ * extrusion. */
 static void test_index_of_copies(void **state)
 {
     (void)state;
@@ -355,8 +358,8 @@ static void test_index_of_copies(void **state)
     memory_free(plate[1].image), memory_free(plate[1].motion), box_tree_free(&plate[1].tree);
 }
 
-/* Checks that an intersection contains what all of its solids contain, that it is closed, and that its bounds are those
- * of the smaller solid. */
+/* Checks that an intersection contains exactly the points that all of its solids contain, surfaces included, and that
+ * its bounding box is the intersection of theirs. */
 static void test_intersection(void **state)
 {
     (void)state;
@@ -379,7 +382,8 @@ static void test_intersection(void **state)
     check_distance(&s[0], 2);
 }
 
-/* Invalid polygons are detected. */
+/* Checks that invalid polygons are detected: rounding radii that are too large, edges that cross or touch, edges
+ * without length. */
 static void test_polygon_faults(void **state)
 {
     (void)state;
@@ -406,9 +410,9 @@ static void test_polygon_faults(void **state)
 
 /* ---- cracks and planes of symmetry ------------------------------------------------------------------------------- */
 
-/* Checks the mirror images of cracks: a crack that crosses a plane keeps its inner part and has an image with its
- * corners in reverse order; a crack farther inside than bonds reach has none; with two planes a crack at their corner
- * has three images. */
+/* Checks the mirror images of cracks in planes of symmetry. A crack that crosses a plane keeps its inner part and has
+ * an image with its corners in reverse order; a crack farther from the plane than bonds reach has none. With two planes
+ * a crack at their corner has three images. */
 static void test_mirrored_cracks(void **state)
 {
     (void)state;

@@ -1,12 +1,11 @@
-/* Strength surfaces: the numbers of "Nine circles" for glass, each strength back from the surface, and the least strain
- * on a surface compared with closed forms. */
+/* Strength surfaces, from which the strength in any direction of stress follows: published values for glass, the
+ * strengths that define a surface, and the smallest strain on a surface compared with closed forms. */
 #include "data/material.h"
 
 #include "tests/support/near.h"
 
-/* Compares strengths of glass, 40 MPa in tension and 1000 MPa in compression, with published values, to three digits:
- * 44.4 MPa in shear, 27.0 in equal biaxial and 27.8 in hydrostatic tension (Kamarei et al. 2025, table of the
- * suite). */
+/* Compares strengths of glass with 40 MPa in tension and 1000 MPa in compression with published values, to three
+ * digits: 44.4 MPa in shear, 27.0 MPa in equal biaxial and 27.8 MPa in hydrostatic tension (Kamarei et al. 2025). */
 static void test_glass(void **state)
 {
     (void)state;
@@ -16,8 +15,8 @@ static void test_glass(void **state)
     assert_near(strength_surface_strength_in_stress_direction(&glass, (const real[]){1, 1, 1}), 27.8e6, 5e4);
 }
 
-/* Checks that every strength surface has the strengths from which it was made, and that all three ways of making it
- * give one surface. */
+/* Checks that a strength surface has the strengths from which it was made, and that compressive, biaxial and
+ * hydrostatic strength define the same surface. */
 static void test_back(void **state)
 {
     (void)state;
@@ -40,8 +39,8 @@ static void test_back(void **state)
     assert_close(strength_surface_strength_in_stress_direction(&blunt, (const real[]){1, 1, 1}), 0.6 * tension, 1e-14);
 }
 
-/* Checks that the ratio of a stress tensor to the strength surface is that of its principal values, in plane strain
- * with the stress across the plane. */
+/* Checks that the ratio of a stress tensor to the strength is that of its principal values; in plane strain the
+ * out-of-plane stress is included. */
 static void test_share(void **state)
 {
     (void)state;
@@ -58,9 +57,9 @@ static void test_share(void **state)
                  strength_surface_stress_to_strength_ratio(&m.surface, one, two, 5e6, 0), 1e-13);
 }
 
-/* Checks the smallest principal strain on the strength surface against closed forms: that of equal tension, (1 - nu)
- * sigma_bs/E in plane stress, (1 - 2 nu) sigma_hs/E in a solid, (1 + nu)(1 - 2 nu) sigma_bs/E in plane strain; 0 for a
- * surface without a dependence on pressure, which is reached where nothing is stretched. */
+/* Checks the smallest principal strain on the strength surface against closed forms, that of equal tension: (1 - nu)
+ * sigma_bs/E in plane stress, (1 - 2 nu) sigma_hs/E in 3D, (1 + nu)(1 - 2 nu) sigma_bs/E in plane strain (bs: biaxial,
+ * hs: hydrostatic strength). For a surface that does not depend on pressure it is below a fifth of this. */
 static void test_least(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* Order of transfers: colours, cells and growing grids. */
+/* Order in which points are processed by transfers: points are sorted by cells, cells by blocks (boxes of cells), and
+ * blocks by colours, whose blocks share no node. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -9,8 +10,8 @@
 #include "base/team.h"
 #include "data/transfer_order.h"
 
-/* Scatters the points of c over the cells -20 .. 20 around node 0 of the grid g in `dim` dimensions; some of them are
- * peridynamic. */
+/* Creates the particles of c at random positions in the cells -20 .. 20 around node 0 of the grid g, which is created
+ * too, in `dim` dimensions; a tenth of them are peridynamic. */
 static void scatter_points(struct particle_cloud *c, int dim, struct grid *g)
 {
     static const enum space space[] = {SPACE_LINE, SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
@@ -30,9 +31,9 @@ static void scatter_points(struct particle_cloud *c, int dim, struct grid *g)
     assert_true(changed);
 }
 
-/* Checks that every node that a point of a block (a box of cells) reaches belongs to this block only, among the blocks
- * of colour `colour`, so that threads can process them at once. The widest support is that of the cubic spline: one
- * node below the point's cell, two above its lower corner. o: order of the points on the grid g. */
+/* Checks that no node is reached from two blocks of the colour `colour`, so that threads can process these blocks at
+ * once. The widest support is that of the cubic spline: from one node below the cell of a point to two above its lower
+ * corner. o: order of the points on the grid g. */
 static void check_colour(const struct transfer_order *o, const struct particles *p, const struct grid *g, int colour)
 {
     int32_t *owner = NEW("test.owner", g->n, int32_t);
@@ -53,7 +54,7 @@ static void check_colour(const struct transfer_order *o, const struct particles 
 }
 
 /* Checks that the cells of a block are consecutive, that the points of a cell are in this cell and ascending, and that
- * no two cells are equal. o: order of the points on the grid g. */
+ * no cell occurs twice. o: order of the points on the grid g. */
 static void check_cells(const struct transfer_order *o, const struct particles *p, const struct grid *g)
 {
     uint8_t *seen = NEW("test.cells", g->n, uint8_t);
@@ -104,7 +105,7 @@ static void test_transfer_order(void **state)
     }
 }
 
-/* Checks that a growing grid keeps its nodes, and the order of its points. */
+/* Checks that a grid that grows keeps the positions of its nodes and the order of its points. */
 static void test_transfer_order_growth(void **state)
 {
     (void)state;
@@ -134,8 +135,8 @@ static void test_transfer_order_growth(void **state)
     }
 }
 
-/* Moves each point of p in the order o with probability `share` to another place in the grid g, and marks in o the
- * points whose cells differ. */
+/* Moves each point of p with the probability `share`, per direction, to a random position in the grid g, and sets
+ * o->left for the points whose cell has changed. o: order of the points; seed: state of the random numbers. */
 static void move_points(const struct particles *p, const struct transfer_order *o, const struct grid *g, real share,
                         uint64_t *seed)
 {
@@ -151,7 +152,7 @@ static void move_points(const struct particles *p, const struct transfer_order *
     }
 }
 
-/* Sorting only the points that have left their cells gives the order that sorting all of them gives. */
+/* Checks that sorting only the points that have left their cells results in the order that sorting all points does. */
 static void test_transfer_order_left(void **state)
 {
     static const real share[] = {0.01, 0, 0.2, 1, 0.05};
@@ -184,7 +185,7 @@ static void test_transfer_order_left(void **state)
     }
 }
 
-/* Each thread sorts a part of the list: the result does not depend on the number of threads. */
+/* Checks that the order does not depend on the number of threads, each of which sorts a part of the points. */
 static void test_transfer_order_threads(void **state)
 {
     (void)state;

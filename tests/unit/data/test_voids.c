@@ -1,5 +1,6 @@
-/* Visibility between positions of a body through its shape: round holes and slots compared with the exact line, planes
- * of symmetry, adjacent faces of solids; and slits of meshes with doubled nodes. */
+/* Voids: whether the line between two positions of a body leaves its shape, which separates the positions. Round holes
+ * and slots are compared with exact lines; further planes of symmetry, adjacent faces of solids, and slits of meshes
+ * with doubled nodes. */
 #include <math.h>
 #include <stdio.h>
 #include <unistd.h>
@@ -28,8 +29,8 @@ static struct solid ball(real radius)
                           .centre = {0.3 * SPACING, -0.7 * SPACING, 0.4 * SPACING}};
 }
 
-/* Returns the voids of body 3 with the shape *r in `dim` dimensions. shape, body: memory for the pointer to the shape
- * and the number of the body, which the result refers to. */
+/* Returns the voids of body 3 in `dim` dimensions, whose shape is *r. shape, body: memory for the pointer to the shape
+ * and for the number of the body, to which the result refers. */
 static struct voids voids_of(int dim, struct region *r, const struct region **shape, int *body)
 {
     *shape = r, *body = 3;
@@ -41,7 +42,7 @@ static void place_random(uint64_t *seed, int dim, real most, real *X)
     for (int d = 0; d < DIM_MAX; d++) X[d] = d < dim ? cloud_between(seed, -most, most) * SPACING : 0;
 }
 
-/* Returns the distance of the line from a[dim] to b[dim] from `centre`, the centre of a ball. */
+/* Returns the distance of the line segment from a[dim] to b[dim] from the position centre[dim]. */
 static real line_distance(const real *a, const real *b, const real *centre, int dim)
 {
     real along = 0, length2 = 0, r2 = 0;
@@ -51,8 +52,8 @@ static real line_distance(const real *a, const real *b, const real *centre, int 
     return sqrt(r2);
 }
 
-/* Checks that a round hole blocks a line if and only if the line passes through the hole, except for lines within 1e-6
- * radii of its edge. */
+/* Checks that a round hole separates two positions if and only if the line between them passes through the hole; lines
+ * within 2e-5 spacings of its edge are left out. */
 static void round_holes(void **state)
 {
     (void)state;
@@ -116,8 +117,8 @@ static void thin_slot(void **state)
     assert_true(hidden > 100);
 }
 
-/* Checks that boxes in contact block nothing, whether a line crosses their common face or runs in it; nor does a plane
- * of symmetry inside a body. A slot beside the plane blocks lines to its image. */
+/* Checks that boxes in contact separate no positions, whether the line crosses their common face or runs in it, and
+ * that a plane of symmetry at the end of a body does not. A slot beside the plane separates positions from images. */
 static void joined_and_mirrored(void **state)
 {
     (void)state;
@@ -150,7 +151,8 @@ static void joined_and_mirrored(void **state)
     assert_true(void_separates_points(&v, 3, before, beyond, NULL));
 }
 
-/* Checks that the marks of particles on a lattice around a slot agree with tests of all pairs one by one. */
+/* Checks the marks of particles on a lattice beside a slot, i.e. that a void separates them from a neighbour, and the
+ * separation of pairs, against tests of all pairs. */
 static void bits_of_particles(void **state)
 {
     (void)state;
@@ -194,8 +196,9 @@ static void bits_of_particles(void **state)
     particle_cloud_free(&c);
 }
 
-/* Checks that each particle of an L of two boxes from which the line to another one leaves the L is marked: without a
- * disc, with the foot alone intersected with a disc, which leaves a slit beside the leg, and with all intersected. */
+/* Checks that each particle of an L of two boxes is marked that a void separates from a neighbour, and the number of
+ * such particles: without a disc; with the foot of the L alone intersected with a disc, which leaves a slit beside the
+ * leg; and with both boxes intersected. */
 static void marks_of_intersections(void **state)
 {
     (void)state;
@@ -245,8 +248,9 @@ static void marks_of_intersections(void **state)
     particle_cloud_free(&c);
 }
 
-/* Checks that a quarter of a cylinder between planes of symmetry is known to have no voids, one whose axis is beside a
- * plane is not, since it has a groove there, nor are shapes with a solid added or subtracted after the intersection. */
+/* Checks that a quarter of a cylinder between planes of symmetry is known to have no voids. A cylinder whose axis is
+ * not on a plane may have some, since it has a groove there, and so may shapes with a solid added or subtracted after
+ * the intersection. */
 static void convex_intersections(void **state)
 {
     (void)state;

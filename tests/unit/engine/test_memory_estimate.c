@@ -1,4 +1,5 @@
-/* The predicted memory of a scene is close to the memory used: scenes are refused by this prediction. */
+/* Checks that the predicted memory of a scene, by which scenes are refused, is close to the memory that its run
+ * uses. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -12,9 +13,10 @@
 #include "step/report.h"
 #include "scene/scene_read.h"
 
-/* Runs a block with the keys `space`, `box` and `particles` and checks that the peak memory of the process is between
- * half and 1.1 times the estimate, plus 30 MB for program and libraries. *taken: receives this peak [byte]. Scenes must
- * be run in the order of increasing memory, because the process remembers only its maximum. */
+/* Runs a block with the keys `space`, `box` and `particles` of a scene. Checks that the peak memory of the process is
+ * more than half of the estimate and at most 1.1 times the estimate plus 30 MB for program and libraries. *taken:
+ * receives this peak [byte]. Calls must be in the order of increasing memory, since the process remembers only its
+ * maximum. */
 static void takes_what_it_says(const char *space, const char *box, const char *particles, double *taken)
 {
     char text[1024];

@@ -1,4 +1,5 @@
-/* Warnings where pd.surface: moments fails: weights whose solver has given up. Bodies of a few rows: test_meant.sh. */
+/* Checks the warning about weight factors near faces (pd.surface: moments) whose solver has not converged.
+ * test_meant.sh has bodies of a few rows. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>

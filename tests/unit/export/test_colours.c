@@ -1,7 +1,7 @@
-/* Colours of particles at cut bonds: on a lattice with cracks in any direction the pairs of colours determine for each
- * bond whether it is cut; the number of colours does not grow with the length of a straight crack; on irregular
- * particles, where keys are not unique, the result is also correct. A pair of colours with both kinds of bonds is
- * detected. */
+/* Colours, the particle types of an export for the particles at cut bonds: the colours of two particles determine
+ * whether their bond is cut. Checked for cracks in any direction on a lattice and for irregular particles, where keys
+ * are not unique. Further: the number of colours does not grow with the length of a straight crack, and a pair of
+ * colours with both kinds of bonds is detected. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -46,7 +46,7 @@ static uint64_t key_of_point(const struct points *s, int i)
     return key * PERIOD * PERIOD + (uint64_t)((x % PERIOD + PERIOD) % PERIOD * PERIOD + (y % PERIOD + PERIOD) % PERIOD);
 }
 
-/* Lists all particles of s with a bond that the crack cuts, by two plain loops. */
+/* Lists all particles of s that have a bond which the crack cuts, and their neighbours, by testing all pairs. */
 static struct particles_at_cut_bonds touched_of(const struct points *s)
 {
     struct particles_at_cut_bonds t = {0};
@@ -86,8 +86,8 @@ static struct points lattice(int edge, double a, double b, double shake)
     return s;
 }
 
-/* Colours the points of s (particle types of an export) and fails the test unless every pair of near points is cut by
- * the crack if and only if the pair of their colours is. Returns the number of colours. */
+/* Colours the points of s at cut bonds and checks that two near points are cut apart by the crack if and only if their
+ * pair of colours is. Returns the number of colours. */
 static int colours_of(const struct points *s)
 {
     struct particles_at_cut_bonds t = touched_of(s);
@@ -123,8 +123,8 @@ static void cracks_on_a_lattice(void **state)
     for (size_t k = 0; k < COUNT_OF(end); k++) assert_true(colours_with(20, end[k][0], end[k][1], 0) > 0);
 }
 
-/* Checks that a straight crack with two ends needs 63 types, counted by hand from the regions of the plate in LAMMPS,
- * and a longer one no more. */
+/* Checks that a straight crack with two ends needs fewer than 80 colours (63, counted by hand from the regions of the
+ * plate in LAMMPS), and a longer one equally many. */
 static void length_does_not_count(void **state)
 {
     (void)state;
@@ -140,8 +140,8 @@ static void scattered_particles(void **state)
     for (int k = 0; k < 20; k++) assert_true(colours_with(20, 6.2 - k, 0.7 * k - 5.1, 0.1 + 0.1 * k) > 0);
 }
 
-/* Checks that two particles of one colour, one cut off from a third particle and one bonded to it, are detected as a
- * fault. */
+/* Checks that a pair of colours with both kinds of bonds is detected: two particles of one colour, one cut off from a
+ * third particle and one bonded to it. */
 static void both_kinds_are_found(void **state)
 {
     int32_t particle[] = {0, 1, 2}, near[] = {2, 2, 0, 1}, colour[] = {0, 0, 1}, own[] = {0, 1, 2};

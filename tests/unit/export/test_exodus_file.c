@@ -14,7 +14,8 @@
 #include "src/app/commands.h"
 #include "tests/support/folder.h"
 
-/* A plate of 3 x 2 particles of 4 mm of two materials, 5 mm thick, held at its left and driven at its right. */
+/* A plate of 3 x 2 particles of 4 mm and two materials, 5 mm thick, fixed at its left end and driven at its right
+ * end. */
 static const char plate[] =
     "space: plane stress\nthickness: 5 mm\nduration: 1 us\nmethod: pd\n"
     "materials: [{name: soft, young: 3 GPa, density: 1200}, {name: hard, young: 72 GPa, density: 2440}]\n"
@@ -58,7 +59,7 @@ static void get_integers(int file, const char *name, int *value)
     NC(nc_get_var_int(file, id, value));
 }
 
-/* Row k of names of 33 letters. */
+/* Asserts that row k of the variable `name`, a list of names of 33 characters, is `wanted`. */
 static void assert_name(int file, const char *name, size_t k, const char *wanted)
 {
     char text[34] = "";
@@ -112,7 +113,8 @@ static void scene_by_netcdf(void **state)
     unlink("a.exo");
 }
 
-/* Checks that the file that an export has written is read back as a particle list. */
+/* Checks that the file that an export has written is read back as a particle list with its positions, volumes and
+ * materials. */
 static void scene_by_cleave(void **state)
 {
     (void)state;
@@ -172,7 +174,7 @@ static void run_by_netcdf(void **state)
     remove_run();
 }
 
-/* Checks that an export does not replace files that are no exports, and exports only on request. */
+/* Checks that an export refuses to replace a file that is no export, and replaces an export only with --overwrite. */
 static void files_are_kept(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Files of the export to LAMMPS, read as LAMMPS reads them: pairs within the cutoff without excluded types agree with
- * the bonds, checked by crossing segments; weights and coefficients agree with the literature; scenes that LAMMPS
+/* Files of the export to LAMMPS, interpreted as LAMMPS does: pairs within the cutoff whose types are not excluded must
+ * be the bonds that the crack does not cross, and coefficients must agree with the literature. Scenes that LAMMPS
  * cannot run are refused in one line, with nothing written. */
 #include <math.h>
 #include <setjmp.h>
@@ -48,7 +48,7 @@ static void out_remove(void)
     rmdir("out");
 }
 
-/* Contents of plate.data and exclusions of in.lammps. */
+/* Contents of plate.data, and the pairs of types that in.lammps excludes. */
 struct plate {
     int n, types, type[PARTICLES];
     double volume[PARTICLES], density[PARTICLES], x[PARTICLES][2];

@@ -1,5 +1,5 @@
-/* Script for LAMMPS, line by line: coefficients of bonds and neighbourhoods compared with the literature; formulas of
- * loads and driven particles, evaluated as LAMMPS does, compared with functions of time. */
+/* Script of the export to LAMMPS: coefficients of bonds and neighbourhoods are compared with closed forms; formulas of
+ * loads and driven particles, evaluated as LAMMPS does, with functions of time. */
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
@@ -27,12 +27,12 @@ static const char block[] =
     "body: {box: {from: [0, 0, 0], to: [3 mm, 3 mm, 3 mm]}}\nparticles: {spacing: 0.5 mm, horizon: 3.015}\n";
 static const char glass[] = "material: {young: 192 GPa, density: 8000, critical_stretch: 0.013}\n";
 
-/* Set to keep plate.data in script_of, to be freed. */
+/* If true, script_of stores the text of plate.data in bonds_found, to be freed by the caller. */
 static bool bonds_wanted;
 static char *bonds_found;
 
-/* Exports the scene with the text a, b, c to LAMMPS and returns the text of in.lammps, to be freed. bond_style: true to
- * export bonds as a bond style, false as a pair style. */
+/* Exports the scene with the joined text a, b, c to LAMMPS and returns the text of in.lammps, to be freed. bond_style:
+ * true to export bonds as a bond style of LAMMPS, false as a pair style. */
 static char *script_of(const char *a, const char *b, const char *c, bool bond_style)
 {
     static const char *const file[] = {"plate.data", "in.lammps", "README.txt", "scene.yaml", "check.csv"};
@@ -52,7 +52,7 @@ static char *script_of(const char *a, const char *b, const char *c, bool bond_st
     return script;
 }
 
-/* Returns the part of `script` after the first occurrence of `words`. */
+/* Returns the part of `script` after the first occurrence of `words`; fails the test if there is none. */
 static const char *behind(const char *script, const char *words)
 {
     const char *at = strstr(script, words);
@@ -64,7 +64,8 @@ static real number_behind(const char *script, const char *words) { return strtod
 
 /* ---- formulas of LAMMPS ------------------------------------------------------------------------------------------ */
 
-/* Position in a formula; step; mass of the atom. */
+/* State of the evaluation of a formula: position in its text, script with its variables, time step, mass of the
+ * atom. */
 struct formula {
     const char *at, *script;
     real step, mass;
@@ -193,8 +194,8 @@ static void bonds_of_two(void **state)
     memory_free(script);
 }
 
-/* Checks the bond types of three materials: the bonds of plate.data between two materials have the stiffness of
- * both. */
+/* Checks that bonds of plate.data between two of three materials have bond types with the harmonic mean of both
+ * stiffnesses. */
 static void bonds_of_three(void **state)
 {
     (void)state;
@@ -238,9 +239,9 @@ static void bonds_of_three(void **state)
 
 /* ---- loads ------------------------------------------------------------------------------------------------------- */
 
-/* Checks the forces of an exported traction normal to a face: its stress divided by the spacing, per volume, with bond
- * styles its force. Its function of time is averaged over the velocity update, from step - 1/2 to step + 1/2, from 0 in
- * the first step. */
+/* Checks the exported forces of a traction normal to a face: traction over spacing (force per volume), with bond styles
+ * traction times face area. The function of time is the mean of its values at both ends of the velocity update, from
+ * step - 1/2 to step + 1/2, from 0 in the first step. */
 static void forces(void **state)
 {
     (void)state;
@@ -280,8 +281,8 @@ static void forces(void **state)
         }
 }
 
-/* Checks that a constant force is exported as a number, and that the force on driven particles is replaced such that
- * their velocity follows the function of time in the middle of each step. */
+/* Checks that a constant force is exported as a number. The force on driven particles is replaced by a formula with
+ * which their velocity is that of the function of time in the middle of each step. */
 static void drives(void **state)
 {
     (void)state;

@@ -1,11 +1,12 @@
-/* Fragments of a plate divided by two cuts: particles, masses, centres and velocities, compared with plain sums. */
+/* Fragments of a plate divided by two cuts: their particles, masses, centres and velocities, compared with plain
+ * sums. */
 #include "fracture/fragments.h"
 
 #include "tests/support/cloud.h"
 #include "tests/support/near.h"
 
-/* Checks number, mass, position and velocity of fragments of nine columns of particles, every third particle heavier,
- * with cuts after the third and the eighth column. */
+/* Checks number, mass, position and velocity of the fragments of a plate of nine columns of particles, every third of
+ * them heavier, with cuts after the third and the eighth column. */
 static void test_fragments(void **state)
 {
     (void)state;
@@ -52,7 +53,7 @@ static void test_fragments(void **state)
     particle_cloud_free(&c);
 }
 
-/* Checks that particles without bonds are not fragments, and that their number and mass are reported. */
+/* Checks that single particles without bonds are no fragments, and that their number and mass are reported. */
 static void test_alone(void **state)
 {
     (void)state;

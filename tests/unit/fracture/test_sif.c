@@ -1,4 +1,4 @@
-/* Tests of crack-tip fields and of the interaction integral of exact fields. */
+/* Tests of crack-tip fields and of the interaction integral, evaluated for exact fields. */
 #include <math.h>
 
 #include "tests/support/glass.h"
@@ -7,8 +7,8 @@
 
 /* ---- fields ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the largest difference of the states a and b, divided by the largest entry of b, separately for gradients and
- * stresses; the larger of both. */
+/* Returns the largest difference of the states a and b, relative to the largest entry of b, for gradients and stresses
+ * each; the larger of both. */
 static real state_difference(const struct crack_state *a, const struct crack_state *b)
 {
     real d[2] = {0}, size[2] = {0};
@@ -21,9 +21,9 @@ static real state_difference(const struct crack_state *a, const struct crack_sta
     return real_max(d[0] / size[0], d[1] / size[1]);
 }
 
-/* Checks the crack-tip field of mode `mode` at the tip speed v in the medium m by finite differences: gradients are
- * those of the displacements, stresses are in equilibrium and leave the faces free, and sqrt(2 pi r) sigma = 1 ahead of
- * the tip. */
+/* Checks the crack-tip field of mode `mode` at the tip speed v [m/s] in the medium m by finite differences. Gradients
+ * are those of the displacements; stresses satisfy the equation of motion and vanish on the crack faces; the stress
+ * ahead of the tip is 1/sqrt(2 pi r) for a unit stress-intensity factor. */
 static void field_is_a_solution(const struct crack_medium *m, enum crack_mode mode, real v)
 {
     const real e = 1e-5;
@@ -69,8 +69,8 @@ static void fields_solve_the_equations_of_motion(void **state)
     }
 }
 
-/* Checks that the moving field tends to the static one as (v/c_s)^2; at the transition between both formulas the
- * difference is below 2e-4. */
+/* Checks that the moving field tends to the static one at low speed: at 0.01 c_s, where the formulas change, the
+ * difference is below 2e-4, at 0.1 c_s above 1e-3 (it is of the order (v/c_s)^2). */
 static void fields_meet_at_low_speed(void **state)
 {
     (void)state;
@@ -125,8 +125,8 @@ static void constants_of_the_medium(void **state)
     assert_close(thin.modulus, 75.629e9, 1e-15);
 }
 
-/* Checks that the hoop stress of the static fields is largest in the direction crack_kink_angle_from_sif, where it is
- * K_eq. */
+/* Checks that the hoop stress of the static fields is largest in the direction of crack_kink_angle_from_sif, and that
+ * this largest stress has the factor crack_equivalent_sif. */
 static void direction_is_that_of_the_largest_hoop_stress(void **state)
 {
     (void)state;
@@ -155,15 +155,16 @@ static void direction_is_that_of_the_largest_hoop_stress(void **state)
 
 /* ---- interaction integral of exact fields ------------------------------------------------------------------------ */
 
-/* Five Gauss points in [0, 1]. */
+/* Points and weights of Gauss quadrature with five points in [0, 1]. */
 static const real gauss_place[] = {0.04691007703066800, 0.23076534494715845, 0.5, 0.76923465505284155,
                                    0.95308992296933200};
 static const real gauss_weight[] = {0.11846344252809454, 0.23931433524968324, 0.28444444444444444, 0.23931433524968324,
                                     0.11846344252809454};
 
-/* Returns the interaction integral I of the motions of two modes, `actual` and `auxiliary`, at `tip` over the contour
- * c: Gauss panels in radius; equidistant points around the tip, which converge exponentially because products of two
- * fields are periodic. The disc inside 1e-3 is left out: the domain term vanishes pointwise there. */
+/* Returns the interaction integral I of the exact fields of two modes, `actual` and `auxiliary`, at `tip` over the
+ * contour c. Quadrature: Gauss panels in the radius; equidistant points in the angle, which converge exponentially
+ * since products of two fields are periodic. The disc within 1e-3 of the inner radius is left out: the domain term
+ * vanishes there. */
 static real integral(const struct sif_tip *tip, const struct contour *c, enum crack_mode actual,
                      enum crack_mode auxiliary)
 {
@@ -184,8 +185,8 @@ static real integral(const struct sif_tip *tip, const struct contour *c, enum cr
     return sum;
 }
 
-/* Checks that I times half of E* is A_I and A_II (Freund's universal functions), for every weight function and contour,
- * and that the modes are decoupled. */
+/* Checks that I times half of the effective modulus is the universal function of the tip speed (A_I or A_II, Freund
+ * 1990), for every weight function and contour, and 0 for two different modes. */
 static void exact_fields_return_the_universal_functions(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Tests of stress-intensity factors from particles: gradients on irregular particles, and the integral on lattices with
- * exact crack-tip fields. */
+/* Tests of stress-intensity factors (K) from particles: displacement gradients on irregular particles, and the
+ * interaction integral on lattices with exact crack-tip fields. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -88,8 +88,8 @@ static void gradients_on_irregular_clouds(void **state)
     }
 }
 
-/* Checks that a jump across a crack does not affect the gradient; with diffraction, hidden particles count with the
- * distance around the tip. */
+/* Checks that a jump of the displacement across a crack does not affect gradients behind the tip. Beside the tip,
+ * particles that the crack hides are left out, or with diffraction count with the distance around the tip. */
 static void cracks_hide_particles(void **state)
 {
     (void)state;
@@ -126,8 +126,8 @@ static void cracks_hide_particles(void **state)
     patch_free(&k);
 }
 
-/* Checks the gradient with too few neighbours: a linear fit with fewer than six particles, or all on two lines; zero
- * with a single particle. */
+/* Checks gradients with too few neighbours: a linear fit (order 1) with fewer than six particles or particles on two
+ * lines only; zero (order 0) for a single particle. */
 static void gradients_fall_back(void **state)
 {
     (void)state;
@@ -165,9 +165,10 @@ static real spline_weight(real r)
     return r <= 0.5 ? 2.0 / 3 - 4 * r * r + 4 * r * r * r : r < 1 ? 4.0 / 3 * (1 - r) * (1 - r) * (1 - r) : 0;
 }
 
-/* Slope along x of three values on a line, with a fourth beside it that determines only the slope along y:
- * least-squares line with the spline weight, or the sum of omega V x f over that of omega V x^2, omega 1/r. A crack
- * that hides the particle at 1 increases its distance to that around the tip, to the power of `diffraction`. */
+/* Checks the slope along x from three particles on a line; a fourth beside it determines the slope along y only.
+ * Expected: least-squares line with the spline weight (MLS), or the sum of omega V x f over that of omega V x^2, omega
+ * = 1/r (PDDO). A crack that hides the particle at 1 changes its distance to that around the tip to the power
+ * `diffraction`. */
 static void gradients_have_their_weights(void **state)
 {
     (void)state;
@@ -207,7 +208,7 @@ static void gradients_have_their_weights(void **state)
 
 /* ---- the integral from particles --------------------------------------------------------------------------------- */
 
-/* A regular lattice of spacing 1 with the tip at (shift), displaced by the exact field of a crack at an angle. */
+/* A regular lattice of spacing 1, displaced by the exact field of a crack at an angle with its tip at `shift`. */
 struct lattice_site_map {
     struct patch patch;
     struct sif_tip tip;
@@ -288,14 +289,14 @@ static struct sif lattice_sif(const struct lattice_site_map *l, real inner, real
     return found;
 }
 
-/* Returns the error of K over |K|. */
+/* Returns the larger error of K_I and K_II, divided by |K|. */
 static real sif_error(const struct sif *s, const real K[MODES])
 {
     return real_max(fabs(s->K[0] - K[0]), fabs(s->K[1] - K[1])) / hypot(K[0], K[1]);
 }
 
-/* Returns the error of K by the sum over particles of l with exact gradients of the field of mode `mode`, which is due
- * to quadrature; outer: outer radius of the contour, twice the inner one, in the unit of positions. */
+/* Returns the error of K by the sum over particles of l with the exact gradients of the field of mode `mode`, i.e. the
+ * error of quadrature. outer: outer radius of the contour, in spacings; the inner one is half of it. */
 static real exact_gradient_error(const struct lattice_site_map *l, real outer, enum crack_mode mode)
 {
     const struct contour c = {0.5 * outer, outer};
@@ -314,9 +315,9 @@ static real exact_gradient_error(const struct lattice_site_map *l, real outer, e
     return worst;
 }
 
-/* Checks the quadrature error on a lattice against measured bounds: with the cubic weight 0.35 % at 10 spacings and
- * 0.05 % at 20 for a tip midway between four particles, twice as much elsewhere; a tenth of it with the quintic
- * weight. */
+/* Checks the quadrature error of K on a lattice against measured bounds, for outer radii of 10, 20 and 40 spacings.
+ * Cubic weight: 0.35, 0.05 and 0.05 % for a tip midway between four particles, 1.7 to 2.4 times as much for other tips.
+ * Quintic weight: 0.07, 0.007 and 0.002 %. */
 static void lattice_sums_of_exact_gradients(void **state)
 {
     (void)state;
@@ -340,8 +341,8 @@ static void lattice_sums_of_exact_gradients(void **state)
     }
 }
 
-/* Checks stress-intensity factors from fitted gradients, for single and mixed modes, cracks along the lattice and
- * oblique, between rows of particles and along one: errors of K_I and K_II divided by |K|, and J E* = |K|^2. */
+/* Checks K from fitted gradients for single and mixed modes and cracks along the lattice and oblique, between rows of
+ * particles and along one: K_I and K_II, and J E* = |K|^2, against bounds for outer radii of 10, 20 and 40 spacings. */
 static void lattice_sums_of_fitted_gradients(void **state)
 {
     (void)state;
@@ -372,9 +373,9 @@ static void lattice_sums_of_fitted_gradients(void **state)
     }
 }
 
-/* A body force b along the crack, balanced by sigma_11 = E* a x alone, b = -E* a, does not change K and J for any
- * contour: the field is u_1 = a (x^2 + c y^2)/2, u_2 = -c a x y with c = lambda/(lambda + 2 G), with free crack faces.
- * For a rotated tip the force is rotated too. Without its term K would be off by 1.7 and 5.6 %. */
+/* Checks that a body force b along the crack, balanced by sigma_11 = E* a x alone (b = -E* a), does not change K and J
+ * for any contour. Its field is u_1 = a (x^2 + c y^2)/2, u_2 = -c a x y with c = lambda/(lambda + 2 G), with free crack
+ * faces. For a rotated tip the force is rotated too. Without its term K would differ by 1.7 and 5.6 %. */
 static void body_forces_leave_the_factors(void **state)
 {
     (void)state;
@@ -414,8 +415,8 @@ static void body_forces_leave_the_factors(void **state)
     }
 }
 
-/* Checks that the stress of particles, by Hooke's law in the frame of the body, is rotated to the frame of the
- * crack. */
+/* Checks that stresses of particles are rotated to the frame of the crack: if they follow from Hooke's law in the frame
+ * of the body, K and J agree with those computed by Hooke's law in the frame of the crack, to round-off. */
 static void particle_stresses_are_turned(void **state)
 {
     (void)state;
@@ -447,8 +448,8 @@ static void particle_stresses_are_turned(void **state)
     lattice_site_map_free(&l);
 }
 
-/* Checks a steadily moving crack, with inertia: K is recovered, and J E* = A_I K_I^2 + A_II K_II^2. The core is left
- * out, because gradients of particles there are not those of the field. */
+/* Checks a steadily moving crack with inertia: K to 0.07 and 0.04 %, and J E* = A_I K_I^2 + A_II K_II^2. The core
+ * around the tip is left out, since gradients from particles there are not those of the field. */
 static void lattice_sums_of_a_moving_crack(void **state)
 {
     (void)state;
@@ -471,9 +472,9 @@ static void lattice_sums_of_a_moving_crack(void **state)
     }
 }
 
-/* Checks that K does not change when the tip passes particles, if the motion is not that of a steady crack and the
- * domain term does not vanish at the edge of the core: with accelerations of 20 times the steady ones, a sharp edge
- * changes K_I by 1.6 %, a smooth one by less than 0.01 %. */
+/* Checks that K changes by less than 0.001 as the tip passes particles, if the motion is not that of a steady crack:
+ * with accelerations of 20 times the steady ones the domain term is not zero at the edge of the core. A sharp edge
+ * would change K_I by 1.6 %, the smooth one changes it by less than 0.01 %. */
 static void a_core_does_not_see_single_particles(void **state)
 {
     (void)state;

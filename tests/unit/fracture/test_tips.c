@@ -1,4 +1,4 @@
-/* Tests of crack tips, with damage set by hand. */
+/* Tests of crack tips, which are found from the damage of particles; the damage is set by hand. */
 #include "fracture/places.h"
 #include "tests/support/bodies.h"
 
@@ -48,8 +48,8 @@ static void tip_starts_only_where_the_body_goes_on(void **state)
     notched_free(&b, &t);
 }
 
-/* Checks the tip speed for growth by one particle per sample for ten samples of 1/500 s, then rest: 500 m/s, from the
- * second sample on. */
+/* Checks the tip speed of a crack that grows by one particle per sample for ten samples of 1/500 s and then rests: 500
+ * m/s from the second sample on. */
 static void tip_speed_is_the_slope_of_growth(void **state)
 {
     (void)state;
@@ -77,8 +77,8 @@ static void tip_speed_is_the_slope_of_growth(void **state)
     notched_free(&b, &t);
 }
 
-/* Checks tip speeds of varying growth: the steepest time window determines the maximum, the mean is between. Slow
- * growth is a particle every second sample. */
+/* Checks tip speeds if growth varies: the largest speed is that of the steepest time window, and the mean speed is
+ * between slow and fast growth. Slow growth is one particle every second sample. */
 static void tip_speed_takes_the_steepest_window(void **state)
 {
     (void)state;
@@ -125,8 +125,9 @@ static void tip_turns(void **state)
     notched_free(&b, &t);
 }
 
-/* Checks the number of crack ends: two rows of damaged particles beside a straight crack are one end, positioned
- * between them; branches that start there are two, and so are the tips of both ends of a crack. */
+/* Checks the number of crack ends with the largest growth. Two rows of damaged particles beside a straight crack are
+ * one end, positioned between them; two branches that start there are two ends, and so are the tips at both ends of a
+ * crack. */
 static void tips_that_tie(void **state)
 {
     (void)state;
@@ -157,8 +158,8 @@ static void tips_that_tie(void **state)
     notched_free(&b, &t);
 }
 
-/* Checks the representative position of groups: if the mean of a group is not near one of its positions, the nearest
- * position is used; of several groups the last by x. */
+/* Checks the representative position of groups of near positions: their mean, or the position nearest to it if the mean
+ * is not near one of them; of several groups that with the largest x. */
 static void places_of_groups(void **state)
 {
     (void)state;
@@ -185,8 +186,8 @@ static void places_of_groups(void **state)
     assert_int_equal(position_clusters_count_and_centre_at_largest_x(place, 0, 2, 1.5, none, middle), 0);
 }
 
-/* Checks what does not count as growth: the faces of the pre-crack beside its end are part of the crack; fixed
- * particles and those of other bodies are not part of it. */
+/* Checks which damage is not growth: that of the faces of the pre-crack beside its end, of fixed particles, and of
+ * other bodies. */
 static void tip_growth_leaves_out(void **state)
 {
     (void)state;
@@ -213,8 +214,8 @@ static void tip_growth_leaves_out(void **state)
     notched_free(&b, &t);
 }
 
-/* Checks that a crack that starts separately becomes part of the one that reaches it, and that this jump counts as
- * length, not as speed. */
+/* Checks that a crack that starts separately is joined by the crack that reaches it, and that this jump increases the
+ * length of the crack but not its speed. */
 static void tip_joins_a_crack_ahead(void **state)
 {
     (void)state;
@@ -249,8 +250,8 @@ static void tip_joins_a_crack_ahead(void **state)
     notched_free(&b, &t);
 }
 
-/* Checks that two cracks that start beside one another and have grown in the same direction stay two when damage
- * between their starts connects them, each with its own start, and that the tip of another crack takes them in. */
+/* Checks that two cracks that start beside one another and have grown in the same direction remain two, each with its
+ * own start, when damage connects their starts; and that a third crack that reaches this damage joins both. */
 static void tips_that_touch_beside_are_two(void **state)
 {
     (void)state;
@@ -280,8 +281,8 @@ static void tips_that_touch_beside_are_two(void **state)
     notched_free(&b, &t);
 }
 
-/* Checks that a crack of 16 spacings that the crack of a pre-crack reaches in its middle stays as long as it is: from
- * the end of the pre-crack it would extend by 9. */
+/* Checks that a crack of 16 spacings keeps its length when another crack, that of a pre-crack, reaches its middle.
+ * Measured from the end of the pre-crack it would be 9 spacings long. */
 static void tips_that_meet_do_not_heal(void **state)
 {
     (void)state;
@@ -300,7 +301,7 @@ static void tips_that_meet_do_not_heal(void **state)
     notched_free(&b, &t);
 }
 
-/* Checks that a crack that only joins others after its first spacing has no mean speed. */
+/* Checks that a crack that only joins others after its first increment has no mean speed. */
 static void tip_that_only_joins(void **state)
 {
     (void)state;
@@ -320,7 +321,7 @@ static void tip_that_only_joins(void **state)
     }
 }
 
-/* Checks that in 3D the whole edge inside the body is one front, wherever along it the crack grows. */
+/* Checks that in 3D the whole edge of a crack inside the body is one tip (front), wherever along it the crack grows. */
 static void tip_of_a_front(void **state)
 {
     (void)state;
@@ -342,8 +343,8 @@ static void tip_of_a_front(void **state)
     notched_free(&b, &t);
 }
 
-/* Checks the crack area in 2D: both faces of five spacings from a pre-crack; an oblique path; a separate crack, half of
- * whose particles count; in a plane of symmetry half of the area belongs to the body. */
+/* Checks the crack area in 2D: both faces of five spacings from a pre-crack; an oblique path; a separate crack. In a
+ * plane of symmetry half of the area belongs to the body. */
 static void tips_area_in_the_plane(void **state)
 {
     (void)state;
