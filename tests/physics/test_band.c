@@ -1,6 +1,5 @@
-/* Checks for the plate of inputs/plate_crack.yaml (Zeng et al. 2022) at four spacings that the band of damage along a
- * crack is a constant number of spacings wide, and that crack length and fracture energy do not depend on the spacing.
- */
+/* Checks cracks in the plate of inputs/plate_crack.yaml (Zeng et al. 2022) at four spacings. The band of damage along a
+ * crack must be a constant number of spacings wide; crack length and fracture energy must not depend on the spacing. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -35,6 +34,8 @@ static real band_width(const struct run *run, real growth)
     return area / (2 * growth);
 }
 
+/* Runs the scene to its end with this spacing and method. Returns width of the band, growth of the longest tip, and
+ * fracture energy. */
 static struct band band_of(const char *spacing, const char *method)
 {
     const struct scene_override override[] = {{"particles.spacing", spacing}, {"method", method}};

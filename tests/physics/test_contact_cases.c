@@ -6,6 +6,7 @@
 #include "bench/contact/contact_bench.h"
 #include "tests/support/near.h"
 
+/* Measures the case c and fails the test unless contact_case_holds finds its figures within the tolerances. */
 static void check_case(const struct contact_case *c)
 {
     double figure[CONTACT_FIGURES] = {NAN, NAN, NAN, NAN};

@@ -81,6 +81,7 @@ struct places {
     real *x[DIM_MAX], *volume;
 };
 
+/* Sets the particles of r to the positions and volumes `was`, without velocity, stretch and stress. */
 static void at_rest(struct held_run *r, const struct places *was)
 {
     struct particles *p = &r->e.part;
@@ -226,6 +227,8 @@ static const struct {
     {&cube, "coupling: handshake\nparticles: {horizon: 2.015}\nmpm: {shape: quadratic}\n"},
 };
 
+/* Checks for the block b the conditions stated at the head of this file: Q and m W symmetric, W >= 0, dt^2 W <= 2 (1 +
+ * Q), and the third step as predicted. Arguments: as for run_make; `more` must not set the spacing. */
 static void check_one_energy(const struct block *b, const char *method, const char *poisson, const char *more)
 {
     char keys[256];

@@ -24,6 +24,8 @@ static const struct drift_case *named(const char *name)
     return NULL;
 }
 
+/* Runs the case l for `steps` steps and returns true if drift_holds finds its energy within the limits of
+ * energy_drift.h; else prints its figures. */
 static bool holds(const struct drift_case *l, int64_t steps)
 {
     struct lasting r;

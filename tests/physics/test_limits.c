@@ -13,6 +13,8 @@
 #include "../bench/stability/limits_scenes.h"
 #include "tests/support/near.h"
 
+/* Measures the row r of the scene s. Returns true if all its quantities are in their known ranges and the row fails if
+ * and only if the table states a remedy; else prints the differences. */
 static bool row_is_as_known(const struct limits_scene *s, const struct limits_row *r)
 {
     double figure[FAILING_FIGURES];

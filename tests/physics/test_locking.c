@@ -128,6 +128,8 @@ static real bending_period(int k, const char *keys)
     return period;
 }
 
+/* Compares the periods of bending in the reference and the current frame with those of finite elements; tolerance 2 %,
+ * with 12 particles across the height. */
 static void test_bending(void **state)
 {
     (void)state;

@@ -21,6 +21,8 @@ struct outcome {
     double peak, last, crack, released;
 }; /* [N] [N] [m] [J/m^2] */
 
+/* Runs the scene with the overrides o to its end. Returns the largest load, the last load, the crack length at the end,
+ * and the released energy per crack area. */
 static struct outcome outcome_of(const char *scene, struct bench_overrides *o, const struct specimen *specimen)
 {
     struct run e;

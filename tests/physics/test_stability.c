@@ -128,8 +128,8 @@ static double automatic_of(const char *text, const char *key, const char *value)
     return critical;
 }
 
-/* Checks that the critical step is proportional to the length of a body, and that a body of one particle, which has no
- * bonds, has a step of the order of its size over the wave speed. */
+/* Checks that the critical step is proportional to the length of a body. A body of one particle, which has no bonds,
+ * must have a step of the order of its size over the wave speed. */
 static void test_scales(void **state)
 {
     (void)state;

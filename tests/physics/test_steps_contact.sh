@@ -1,6 +1,6 @@
 #!/bin/sh
 # Contact and rigid bodies in load steps: a beam on rollers compared with ASTM E399, a disc between jaws, a crack under compression compared
-# with the closed form, and bodies on bodies; bitwise equality on any number of threads and after stops.
+# with closed forms and with one without contact, bodies on bodies; bitwise equality on any number of threads and after stops.
 test_name=test_steps_contact
 . tests/support/summary.sh
 . tests/support/scenes.sh

@@ -18,7 +18,7 @@ void fuzz_list(const uint8_t *bytes, size_t n);
 /* Reads bytes[n] as an Exodus II file, both as a mesh and as a list of particles. */
 void fuzz_exodus(const uint8_t *bytes, size_t n);
 
-/* Reads bytes[n] as a checkpoint, after its footer, which holds a hash, has been corrected. */
+/* Reads bytes[n] as a checkpoint, with a footer that contains the hash of these bytes. */
 void fuzz_checkpoint(const uint8_t *bytes, size_t n);
 
 /* Composes the text of a scene by choices according to bytes[n], and runs it if it is valid. */

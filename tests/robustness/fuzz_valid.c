@@ -1,5 +1,5 @@
-/* Target of fuzz.h: valid scenes of every space, method, model, shape, load and probe, composed by choices according to
- * the input bytes. A run must end with finite results or state in one line why it does not. */
+/* Target of fuzz.h: scenes of every space, method, model, shape, load and probe, composed by choices according to the
+ * input bytes; most of them are valid. A run must end with finite results or state in one line why it does not. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>

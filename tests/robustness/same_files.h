@@ -65,9 +65,9 @@ static bool half_written(const char *folder)
     return files > 0;
 }
 
-/* Compares the output folders of two runs and prints the files that differ. Returns true if both have more than four
- * files, the same ones with equal contents (summaries up to lines about the machine), and none with a temporary name.
- * Checkpoints and hidden files are left out. */
+/* Compares the output folders of two runs and prints the files that differ. Returns true if both have the same files,
+ * more than four, with equal contents, and none with a temporary name. Summaries are compared up to the lines about the
+ * machine; checkpoints and hidden files are left out. */
 static bool same_files(const char *reference, const char *folder)
 {
     other = folder, reference_length = strlen(reference), files = differing = 0;

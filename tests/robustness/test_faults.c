@@ -73,6 +73,8 @@ static void outcome(const char *what, const struct place *p, int end, int cause)
         complain("%s: no cause in: %s", what, line);
 }
 
+/* Makes call number `number` of the kind of s fail in a run p, or in its resumed part if `resumed` is true, and checks
+ * its end (outcome). look: true to resume the run afterwards and compare its results. */
 static void fail_at(const struct sweep *s, long number, const struct place *p, bool resumed, bool look)
 {
     const struct fault_plan plan = {s->call, DO_FAIL, number, s->cause, 0}, stop = {AT_SAMPLE, DO_STOP, 2, 0, 0};
@@ -85,6 +87,8 @@ static void fail_at(const struct sweep *s, long number, const struct place *p, b
     if (look && (end != 0 || s->lossy)) resumes(what, &small_reference, p, 1);
 }
 
+/* Makes every step-th call of each series fail in a run and in a resumed run (struct sweep). worker: 0 or 1, which half
+ * of the calls. */
 static void sweep_share(int worker)
 {
     static const struct fault_plan stop = {AT_SAMPLE, DO_STOP, 2, 0, 0};
@@ -227,8 +231,8 @@ static void stopped_runs_resume(void **state)
     assert_int_equal(in_two(stop_share), 0);
 }
 
-/* Kills runs at conversions, couplings and equilibria. A resumed run couples once at its start, so that the run is
- * killed at the third coupling. worker: 0 or 1, which half of the tests. */
+/* Kills runs at conversions, couplings and equilibria. A resumed run couples at its start and again where it was
+ * killed; the third coupling is the first new one. worker: 0 or 1, which half of the tests. */
 static void kill_share(int worker)
 {
     if (worker == 0)

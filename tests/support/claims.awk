@@ -4,19 +4,21 @@
 #   fresh    1: these results were measured now: only rows of `long` are compared, each within its own tolerance
 #   tables   documents whose tables must be in claims.csv number by number, between blanks: DOCUMENT, or DOCUMENT=SECTION with _ for blanks
 #
-# A row: figure, value, tolerance, when, command, source, document, place. No field holds a comma.
-#   tolerance  a number; or <: what is measured is at most the value; or >: at least
-#   when     quick: measured by test_claims.sh or a test that runs the scene anyway (claimed in claims.sh); long: by long_claims.sh; kept: compared with files alone
-#   source   where the figure comes from, one of
-#            PATH, PATH FORMULA or a formula with {PATH}: of `cleave run`: paths in summary.json (value_of in claims.sh has more)
-#            EXPRESSION: of `cleave bench`: for one line of what the bench prints, with single blanks
-#            test_NAME: EXPRESSION: for one line of what this script of tests/ measures (between, apart and near in summary.sh)
-#            FILE: EXPRESSION: for one line of a file, by its path in the checkout, or by its name in bench/results/: a printout, a table,
-#            the bound of a test, a key of a scene, a constant of a source; ` times FACTOR` and ` plus NUMBER` behind it change the unit;
+# A row has the fields figure, value, tolerance, when, command, source, document, place, none of which contains a comma.
+#   tolerance  a number; or <: the measured figure is at most the value; or >: it is at least the value
+#   when     quick: measured by test_claims.sh or by a test that runs the scene anyway (`claimed` in claims.sh); long: measured by
+#            long_claims.sh; kept: compared with files alone
+#   source   where the figure is found, one of
+#            PATH, PATH FORMULA or a formula with {PATH}: paths in summary.json of `cleave run` (value_of in claims.sh has more)
+#            EXPRESSION: matches one line of the printed results of `cleave bench`, with single blanks
+#            test_NAME: EXPRESSION: matches one line of the figures that this script of tests/ measures (between, apart and near in summary.sh)
+#            FILE: EXPRESSION: matches one line of a file, given by its path in the checkout or its name in bench/results/, such as a table,
+#            a bound in a test, a key of a scene, a constant of a source; ` times FACTOR` and ` plus NUMBER` behind it change the unit;
 #            `count WITHIN: ` before it counts the lines whose number is at most WITHIN
-#            paper: AUTHORS YEAR: a figure of a publication, which inputs/references.md lists
-#            formula: FORMULA: theory: a closed form without inputs of a run
-#   place    a regular expression for the text of the document, its lines joined by blanks; `SECTION > ` before it looks below one heading
+#            paper: AUTHORS YEAR: a figure of a publication, listed in inputs/references.md
+#            formula: FORMULA: a closed form that needs no run
+#   place    a regular expression for the text of the document, whose lines are joined by blanks; `SECTION > ` before it limits the search
+#            to the text below one heading
 # In expressions # stands for the number and @ for any number.
 BEGIN { FS = ","; number = "[-+]?[0-9]+([.][0-9]+)?([eE][-+]?[0-9]+)?" }
 

@@ -52,9 +52,9 @@ struct spectrum {
 /* ---- unknowns ---------------------------------------------------------------------------------------------------- */
 
 /* Finds the components of displacement that are no unknowns. Returns an array with an entry for each node of the mesh
- * if `node` is true, else for each particle of the run: bit d is set if component d is no unknown, since a velocity is
- * prescribed for the particle, a wall holds the node, or the node follows its mirror image. Release it with
- * memory_free. */
+ * if `node` is true, else for each particle of the run. Bit d of an entry is set if component d is no unknown, since
+ * the velocity of the particle is prescribed, the node is fixed by a wall, or the node follows its mirror image.
+ * Release the array with memory_free. */
 static inline uint8_t *operator_held(struct run *run, bool node)
 {
     const int64_t n = node ? run->frame->mesh.grid.n : run->part.n;

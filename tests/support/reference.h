@@ -262,8 +262,8 @@ static inline void reference_partial(const struct particles *p, const real *w, r
 }
 
 /* Computes T : C^-1 sigma, the part of the stress `sigma` of a point that bonds with the stiffness T
- * (reference_partial) carry, and stores it in grid_coupled [Pa]. Both stresses are stored symmetric tensors (xx yy zz
- * xy yz zx in 3D, xx yy xy in 2D). C: stiffness of the isotropic material m. */
+ * (reference_partial) carry, and stores it in grid_coupled [Pa]. sigma, grid_coupled: stored symmetric tensors (xx yy
+ * zz xy yz zx in 3D, xx yy xy in 2D). C: stiffness of the isotropic material m. */
 static inline void reference_carried(const struct material *m, int dim, real T[DIM_MAX][DIM_MAX][DIM_MAX][DIM_MAX],
                                      const real *sigma, real *grid_coupled)
 {

@@ -56,10 +56,11 @@ static inline struct reference_shape reference_shape(enum shape shape, real r, r
 
 /* ==== one step of the material point method  =================================== */
 
-/* State of one step. The caller sets what is above `value`: half_width, half the width of an undeformed point [m]; dt,
- * time step for positions and strains, and dt_velocity, that for velocities [s]; smallest_mass, below which a node does
- * not move [kg]. The rest is allocated by reference_step_make; mass to `change` are nodal values: `momentum` also holds
- * the velocity of the second map of FLIP, and `change` is the increment of the velocity in the step. */
+/* State of one step. The caller sets the members above `value`; the others are allocated by reference_step_make.
+ * half_width: half the width of an undeformed point [m]; dt, dt_velocity: time steps for positions and strains, and for
+ * velocities [s]; smallest_mass: mass below which a node does not move [kg]. mass to `change` are nodal values;
+ * `momentum` is overwritten by the velocity of the second map of FLIP, `change` is the increment of the velocity in the
+ * step. */
 struct reference_step {
     enum shape shape;
     enum transfer transfer;
@@ -189,8 +190,8 @@ static inline bool reference_together(const struct reference_step *s, int64_t i,
     return same;
 }
 
-/* Computes the change change[i] of value[i] of each point i when it is replaced by the mean value, weighted by volume,
- * of all points that share the dilatation of point i (reference_together); 0 if there are none. */
+/* Computes change[i], the difference between the mean of `value` and value[i]. The mean is weighted by volume, over all
+ * points that have the dilatation in common with point i (reference_together); change[i] is 0 if there are none. */
 static inline void reference_means(const struct reference_step *s, const real *value, real *change)
 {
     for (int64_t i = 0; i < s->p->n; i++) {
@@ -209,8 +210,8 @@ static inline real reference_trace(real tensor[DIM_MAX][DIM_MAX], int dim)
     return sum;
 }
 
-/* Computes the change of the mean stress of each point, and stores it in s->more [Pa], when the mean stresses of the
- * points of a cell that share their dilatation (reference_together) are replaced by their average. */
+/* Computes the change of the mean stress of each point by averaging over the points of its cell that have their
+ * dilatation in common (reference_together), and stores it in s->more [Pa]. */
 static inline void reference_pressures(struct reference_step *s)
 {
     real *mean = NEW("reference.mean", s->p->n, real);
@@ -354,8 +355,8 @@ static inline void reference_gradient(const struct reference_step *s, int64_t i,
         for (int b = 0; b < s->p->dim; b++) L[a][b] = reference_at(s, s->slope[b], straining[a], i);
 }
 
-/* Computes the change of the rate of dilatation of each point, and stores it in s->more [1/s], when the rates of the
- * points of a cell that share their dilatation (reference_together) are replaced by their average. */
+/* Computes the change of the rate of dilatation of each point by averaging over the points of its cell that have their
+ * dilatation in common (reference_together), and stores it in s->more [1/s]. */
 static inline void reference_dilatations(struct reference_step *s)
 {
     real *rate = NEW("reference.rate", s->p->n, real), L[DIM_MAX][DIM_MAX];

@@ -81,9 +81,9 @@ static inline real soften_reference_kept(const struct soften_reference *r, int64
     return soften_reference_peak(r->law, r->onset[q], r->critical[q], k) / k;
 }
 
-/* Returns the energy that the bond with the index q dissipates in one leap-frog step from its largest stretch k so far
- * to the stretch s > k, minus the growth of the closed form, divided by the stiffness and the length of the bond [1].
- * The step dissipates s k/2 times the lost fraction of the stiffness. 0 for linear softening. */
+/* Returns by how much the energy that the bond with the index q dissipates in one leap-frog step exceeds the growth of
+ * the closed form, divided by the stiffness and the length of the bond [1]. The step increases the largest stretch from
+ * k to s > k and dissipates s k/2 times the lost fraction of the stiffness. The result is 0 for linear softening. */
 static inline real soften_reference_excess(const struct soften_reference *r, int64_t q, real s)
 {
     const real k = r->most[q];

@@ -15,8 +15,8 @@ static bool said(double load, int cores, int threads, const char *words)
     return busy;
 }
 
-/* Checks that there is no warning for idle machines and for machines with a core for every process and thread, and the
- * factors in the warnings about overloaded ones, such as 2.5 for 3 other processes and 2 threads on 2 cores. */
+/* Checks that there is no warning for idle machines and for machines with a core for every process and thread. Checks
+ * the factor in the warnings about overloaded ones, such as 2.5 for 3 other processes and 2 threads on 2 cores. */
 static void load_is_described(void **state)
 {
     (void)state;

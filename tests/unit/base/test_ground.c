@@ -358,8 +358,8 @@ static void cracks_cut_in_three_dimensions(void **state)
     check_cut(&(struct crack){.n = 2, .corner = corner}, POINT(1, 0, 0), POINT(1, 0, 2), 3, false);
 }
 
-/* Checks that crack_cuts_bond gives the same answer for a bond and the bond in reverse where round-off decides: for
- * bonds through the very end of the crack, which has a tolerance of 1e-9 crack lengths. */
+/* Checks that crack_cuts_bond has equal results for a bond and its reverse where round-off decides: for bonds through
+ * the very end of the crack, which has a tolerance of 1e-9 crack lengths. */
 static void cracks_are_symmetric_at_their_tips(void **state)
 {
     (void)state;

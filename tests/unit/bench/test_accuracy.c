@@ -101,8 +101,8 @@ static real acceleration(const struct motion *m, const real *X, real t, int comp
     return (before[component] - 2 * now[component] + after[component]) / (h * h);
 }
 
-/* Asserts that the residual of the equation of motion of m with the body force f[dim] at the position X and time t is
- * at most 2e-5 of its largest term, an error that the finite differences explain. */
+/* Asserts that m satisfies its equation of motion with the body force f[dim] at the position X and time t. The residual
+ * may be 2e-5 of the largest term, which the error of the finite differences explains. */
 static void assert_moves(const struct motion *m, const real *X, real t, const real *f)
 {
     for (int a = 0; a < m->dim; a++) {
@@ -292,8 +292,8 @@ static bool keys_have(const char *keys, const char *key, const char *value)
     return has;
 }
 
-/* Checks that a line of the table, with the texts column[], is a run of the bench, and that it states the present scene
- * keys of its method (those for particles, time, output and contact are left out). */
+/* Checks that a line of the table, with the texts column[], is a run of the bench and states the present scene keys of
+ * its method. Keys for particles, time, output and contact are left out. */
 static void line_is_of_the_plan(char *const *column)
 {
     const struct accuracy_problem *q = problem_named(column[PROBLEM]);

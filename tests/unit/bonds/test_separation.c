@@ -89,8 +89,8 @@ static void test_work_of_separation(void **state)
 
 /* Compares the work of separation at the critical stretch of Madenci & Oterkus 2014 (ordinary state-based model) with
  * the energy release rate from which this stretch follows. The closed form is for a continuum with omega = delta/r and
- * a complete weighted volume Q. At a horizon of 3.015 spacings the lattice is within 3 % for every Poisson's ratio
- * (tolerance 3.5 %), and 5 to 9 % above if Q decreases with the family (tolerance 4 to 10 %). */
+ * a complete weighted volume Q. A lattice with a horizon of 3.015 spacings has 1 within 3 % for every Poisson's ratio
+ * (tolerance 3.5 %). If Q decreases with the family, it has 5 to 9 % more (tolerance 4 to 10 %). */
 static void test_ordinary(void **state)
 {
     (void)state;

@@ -188,6 +188,8 @@ static int64_t count_units(const struct bonds *b)
     return units;
 }
 
+/* Checks that force, energy and stress kernels have bitwise equal results for rows that follow stencils and for stored
+ * rows, also when some bonds have broken. */
 static void test_same_bits(void **state)
 {
     (void)state;

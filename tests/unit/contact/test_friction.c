@@ -1,5 +1,6 @@
-/* Friction: the spring of a contact compared with Coulomb's law and its energies; forces and moments on rigid bodies as
- * the gradient of their contact energy; sliding bodies; weights of particles of different sizes. */
+/* Friction: the spring of a contact compared with Coulomb's law and its energies; contact of rigid bodies, whose forces
+ * are the gradient of the contact energy and balance those on the particles; sliding bodies; weights of particles of
+ * different sizes. */
 #include <math.h>
 #include <string.h>
 
@@ -93,6 +94,8 @@ static const char pressed[] =
     "  - {name: disc, rigid: true, mass: 2 kg, shape: {disc: {centre: [4 mm, 13 mm], radius: 7 mm}}}\n"
     "particles: {spacing: 1 mm}\n";
 
+/* Checks that force and moment on a rigid body balance those on the particles, to round-off, and that the force on one
+ * particle is the gradient of the contact energy (central difference, tolerance 1e-5). */
 static void rigid_force_is_a_gradient(void **state)
 {
     (void)state;
@@ -137,6 +140,7 @@ static const char pivoted[] =
     "  - {name: bar, rigid: true, mass: 2 kg, shape: {box: {from: [8 mm, 6 mm], to: [31 mm, 9 mm]}}}\n"
     "particles: {spacing: 1 mm}\n";
 
+/* Checks that the moment on a rigid body about an eccentric pivot balances that of the forces on the particles. */
 static void rigid_moment(void **state)
 {
     (void)state;
@@ -210,9 +214,8 @@ static void block_force(const struct particles *p, real *force)
 }
 
 /* Checks that particles that move and rotate with a rigid body experience no friction. If the body is faster along its
- * face, it exerts the friction coefficient times the normal force on them, its moment balances that on the particles,
- * and the dissipated energy is 0.3 force 1.6 m/s time. A sample includes this energy in the dissipated energy of the
- * run. */
+ * face, it exerts the friction coefficient times the normal force on them, and its moment balances theirs. The
+ * dissipated energy is then 0.3 force 1.6 m/s time; a sample includes it in the dissipated energy of the run. */
 static void rigid_body_rubs(void **state)
 {
     (void)state;

@@ -221,8 +221,8 @@ static real energy_of(const struct particle_cloud *c, const struct partial_stres
     return sum;
 }
 
-/* Checks the change of energy when `block` points in the middle of a uniformly strained bar are converted to bonds
- * before the run, in units of the energy of a particle, against closed forms for both couplings. */
+/* Checks the change of energy when points in the middle of a uniformly strained bar are converted to bonds before the
+ * run, in units of the energy of a particle. block: number of points. Expected: closed forms for both couplings. */
 static void test_energy_at_start(void **state)
 {
     (void)state;

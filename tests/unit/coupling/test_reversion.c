@@ -43,6 +43,7 @@ static int64_t choose(struct setting *s, int32_t **list)
     return reversion_select_particles_to_become_mpm(&s->rule, &s->c.p, &s->c.bonds, 2, list);
 }
 
+/* Restarts the dwell time of all particles of s: their stress counts as not yet low. */
 static void setting_never(struct setting *s)
 {
     for (int64_t i = 0; i < s->c.p.n; i++) s->c.p.low_since[i] = INFINITY;

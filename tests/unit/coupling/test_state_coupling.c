@@ -91,11 +91,11 @@ static real residual(const struct partners *k, const real strain[DIM_MAX][DIM_MA
     return force;
 }
 
-/* Compares the residual force at a flat interface on a node, relative to stress times cell edge, with values of an
- * independent program that sums dense matrices, for two models, Poisson's ratios 0.25 and 0.45, and axial, biaxial and
- * shear strain. Model with rotations: no force normal to the interface; A/2 (A: anisotropic part of its bonds) and half
- * of the part across the bond in shear. Ordinary model: likewise with its own A, plus the difference of the fourth
- * moments of the lattice, as for bonds. */
+/* Compares the residual force at a flat interface on a node with values of an independent program that sums dense
+ * matrices, relative to stress times cell edge. Two models, Poisson's ratios 0.25 and 0.45, axial, biaxial and shear
+ * strain. Model with rotations: no force normal to the interface; A/2 (A: anisotropic part of its bonds) and half of
+ * the part across the bond in shear. Ordinary model: likewise with its own A, plus the difference of the fourth moments
+ * of the lattice, as for bonds. */
 static void test_flat(void **state)
 {
     (void)state;
@@ -238,9 +238,9 @@ static void test_energy(void **state)
         }
 }
 
-/* Checks the response of bonds between two materials to strain: it is equal from both ends, with the mean moduli of
- * both materials (B for the vector part, A for the mean strain). Also checks that the cell of a particle in the plane
- * has its volume: four times the volume doubles its edge. */
+/* Checks the response of bonds between two materials to strain: it is equal from both ends, with the moduli of both
+ * materials (B for the vector part, A for the mean strain). Also checks that the cell of a particle in the plane has
+ * its volume: four times the volume doubles its edge. */
 static void test_response(void **state)
 {
     (void)state;
@@ -277,9 +277,9 @@ static void test_response(void **state)
     particle_cloud_free(c);
 }
 
-/* Checks that the sum of the energies of all rows is the total energy, including material points with bonds that rotate
- * with their cells, in a half peridynamic plate that is stretched and rotated by 0.3 rad. (A row is the list of bonds
- * of one particle.) */
+/* Checks that the sum of the energies of all rows (a row: the bonds of one particle) is the total energy, in a half
+ * peridynamic plate that is stretched and rotated by 0.3 rad. It includes material points with bonds, which rotate with
+ * their cells. */
 static void test_rows(void **state)
 {
     (void)state;

@@ -168,6 +168,8 @@ static void check_point(const struct run *run, int64_t row)
     assert_close(b->state.spring[i], m->B * share, 1e-14);
 }
 
+/* Checks the state (check_point) of all material points with bonds of their own in the displaced body of the scene
+ * `text`, whose points have random stresses. */
 static void check_points(const char *text)
 {
     struct scene s;
@@ -223,6 +225,8 @@ static void same_partials(const struct partial_stress *a, const struct partial_s
     assert_true(points > 40);
 }
 
+/* Checks that partial stresses after a conversion in the scene `text`, made by means of the site map, are bitwise equal
+ * to those from newly searched bonds. */
 static void check_partials(const char *text)
 {
     struct scene s;

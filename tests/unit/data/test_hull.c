@@ -102,6 +102,8 @@ static void convex_near(void **state)
     }
 }
 
+/* Checks that a surface with inward normals is recognised as reversed and used with outward normals, and the number of
+ * open edges and of uncertain positions of a ball with a small hole and of half a ball. */
 static void turned_and_open(void **state)
 {
     (void)state;

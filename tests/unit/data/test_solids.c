@@ -122,7 +122,7 @@ static void check_bounds(const struct solid *s, int dim)
 }
 
 /* Checks the signed distance of the solid s at random points by two conditions that define it. It changes by at most
- * the distance between two points, and a step back along the normal by the distance leads from outside to the surface.
+ * the distance between two points. A step back along the normal by the distance leads from outside to the surface.
  * Normals must be unit vectors, and the sign must be that of the level-set value. */
 static void check_distance(const struct solid *s, int dim)
 {

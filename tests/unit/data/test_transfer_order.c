@@ -135,8 +135,8 @@ static void test_transfer_order_growth(void **state)
     }
 }
 
-/* Moves each point of p with the probability `share`, per direction, to a random position in the grid g, and sets
- * o->left for the points whose cell has changed. o: order of the points; seed: state of the random numbers. */
+/* Moves each point of p with the probability `share` to a random position in the grid g, and sets o->left for the
+ * points whose cell has changed. o: order of the points; seed: state of the random numbers. */
 static void move_points(const struct particles *p, const struct transfer_order *o, const struct grid *g, real share,
                         uint64_t *seed)
 {

@@ -94,6 +94,8 @@ static double turn(const double *a, const double *b, const double *c)
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
+/* Checks for all pairs within the cutoff that their types are excluded if and only if their line crosses the crack
+ * (test by signed areas), and that volumes and densities are those of the scene. */
 static void exclusions_are_the_crack(void **state)
 {
     static const double from[] = {-2.1e-3, -1.3e-3}, to[] = {2.7e-3, 1.6e-3};
@@ -140,6 +142,7 @@ static void coefficients(void **state)
     out_remove();
 }
 
+/* Checks that the export as a bond style lists all pairs of the lattice within three spacings, numbered from 1. */
 static void bonds_of_bpm(void **state)
 {
     char *data;

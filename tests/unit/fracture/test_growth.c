@@ -457,6 +457,8 @@ static status exchange(struct archive *a, const char *name, void *data, size_t s
     return OK;
 }
 
+/* Checks that a growing crack that is saved, freed and loaded continues with bitwise equal weights, fracture energies
+ * and tip position. */
 static void test_restart(void **state)
 {
     (void)state;

@@ -2,6 +2,8 @@
 #include "fracture/places.h"
 #include "tests/support/bodies.h"
 
+/* Checks where crack tips are created at pre-cracks: at ends inside the body that no other pre-crack continues, with
+ * more than one free particle ahead. */
 static void tip_starts_only_where_the_body_goes_on(void **state)
 {
     (void)state;
@@ -49,7 +51,7 @@ static void tip_starts_only_where_the_body_goes_on(void **state)
 }
 
 /* Checks the tip speed of a crack that grows by one particle per sample for ten samples of 1/500 s and then rests: 500
- * m/s from the second sample on. */
+ * m/s from the second sample on. Tolerance: round-off times 500/(1/500 s). */
 static void tip_speed_is_the_slope_of_growth(void **state)
 {
     (void)state;
@@ -273,7 +275,7 @@ static void tips_that_touch_beside_are_two(void **state)
         assert_near(t.tip[k].place[1], t.tip[k].origin[1], 0);
     }
 
-    /* The tip of the pre-crack's crack comes to the damage that connects them, and takes in what it meets. */
+    /* The crack of the pre-crack reaches the damage that connects the two, and joins both. */
     for (int k = 1; k <= 10; k++) hurt(&b, 9.5 + k, 10.5, 0);
     tips_update_from_damage(&t, &b.p, &b.c, 8);
     assert_int_equal(t.n, 2);
