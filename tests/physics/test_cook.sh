@@ -1,6 +1,6 @@
 #!/bin/sh
-# Cook's membrane at Poisson's ratio 0.4999, by the mesh of the reference frame in load steps and in the current frame: cells in plane
-# strain and in 3D do not lock. Reference: quadratic finite elements, with which the upper corner is displaced by 27.4 to 27.6 um.
+# Cook's membrane at Poisson's ratio 0.4999 in one load step, in plane strain and in 3D: the cells of the reference frame do not lock.
+# Reference: with quadratic finite elements the upper corner moves by 27.4 to 27.6 um. At 16 to 48 cells it moves less, by up to 6 %.
 test_name=test_cook
 . tests/support/summary.sh
 . tests/support/scenes.sh

@@ -32,10 +32,10 @@ static const char bar[] = "name: bar\nspace: solid\nduration: 80 us\nmethod: mpm
                           "initial: [{velocity: [0, 0, -190]}]\noutput: {frames: 0, samples: 1}\n";
 
 /* Checks a copper bar that hits a rigid wall at 190 m/s, at rest after 80 us, with the shape functions `shape`.
- * Reference: MPM3D-F90 (Zhang, Chen, Liu 2016) with equal cells and points, top layer at 16.24 mm (tolerance 2 %) and largest
- * radius 6.56 mm (3 %, since mean dilatations of cells soften the foot). Its pressure of 1.36 GPa (root mean square) is
- * mostly a checkerboard, as are 1.24 GPa in Cleave without mean dilatations; the flow stress is 0.5 GPa. pressure_most:
- * limit of the pressure [Pa]. */
+ * Reference: MPM3D-F90 (Zhang, Chen, Liu 2016) with equal cells and points: centre of the top layer at 16.24 mm
+ * (tolerance 2 %), largest radius 6.56 mm (3 %, since mean dilatations of cells soften the foot), and
+ * a pressure of 1.36 GPa (root mean square). This pressure is mostly a checkerboard, as are 1.24 GPa in Cleave without
+ * mean dilatations; the flow stress is 0.5 GPa. pressure_most: limit of the pressure [Pa]. */
 static void bar_case(const char *shape, real pressure_most)
 {
     struct held_run *r = NEW("test.run", 1, struct held_run);
