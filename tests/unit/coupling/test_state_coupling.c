@@ -305,9 +305,23 @@ static void test_rows(void **state)
     patch_free(&b.s);
 }
 
+/* Checks that x . A x is not negative for 500 random vectors x, up to round-off. A: symmetric matrix with n rows;
+ * scale: size of its entries. */
+static void assert_no_negative_work(const real *A, int n, real scale)
+{
+    uint64_t seed = 3;
+    for (int k = 0; k < 500; k++) {
+        real x[SYM_MAX], work = 0;
+        for (int a = 0; a < n; a++) x[a] = cloud_between(&seed, -1, 1);
+        for (int a = 0; a < n * n; a++) work += x[a / n] * A[a] * x[a % n];
+        assert_true(work > -1e-9 * scale);
+    }
+}
+
 /* Checks the limit on T, the stiffness that bonds take over from a point of the volume V and the stiffness C, for a T
  * that exceeds V C in some directions: T is reduced only in directions in which nothing of the point's stiffness
- * remains, i.e. the product of the remainder V C - T and the reduction of T is 0, as tensors. */
+ * remains, i.e. the product of the remainder V C - T and the reduction of T is 0, as tensors, and neither has a
+ * negative eigenvalue. */
 static void test_positive(void **state)
 {
     (void)state;
@@ -347,6 +361,8 @@ static void test_positive(void **state)
                 for (int e = 0; e < n; e++) product += rest[a * n + e] * taken[e * n + c];
                 assert_true(fabs(product) < 1e-9 * square(V * m->c11));
             }
+        assert_no_negative_work(rest, n, V * m->c11);
+        assert_no_negative_work(taken, n, V * m->c11);
         particle_cloud_free(&b.s.c);
     }
 }

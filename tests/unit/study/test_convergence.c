@@ -250,12 +250,14 @@ static void spacings_fit_faces_and_cracks(void **state)
         for (int j = 1; j < to.n[k]; j++) assert_true(fabs(to.at[k][j] / to.at[k][0] - 1) > 1e-3);
     }
     corner[0][1] = corner[1][1] = 20.25; /* through the middle of a row */
+    int fits = 0;
     spacings_choose_for_convergence_study(&to, &s, 3, s.spacing);
     for (int k = 0; k < 3; k++) {
-        if (to.misfit[k] > 0.02) continue; /* reported in this case */
-        const double rows = 20.25 / to.at[k][0] - 0.5;
-        assert_near(rows, round(rows), 0.02);
+        const double rows = 20.25 / to.at[k][0] - 0.5, off = fabs(rows - round(rows));
+        fits += off <= 0.02;
+        assert_true(off <= 0.02 || to.misfit[k] > 0.02); /* reported */
     }
+    assert_true(fits > 0);
 }
 
 /* Checks that without lengths that a lattice must fit, the spacings of a study have the ratio sqrt(2). */
