@@ -9,8 +9,8 @@
 
 /* ---- points of PD-MPM bonds -------------------------------------------------------------------------------------- */
 
-/* Frees the lists of points with PD-MPM bonds (between peridynamic particles and material points) in the own-stiffness
- * cells of the mesh (cells with a stiffness matrix of their own). */
+/* Frees the lists of points with PD-MPM bonds (between peridynamic particles and material points) in the cells of the
+ * mesh that have a stiffness matrix of their own. */
 static void ends_free(struct mesh *mesh)
 {
     memory_free(mesh->ends);
