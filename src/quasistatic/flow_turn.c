@@ -143,7 +143,7 @@ void plastic_flow_warn_of_thermal_softening(const struct plastic_flow_thermal_so
 {
     char text[400];
     snprintf(text, sizeof text,
-             "heat of plastic work lowers the yield stress by %.2g %% within load step %lld near (%s) m, so plastic "
+             "heat of plastic work lowers the yield stress by %.3g %% within load step %lld near (%s) m, so plastic "
              "flow localises in one row of cells, and plastic strains depend on the spacing. Under slow loads heat "
              "would spread: remove specific_heat; for fast loads use solver: explicit",
              100 * softening->share, (long long)softening->step, position_text(softening->position, dim, 4).text);

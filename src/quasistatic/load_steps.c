@@ -400,6 +400,14 @@ static status check_constrained(struct run *run, bool *apart)
     return parts ? OK : held;
 }
 
+/* Warns if heat of plastic work has lowered the yield stress within the present load step of the run, which has failed,
+ * or before: a body that softens may have no equilibrium. */
+static void warn_of_heat_after_failure(struct run *run)
+{
+    plastic_flow_measure_direction_change(run->statics, &run->part, run->tables.elastic, run->clock.load_step);
+    plastic_flow_warn_of_thermal_softening(&run->statics->softening, run->part.dim, &run->warnings);
+}
+
 status run_solve_load_steps(struct run *run)
 {
     TRY(report_open_history_and_write_first_frame(run));
@@ -416,6 +424,7 @@ status run_solve_load_steps(struct run *run)
         bool apart;
         const status solved = load_step(run);
         timer_add_elapsed_to_section(&run->timers, TIMER_BONDS);
+        if (solved == FAILED) warn_of_heat_after_failure(run);
         TRY(solved);
         TRY(check_constrained(run, &apart));
         plastic_flow_measure_direction_change(run->statics, &run->part, run->tables.elastic, run->clock.load_step);

@@ -166,6 +166,13 @@ near "plane strain in time: stress [MPa]" "$(compute "$(mean plane_time point.st
 near "plane strain in time: plastic strain" "$(column "$work/plane_time" point.plastic_strain 1)" 4.209e-3 1e-3
 balanced "plane strain in time" plane_time
 
+# Loads that the metal cannot carry: the message names keys that the material has. Heat that softens it is named with its share.
+pulled='boundary=[{traction: [600 MPa, 0], face: x+, time: {ramp: {until: 1 s}}}, {mirror: {axis: x, at: 0}}, {mirror: {axis: y, at: 0}}]'
+stopped "collapse" "$work/collapse" 'or use a slope of hardening .*(yield_tangent, or the law in hardening), more load steps' "$work/plane.yaml" -s "$pulled"
+stopped "collapse by heat" "$work/collapse_hot" 'or use no specific_heat .*solver: explicit, more load steps' "$work/plane.yaml" \
+    -s "$pulled" -s "material={young: 200 GPa, poisson: 0.3, density: 7850, johnson_cook: {A: 250 MPa, B: 100 MPa, n: 0.3, C: 0, T_melt: 300}, specific_heat: 450}"
+holds "collapse by heat: the share" grep -q '^warning: heat of plastic work lowers the yield stress by 100 % within load step' "$work/err"
+
 # Shear after tension: from the yield stress in tension, twice the deviatoric strain of yield turns the flow of one step by atan 2, and a
 # tenth of it by atan 0.2 at first. A run names the largest turn and what it costs; a path without turns is silent.
 scene turn <<'END'
