@@ -106,31 +106,31 @@ static bool losses_store(struct newton_solver *newton, struct loads *loads, real
 
 /* ---- equilibrium ------------------------------------------------------------------------------------------------- */
 
-/* Returns the remedy against a missing equilibrium that follows from the materials of the run, as a part of a sentence:
- * no heating if plastic work heats a material, else more hardening if one yields, else an empty text. */
-static const char *remedy_of_materials(const struct run *run)
+/* Returns the remedy against a missing equilibrium of a body that yields, as a part of a sentence: no heating if
+ * plastic work heats one of the materials of the scene, else more hardening. */
+static const char *remedy_of_materials(const struct scene *scene)
 {
-    if (!run->part.plastic_correction[0]) return "";
-    for (int m = 0; m < run->scene->materials; m++)
-        if (flow_law_plastic_work_heats_material(&run->scene->material[m].law))
+    for (int m = 0; m < scene->materials; m++)
+        if (flow_law_plastic_work_heats_material(&scene->material[m].law))
             return "no specific_heat (plastic work then does not soften the metal), solver: explicit, ";
     return "a slope of hardening of a thousandth of young (yield_tangent, or the law in hardening), ";
 }
 
-/* Sets the error that no equilibrium was found in the present load step of the run: the message names the position of
- * the largest residual and possible remedies. Always returns FAILED. */
-static status equilibrium_failed(const struct run *run)
+/* Sets the error that no equilibrium was found: the message names the position of the largest residual of s and
+ * possible remedies. scene: its materials; p, mesh: particles and nodes of the unknowns; step: number of the load step,
+ * for the message; bonded: true if there are bonds. Always returns FAILED. */
+static status equilibrium_failed(const struct statics *s, const struct scene *scene, const struct particles *p,
+                                 const struct mesh *mesh, int64_t step, bool bonded)
 {
-    const struct statics *s = run->statics;
     real X[DIM_MAX] = {0};
-    if (s->balance.n > 0) unknown_compute_reference_position(s, &run->part, &run->frame->mesh, s->balance.worst, X);
+    if (s->balance.n > 0) unknown_compute_reference_position(s, p, mesh, s->balance.worst, X);
     return status_set(
         FAILED,
         "load step %lld, t = %.6g s: no equilibrium: the out-of-balance force stays at %.3g of the load (allowed: "
         "%.3g), most of it near x = %.6g, y = %.6g, z = %.6g m. Check that every part is held and that the body can "
         "carry the loads, or use %s%smore load steps (steps.number) or a larger solver_tolerance",
-        (long long)run->clock.step + 1, s->t, s->balance.residual, s->balance.tolerance, X[0], X[1], X[2],
-        remedy_of_materials(run), run->bonds.rows > 0 ? "steps.control: energy, " : "");
+        (long long)step, s->t, s->balance.residual, s->balance.tolerance, X[0], X[1], X[2],
+        p->plastic_correction[0] ? remedy_of_materials(scene) : "", bonded ? "steps.control: energy, " : "");
 }
 
 /* Returns INTERRUPTED, with a message that names the load step of `clock`, if the user has asked for a stop
@@ -154,7 +154,9 @@ status equilibrium_solve_without_updating_work(struct run *run, real pseudo_time
     if (!s->precondition) s->balance.noise = round_off_force(&run->bonds, &run->part);
     const status found = newton_solver_find_equilibrium(&s->balance, &s->increment, pseudo_time != s->t);
     s->t = pseudo_time;
-    return found == OK ? OK : equilibrium_failed(run);
+    return found == OK ? OK
+                       : equilibrium_failed(s, run->scene, &run->part, &run->frame->mesh, run->clock.step + 1,
+                                            run->bonds.rows > 0);
 }
 
 /* Finds the equilibrium of the run at pseudo-time t [s] in a single solution, and updates work and energies of loads,

@@ -400,14 +400,6 @@ static status check_constrained(struct run *run, bool *apart)
     return parts ? OK : held;
 }
 
-/* Warns if heat of plastic work has lowered the yield stress within the present load step of the run, which has failed,
- * or before: a body that softens may have no equilibrium. */
-static void warn_of_heat_after_failure(struct run *run)
-{
-    plastic_flow_measure_direction_change(run->statics, &run->part, run->tables.elastic, run->clock.load_step);
-    plastic_flow_warn_of_thermal_softening(&run->statics->softening, run->part.dim, &run->warnings);
-}
-
 status run_solve_load_steps(struct run *run)
 {
     TRY(report_open_history_and_write_first_frame(run));
@@ -424,10 +416,12 @@ status run_solve_load_steps(struct run *run)
         bool apart;
         const status solved = load_step(run);
         timer_add_elapsed_to_section(&run->timers, TIMER_BONDS);
-        if (solved == FAILED) warn_of_heat_after_failure(run);
-        TRY(solved);
-        TRY(check_constrained(run, &apart));
+        if (solved == INTERRUPTED) return solved;
+        if (solved == OK) TRY(check_constrained(run, &apart));
         plastic_flow_measure_direction_change(run->statics, &run->part, run->tables.elastic, run->clock.load_step);
+        if (solved == FAILED) /* a metal that heat softens may have no equilibrium */
+            plastic_flow_warn_of_thermal_softening(&run->statics->softening, run->part.dim, &run->warnings);
+        TRY(solved);
         plastic_state_save(&run->statics->plastic, &run->bonds, &run->part, run->optional);
         run->clock.step++;
         if (apart) run->clock.steps = run->clock.step;
