@@ -15,7 +15,8 @@
  * with the position r_p of a point relative to the centre of mass and the momentum P_I of a node. Momentum
  * and angular momentum are conserved, and no rotation of a group strains it. Groups of fewer than TURNING_FEW
  * points join a neighbouring group, since their inertia is too small. Points move with the velocities of the
- * second map, except for the coupling `handshake`. */
+ * second map, except for the coupling `handshake`. A thin outermost layer of groups belongs to the layer inside
+ * it, so that groups of a box are boxes, which a pure strain gives no spin. */
 #ifndef CLEAVE_TURNING
 #define CLEAVE_TURNING
 

@@ -52,7 +52,7 @@ struct convergence {
 
 /* Determines observed order, verdict and uncertainty intervals of a scalar result from `run_count` runs, and stores
  * them in *c. value[k]: result of run k, NAN if the run has none; spacing[k]: its particle spacing [m];
- * spacing_level_of_run[k] = 0 .. level_count - 1: its spacing spacing_level_of_run, 0 the finest.
+ * spacing_level_of_run[k] = 0 .. level_count - 1: its spacing level, 0 the finest.
  * half_quantisation_step[level]: half of the step in which the result is quantised at this level; NULL if it is not
  * quantised. Returns false if one of the three finest levels has no value. */
 bool convergence_evaluate_scalar_result(struct convergence *c, const double *spacing, const double *value,

@@ -294,8 +294,8 @@ static ALWAYS_INLINE lanes cell_drucker_prager_stress_upper_bound(const struct e
 
 /* Returns for each of eight cells an upper bound [Pa] of the largest principal stress at its material points, by which
  * cells whose points cannot become peridynamic are skipped: the largest normal stress of P, plus the magnitudes of all
- * its shear stresses (Gershgorin), plus a bound on the stress of the bending modes in s. With a strength surface the
- * larger of this and of cell_drucker_prager_stress_upper_bound is returned. P: stress of the mean strain [Pa]; m:
+ * its shear stresses (Gershgorin), plus a bound on the stress of the bending modes in `cell`. With a strength surface
+ * the larger of this and of cell_drucker_prager_stress_upper_bound is returned. P: stress of the mean strain [Pa]; m:
  * elastic constants. */
 static ALWAYS_INLINE lanes cell_largest_principal_stress_upper_bound(const struct elastic *m,
                                                                      const struct mesh_cell *cell, const lanes P[3][3],

@@ -211,8 +211,8 @@ static ALWAYS_INLINE void bond_rows_load_positions_of_their_particles(const stru
     for (int d = 0; d < dim; d++) x[d] = lanes_load_or_gather(p->x[d], own, row);
 }
 
-/* Stores `value`, one value for each particle of WIDE rows_left, in the particle array `to`. row: indices of these
- * particles; rows_left: number of rows from there to the end of all rows_left, less than WIDE or negative in the last
+/* Stores `value`, one value for each particle of WIDE rows, in the particle array `to`. row: indices of these
+ * particles; rows_left: number of rows from there to the end of all rows, less than WIDE or negative in the last
  * block; aligned: true if the indices are consecutive, so that all values are stored at once. */
 static ALWAYS_INLINE void bond_rows_store_values_of_their_particles(real *to, const int32_t *row, int rows_left,
                                                                     bool aligned, lanes value)

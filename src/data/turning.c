@@ -57,10 +57,27 @@ static int64_t group_place(real u, bool odd)
 
 /* Extent and middle of joined bodies. Their groups of points are counted from the middle. */
 struct division {
-    real low[DIM_MAX], high[DIM_MAX]; /* range of the reference positions [m] */
-    real middle[DIM_MAX];             /* middle of this range [m] */
-    bool odd[DIM_MAX];                /* a row of particles is on the middle, across each axis */
+    real low[DIM_MAX], high[DIM_MAX];      /* range of the reference positions [m] */
+    real middle[DIM_MAX];                  /* middle of this range [m] */
+    bool odd[DIM_MAX];                     /* a row of particles is on the middle, across each axis */
+    int64_t first[DIM_MAX], last[DIM_MAX]; /* least and largest position of a group along each axis */
 };
+
+/* Returns the position, along one axis, of the outermost group of points on one side of the middle of a body of `dim`
+ * dimensions. A layer of so few rows that groups at corners would have fewer than TURNING_FEW points belongs to the
+ * groups of the layer inside it: a box across a corner of another one would give it angular momentum under pure strain
+ * (a cube of 16^3 points lost 4 % of its strain). u: distance of the outermost row from the middle of the body
+ * [spacings], negative on the lower side; odd: as in group_place. */
+static int64_t outermost_place(real u, bool odd, int dim)
+{
+    const int64_t outer = group_place(u, odd);
+    const int few = dim == 2 ? 3 : 2; /* 3^2 and 2^3 points */
+    for (int rows = 1; rows <= few && fabs(u) - rows >= 0; rows++) {
+        const int64_t inner = group_place(u < 0 ? u + rows : u - rows, odd);
+        if (inner != outer) return inner;
+    }
+    return outer;
+}
 
 /* Returns an array [bodies] with extent and middle of the bodies that are joined to each body. Joined bodies are
  * represented by the first of them, one[b] for body b, whose entry alone is filled. The caller frees the array with
@@ -84,6 +101,8 @@ static struct division *divisions_make(const struct particles *p, real spacing, 
             own->middle[d] = cut ? mirror[d] : 0.5 * (own->low[d] + own->high[d]);
             const real rows = (own->low[d] - own->middle[d]) / spacing;
             own->odd[d] = fabs(rows - nearbyint(rows)) < 0.25;
+            own->first[d] = outermost_place(rows, own->odd[d], p->dim);
+            own->last[d] = outermost_place((own->high[d] - own->middle[d]) / spacing, own->odd[d], p->dim);
         }
     return all;
 }
@@ -100,7 +119,8 @@ static struct member *members_sorted(const struct particles *p, real spacing, co
         all[i].body = one[p->body[i]], all[i].particle = (int32_t)i;
         for (int d = 0; d < p->dim; d++) {
             all[i].X[d] = p->X[d][i];
-            all[i].place[d] = group_place((p->X[d][i] - own->middle[d]) / spacing, own->odd[d]);
+            const int64_t place = group_place((p->X[d][i] - own->middle[d]) / spacing, own->odd[d]);
+            all[i].place[d] = place < own->first[d] ? own->first[d] : place > own->last[d] ? own->last[d] : place;
             all[i].off += (int32_t)llabs(2 * all[i].place[d] + !own->odd[d]);
         }
     }

@@ -82,7 +82,7 @@ status loads_make_from_boundaries(struct loads *l, const struct boundary *bounda
 }
 
 /* Replaces the particles of p on which contact acts (mark TOUCHES in l->loaded) by the indices particle_list[n], in
- * ascending order, copied. Rebuilds l->particle_list, all marked particles in ascending order; particles that have no
+ * ascending order, copied. Rebuilds l->list, all marked particles in ascending order; particles that have no
  * mark left are removed from it. */
 void loads_store_list_of_possible_contact_particles(struct loads *l, const struct particles *p,
                                                     const int32_t *particle_list, int64_t n)

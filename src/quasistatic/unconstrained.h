@@ -20,7 +20,7 @@ void unconstrained_fragments_free(struct statics *s);
 /* Checks that the applied forces on each unconstrained fragment (part of the body that can move freely as a rigid body)
  * in s are balanced along its free rigid motions. p: particles; nodes_are_in_equilibrium: true if the nodal forces are
  * those of an equilibrium; if false, only loads on peridynamic particles are checked. step: number of the load step,
- * for the message. Returns OK if they are nodes_are_in_equilibrium, else FAILED, with position and size of the fragment
+ * for the message. Returns OK if they are balanced, else FAILED, with position and size of the fragment
  * in the message. */
 status unconstrained_fragments_check_force_balance(const struct statics *s, const struct particles *p,
                                                    bool nodes_are_in_equilibrium, int64_t step);
