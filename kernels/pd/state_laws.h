@@ -78,9 +78,10 @@ static ALWAYS_INLINE lanes state_bonds_weight_times_reference_length(const struc
     return lanes_choose(w > 0.0, square ? w * (r * r) : w * r, lanes_broadcast(0));
 }
 
-/* Returns the reference lengths |xi| [m] of the eight bonds of `column` (one bond of each of eight particles) from
- * their inverses `inverse_length` [1/m], so that |xi| divided by the present length is 1 up to round-off where nothing
- * has moved. Lengths of broken bonds may be negative. */
+/* Returns the reference lengths |xi| [m] of the eight bonds of `column` (one bond of each of eight particles): the
+ * tabulated one if the bonds have a stencil in common, else 1/inverse_length (inverse_length: [1/m]). Then |xi| divided
+ * by the present length is 1 up to round-off where nothing has moved. Broken bonds, whose inverse length is negative,
+ * get a negative length; empty entries, whose inverse length is 0, get 1. */
 static ALWAYS_INLINE lanes state_bonds_reference_length(const struct bond_column_view column, lanes inverse_length)
 {
     if (column.stencil) return lanes_broadcast(column.stencil->length);

@@ -13,8 +13,8 @@ struct offsets {
     int n, dim, reach;
     /* [n] components [spacings], ascending (the negative of number k is n - 1 - k) */
     int (*at)[DIM_MAX];
-    /* [n] length [spacings]; direction; share: weight (factor on the stiffness) as it is stored for a bond; weight:
-     * force divided by stretch (state-based: share times length) */
+    /* [n] length [spacings]; unit vector along the offset; share: factor on the stiffness of a bond, as struct bonds
+     * stores it [1]; weight: force divided by stretch, in state-based models share times length */
     real *length, (*direction)[DIM_MAX], *share, *weight;
     int axis[DIM_MAX][2]; /* index of the nearest neighbour down and up an axis */
     int32_t *number;      /* [(2 reach + 1)^dim] index of an offset, -1: none */
