@@ -72,12 +72,10 @@ static void print_breaks(const struct run *run)
 }
 
 /* Prints the energy that the load steps have released so far, and the area of the crack, from r, the record of the load
- * steps of a run of scene s. */
-static void print_release(const struct scene *s, const struct steps_record *r)
+ * steps. softens: true if bonds soften before they break. */
+static void print_release(const struct steps_record *r, bool softens)
 {
     const bool beside_mirror = r->face > r->area;
-    bool softens = false;
-    for (int m = 0; m < s->materials; m++) softens |= material_has_softening_bonds(&s->material[m]);
     printf("  released %.4g J%s over %.4g m^2 of new crack: %.4g J/m^2%s%s\n", r->released,
            beside_mirror ? " on this side of the mirror" : "", r->face, r->released / r->area,
            beside_mirror ? " on both sides" : "",
@@ -95,7 +93,7 @@ static void print_summary(const struct run *run, const char *folder, double wall
     else
         printf("%lld steps of %.4g s, %.1f s\n", (long long)run->clock.step, run->clock.dt, wall);
     print_breaks(run);
-    if (in_steps && run->statics->record.area > 0) print_release(run->scene, &run->statics->record);
+    if (in_steps && run->statics->record.area > 0) print_release(&run->statics->record, run->bonds.soft.curve != NULL);
     printf("  peridynamic particles: %.2f %% at the start, %.2f %% at the end\n",
            100.0 * (double)run->coupling->conversion.start / (double)run->part.n_body,
            100.0 * (double)run->part.n_of[KIND_PD] / (double)run->part.n_body);

@@ -15,8 +15,8 @@ static real bond_stretch_also_if_broken(const struct bonds *b, const struct part
     return bond_stretch_at_earlier_time(p, b->inverse_length[q], b->particle[row], b->nbr[q], 0);
 }
 
-/* Lets the ended bond with index q in row `row` of b (bonds of one particle) press as a spring of the weight `weight`
- * [1]. */
+/* Makes the ended bond with index q in row `row` of b (bonds of one particle) transmit compression, as a spring of the
+ * weight `weight` [1]. */
 static void ended_bond_press(struct bonds *b, int64_t row, int64_t q, real weight)
 {
     b->soft.settled[q] = b->soft.onset[q];
@@ -26,7 +26,8 @@ static void ended_bond_press(struct bonds *b, int64_t row, int64_t q, real weigh
     bond_update_cached_data_after_modification(b, row, q);
 }
 
-/* Takes its force from the ended bond with index q in row `row` of b (bonds of one particle), which presses. */
+/* Sets the force of the ended bond with index q in row `row` of b (bonds of one particle), which transmits compression,
+ * to 0 from here on. */
 static void ended_bond_release(struct bonds *b, int64_t row, int64_t q)
 {
     bond_softening_state_write(b, q,

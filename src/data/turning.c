@@ -71,8 +71,7 @@ struct division {
 static int64_t outermost_place(real u, bool odd, int dim)
 {
     const int64_t outer = group_place(u, odd);
-    const int few = dim == 2 ? 3 : 2; /* 3^2 and 2^3 points */
-    for (int rows = 1; rows <= few && fabs(u) - rows >= 0; rows++) {
+    for (int rows = 1; pow(rows, dim) < TURNING_FEW && fabs(u) - rows >= 0; rows++) {
         const int64_t inner = group_place(u < 0 ? u + rows : u - rows, odd);
         if (inner != outer) return inner;
     }

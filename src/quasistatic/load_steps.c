@@ -417,11 +417,11 @@ status run_solve_load_steps(struct run *run)
         const status solved = load_step(run);
         timer_add_elapsed_to_section(&run->timers, TIMER_BONDS);
         if (solved == INTERRUPTED) return solved;
-        if (solved == OK) TRY(check_constrained(run, &apart));
         plastic_flow_measure_direction_change(run->statics, &run->part, run->tables.elastic, run->clock.load_step);
         if (solved == FAILED) /* a metal that heat softens may have no equilibrium */
             plastic_flow_warn_of_thermal_softening(&run->statics->softening, run->part.dim, &run->warnings);
         TRY(solved);
+        TRY(check_constrained(run, &apart));
         plastic_state_save(&run->statics->plastic, &run->bonds, &run->part, run->optional);
         run->clock.step++;
         if (apart) run->clock.steps = run->clock.step;

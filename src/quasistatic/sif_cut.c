@@ -11,7 +11,6 @@
 
 #include "base/memory.h"
 #include "kernels/kernels.h"
-#include "kernels/pd/bond_last.h"
 
 #define STRESSED 0.5  /* ratio of stretch to critical stretch below which no increment is computed [1] */
 #define AGAIN 1.25    /* growth of the load size after which an increment that is not due is recomputed */

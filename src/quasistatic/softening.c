@@ -5,9 +5,9 @@
 #include <math.h>
 
 #include "base/memory.h"
+#include "bonds/bond_stretch.h"
 #include "bonds/closing.h"
 #include "kernels/kernels.h"
-#include "bonds/bond_stretch.h"
 #include "kernels/pd/state_driving.h"
 
 #define FACTOR_ERROR 1e-10 /* relative error of a factor */

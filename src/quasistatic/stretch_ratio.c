@@ -6,8 +6,8 @@
 #include "toughness.h"
 
 #include "base/memory.h"
-#include "kernels/kernels.h"
 #include "bonds/bond_stretch.h"
+#include "kernels/kernels.h"
 
 /* Relative difference of stretch ratios below which bonds break together, so that round-off decides no order. */
 #define ALIKE 1e-7
