@@ -132,7 +132,7 @@ real softening_onset_stretch_from_strength(const struct material *m, enum space 
  * stretch at which the bond begins to soften, up to this limit only. */
 #define RATE_LEAST_RATIO 1.2
 
-/* Interpolates a quantity that is table_values[k] at the strain rate r->strain_rate[k], k = 0 .. r->points - 1, to the
+/* Interpolates a quantity that is table_values[k] at the strain rate r->rate[k], k = 0 .. r->points - 1, to the
  * strain rate `strain_rate` [1/s] and returns the value: linear in the logarithm of the rate, constant beyond
  * the table. */
 real strength_rate_table_interpolate_in_log_rate(const struct strength_rate *r, const real *table_values,

@@ -329,7 +329,7 @@ real softening_onset_stretch_from_strength(const struct material *m, enum space 
 
 /* ---- rates ------------------------------------------------------------------------------------------------------- */
 
-/* Interpolates a quantity that is table_values[k] at the strain rate r->strain_rate[k] to the strain rate `strain_rate`
+/* Interpolates a quantity that is table_values[k] at the strain rate r->rate[k] to the strain rate `strain_rate`
  * [1/s] and returns it: linear in the logarithm of the rate, constant beyond the table. */
 real strength_rate_table_interpolate_in_log_rate(const struct strength_rate *r, const real *table_values,
                                                  real strain_rate)
